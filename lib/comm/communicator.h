@@ -1,0 +1,55 @@
+// The only MPI of the project: ranks, broadcast, and a task farm that hands out work on demand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace st {
+
+using Bytes = std::vector<std::byte>;
+
+/// The process group of this run. Without a launcher MPI is never initialised and the group has one rank.
+class Communicator {
+ public:
+  /// Initialises MPI when a launcher (Open MPI, PMI/PMIx, Slurm) started this process. One object per process, made in main.
+  Communicator();
+  /// Collective: finalises MPI.
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+  Communicator& operator=(const Communicator&) = delete;
+
+  int rank() const;
+  int size() const;
+  bool is_root() const { return rank() == 0; }
+
+  /// Collective: rank 0's bytes on every rank.
+  void broadcast(Bytes& bytes) const;
+  /// Collective: waits for all ranks without burning a core.
+  void barrier() const;
+  /// Local: ends every rank at once with this exit code. Call after the message was printed.
+  [[noreturn]] void abort(int exit_code) const;
+
+  /// Collective. Runs `compute(task)` once for each task in [0, n_tasks), on any rank, and `collect(task, result)` on rank 0 only, in
+  /// arrival order (a collector that must not depend on it stores by task id). `order`: the sequence in which tasks are handed out
+  /// (heaviest first), a permutation of [0, n_tasks), same on every rank. Rank 0 computes, too: its compute runs on its main thread while a
+  /// helper thread... (see .cpp) -- both cores of a two-rank run are busy. An exception out of compute ends the whole job with its message
+  /// and exit code.
+  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t task)>& compute,
+                 const std::function<void(std::int32_t task, Bytes&& result)>& collect) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Replaces this process by `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than
+/// cores, idle ranks that yield, no binding, quiet). Returns only when n == 1 or a launcher already started us. Throws Error(kUsage) when n < 1 and
+/// Error(kInternal) when mpirun is missing.
+void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_without_np);
+
+}  // namespace st

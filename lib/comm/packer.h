@@ -1,0 +1,74 @@
+// Plain-old-data arrays to bytes and back, for messages between ranks.
+#pragma once
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "comm/communicator.h"
+
+namespace st {
+
+/// Appends values to a byte buffer.
+class Packer {
+ public:
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(&value, sizeof value);
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    add(static_cast<std::uint64_t>(values.size()));
+    append(values.data(), values.size() * sizeof(T));
+  }
+  void add(const std::string& text) { add(std::vector<char>(text.begin(), text.end())); }
+  Bytes take() { return std::move(bytes_); }
+
+ private:
+  void append(const void* data, std::size_t n) {
+    const std::size_t old = bytes_.size();
+    bytes_.resize(old + n);
+    if (n) std::memcpy(bytes_.data() + old, data, n);
+  }
+  Bytes bytes_;
+};
+
+/// Reads values in the order in which they were added. Throws std::runtime_error past the end.
+class Unpacker {
+ public:
+  explicit Unpacker(const Bytes& bytes) : bytes_(bytes) {}
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    read(&value, sizeof value);
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::uint64_t n = 0;
+    get(n);
+    if (n > (bytes_.size() - position_) / sizeof(T)) throw std::runtime_error("message too short");
+    values.resize(n);
+    read(values.data(), n * sizeof(T));
+  }
+  void get(std::string& text) {
+    std::vector<char> chars;
+    get(chars);
+    text.assign(chars.begin(), chars.end());
+  }
+
+ private:
+  void read(void* data, std::size_t n) {
+    if (n > bytes_.size() - position_) throw std::runtime_error("message too short");
+    if (n) std::memcpy(data, bytes_.data() + position_, n);
+    position_ += n;
+  }
+  const Bytes& bytes_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace st

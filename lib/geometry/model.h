@@ -1,0 +1,128 @@
+// The CAD model as every later stage sees it: flat topology tables plus evaluators. No OpenCASCADE type is visible.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/vec.h"
+#include "geometry/curve.h"
+#include "geometry/surface.h"
+
+namespace st {
+
+/// Flat B-Rep tables (structure of arrays). All ids 0-based; entity k of a table is entity k+1 in artifacts and messages.
+struct ModelTables {
+  // vertices [n_vertices]
+  std::vector<Vec3> vertex_xyz;
+  std::vector<double> vertex_tolerance;              ///< model unit
+  // edges [n_edges]
+  std::vector<VertexId> edge_vertices;               ///< [2*n_edges] vertex at t_min, at t_max; equal for a closed edge
+  std::vector<double> edge_range;                    ///< [2*n_edges] t_min, t_max
+  std::vector<double> edge_length;                   ///< model unit; 0 for a degenerate edge
+  std::vector<double> edge_tolerance;
+  std::vector<std::uint8_t> edge_is_degenerate;      ///< 1: a pole; no space curve, both vertices equal
+  std::vector<std::string> edge_name;                ///< UTF-8, empty when the file has none
+  // faces [n_faces]; loops of face f: [face_loop_offsets[f], face_loop_offsets[f+1]); coedges of loop l likewise
+  std::vector<std::int32_t> face_loop_offsets;       ///< [n_faces+1]; the outer loop comes first
+  std::vector<std::int32_t> loop_coedge_offsets;     ///< [n_loops+1]; coedges in order, head to tail, interior to the left in (u,v)
+  std::vector<EdgeId> coedge_edge;                   ///< [n_coedges]
+  std::vector<std::uint8_t> coedge_is_reversed;      ///< [n_coedges] 1: traversed from t_max to t_min
+  std::vector<std::uint8_t> face_is_reversed;        ///< 1: du x dv points into the solid; triangles are flipped at output
+  std::vector<SurfaceType> face_type;
+  std::vector<double> face_uv_bounds;                ///< [4*n_faces] u_min, u_max, v_min, v_max
+  std::vector<double> face_tolerance;
+  std::vector<double> face_area;                     ///< model unit squared, from the B-Rep
+  std::vector<Box3> face_box;
+  std::vector<std::string> face_name;                ///< UTF-8, empty when the file has none
+  std::vector<std::int32_t> face_color;              ///< 0xRRGGBB, kNone when the file has none
+  std::vector<std::string> face_layer;               ///< empty when the file has none
+  std::vector<std::int32_t> face_group;              ///< index into group_name
+  std::vector<std::int32_t> face_shell;              ///< index of the shell (connected component of faces), kNone when loose
+  std::vector<std::int32_t> face_solid;              ///< index of the solid, kNone when none
+  // groups (by face name, else part name, else "default")
+  std::vector<std::string> group_name;               ///< UTF-8
+  std::vector<std::string> group_role;               ///< "wall", "symmetry", "farfield": from the name (symmetry, sym, farfield, far_field ...)
+  std::int32_t n_shells = 0, n_solids = 0;
+  // unit
+  std::string unit;                                  ///< "mm", "m", "in" ...; empty when the model has none
+  std::optional<double> unit_in_m;
+
+  std::int32_t n_vertices() const { return static_cast<std::int32_t>(vertex_xyz.size()); }
+  std::int32_t n_edges() const { return static_cast<std::int32_t>(edge_length.size()); }
+  std::int32_t n_faces() const { return static_cast<std::int32_t>(face_is_reversed.size()); }
+  std::int32_t n_loops() const { return static_cast<std::int32_t>(loop_coedge_offsets.size()) - 1; }
+  std::int32_t n_coedges() const { return static_cast<std::int32_t>(coedge_edge.size()); }
+
+  /// Bounding box of all faces, and of the faces whose group's role is "wall" (all faces when there is none): the reference diagonal.
+  Box3 box() const;
+  Box3 wall_box() const;
+  double reference_diagonal() const { return wall_box().diagonal(); }
+  /// "face 17 "WING_UPPER"" (1-based, name when there is one), for messages.
+  std::string face_label(FaceId f) const;
+  std::string edge_label(EdgeId e) const;
+  /// Faces using each edge, CSR [n_edges+1] offsets and ids; a face that uses an edge twice (seam) appears twice.
+  void edge_faces(std::vector<std::int32_t>& offsets, std::vector<FaceId>& faces) const;
+};
+
+/// Tables plus evaluators. Creating evaluators is const and cheap (tens of microseconds); create, use, drop.
+class Model {
+ public:
+  /// `brep`: the bytes that import_model() made. Throws Error(kInput) when they cannot be read or do not fit the tables.
+  Model(ModelTables tables, std::vector<std::byte> brep);
+  ~Model();
+  Model(Model&&) noexcept;
+  Model& operator=(Model&&) noexcept;
+
+  const ModelTables& tables() const { return tables_; }
+  const std::vector<std::byte>& brep() const { return brep_; }
+
+  /// Space curve of an edge. Precondition: not degenerate.
+  std::unique_ptr<Curve> curve(EdgeId edge) const;
+  /// Surface of a face, bounds = the face's uv bounds.
+  std::unique_ptr<Surface> surface(FaceId face) const;
+  /// Trimming curve of a coedge in its face's (u,v), parametrised like the edge.
+  std::unique_ptr<Curve2d> pcurve(FaceId face, CoedgeId coedge) const;
+
+ private:
+  struct Impl;
+  ModelTables tables_;
+  std::vector<std::byte> brep_;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One finding of the import: what, where, what was done.
+struct ImportFinding {
+  std::string what;      ///< "free edge", "short edge", "sliver face", "sewn", "scaled" ...
+  std::string entity;    ///< "edge 12 "TE"" or empty
+  Vec3 xyz;              ///< model unit
+  double size = 0;       ///< length, width, tolerance: model unit
+  bool is_repair = false;
+};
+
+struct ImportOptions {
+  std::string unit;                       ///< target unit name; empty: the file's own
+  bool check_only = false;
+  bool require_closed = false;            ///< Error(kGeometry) for a model that is open after repairs
+};
+
+struct ImportResult {
+  ModelTables tables;
+  std::vector<std::byte> brep;
+  std::vector<ImportFinding> findings;
+  std::string format;                     ///< "STEP", "IGES", "BREP"
+  bool is_closed = false;                 ///< at least one shell and no free edge
+  int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
+  double area = 0, volume = 0;            ///< model unit squared, cubed (volume 0 when open)
+};
+
+/// Reads a STEP, IGES or BREP file (recognised by content). Throws Error(kInput) for a missing, empty or unreadable file or a
+/// directory, Error(kGeometry) when there is no face in it.
+ImportResult import_model(const std::string& path, const ImportOptions& options);
+
+}  // namespace st

@@ -1,0 +1,38 @@
+// The mesh size specification as the mesher sees it: a length at every point of space.
+#pragma once
+
+#include "base/vec.h"
+
+namespace st {
+
+/// Requested edge length in space. Implementations are immutable and safe to share between threads; `hint` is the caller's own.
+class SizeField {
+ public:
+  virtual ~SizeField() = default;
+  /// Requested edge length at `xyz` (model unit, > 0). Points outside the field's box are clamped to it.
+  /// `hint` remembers the last leaf (start with 0); nearby queries are faster with it. Same result whatever the hint.
+  virtual double size(Vec3 xyz, int& hint) const = 0;
+  double size(Vec3 xyz) const {
+    int hint = 0;
+    return size(xyz, hint);
+  }
+  /// Smallest length anywhere.
+  virtual double min_size() const = 0;
+  /// Largest change of length per distance that the field promises.
+  virtual double slope() const = 0;
+};
+
+/// The same length everywhere (tests, and the simplest background).
+class UniformField : public SizeField {
+ public:
+  explicit UniformField(double length) : length_(length) {}
+  using SizeField::size;
+  double size(Vec3, int&) const override { return length_; }
+  double min_size() const override { return length_; }
+  double slope() const override { return 0; }
+
+ private:
+  double length_;
+};
+
+}  // namespace st

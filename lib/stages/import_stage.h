@@ -1,0 +1,21 @@
+// st-import: CAD file to geometry artifact.
+#pragma once
+
+#include <string>
+
+#include "stages/summary.h"
+
+namespace st {
+
+struct ImportStageOptions {
+  std::string model;                ///< CAD file: STEP, IGES or BREP
+  std::string output = "geometry.hdf";
+  std::string unit;                 ///< convert to this unit; empty: the file's own
+  bool check = false;               ///< report only, write nothing
+  bool require_closed = false;      ///< an open model is an error (exit 4)
+};
+
+/// Local. Throws Error.
+StageSummary run_import(const ImportStageOptions& options);
+
+}  // namespace st

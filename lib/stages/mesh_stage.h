@@ -1,0 +1,22 @@
+// st-mesh: curve discretisation, then one advancing-front patch per face.
+#pragma once
+
+#include <string>
+
+#include "comm/communicator.h"
+#include "stages/summary.h"
+
+namespace st {
+
+struct MeshStageOptions {
+  std::string geometry;                 ///< geometry artifact
+  std::string sizing;                   ///< sizing artifact
+  std::string output = "patches.hdf";
+  int enhance_rounds = 3;               ///< rounds of the enhancer, [0, 10]
+  double max_turning_deg = 30;          ///< largest turning of a CAD edge along one segment, degrees, (0, 60]
+};
+
+/// Collective. Summary code kIncomplete when a face has no patch. Throws Error.
+StageSummary run_mesh(const MeshStageOptions& options, const Communicator& comm);
+
+}  // namespace st

@@ -1,0 +1,23 @@
+// st-raster: sample lengths of curves and trimmed surfaces into a balanced octree.
+#pragma once
+
+#include <string>
+
+#include "comm/communicator.h"
+#include "stages/summary.h"
+
+namespace st {
+
+struct RasterStageOptions {
+  std::string geometry;                 ///< geometry artifact
+  std::string output = "raster.hdf";
+  std::string lmin;                     ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
+  std::string lmax;                     ///< largest length; empty: 2.5 % of the diagonal
+  double alpha_deg = 10;                ///< largest turning of the normal or tangent along one length, degrees, (0, 90]
+  double cell_per_length = 2;           ///< raster boxes reach this many sample lengths, [1, 8]
+};
+
+/// Collective. Throws Error.
+StageSummary run_raster(const RasterStageOptions& options, const Communicator& comm);
+
+}  // namespace st

@@ -1,0 +1,25 @@
+// st-remesh: redo only what no longer respects the sizes.
+#pragma once
+
+#include <string>
+
+#include "comm/communicator.h"
+#include "stages/mesh_stage.h"
+#include "stages/summary.h"
+
+namespace st {
+
+struct RemeshStageOptions {
+  std::string mesh;                     ///< mesh artifact
+  std::string geometry;                 ///< geometry artifact the mesh was made on
+  std::string sizing;                   ///< new sizing artifact
+  std::string output = "patches.hdf";
+  double too_long = 1.5;                ///< an edge longer than this times the requested length makes its face redone, > 1
+  double too_short = 0.5;               ///< likewise shorter than, (0, 1)
+  bool dry_run = false;                 ///< say how much would change, write nothing
+};
+
+/// Collective. Throws Error.
+StageSummary run_remesh(const RemeshStageOptions& options, const Communicator& comm);
+
+}  // namespace st
