@@ -1,0 +1,79 @@
+#include "mesh/adjacency.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace st {
+
+namespace {
+
+bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
+
+template <class Visit>
+void for_each_side(std::span<const Triangle> triangles, const Visit& visit) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (has_repeated_node(triangles[t])) continue;
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = triangles[t].n[k], b = triangles[t].n[(k + 1) % 3];
+      visit(std::min(a, b), std::max(a, b), static_cast<SideId>(3 * t + k));
+    }
+  }
+}
+
+}  // namespace
+
+EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes) : offsets_(n_nodes + 1, 0) {
+  for_each_side(triangles, [&](NodeId low, NodeId, SideId) { ++offsets_[low + 1]; });
+  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+  high_.resize(offsets_.back());
+  side_.resize(offsets_.back());
+  // Fill behind a moving end, then shift the ends back to starts: no second array of offsets.
+  for_each_side(triangles, [&](NodeId low, NodeId high, SideId side) {
+    const std::int32_t i = offsets_[low]++;
+    high_[i] = high;
+    side_[i] = side;
+  });
+  std::move_backward(offsets_.begin(), offsets_.end() - 1, offsets_.end());
+  offsets_[0] = 0;
+  std::vector<std::pair<NodeId, SideId>> bucket;
+  for (std::int64_t low = 0; low < n_nodes; ++low) {
+    const std::int32_t begin = offsets_[low], end = offsets_[low + 1];
+    bucket.clear();
+    for (std::int32_t i = begin; i < end; ++i) bucket.emplace_back(high_[i], side_[i]);
+    std::sort(bucket.begin(), bucket.end());
+    for (std::int32_t i = begin; i < end; ++i) std::tie(high_[i], side_[i]) = bucket[i - begin];
+  }
+}
+
+DisjointSets::DisjointSets(std::int64_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+std::int32_t DisjointSets::find(std::int32_t element) {
+  while (parent_[element] != element) element = parent_[element] = parent_[parent_[element]];
+  return element;
+}
+
+void DisjointSets::join(std::int32_t a, std::int32_t b) {
+  a = find(a);
+  b = find(b);
+  if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+}
+
+std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes, std::int32_t& n_components) {
+  DisjointSets sets(n_nodes);
+  std::vector<std::int32_t> component(n_nodes, kNone);
+  for (const Triangle& t : triangles) {
+    sets.join(t.n[0], t.n[1]);
+    sets.join(t.n[1], t.n[2]);
+    for (const NodeId n : t.n) component[n] = 0;
+  }
+  n_components = 0;
+  for (std::int64_t n = 0; n < n_nodes; ++n) {
+    if (component[n] == kNone) continue;
+    const std::int32_t root = sets.find(static_cast<std::int32_t>(n));
+    component[n] = root == n ? n_components++ : component[root];
+  }
+  return component;
+}
+
+}  // namespace st

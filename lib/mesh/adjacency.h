@@ -1,0 +1,58 @@
+// Edges of a triangulation and their triangles, and connected components: plain arrays in a fixed order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/ids.h"
+#include "mesh/surface_mesh.h"
+
+namespace st {
+
+/// Side k of triangle t as one number, 3 t + k: it runs from node n[k] to node n[(k+1) % 3].
+using SideId = std::int32_t;
+
+/// All sides of a triangulation sorted by (lower node, higher node, side): equal node pairs are the uses of one mesh edge.
+/// Triangles with a repeated node have no sides here. 24 bytes per triangle and 4 per node.
+class EdgeTable {
+ public:
+  /// Precondition: node ids in [0, n_nodes), at most 715 million triangles. Linear time but for the log of the valence.
+  EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes);
+
+  /// Calls visit(lower node, higher node, sides) once per mesh edge, ascending; `sides`: span of SideId, ascending.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    for (NodeId low = 0; low + 1 < static_cast<NodeId>(offsets_.size()); ++low)
+      for (std::int32_t i = offsets_[low], end; i < offsets_[low + 1]; i = end) {
+        for (end = i + 1; end < offsets_[low + 1] && high_[end] == high_[i];) ++end;
+        visit(low, high_[i], std::span<const SideId>(side_).subspan(i, end - i));
+      }
+  }
+
+ private:
+  std::vector<std::int32_t> offsets_;  ///< [n_nodes+1] into high_ and side_
+  std::vector<NodeId> high_;           ///< [3 n_triangles]
+  std::vector<SideId> side_;           ///< [3 n_triangles]
+};
+
+inline NodeId side_start(std::span<const Triangle> triangles, SideId side) { return triangles[side / 3].n[side % 3]; }
+/// True when the two sides run the same way: their triangles are not oriented alike.
+inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) { return side_start(triangles, a) == side_start(triangles, b); }
+
+/// Sets of elements that were joined; the representative of a set is its lowest element.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::int64_t n);
+  std::int32_t find(std::int32_t element);
+  void join(std::int32_t a, std::int32_t b);
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+/// Connected component of each node, kNone for nodes without a triangle; triangles connect their nodes. Components are numbered by their
+/// lowest node. `n_components` is set.
+std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes, std::int32_t& n_components);
+
+}  // namespace st
