@@ -1,0 +1,110 @@
+#include "common/option_file.h"
+
+#define TOML_HEADER_ONLY 1
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+const std::set<std::string> kTools = {"st-import", "st-raster", "st-prolong", "st-mesh", "st-remesh",
+                                      "st-merge",  "st-check",  "st-info",    "st-diff", "st-export"};
+/// Options that a file cannot set: they say where the options come from, or what to do instead of running.
+const std::set<std::string> kCommandLineOnly = {"help", "version", "options"};
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(ExitCode::kUsage, where + ": " + what); }
+
+std::string position(const std::string& path, const toml::source_region& source) { return path + ":" + std::to_string(source.begin.line); }
+
+toml::table parse_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf() || file.peek() == std::ifstream::traits_type::eof()) || file.bad())
+    fail(path, "cannot read the option file");
+  try {
+    return toml::parse(text.str(), path);
+  } catch (const toml::parse_error& e) {
+    fail(position(path, e.source()), std::string(e.description()));
+  }
+}
+
+/// The shortest decimal that reads back as the same number.
+template <class T>
+std::string shortest(T value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+/// The value as the command line would have it; empty optional for what no option takes (dates, tables).
+std::optional<std::string> scalar_text(const toml::node& node) {
+  if (const auto* s = node.as_string()) return s->get();
+  if (const auto* i = node.as_integer()) return shortest(i->get());
+  if (const auto* f = node.as_floating_point()) return shortest(f->get());
+  if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+  return std::nullopt;
+}
+
+std::vector<std::string> values_of(const toml::node& node, const std::string& where, const std::string& key) {
+  std::vector<std::string> values;
+  const auto add = [&](const toml::node& n) {
+    const auto text = scalar_text(n);
+    if (!text) fail(where, key + ": takes text, a number, true or false, or a list of these");
+    values.push_back(*text);
+  };
+  if (const auto* list = node.as_array())
+    for (const auto& item : *list) add(item);
+  else
+    add(node);
+  return values;
+}
+
+std::string known_keys(const CLI::App& app) {
+  std::string keys;
+  for (const CLI::Option* o : app.get_options())
+    for (const std::string& name : o->get_lnames())
+      if (!kCommandLineOnly.contains(name)) keys += (keys.empty() ? "" : ", ") + name;
+  return keys;
+}
+
+void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool, CLI::App& app) {
+  const std::string where = position(path, node.source());
+  CLI::Option* option = kCommandLineOnly.contains(key) ? nullptr : app.get_option_no_throw("--" + key);
+  if (!option) fail(where, "unknown option '" + key + "'; " + tool + " knows " + known_keys(app));
+  if (option->count() > 0) return;
+  for (const std::string& value : values_of(node, where, key)) option->add_result(value);
+  if (option->count() == 0) return;
+  try {
+    option->run_callback();
+  } catch (const CLI::Error& e) {
+    fail(where, e.what());
+  }
+}
+
+}  // namespace
+
+void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app) {
+  const toml::table file = parse_file(path);
+  std::map<std::string, const toml::node*> settings;
+  for (const auto& [key, node] : file) {
+    const std::string name(key.str());
+    if (!node.is_table())
+      settings[name] = &node;
+    else if (!kTools.contains(name))
+      fail(position(path, node.source()), "unknown table [" + name + "]; a table is named after a tool, such as [" + tool + "]");
+  }
+  if (const toml::table* own = file[tool].as_table())
+    for (const auto& [key, node] : *own) settings[std::string(key.str())] = &node;
+  for (const auto& [key, node] : settings) apply(key, *node, path, tool, app);
+}
+
+}  // namespace st

@@ -1,0 +1,15 @@
+// Option files: the long options of a tool as TOML.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace st {
+
+/// Gives every option named in the TOML file `path` its value, unless the command line has set it. Keys are long option names without
+/// dashes (`lmin = "0.25mm"`, `alpha = 10`); keys in the table [<tool>] hold for that tool alone and override those at the top, so one
+/// file may serve several tools. Call after app.parse(). Throws Error(kUsage) with file and line for an unreadable file, bad TOML, an
+/// unknown key or table, and a value that the option does not take.
+void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app);
+
+}  // namespace st

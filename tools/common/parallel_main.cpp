@@ -1,0 +1,71 @@
+// The part of ToolMain that knows of ranks; apart, so that serial tools do not load MPI.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <thread>
+
+#include "base/log.h"
+#include "comm/communicator.h"
+#include "common/tool_main.h"
+
+namespace st {
+namespace {
+
+/// The arguments after the program's name, without --np N and --np=N.
+std::vector<std::string> arguments_without_np(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--np") == 0)
+      ++i;
+    else if (std::strncmp(argv[i], "--np=", 5) != 0)
+      arguments.emplace_back(argv[i]);
+  }
+  return arguments;
+}
+
+/// Most errors strike all ranks at once. The first rank speaks for all; another speaks only when the job is still alive after this time.
+void wait_for_lower_ranks(int rank) {
+  if (rank > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1000 + 200 * std::min(rank, 20)));
+}
+
+}  // namespace
+
+int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage) {
+  begin(argc, argv);
+  app_.add_option("--np", n_ranks_, "number of MPI ranks; starts itself under mpirun")->type_name("INTEGER")->capture_default_str();
+  std::optional<std::string> text;
+  std::exception_ptr usage_error;
+  std::unique_ptr<Communicator> comm;
+  const auto start = [&] {
+    try {
+      text = parse(argc, argv);
+      if (!text) relaunch_under_mpirun(n_ranks_, arguments_without_np(argc, argv));
+    } catch (...) {
+      usage_error = std::current_exception();
+    }
+    comm = std::make_unique<Communicator>();
+    if (usage_error) std::rethrow_exception(usage_error);
+  };
+  const auto action = [&] {
+    start();
+    if (!comm->is_root()) set_verbosity(Verbosity::kQuiet);
+    if (text) {
+      if (comm->is_root()) std::fputs(text->c_str(), stdout);
+      return ExitCode::kOk;
+    }
+    const StageSummary summary = stage(*comm);
+    if (comm->is_root()) print_summary(summary);
+    return summary.code;
+  };
+  const auto report = [&](ExitCode code, const std::string& message) {
+    if (comm) wait_for_lower_ranks(comm->rank());
+    print_error(code, message);
+    if (comm && comm->size() > 1) comm->abort(static_cast<int>(code));
+  };
+  return static_cast<int>(guard(action, report));
+}
+
+}  // namespace st

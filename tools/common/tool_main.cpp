@@ -1,0 +1,247 @@
+#include "common/tool_main.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/length.h"
+#include "base/log.h"
+#include "common/option_file.h"
+#include "io/artifact.h"
+
+namespace st {
+namespace {
+
+constexpr const char* kFooter =
+    "Lengths: 3 (model unit), 0.25mm, 2in, 0.1% (of the model's diagonal).\n"
+    "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong together, 70 internal.";
+
+extern "C" void end_on_signal(int signal) {
+  remove_temporaries();
+  _exit(128 + signal);
+}
+
+/// Temporaries go when the user or the batch system ends the run; a signal ignored by the parent (nohup) stays ignored.
+void install_signal_handlers() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old {};
+    if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = end_on_signal;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+/// An interval as people write it: "(0, 90]".
+struct Interval {
+  explicit Interval(const std::string& written) : text(written) {
+    char comma = 0;
+    std::istringstream stream(written);
+    stream >> open >> lo >> comma >> hi >> close;
+    if (!stream || comma != ',' || (open != '(' && open != '[') || (close != ')' && close != ']'))
+      throw std::logic_error("bad interval " + written);
+  }
+  bool contains(double v) const { return (open == '(' ? v > lo : v >= lo) && (close == ')' ? v < hi : v <= hi); }
+
+  std::string text;
+  char open = 0, close = 0;
+  double lo = 0, hi = 0;
+};
+
+/// The reading is left to CLI11; only the bounds are checked here, so that "not a number" has one message.
+CLI::Validator in_interval(const std::string& written) {
+  const Interval interval(written);
+  return CLI::Validator(
+      [interval](std::string& text) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value)) return "'" + text + "' is not a number";
+        return interval.contains(value) ? std::string() : "must be in " + interval.text + ", not " + text;
+      },
+      interval.text);
+}
+
+CLI::Validator a_length(const std::string& flag) {
+  return CLI::Validator(
+      [flag](std::string& text) {
+        try {
+          parse_length(text, flag);
+          return std::string();
+        } catch (const Error& e) {
+          return std::string(e.what()).substr(flag.size() + 2);  // the flag's name is put before by CLI11
+        }
+      },
+      "");
+}
+
+std::string usage_message(const CLI::ParseError& e, const std::string& tool) {
+  std::string text = e.what();
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text + "; see " + tool + " --help";
+}
+
+}  // namespace
+
+ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
+    : name_(std::move(name)), kind_(kind), app_(description, name_) {
+  app_.get_formatter()->column_width(34);
+  app_.footer(kFooter);
+  app_.set_help_flag("-h,--help", "print this help and exit");
+  app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
+  app_.add_option("--options", options_file_, "option file (TOML: long option names without dashes); the command line wins")
+      ->type_name("FILE");
+  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
+  app_.add_flag("-v,--verbose", verbose_, "say more")->excludes(quiet);
+  app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
+}
+
+void ToolMain::input(const std::string& name, std::string& path, const std::string& help) {
+  input_options_.push_back(app_.add_option(name, path, help)->required()->type_name("FILE"));
+}
+
+void ToolMain::inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help) {
+  input_options_.push_back(app_.add_option(name, paths, help)->required()->type_name("FILE"));
+}
+
+void ToolMain::optional_input(const std::string& flag, std::string& path, const std::string& help) {
+  input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE"));
+}
+
+void ToolMain::output(std::string& path, const std::string& help) {
+  CLI::Option* option = app_.add_option("-o,--output", path, help)->type_name("FILE");
+  path.empty() ? option->required() : option->capture_default_str();
+  output_options_.push_back(option);
+}
+
+void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
+  output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
+}
+
+void ToolMain::length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help) {
+  app_.add_option(flag, value, help)->type_name("LENGTH")->default_str(value.empty() ? default_text : value)->check(a_length(flag));
+}
+
+void ToolMain::unit(const std::string& flag, std::string& value, const std::string& help) {
+  const auto check = [](std::string& text) {
+    return unit_in_metres(text) ? std::string() : "unknown unit '" + text + "'; write mm, cm, m, in or ft";
+  };
+  app_.add_option(flag, value, help)->type_name("UNIT")->check(CLI::Validator(check, ""));
+}
+
+void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
+  app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval));
+}
+
+void ToolMain::number(const std::string& flag, int& value, const std::string& interval, const std::string& help) {
+  app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval));
+}
+
+void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) { app_.add_flag(flag, value, help); }
+
+void ToolMain::begin(int argc, char** argv) {
+  install_signal_handlers();
+  json_ = std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
+}
+
+std::optional<std::string> ToolMain::parse(int argc, char** argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return app_.help();
+  } catch (const CLI::CallForVersion& e) {
+    return std::string(e.what()) + "\n";
+  } catch (const CLI::ExtrasError&) {
+    throw Error(ExitCode::kUsage, "unexpected argument '" + app_.remaining().front() + "'; see " + name_ + " --help");
+  } catch (const CLI::ParseError& e) {
+    throw Error(ExitCode::kUsage, usage_message(e, name_));
+  }
+  if (!options_file_.empty()) apply_option_file(options_file_, name_, app_);
+  if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose exclude each other");
+  set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
+  require_distinct_files();
+  return std::nullopt;
+}
+
+void ToolMain::require_distinct_files() const {
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code none;
+    return fs::equivalent(a, b, none) || fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
+  };
+  std::vector<std::string> outputs;
+  for (const CLI::Option* option : output_options_) {
+    auto paths = option->results();
+    if (paths.empty() && !option->get_default_str().empty()) paths.push_back(option->get_default_str());
+    outputs.insert(outputs.end(), paths.begin(), paths.end());
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j)
+      if (same(outputs[i], outputs[j])) throw Error(ExitCode::kUsage, outputs[i] + ": named twice as an output");
+    for (const CLI::Option* option : input_options_)
+      for (const std::string& path : option->results())
+        if (same(outputs[i], path))
+          throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; name another output");
+  }
+}
+
+void ToolMain::print_summary(const StageSummary& summary) const {
+  const std::string& text = json_ ? summary.json : summary.line;
+  if (!text.empty() && (json_ || kind_ == Kind::kReport || !quiet_)) {
+    std::fputs(text.c_str(), stdout);
+    if (text.back() != '\n') std::fputc('\n', stdout);
+  }
+  if (std::fflush(stdout) != 0) throw Error(ExitCode::kOutput, "stdout: cannot write the summary");
+}
+
+void ToolMain::print_error(ExitCode code, const std::string& message) const {
+  if (json_) {
+    const nlohmann::json object = {{"error", message}, {"exit_code", static_cast<int>(code)}, {"tool", name_}};
+    std::puts(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    std::fflush(stdout);
+  }
+  const std::string line = name_ + ": error: " + message + "\n";
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+ExitCode ToolMain::guard(const std::function<ExitCode()>& action, const std::function<void(ExitCode, const std::string&)>& report) {
+  const auto fail = [&](ExitCode code, const std::string& message) {
+    report(code, message);
+    return code;
+  };
+  try {
+    return action();
+  } catch (const Error& e) {
+    return fail(e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::kInternal, "out of memory; use larger lengths, fewer ranks or a machine with more memory");
+  } catch (const std::exception& e) {
+    return fail(ExitCode::kInternal, std::string("internal error: ") + e.what());
+  } catch (...) {
+    return fail(ExitCode::kInternal, "internal error: unknown exception");
+  }
+}
+
+int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& stage) {
+  begin(argc, argv);
+  const auto action = [&] {
+    if (const auto text = parse(argc, argv)) {
+      std::fputs(text->c_str(), stdout);
+      return ExitCode::kOk;
+    }
+    const StageSummary summary = stage();
+    print_summary(summary);
+    return summary.code;
+  };
+  return static_cast<int>(guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
+}
+
+}  // namespace st

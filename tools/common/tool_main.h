@@ -1,0 +1,78 @@
+// What all tools share: declaration of arguments, option files, the summary, the single catch and the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stages/summary.h"
+
+namespace st {
+
+class Communicator;
+
+/// One command-line tool. main declares its arguments, binding them to the stage's option struct, and hands over to run():
+///
+///   ProlongStageOptions o;
+///   ToolMain tool("st-prolong", "Makes the mesh size specification from a raster.");
+///   tool.input("raster", o.raster, "raster artifact");
+///   tool.output(o.output);
+///   tool.number("--slope", o.slope, "(0, 2]", "largest change of length per distance");
+///   return tool.run(argc, argv, [&] { return run_prolong(o); });
+class ToolMain {
+ public:
+  /// What -q does to the summary: a stage drops it, a report is nothing but its summary.
+  enum class Kind { kStage, kReport };
+
+  ToolMain(std::string name, const std::string& description, Kind kind = Kind::kStage);
+
+  /// A required positional input file.
+  void input(const std::string& name, std::string& path, const std::string& help);
+  /// One or more positional input files.
+  void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
+  /// An optional input file; `flag` with its dashes, as everywhere below.
+  void optional_input(const std::string& flag, std::string& path, const std::string& help);
+  /// -o,--output with the struct's default; required when that is empty.
+  void output(std::string& path, const std::string& help = "artifact to write");
+  /// A repeatable option naming a further file to write.
+  void outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
+  /// A length such as 3, 0.1%, 0.25mm or 2in; `default_text` stands in --help for an empty value.
+  void length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help);
+  /// A unit of length such as mm or inch.
+  void unit(const std::string& flag, std::string& value, const std::string& help);
+  /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
+  void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
+  void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);
+  void flag(const std::string& flag, bool& value, const std::string& help);
+
+  /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.
+  int run(int argc, char** argv, const std::function<StageSummary()>& stage);
+  /// The same for an MPI tool, with --np: ranks but the first are quiet, and an error on any rank ends the job with one message.
+  /// Collective when a launcher started the process.
+  int run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage);
+
+ private:
+  /// Signal handlers, and --json ahead of parsing: a usage error is reported as JSON, too.
+  void begin(int argc, char** argv);
+  /// Command line, then option file. Returns the text of --help or --version when asked for. Throws Error(kUsage).
+  std::optional<std::string> parse(int argc, char** argv);
+  /// Throws Error(kUsage) when an output would overwrite an input or another output.
+  void require_distinct_files() const;
+  /// Prints the summary to stdout. Throws Error(kOutput) when stdout takes nothing.
+  void print_summary(const StageSummary& summary) const;
+  void print_error(ExitCode code, const std::string& message) const;
+  /// Runs `action` and catches everything it throws: the one catch of the program. `report` is told the code and the message.
+  static ExitCode guard(const std::function<ExitCode()>& action, const std::function<void(ExitCode, const std::string&)>& report);
+
+  std::string name_;
+  Kind kind_;
+  CLI::App app_;
+  std::string options_file_;
+  int n_ranks_ = 1;
+  bool quiet_ = false, verbose_ = false, json_ = false;
+  std::vector<CLI::Option*> input_options_, output_options_;
+};
+
+}  // namespace st

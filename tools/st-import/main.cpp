@@ -1,0 +1,14 @@
+// st-import: CAD file to geometry artifact.
+#include "common/tool_main.h"
+#include "stages/import_stage.h"
+
+int main(int argc, char** argv) {
+  st::ImportStageOptions o;
+  st::ToolMain tool("st-import", "Reads a CAD model (STEP, IGES, BREP) and writes its geometry artifact.");
+  tool.input("model", o.model, "CAD file");
+  tool.output(o.output);
+  tool.unit("--unit", o.unit, "unit of the artifact (mm, cm, m, in, ft); the file's own when not given");
+  tool.flag("--check", o.check, "report defects only, write nothing");
+  tool.flag("--require-closed", o.require_closed, "an open model is an error (exit 4)");
+  return tool.run(argc, argv, [&] { return st::run_import(o); });
+}

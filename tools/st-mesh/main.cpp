@@ -1,0 +1,14 @@
+// st-mesh: curve discretisation, then one advancing-front patch per face.
+#include "common/tool_main.h"
+#include "stages/mesh_stage.h"
+
+int main(int argc, char** argv) {
+  st::MeshStageOptions o;
+  st::ToolMain tool("st-mesh", "Meshes every CAD edge once and every CAD face into a patch.");
+  tool.input("geometry", o.geometry, "geometry artifact");
+  tool.input("sizing", o.sizing, "sizing artifact");
+  tool.output(o.output);
+  tool.number("--enhance-rounds", o.enhance_rounds, "[0, 10]", "rounds of the enhancer");
+  tool.number("--max-turning", o.max_turning_deg, "(0, 60]", "largest turning of a CAD edge along one segment, degrees");
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
+}

@@ -1,0 +1,15 @@
+// st-raster: sample lengths of curves and trimmed surfaces into a balanced octree.
+#include "common/tool_main.h"
+#include "stages/raster_stage.h"
+
+int main(int argc, char** argv) {
+  st::RasterStageOptions o;
+  st::ToolMain tool("st-raster", "Samples the lengths that curvature and features ask for into an octree.");
+  tool.input("geometry", o.geometry, "geometry artifact");
+  tool.output(o.output);
+  tool.length("--lmin", o.lmin, "lmax/64", "smallest length");
+  tool.length("--lmax", o.lmax, "2.5%", "largest length");
+  tool.number("--alpha", o.alpha_deg, "(0, 90]", "largest turning of the normal or tangent along one length, degrees");
+  tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
+}
