@@ -1,0 +1,271 @@
+#include "mesh/crossing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/predicates.h"
+
+namespace st {
+
+namespace {
+
+using Points = std::array<Vec3, 3>;
+
+int sign(double x) { return (x > 0) - (x < 0); }
+int side(const Points& t, Vec3 p) { return sign(orient3d(t[0], t[1], t[2], p)); }
+
+Points corners(std::span<const Vec3> points, const Triangle& t) { return {points[t.n[0]], points[t.n[1]], points[t.n[2]]}; }
+
+/// The point without its coordinate `axis`.
+Vec2 drop(Vec3 p, int axis) { return axis == 0 ? Vec2{p.y, p.z} : axis == 1 ? Vec2{p.z, p.x} : Vec2{p.x, p.y}; }
+
+/// Sign of the triangle's area seen along `axis`.
+int turn(Vec3 a, Vec3 b, Vec3 c, int axis) { return sign(orient2d(drop(a, axis), drop(b, axis), drop(c, axis))); }
+
+/// An axis along which the triangle is not seen edge-on, or kNone when it has no area.
+int visible_axis(const Points& t) {
+  for (int axis = 2; axis >= 0; --axis)
+    if (turn(t[0], t[1], t[2], axis) != 0) return axis;
+  return kNone;
+}
+
+bool in_order(double a, double b, double c) { return (a <= b && b <= c) || (c <= b && b <= a); }
+
+/// Closed segments (a, b) and (p, q) in one plane, seen along `axis`.
+bool segments_meet(Vec3 a, Vec3 b, Vec3 p, Vec3 q, int axis) {
+  const int abp = turn(a, b, p, axis), abq = turn(a, b, q, axis), pqa = turn(p, q, a, axis), pqb = turn(p, q, b, axis);
+  if (abp * abq > 0 || pqa * pqb > 0) return false;
+  if (abp || abq || pqa || pqb) return true;
+  const auto on = [&](Vec3 from, Vec3 x, Vec3 to) {
+    const Vec2 f = drop(from, axis), m = drop(x, axis), t = drop(to, axis);
+    return in_order(f.x, m.x, t.x) && in_order(f.y, m.y, t.y);
+  };
+  return on(a, p, b) || on(a, q, b) || on(p, a, q);
+}
+
+bool contains_coplanar(const Points& t, Vec3 p, int axis) {
+  const int s0 = turn(t[0], t[1], p, axis), s1 = turn(t[1], t[2], p, axis), s2 = turn(t[2], t[0], p, axis);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+/// Closed segment (p, q) and closed triangle; side_p, side_q: the sides of the triangle's plane that p and q lie on.
+bool segment_meets_triangle(Vec3 p, Vec3 q, int side_p, int side_q, const Points& t) {
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) {
+    const int axis = visible_axis(t);
+    if (contains_coplanar(t, p, axis)) return true;
+    for (int k = 0; k < 3; ++k)
+      if (segments_meet(t[k], t[(k + 1) % 3], p, q, axis)) return true;
+    return false;
+  }
+  const int s0 = sign(orient3d(p, q, t[0], t[1])), s1 = sign(orient3d(p, q, t[1], t[2]));
+  if (s0 * s1 < 0) return false;
+  const int s2 = sign(orient3d(p, q, t[2], t[0]));
+  return s0 * s2 >= 0 && s1 * s2 >= 0;
+}
+
+bool all_beyond(const std::array<int, 3>& s) { return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0); }
+
+bool disjoint_nodes_cross(const Points& a, const Points& b) {
+  const std::array<int, 3> sb{side(a, b[0]), side(a, b[1]), side(a, b[2])};
+  if (all_beyond(sb)) return false;
+  const std::array<int, 3> sa{side(b, a[0]), side(b, a[1]), side(b, a[2])};
+  if (all_beyond(sa)) return false;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    if (segment_meets_triangle(b[k], b[l], sb[k], sb[l], a) || segment_meets_triangle(a[k], a[l], sa[k], sa[l], b)) return true;
+  }
+  return false;
+}
+
+/// Triangles with the common corner a[0] = b[0]: what they share beyond it reaches the opposite edge of one of them.
+bool one_node_cross(const Points& a, const Points& b) {
+  const int b1 = side(a, b[1]), b2 = side(a, b[2]);
+  if (b1 * b2 > 0) return false;
+  const int a1 = side(b, a[1]), a2 = side(b, a[2]);
+  if (a1 * a2 > 0) return false;
+  return segment_meets_triangle(b[1], b[2], b1, b2, a) || segment_meets_triangle(a[1], a[2], a1, a2, b);
+}
+
+/// Triangles (u, v, p) and (u, v, q): they overlap when folded flat onto each other.
+bool two_nodes_cross(Vec3 u, Vec3 v, Vec3 p, Vec3 q) {
+  const Points t{u, v, p};
+  if (side(t, q) != 0) return false;
+  const int axis = visible_axis(t);
+  return turn(u, v, p, axis) == turn(u, v, q, axis);
+}
+
+Points rotated(const Points& t, int k) { return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]}; }
+
+// --- bounding volume hierarchy ---------------------------------------------------------------------------------------------------------
+
+/// Box in single precision, rounded outwards.
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+  bool meets(const FloatBox& o) const {
+    return lo[0] <= o.hi[0] && o.lo[0] <= hi[0] && lo[1] <= o.hi[1] && o.lo[1] <= hi[1] && lo[2] <= o.hi[2] && o.lo[2] <= hi[2];
+  }
+  void add(const FloatBox& o) {
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
+  }
+  float extent() const { return (hi[0] - lo[0]) + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
+};
+
+float round_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float round_up(double x) { return -round_down(-x); }
+
+FloatBox box_of(const Points& t) {
+  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+  const auto [z0, z1] = std::minmax({t[0].z, t[1].z, t[2].z});
+  return {{round_down(x0), round_down(y0), round_down(z0)}, {round_up(x1), round_up(y1), round_up(z1)}};
+}
+
+/// The lower 21 bits of x, two zeros between neighbours.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffull;
+  x = (x | x << 16) & 0x001f0000ff0000ffull;
+  x = (x | x << 8) & 0x100f00f00f00f00full;
+  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
+  return (x | x << 2) & 0x1249249249249249ull;
+}
+
+/// Triangles in Morton order of their centres under a balanced binary tree of boxes.
+class BoxTree {
+ public:
+  BoxTree(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+    sort_along_curve(points, triangles);
+    boxes_.reserve(order_.size());
+    for (const TriangleId t : order_) boxes_.push_back(box_of(corners(points, triangles[t])));
+    nodes_.reserve(order_.size() / 2 + 1);
+    if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()));
+  }
+  /// Calls visit(triangle, triangle) once for every pair whose boxes meet.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    if (!nodes_.empty()) within(0, visit);
+  }
+
+ private:
+  static constexpr std::int32_t kLeafSize = 4;
+  struct Node {
+    FloatBox box;
+    std::int32_t begin, end, right;  ///< range in order_; left child is the next node, right = kNone in a leaf
+  };
+
+  void sort_along_curve(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+    Box3 all;
+    for (const Triangle& t : triangles)
+      for (const NodeId n : t.n) all.add(points[n]);
+    const Vec3 extent = all.hi - all.lo;
+    const auto cell = [](double x, double lo, double length) {
+      return static_cast<std::uint64_t>(length > 0 ? std::clamp((x - lo) / length, 0.0, 1.0) * 2097151.0 : 0.0);
+    };
+    std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
+    keyed.reserve(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (is_degenerate(points, triangles[t])) continue;
+      const Points p = corners(points, triangles[t]);
+      const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
+      const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 | spread(cell(c.z, all.lo.z, extent.z)) << 2;
+      keyed.emplace_back(key, static_cast<TriangleId>(t));
+    }
+    std::sort(keyed.begin(), keyed.end());
+    order_.reserve(keyed.size());
+    for (const auto& [key, t] : keyed) order_.push_back(t);
+  }
+
+  std::int32_t build(std::int32_t begin, std::int32_t end) {
+    const auto id = static_cast<std::int32_t>(nodes_.size());
+    nodes_.push_back({boxes_[begin], begin, end, kNone});
+    if (end - begin <= kLeafSize) {
+      for (std::int32_t i = begin + 1; i < end; ++i) nodes_[id].box.add(boxes_[i]);
+      return id;
+    }
+    const std::int32_t middle = begin + (end - begin) / 2;
+    const std::int32_t left = build(begin, middle), right = build(middle, end);
+    nodes_[id].right = right;
+    nodes_[id].box = nodes_[left].box;
+    nodes_[id].box.add(nodes_[right].box);
+    return id;
+  }
+
+  template <class Visit>
+  void within(std::int32_t n, const Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (node.right != kNone) {
+      within(n + 1, visit);
+      within(node.right, visit);
+      between(n + 1, node.right, visit);
+      return;
+    }
+    for (std::int32_t i = node.begin; i < node.end; ++i)
+      for (std::int32_t j = i + 1; j < node.end; ++j)
+        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+  }
+
+  template <class Visit>
+  void between(std::int32_t a, std::int32_t b, const Visit& visit) const {
+    const Node &na = nodes_[a], &nb = nodes_[b];
+    if (!na.box.meets(nb.box)) return;
+    const bool leaf_a = na.right == kNone, leaf_b = nb.right == kNone;
+    if (leaf_a && leaf_b) {
+      for (std::int32_t i = na.begin; i < na.end; ++i) {
+        if (!boxes_[i].meets(nb.box)) continue;
+        for (std::int32_t j = nb.begin; j < nb.end; ++j)
+          if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+      }
+    } else if (leaf_b || (!leaf_a && na.box.extent() >= nb.box.extent())) {
+      between(a + 1, b, visit);
+      between(na.right, b, visit);
+    } else {
+      between(a, b + 1, visit);
+      between(a, nb.right, visit);
+    }
+  }
+
+  std::vector<TriangleId> order_;
+  std::vector<FloatBox> boxes_;  ///< of order_[i]
+  std::vector<Node> nodes_;      ///< depth first
+};
+
+}  // namespace
+
+bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
+  return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0] || visible_axis(corners(points, t)) == kNone;
+}
+
+bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared) {
+  int corner_a[3], corner_b[3];
+  n_shared = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (a.n[i] == b.n[j]) corner_a[n_shared] = i, corner_b[n_shared++] = j;
+  const Points pa = corners(points, a), pb = corners(points, b);
+  switch (n_shared) {
+    case 0: return disjoint_nodes_cross(pa, pb);
+    case 1: return one_node_cross(rotated(pa, corner_a[0]), rotated(pb, corner_b[0]));
+    case 2: return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]], pb[3 - corner_b[0] - corner_b[1]]);
+    default: return false;
+  }
+}
+
+std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  std::vector<TrianglePair> pairs;
+  const BoxTree tree(points, triangles);
+  tree.for_each_pair([&](TriangleId s, TriangleId t) {
+    const TriangleId a = std::min(s, t), b = std::max(s, t);
+    int n_shared = 0;
+    if (triangles_cross(points, triangles[a], triangles[b], n_shared)) pairs.push_back({a, b, n_shared});
+  });
+  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  return pairs;
+}
+
+}  // namespace st
