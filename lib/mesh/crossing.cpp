@@ -69,9 +69,33 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, int side_p, int side_q, const Points
 
 bool all_beyond(const std::array<int, 3>& s) { return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0); }
 
+/// Coplanar triangles without a common node: apart when a side of one has the whole other strictly beyond it.
+bool coplanar_meet(const Points& a, const Points& b) {
+  const int axis = visible_axis(a);
+  const auto separates = [&](const Points& s, const Points& t) {
+    const int inside = turn(s[0], s[1], s[2], axis);
+    const auto beyond = [&](int k, Vec3 p) { return turn(s[k], s[(k + 1) % 3], p, axis) == -inside; };
+    for (int k = 0; k < 3; ++k)
+      if (beyond(k, t[0]) && beyond(k, t[1]) && beyond(k, t[2])) return true;
+    return false;
+  };
+  return !separates(a, b) && !separates(b, a);
+}
+
+/// Coplanar triangles with the common corner a[0] = b[0]: they meet beyond it when a leg of one lies in the other's angle.
+bool coplanar_angles_meet(const Points& a, const Points& b) {
+  const int axis = visible_axis(a);
+  const auto leg_in_angle = [&](const Points& t, Vec3 leg) {
+    const int inside = turn(t[0], t[1], t[2], axis);
+    return turn(t[0], t[1], leg, axis) * inside >= 0 && turn(t[0], leg, t[2], axis) * inside >= 0;
+  };
+  return leg_in_angle(a, b[1]) || leg_in_angle(a, b[2]) || leg_in_angle(b, a[1]);
+}
+
 bool disjoint_nodes_cross(const Points& a, const Points& b) {
   const std::array<int, 3> sb{side(a, b[0]), side(a, b[1]), side(a, b[2])};
   if (all_beyond(sb)) return false;
+  if (sb[0] == 0 && sb[1] == 0 && sb[2] == 0) return coplanar_meet(a, b);
   const std::array<int, 3> sa{side(b, a[0]), side(b, a[1]), side(b, a[2])};
   if (all_beyond(sa)) return false;
   for (int k = 0; k < 3; ++k) {
@@ -85,6 +109,7 @@ bool disjoint_nodes_cross(const Points& a, const Points& b) {
 bool one_node_cross(const Points& a, const Points& b) {
   const int b1 = side(a, b[1]), b2 = side(a, b[2]);
   if (b1 * b2 > 0) return false;
+  if (b1 == 0 && b2 == 0) return coplanar_angles_meet(a, b);
   const int a1 = side(b, a[1]), a2 = side(b, a[2]);
   if (a1 * a2 > 0) return false;
   return segment_meets_triangle(b[1], b[2], b1, b2, a) || segment_meets_triangle(a[1], a[2], a1, a2, b);
