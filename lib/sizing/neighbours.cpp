@@ -1,0 +1,28 @@
+#include "sizing/neighbours.h"
+
+namespace st {
+
+Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
+  const std::size_t n_nodes = octree.node_children.size() / 8;
+  node_neighbours_.assign(27 * n_nodes, kOutside);
+  leaf_parent_.assign(octree.leaf_keys.size(), kNone);
+  if (n_nodes == 0) return;
+  node_neighbours_[static_cast<std::size_t>(direction(0, 0, 0))] = 0;
+  for (std::size_t node = 0; node < n_nodes; ++node) {  // parents come before their children
+    for (int o = 0; o < 8; ++o) {
+      const std::int32_t child = octree.node_children[8 * node + static_cast<std::size_t>(o)];
+      if (child < 0) {
+        leaf_parent_[static_cast<std::size_t>(~child)] = static_cast<std::int32_t>(node);
+        continue;
+      }
+      for (int d = 0; d < 27; ++d) {
+        bool is_larger = false;
+        const std::int32_t other = beside(static_cast<std::int32_t>(node), o, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1, is_larger);
+        // Balanced: beside a node there is always a cell of its size, or the end of the root cube.
+        node_neighbours_[27 * static_cast<std::size_t>(child) + static_cast<std::size_t>(d)] = is_larger ? kOutside : other;
+      }
+    }
+  }
+}
+
+}  // namespace st

@@ -1,0 +1,296 @@
+#include "sizing/octree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "sizing/radix_sort.h"
+
+namespace st {
+namespace {
+
+/// Inner cells of each level as keys relative to their level (3*level bits).
+using NodeLevels = std::array<std::vector<std::uint64_t>, kMaxLevel>;
+
+/// Drops most repeated keys of a coherent stream before they cost memory; what it lets through twice the sort removes.
+class RepeatFilter {
+ public:
+  RepeatFilter() { seen_.fill(~0ull); }
+  bool is_new(std::uint64_t key) {
+    std::uint64_t& slot = seen_[(key * 0x9e3779b97f4a7c15ull) >> 52];
+    if (slot == key) return false;
+    slot = key;
+    return true;
+  }
+
+ private:
+  std::array<std::uint64_t, 4096> seen_;
+};
+
+/// Range of grid cells that a raster box meets, both ends included; empty when it lies outside the root.
+struct GridBox {
+  GridPoint lo, hi;
+  bool is_empty = false;
+};
+
+GridBox grid_box(const OctreeShape& shape, const RasterBox& box) {
+  const double scale = kCoordinateEnd / shape.edge, half = box.half;
+  GridBox result;
+  const auto range = [&](double center, double origin, std::uint32_t& lo, std::uint32_t& hi) {
+    const double a = std::floor((center - half - origin) * scale), b = std::floor((center + half - origin) * scale);
+    if (!(a < kCoordinateEnd && b >= 0)) {
+      result.is_empty = true;
+      return;
+    }
+    lo = static_cast<std::uint32_t>(std::max(a, 0.0));
+    hi = static_cast<std::uint32_t>(std::min(b, kCoordinateEnd - 1.0));
+  };
+  range(box.center.x, shape.lo.x, result.lo.x, result.hi.x);
+  range(box.center.y, shape.lo.y, result.lo.y, result.hi.y);
+  range(box.center.z, shape.lo.z, result.lo.z, result.hi.z);
+  return result;
+}
+
+/// Coarsest level whose cells are not larger than the raster box.
+int required_level(double root_edge, const RasterBox& box) {
+  int level = 0;
+  for (double cell = root_edge; level < kMaxLevel && cell > 2.0 * static_cast<double>(box.half); cell *= 0.5) ++level;
+  return level;
+}
+
+/// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight per box).
+void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels, NodeLevels& nodes) {
+  std::array<RepeatFilter, kMaxLevel> filters;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (levels[i] == 0) continue;
+    const GridBox range = grid_box(shape, boxes[i]);
+    if (range.is_empty) continue;
+    const int parent = levels[i] - 1, shift = kMaxLevel - parent;
+    for (std::uint32_t z = range.lo.z >> shift; z <= range.hi.z >> shift; ++z)
+      for (std::uint32_t y = range.lo.y >> shift; y <= range.hi.y >> shift; ++y)
+        for (std::uint32_t x = range.lo.x >> shift; x <= range.hi.x >> shift; ++x) {
+          const std::uint64_t key = morton::encode({x, y, z});
+          if (filters[static_cast<std::size_t>(parent)].is_new(key)) nodes[static_cast<std::size_t>(parent)].push_back(key);
+        }
+  }
+}
+
+/// Sorts each level and adds what tree and balance need, finest level first: where a cell is split, all 26 neighbours of its size must exist, so
+/// their parents are split.
+void close_nodes(NodeLevels& nodes) {
+  for (int level = kMaxLevel - 1; level >= 0; --level) {
+    std::vector<std::uint64_t>& split = nodes[static_cast<std::size_t>(level)];
+    sort_unique(split);
+    if (level == 0) break;
+    std::vector<std::uint64_t>& parents = nodes[static_cast<std::size_t>(level - 1)];
+    RepeatFilter filter;
+    const std::uint32_t end = 1u << (level - 1);
+    for (const std::uint64_t key : split) {
+      const GridPoint c = morton::decode(key);
+      const std::uint32_t x[2] = {c.x >> 1, (c.x >> 1) + ((c.x & 1) ? 1u : ~0u)};
+      const std::uint32_t y[2] = {c.y >> 1, (c.y >> 1) + ((c.y & 1) ? 1u : ~0u)};
+      const std::uint32_t z[2] = {c.z >> 1, (c.z >> 1) + ((c.z & 1) ? 1u : ~0u)};
+      for (int o = 0; o < 8; ++o) {
+        const GridPoint p{x[o & 1], y[o >> 1 & 1], z[o >> 2]};
+        if (p.x >= end || p.y >= end || p.z >= end) continue;  // outside the root (below zero wraps around)
+        const std::uint64_t parent = morton::encode(p);
+        if (filter.is_new(parent)) parents.push_back(parent);
+      }
+    }
+  }
+}
+
+/// Numbers the nodes level by level and the leaves in Morton order, and links them. One walk: each level's nodes are met in order.
+void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
+  std::array<std::size_t, kMaxLevel + 1> offset{}, cursor{};
+  for (std::size_t l = 0; l < kMaxLevel; ++l) offset[l + 1] = offset[l] + nodes[l].size();
+  const std::size_t n_nodes = offset[kMaxLevel];
+  shape.leaf_keys.clear();
+  shape.leaf_levels.clear();
+  shape.leaf_keys.reserve(7 * n_nodes + 1);
+  shape.leaf_levels.reserve(7 * n_nodes + 1);
+  shape.node_children.resize(8 * n_nodes);
+  const auto walk = [&](const auto& self, std::size_t level, std::uint64_t key) -> std::int32_t {
+    if (level < kMaxLevel && cursor[level] < nodes[level].size() && nodes[level][cursor[level]] == key) {
+      const std::size_t node = offset[level] + cursor[level]++;
+      for (std::uint64_t o = 0; o < 8; ++o) shape.node_children[8 * node + o] = self(self, level + 1, key << 3 | o);
+      return static_cast<std::int32_t>(node);
+    }
+    shape.leaf_keys.push_back(key << (3 * (kMaxLevel - level)));
+    shape.leaf_levels.push_back(static_cast<std::uint8_t>(level));
+    return ~static_cast<std::int32_t>(shape.leaf_keys.size() - 1);
+  };
+  walk(walk, 0, 0);
+}
+
+/// Gives each leaf the smallest length of the boxes that meet it. Boxes of fine levels come first, and whole subtrees that hold smaller
+/// lengths already are skipped, so that large boxes do not visit every fine cell inside them.
+class LengthStore {
+ public:
+  explicit LengthStore(RasterOctree& octree)
+      : octree_(octree), view_(octree.shape.view()), subtree_max_(octree.shape.node_children.size() / 8, std::numeric_limits<float>::infinity()) {}
+
+  void insert(const RasterBox& box) {
+    range_ = grid_box(octree_.shape, box);
+    if (range_.is_empty) return;
+    length_ = box.length;
+    cause_ = box.cause;
+    visit(view_.node_children.empty() ? ~0 : 0, {}, kCoordinateEnd / 2);
+  }
+
+  void refresh_subtrees() {
+    for (std::size_t node = subtree_max_.size(); node-- > 0;) {
+      float largest = 0;
+      for (std::size_t o = 0; o < 8; ++o) {
+        const std::int32_t child = view_.node_children[8 * node + o];
+        const float length = child >= 0 ? subtree_max_[static_cast<std::size_t>(child)] : octree_.stored_length[static_cast<std::size_t>(~child)];
+        largest = std::max(largest, length);
+      }
+      subtree_max_[node] = largest;
+    }
+  }
+
+ private:
+  void visit(std::int32_t node, GridPoint lo, std::uint32_t half) {
+    if (node < 0) return store(static_cast<std::size_t>(~node));
+    if (subtree_max_[static_cast<std::size_t>(node)] < length_) return;
+    const GridPoint middle{lo.x + half, lo.y + half, lo.z + half};
+    for (unsigned o = 0; o < 8; ++o) {
+      if ((o & 1 ? range_.hi.x < middle.x : range_.lo.x >= middle.x) || (o & 2 ? range_.hi.y < middle.y : range_.lo.y >= middle.y) ||
+          (o & 4 ? range_.hi.z < middle.z : range_.lo.z >= middle.z))
+        continue;
+      const GridPoint child_lo{o & 1 ? middle.x : lo.x, o & 2 ? middle.y : lo.y, o & 4 ? middle.z : lo.z};
+      visit(view_.node_children[8 * static_cast<std::size_t>(node) + o], child_lo, half / 2);
+    }
+  }
+
+  void store(std::size_t leaf) {
+    float& stored = octree_.stored_length[leaf];
+    std::int32_t& cause = octree_.stored_cause[leaf];
+    if (length_ > stored || (length_ == stored && cause_ >= cause)) return;
+    stored = length_;
+    cause = cause_;
+  }
+
+  RasterOctree& octree_;
+  OctreeView view_;
+  std::vector<float> subtree_max_;   // of nodes, as of the last refresh
+  GridBox range_;
+  float length_ = 0;
+  std::int32_t cause_ = kNone;
+};
+
+void store_lengths(std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels, RasterOctree& octree) {
+  octree.stored_length.assign(octree.shape.leaf_keys.size(), std::numeric_limits<float>::infinity());
+  octree.stored_cause.assign(octree.shape.leaf_keys.size(), kNone);
+  std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
+  for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));
+  LengthStore store(octree);
+  for (std::size_t level = kMaxLevel + 1; level-- > 0;) {
+    if (by_level[level].empty()) continue;
+    for (const std::uint32_t i : by_level[level]) store.insert(boxes[i]);
+    store.refresh_subtrees();
+  }
+}
+
+}  // namespace
+
+Vec3 OctreeView::leaf_center(std::int32_t leaf) const {
+  const GridPoint p = morton::decode(leaf_keys[static_cast<std::size_t>(leaf)]);
+  const double unit = edge / kCoordinateEnd, half = 0.5 * morton::cell_extent(leaf_levels[static_cast<std::size_t>(leaf)]);
+  return {lo.x + (p.x + half) * unit, lo.y + (p.y + half) * unit, lo.z + (p.z + half) * unit};
+}
+
+GridPoint OctreeView::grid_point(Vec3 xyz) const {
+  const double scale = kCoordinateEnd / edge;
+  const auto to_grid = [&](double x, double origin) {
+    return static_cast<std::uint32_t>(std::min(std::max((x - origin) * scale, 0.0), kCoordinateEnd - 1.0));
+  };
+  return {to_grid(xyz.x, lo.x), to_grid(xyz.y, lo.y), to_grid(xyz.z, lo.z)};
+}
+
+void octree_root(const Box3& box, Vec3& lo, double& edge) {
+  if (box.is_empty()) {
+    lo = {-0.5, -0.5, -0.5};
+    edge = 1;
+    return;
+  }
+  const Vec3 extent = box.hi - box.lo;
+  edge = 1.02 * std::max({extent.x, extent.y, extent.z});
+  if (!(edge > 0)) edge = 1;
+  const Vec3 c = box.center();
+  lo = c - Vec3{0.5 * edge, 0.5 * edge, 0.5 * edge};
+}
+
+RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes) {
+  RasterOctree octree;
+  octree_root(root, octree.shape.lo, octree.shape.edge);
+  std::vector<std::uint8_t> levels(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) levels[i] = static_cast<std::uint8_t>(required_level(octree.shape.edge, boxes[i]));
+  NodeLevels nodes;
+  collect_required_nodes(octree.shape, boxes, levels, nodes);
+  close_nodes(nodes);
+  link_tree(nodes, octree.shape);
+  store_lengths(boxes, levels, octree);
+  return octree;
+}
+
+namespace {
+
+const char* shape_defect(const OctreeView& octree) {
+  const std::size_t n = octree.leaf_keys.size();
+  if (n == 0 || octree.leaf_levels.size() != n || octree.node_children.size() % 8 != 0) return "array lengths do not fit";
+  if (n != 7 * (octree.node_children.size() / 8) + 1) return "number of leaves does not fit the number of nodes";
+  if (!(octree.edge > 0) || !std::isfinite(octree.edge)) return "root cube has no size";
+  std::uint64_t expected = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (octree.leaf_levels[i] > kMaxLevel) return "level out of range";
+    if (octree.leaf_keys[i] != expected) return "leaves leave a gap, overlap or are out of order";
+    expected += 1ull << (3 * (kMaxLevel - octree.leaf_levels[i]));
+  }
+  return expected == 1ull << (3 * kMaxLevel) ? nullptr : "leaves do not fill the root cube";
+}
+
+/// Walks all links: each leaf and node is reached once, from where its key says.
+const char* link_defect(const OctreeView& octree) {
+  std::int32_t next_leaf = 0;
+  std::size_t n_visited = 0;
+  const auto walk = [&](const auto& self, std::int32_t node, std::uint64_t key, int level) -> bool {
+    if (node < 0) {
+      const std::int32_t leaf = ~node;
+      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[static_cast<std::size_t>(leaf)] == key &&
+             octree.leaf_levels[static_cast<std::size_t>(leaf)] == level;
+    }
+    if (node >= octree.n_nodes() || level >= kMaxLevel || ++n_visited > octree.node_children.size() / 8) return false;
+    for (std::uint64_t o = 0; o < 8; ++o)
+      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o], key | o << (3 * (kMaxLevel - 1 - level)), level + 1)) return false;
+    return true;
+  };
+  return walk(walk, octree.node_children.empty() ? ~0 : 0, 0, 0) ? nullptr : "links and keys do not agree";
+}
+
+const char* balance_defect(const OctreeView& octree) {
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
+    const int level = octree.leaf_levels[static_cast<std::size_t>(leaf)];
+    const GridPoint p = morton::decode(octree.leaf_keys[static_cast<std::size_t>(leaf)]);
+    const std::uint32_t extent = morton::cell_extent(level);
+    for (int d = 0; d < 27; ++d) {
+      const GridPoint q{p.x + (d % 3 - 1u) * extent, p.y + (d / 3 % 3 - 1u) * extent, p.z + (d / 9 - 1u) * extent};
+      if (q.x >= kCoordinateEnd || q.y >= kCoordinateEnd || q.z >= kCoordinateEnd) continue;
+      if (octree.leaf_levels[static_cast<std::size_t>(octree.find_leaf(morton::encode(q)))] + 1 < level) return "not balanced 2:1";
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const char* octree_defect(const OctreeView& octree) {
+  if (const char* defect = shape_defect(octree)) return defect;
+  if (const char* defect = link_defect(octree)) return defect;
+  if (const char* defect = balance_defect(octree)) return defect;
+  return "";
+}
+
+}  // namespace st

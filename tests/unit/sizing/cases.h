@@ -1,0 +1,36 @@
+// Octrees that several tests of the layer use.
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "sizing/octree.h"
+
+namespace st::test {
+
+inline const Box3 kUnitBox{{0, 0, 0}, {1, 1, 1}};
+
+/// Random raster boxes on a sphere in the unit box, lengths 0.001 .. 0.04: finer towards its top.
+inline std::vector<RasterBox> sphere_boxes(int n, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<RasterBox> boxes;
+  while (static_cast<int>(boxes.size()) < n) {
+    const Vec3 d{uniform(random), uniform(random), uniform(random)};
+    if (norm(d) < 0.1 || norm(d) > 1) continue;
+    const Vec3 x = Vec3{0.5, 0.5, 0.5} + 0.4 * normalized(d);
+    const float length = static_cast<float>(0.001 + 0.05 * distance(x, {0.5, 0.5, 0.9}));
+    boxes.push_back({x, length, length, 0, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(boxes.size() % 7))});
+  }
+  return boxes;
+}
+
+/// Boxes of one length that cover the side x = 0 of the unit box: the prolonged field is length + slope * x.
+inline std::vector<RasterBox> wall_boxes(float length) {
+  std::vector<RasterBox> boxes;
+  for (double y = 0; y <= 1; y += static_cast<double>(length))
+    for (double z = 0; z <= 1; z += static_cast<double>(length)) boxes.push_back({{0, y, z}, length, length, 0, 0});
+  return boxes;
+}
+
+}  // namespace st::test

@@ -1,0 +1,141 @@
+#include "sizing/octree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "unit/sizing/cases.h"
+
+namespace st {
+namespace {
+
+using test::kUnitBox;
+using test::sphere_boxes;
+
+RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(CauseKind::kFace, 0)) { return {center, length, length, 0, cause}; }
+
+bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, double margin) {
+  const Vec3 c = octree.shape.view().leaf_center(leaf);
+  const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]) + static_cast<double>(box.half) + margin;
+  return std::abs(c.x - box.center.x) < reach && std::abs(c.y - box.center.y) < reach && std::abs(c.z - box.center.z) < reach;
+}
+
+TEST(Octree, is_one_empty_cell_without_boxes) {
+  const RasterOctree octree = build_octree(kUnitBox, {});
+  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  ASSERT_EQ(octree.shape.leaf_keys.size(), 1u);
+  EXPECT_TRUE(std::isinf(octree.stored_length[0]));
+  EXPECT_EQ(octree.stored_cause[0], kNone);
+}
+
+TEST(Octree, is_balanced_across_corners) {
+  const RasterOctree octree = build_octree(kUnitBox, sphere_boxes(3000));
+  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  const auto [lo, hi] = std::minmax_element(octree.shape.leaf_levels.begin(), octree.shape.leaf_levels.end());
+  EXPECT_GE(*hi - *lo, 4) << "the case must have unlike levels to mean anything";
+}
+
+TEST(Octree, is_balanced_around_one_tiny_box_beside_the_middle) {
+  // next to the root's centre: the coarsest neighbours are across a face, an edge and a corner of the root's children
+  const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({0.5001, 0.5001, 0.5001}, 1e-5F)});
+  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+}
+
+TEST(Octree, has_no_cell_larger_than_a_box_it_meets) {
+  const std::vector<RasterBox> boxes = sphere_boxes(500);
+  const RasterOctree octree = build_octree(kUnitBox, boxes);
+  for (const RasterBox& box : boxes)
+    for (std::int32_t leaf = 0; leaf < octree.shape.view().n_leaves(); ++leaf) {
+      if (!meets(octree, leaf, box, -1e-5)) continue;
+      ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]), 2.0 * static_cast<double>(box.half));
+    }
+}
+
+TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
+  const std::vector<RasterBox> boxes = sphere_boxes(400);
+  const RasterOctree octree = build_octree(kUnitBox, boxes);
+  for (std::int32_t leaf = 0; leaf < octree.shape.view().n_leaves(); ++leaf) {
+    float surely = std::numeric_limits<float>::infinity(), perhaps = surely;
+    for (const RasterBox& box : boxes) {
+      if (meets(octree, leaf, box, -1e-5)) surely = std::min(surely, box.length);
+      if (meets(octree, leaf, box, 1e-5)) perhaps = std::min(perhaps, box.length);
+    }
+    const float stored = octree.stored_length[static_cast<std::size_t>(leaf)];
+    ASSERT_LE(stored, surely);
+    ASSERT_GE(stored, perhaps);
+    const std::int32_t cause = octree.stored_cause[static_cast<std::size_t>(leaf)];
+    ASSERT_EQ(std::isinf(stored), cause == kNone);
+    if (cause == kNone) continue;
+    ASSERT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const RasterBox& b) { return b.length == stored && b.cause == cause; }));
+  }
+}
+
+TEST(Octree, does_not_depend_on_the_order_of_boxes) {
+  std::vector<RasterBox> boxes = sphere_boxes(5000);
+  for (std::size_t i = 0; i < 1000; ++i) boxes.push_back({boxes[i].center, boxes[i].half, boxes[i].length, 0, pack_cause(CauseKind::kEdge, 3)});
+  const RasterOctree a = build_octree(kUnitBox, boxes);
+  std::shuffle(boxes.begin(), boxes.end(), std::mt19937(7));
+  const RasterOctree b = build_octree(kUnitBox, boxes);
+  EXPECT_EQ(a.shape.leaf_keys, b.shape.leaf_keys);
+  EXPECT_EQ(a.shape.leaf_levels, b.shape.leaf_levels);
+  EXPECT_EQ(a.shape.node_children, b.shape.node_children);
+  EXPECT_EQ(a.stored_length, b.stored_length);
+  EXPECT_EQ(a.stored_cause, b.stored_cause);
+}
+
+TEST(Octree, ignores_boxes_outside_and_clips_boxes_that_stick_out) {
+  const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({9, 0.5, 0.5}, 0.01F), box_at({-5, -5, -5}, 0.01F)});
+  EXPECT_EQ(octree.shape.leaf_keys.size(), 1u);
+  const RasterOctree clipped = build_octree(kUnitBox, std::vector<RasterBox>{box_at({1.05, 0.5, 0.5}, 0.1F)});
+  EXPECT_STREQ(octree_defect(clipped.shape.view()), "");
+  EXPECT_GT(clipped.shape.leaf_keys.size(), 1u);
+}
+
+TEST(Octree, stops_at_the_deepest_level) {
+  const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({0.3, 0.3, 0.3}, 1e-12F)});
+  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  EXPECT_EQ(*std::max_element(octree.shape.leaf_levels.begin(), octree.shape.leaf_levels.end()), kMaxLevel);
+}
+
+TEST(Octree, defect_finds_a_broken_link_and_a_gap) {
+  RasterOctree octree = build_octree(kUnitBox, sphere_boxes(50));
+  OctreeShape broken = octree.shape;
+  std::swap(broken.node_children[1], broken.node_children[2]);
+  EXPECT_STRNE(octree_defect(broken.view()), "");
+  broken = octree.shape;
+  broken.leaf_keys[5] += 1;
+  EXPECT_STRNE(octree_defect(broken.view()), "");
+  broken = octree.shape;
+  broken.leaf_levels.pop_back();
+  EXPECT_STRNE(octree_defect(broken.view()), "");
+}
+
+TEST(Octree, finds_the_leaf_whose_box_holds_the_point) {
+  const RasterOctree octree = build_octree(kUnitBox, sphere_boxes(2000));
+  const OctreeView view = octree.shape.view();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 x{uniform(random), uniform(random), uniform(random)};
+    const std::int32_t leaf = view.find_leaf(morton::encode(view.grid_point(x)));
+    const Vec3 c = view.leaf_center(leaf);
+    const double half = 0.5000001 * view.cell_edge(view.leaf_levels[static_cast<std::size_t>(leaf)]);
+    ASSERT_TRUE(std::abs(x.x - c.x) <= half && std::abs(x.y - c.y) <= half && std::abs(x.z - c.z) <= half);
+  }
+}
+
+TEST(Morton, round_trips) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const GridPoint p{static_cast<std::uint32_t>(random()) % kCoordinateEnd, static_cast<std::uint32_t>(random()) % kCoordinateEnd,
+                      static_cast<std::uint32_t>(random()) % kCoordinateEnd};
+    const GridPoint q = morton::decode(morton::encode(p));
+    ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z);
+  }
+}
+
+}  // namespace
+}  // namespace st
