@@ -90,7 +90,23 @@ void apply(const std::string& key, const toml::node& node, const std::string& pa
   }
 }
 
+/// A default as TOML: numbers and booleans bare, text quoted.
+std::string toml_default(const CLI::Option& option) {
+  const std::string type = option.get_type_name(), text = option.get_default_str();
+  const bool is_bare = text == "false" || type.starts_with("NUMBER") || type.starts_with("INTEGER");
+  return is_bare ? text : '"' + text + '"';
+}
+
 }  // namespace
+
+std::string option_file_template(const std::string& tool, const std::vector<const CLI::Option*>& options) {
+  std::string text = "# Options of " + tool + ": remove the # before a line to change it.\n";
+  for (const CLI::Option* option : options) {
+    text += "\n# " + option->get_description() + "\n";
+    text += "# " + option->get_lnames().front() + " = " + toml_default(*option) + "\n";
+  }
+  return text;
+}
 
 void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app) {
   const toml::table file = parse_file(path);

@@ -3,8 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace st {
+
+/// An option file of `tool` that changes nothing: every option at its default, commented out, with its help.
+std::string option_file_template(const std::string& tool, const std::vector<const CLI::Option*>& options);
 
 /// Gives every option named in the TOML file `path` its value, unless the command line has set it. Keys are long option names without
 /// dashes (`lmin = "0.25mm"`, `alpha = 10`); keys in the table [<tool>] hold for that tool alone and override those at the top, so one

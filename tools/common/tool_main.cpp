@@ -80,6 +80,10 @@ CLI::Validator a_length(const std::string& flag) {
       "");
 }
 
+bool has_argument(int argc, char** argv, std::string_view wanted) {
+  return std::any_of(argv + 1, argv + argc, [&](const char* argument) { return argument == wanted; });
+}
+
 std::string usage_message(const CLI::ParseError& e, const std::string& tool) {
   std::string text = e.what();
   for (char& c : text)
@@ -98,6 +102,8 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
   app_.add_option("--options", options_file_, "option file (TOML: long option names without dashes); the command line wins")
       ->type_name("FILE");
+  app_.add_flag_function(
+      "--print-options", [](std::int64_t) {}, "print an option file with every option at its default, commented out, and exit");
   auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
   app_.add_flag("-v,--verbose", verbose_, "say more")->excludes(quiet);
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
@@ -113,6 +119,7 @@ void ToolMain::inputs(const std::string& name, std::vector<std::string>& paths, 
 
 void ToolMain::optional_input(const std::string& flag, std::string& path, const std::string& help) {
   input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE"));
+  file_options_.push_back(input_options_.back());
 }
 
 void ToolMain::output(std::string& path, const std::string& help) {
@@ -126,32 +133,36 @@ void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths,
 }
 
 void ToolMain::length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help) {
-  app_.add_option(flag, value, help)->type_name("LENGTH")->default_str(value.empty() ? default_text : value)->check(a_length(flag));
+  file_options_.push_back(
+      app_.add_option(flag, value, help)->type_name("LENGTH")->default_str(value.empty() ? default_text : value)->check(a_length(flag)));
 }
 
 void ToolMain::unit(const std::string& flag, std::string& value, const std::string& help) {
   const auto check = [](std::string& text) {
     return unit_in_metres(text) ? std::string() : "unknown unit '" + text + "'; write mm, cm, m, in or ft";
   };
-  app_.add_option(flag, value, help)->type_name("UNIT")->check(CLI::Validator(check, ""));
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name("UNIT")->check(CLI::Validator(check, "")));
 }
 
 void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
-  app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval));
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
 }
 
 void ToolMain::number(const std::string& flag, int& value, const std::string& interval, const std::string& help) {
-  app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval));
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval)));
 }
 
-void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) { app_.add_flag(flag, value, help); }
+void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
+  file_options_.push_back(app_.add_flag(flag, value, help)->default_str("false"));
+}
 
 void ToolMain::begin(int argc, char** argv) {
   install_signal_handlers();
-  json_ = std::any_of(argv + 1, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
+  json_ = has_argument(argc, argv, "--json");
 }
 
 std::optional<std::string> ToolMain::parse(int argc, char** argv) {
+  if (has_argument(argc, argv, "--print-options")) return option_file_template(name_, file_options_);
   try {
     app_.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

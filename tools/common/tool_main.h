@@ -73,6 +73,7 @@ class ToolMain {
   int n_ranks_ = 1;
   bool quiet_ = false, verbose_ = false, json_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;
+  std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage
 };
 
 }  // namespace st

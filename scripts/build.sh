@@ -1,0 +1,26 @@
+#!/bin/bash
+# Configures once and builds; says nothing when there is nothing to do.
+# usage: scripts/build.sh BUILD_DIR [cmake options]
+set -eu -o pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$1
+shift
+log=$build/build.log
+mkdir -p "$build"
+
+say() { if [ -t 1 ]; then printf '\r\033[K%s' "$1"; fi; }
+fail() {
+  tail -n 60 "$log" >&2
+  echo "build: error: $1; the whole log is $log" >&2
+  exit 1
+}
+
+if [ ! -f "$build/build.ninja" ]; then
+  echo "build: configuring $build"
+  rm -f "$build/CMakeCache.txt"
+  cmake -S "$root" -B "$build" -G Ninja "$@" > "$log" 2>&1 || fail "cmake failed"
+fi
+if ninja -C "$build" -n 2> /dev/null | grep -q 'no work to do'; then exit 0; fi
+echo "build: compiling (the log is $log)"
+ninja -C "$build" 2>&1 | tee "$log" | while IFS= read -r line; do [[ $line != \[* ]] || say "${line:0:100}"; done || fail "compiling failed"
+say ""

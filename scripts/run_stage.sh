@@ -1,0 +1,36 @@
+#!/bin/bash
+# Runs one stage of the workflow: says what it says, keeps its wall time in OUT/log/<stage>.seconds and its last lines in OUT/log/<stage>.log.
+# usage: scripts/run_stage.sh OUT TOOL ARGUMENTS... -o ARTIFACT ...       exits as the tool does
+# A stage that ends with 5 (incomplete) keeps its artifact as <name>.incomplete.hdf, which no rule trusts, unless ALLOW_INCOMPLETE is 1.
+set -u -o pipefail
+out=$1 tool=$2
+shift
+stage=${tool##*/}
+artifact=
+for ((i = 1; i < $#; ++i)); do [ "${!i}" != -o ] || { next=$((i + 1)); artifact=${!next}; }; done
+log=$out/log/$stage
+mkdir -p "$out/log"
+for leftover in "$(dirname "$artifact")/.$(basename "$artifact").tmp."*; do  # of a run that was killed
+  owner=${leftover##*.tmp.}
+  [ ! -f "$leftover" ] || kill -0 "${owner%%.*}" 2> /dev/null || rm -f "$leftover"
+done
+touch "$out/log/fresh"  # something ran: the report is new
+
+start=${EPOCHREALTIME/[.,]/}
+printf '%s\n' "$(printf '%q ' "$@")" > "$log.log"
+"$@" | tee -a "$log.log"
+status=$?
+stop=${EPOCHREALTIME/[.,]/}
+
+if [ $status -eq 5 ]; then
+  if [ "${ALLOW_INCOMPLETE:-}" = 1 ]; then
+    echo "workflow: going on although $artifact is incomplete" >&2
+    status=0
+  else
+    incomplete=${artifact%.hdf}.incomplete.hdf
+    [ ! -f "$artifact" ] || mv "$artifact" "$incomplete"
+    echo "workflow: error: $incomplete is incomplete; look at it, or go on with ALLOW_INCOMPLETE=1" >&2
+  fi
+fi
+[ $status -ne 0 ] || printf '%d.%03d\n' $(((stop - start) / 1000000)) $((((stop - start) / 1000) % 1000)) > "$log.seconds"
+exit $status

@@ -1,0 +1,60 @@
+#!/bin/bash
+# Installs the Debian packages that are missing; does nothing, and needs neither root nor network, when none is.
+# usage: scripts/setup.sh [build|check] [--list]      build: to build and run; check: also to run all tests
+set -eu -o pipefail
+
+build_packages=(
+  g++ cmake ninja-build
+  libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev libocct-data-exchange-dev
+  libtbb-dev  # OpenCASCADE's CMake targets name it without depending on it
+  libhdf5-dev libopenmpi-dev openmpi-bin
+  libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
+)
+check_packages=(
+  libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
+  libcgal-dev  # the independent judge of meshes, tests only
+)
+
+role=build list=
+for argument in "$@"; do
+  case $argument in
+    build | check) role=$argument ;;
+    --list) list=1 ;;
+    *) echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check] [--list]" >&2; exit 2 ;;
+  esac
+done
+wanted=("${build_packages[@]}")
+[ "$role" = build ] || wanted+=("${check_packages[@]}")
+if [ -n "$list" ]; then
+  printf '%s\n' "${wanted[@]}"
+  exit 0
+fi
+
+if ! command -v dpkg-query > /dev/null; then
+  echo "setup: this is not a Debian system; make sure that the equivalents of these are installed: ${wanted[*]}" >&2
+  exit 0
+fi
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+echo "setup: installing ${missing[*]}"
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo > /dev/null; then
+    echo "setup: error: packages are missing and this is neither root nor a machine with sudo; as root: apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@"; }
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { apt update && apt install -y --no-install-recommends "${missing[@]}"; } > "$log" 2>&1; then
+  tail -n 30 "$log" >&2
+  echo "setup: error: apt-get could not install ${missing[*]}; see the lines above" >&2
+  exit 1
+fi

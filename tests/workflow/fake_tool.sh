@@ -1,0 +1,32 @@
+#!/bin/bash
+# Stands for every tool of the chain in the tests of the make rules: copies what it was given into its output, atomically.
+# FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact); FAKE_KILL=<tool> makes it hang over a half-written temporary.
+set -eu
+tool=$(basename "$0")
+if [ "${1-}" = --print-options ]; then echo "# options of $tool"; exit 0; fi
+echo "$tool" >> "${FAKE_LOG:?}"
+inputs=() output=
+while [ $# -gt 0 ]; do
+  case $1 in
+    -o) output=$2; shift 2 ;;
+    --np) shift 2 ;;
+    --options | --geometry | --sizing) inputs+=("$2"); shift 2 ;;
+    --*) shift ;;
+    *) inputs+=("$1"); shift ;;
+  esac
+done
+if [ -z "$output" ]; then
+  echo "$tool says fine"
+  [ "$tool" != st-check ] || exit "${FAKE_CHECK:-0}"
+  exit 0
+fi
+temporary=$(dirname "$output")/.$(basename "$output").tmp.$$.0
+{ echo "$tool"; cat "${inputs[@]}"; } > "$temporary"
+if [ "${FAKE_KILL:-}" = "$tool" ]; then
+  echo $$ > "$FAKE_LOG.pid"
+  exec sleep 60
+fi
+[ "${FAKE_FAIL:-}" != "$tool 3" ] || { rm "$temporary"; echo "$tool: error: told to" >&2; exit 3; }
+mv "$temporary" "$output"
+[ "${FAKE_FAIL:-}" != "$tool 5" ] || exit 5
+echo "$output: made"
