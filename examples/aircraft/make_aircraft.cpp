@@ -1,0 +1,154 @@
+// make_aircraft OUT.step: writes the bundled example, a generic transport aircraft in a half box of air, and checks it.
+// Exit codes as those of the tools: 0 ok, 2 usage, 4 the geometry is not valid or not written as intended.
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Solid.hxx>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "parts.h"
+#include "step_file.h"
+
+namespace aircraft {
+namespace {
+
+/// What the program promises about its result.
+struct Report {
+  int n_solids = 0, n_shells = 0, n_faces = 0, n_edges = 0, n_open_edges = 0;
+  double shortest_edge = std::numeric_limits<double>::max();  ///< m
+  double largest_tolerance = 0;                               ///< m
+  double volume = 0, wetted_area = 0;                         ///< m3, m2 without symmetry plane and far field
+  bool is_valid = false;
+  std::map<std::string, int> faces_per_group;
+};
+
+/// The air: far field minus all parts, in one operation.
+TopoDS_Shape subtract(const TopoDS_Solid& far_field, const std::vector<Part>& parts) {
+  TopTools_ListOfShape air, bodies;
+  air.Append(far_field);
+  for (const Part& part : parts) bodies.Append(part.solid);
+  BRepAlgoAPI_Cut cut;
+  cut.SetArguments(air);
+  cut.SetTools(bodies);
+  cut.Build();
+  if (cut.HasErrors()) {
+    std::ostringstream why;
+    cut.DumpErrors(why);
+    throw std::runtime_error("the boolean operation failed: " + why.str());
+  }
+  TopExp_Explorer solids(cut.Shape(), TopAbs_SOLID);
+  return solids.More() ? solids.Current() : cut.Shape();
+}
+
+double length(const TopoDS_Edge& edge) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
+  return properties.Mass();
+}
+
+void measure_edges(const TopoDS_Shape& shape, Report& report) {
+  TopTools_IndexedDataMapOfShapeListOfShape edge_faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edge_faces);
+  report.n_edges = edge_faces.Extent();
+  for (int i = 1; i <= edge_faces.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edge_faces.FindKey(i));
+    report.largest_tolerance = std::max(report.largest_tolerance, BRep_Tool::Tolerance(edge));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    if (edge_faces(i).Extent() != 2) ++report.n_open_edges;
+    report.shortest_edge = std::min(report.shortest_edge, length(edge));
+  }
+}
+
+Report inspect(const TopoDS_Shape& shape, const NameTable& names) {
+  Report report;
+  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) ++report.n_solids;
+  for (TopExp_Explorer it(shape, TopAbs_SHELL); it.More(); it.Next()) ++report.n_shells;
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  report.n_faces = faces.Extent();
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    const std::string& name = names.of(TopoDS::Face(faces(i)));
+    ++report.faces_per_group[name];
+    if (name == "symmetry" || name == "farfield") continue;
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(faces(i), properties);
+    report.wetted_area += properties.Mass();
+  }
+  measure_edges(shape, report);
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  report.volume = properties.Mass();
+  report.is_valid = BRepCheck_Analyzer(shape).IsValid();
+  return report;
+}
+
+void print(const Report& r) {
+  for (const auto& [name, n] : r.faces_per_group) std::printf("%4d faces  %s\n", n, name.c_str());
+  std::printf("solids %d, shells %d, faces %d, edges %d (open %d), shortest edge %.4g m, largest tolerance %.2g m\n", r.n_solids,
+              r.n_shells, r.n_faces, r.n_edges, r.n_open_edges, r.shortest_edge, r.largest_tolerance);
+  std::printf("volume %.6g m3, wetted area %.6g m2, %s\n", r.volume, r.wetted_area, r.is_valid ? "valid" : "NOT VALID");
+}
+
+/// @throws std::runtime_error naming the first promise that is not kept.
+void check(const Report& r) {
+  constexpr double kShortestEdge = 2e-3;  // m: the thinnest trailing edge is longer; anything shorter is a sliver of the boolean operation
+  const auto require = [](bool kept, const char* promise) {
+    if (!kept) throw std::runtime_error(std::string("promise not kept: ") + promise);
+  };
+  require(r.is_valid, "the shape is valid");
+  require(r.n_solids == 1, "the air is one solid");
+  require(r.n_open_edges == 0, "every edge has two faces");
+  require(r.volume > 0, "the volume is positive");
+  require(r.shortest_edge >= kShortestEdge, "no edge is shorter than 2 mm");
+  require(r.n_faces >= 150, "the model has some hundred faces");
+}
+
+void make(const std::string& path) {
+  NameTable names;
+  const std::vector<Part> parts = make_parts(names);
+  const TopoDS_Shape air = subtract(make_far_field(names), parts);
+  const Report report = inspect(air, names);
+  print(report);
+  write_step(path, "transport_aircraft", air, names);
+  if (read_face_names(path) != report.faces_per_group)
+    throw std::runtime_error("the names of the faces in '" + path + "' are not those of the model");
+  check(report);
+  std::printf("%s\n", path.c_str());
+}
+
+}  // namespace
+}  // namespace aircraft
+
+int main(int argc, char** argv) {
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fprintf(stderr,
+                 "usage: make_aircraft OUT.step\nWrites a generic transport aircraft (half configuration, metres) in a half box of air.\n");
+    return 2;
+  }
+  Message::DefaultMessenger()->ChangePrinters().Clear();  // no chatter of the STEP translator
+  try {
+    aircraft::make(argv[1]);
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    std::fprintf(stderr, "make_aircraft: OpenCASCADE: %s\n", failure.GetMessageString());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "make_aircraft: %s\n", error.what());
+  }
+  return 4;
+}
