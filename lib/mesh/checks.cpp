@@ -1,0 +1,197 @@
+#include "mesh/checks.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "mesh/adjacency.h"
+#include "mesh/crossing.h"
+
+namespace st {
+
+namespace {
+
+Vec3 corner(const SurfaceMesh& mesh, TriangleId t, int k) { return mesh.node_xyz[mesh.triangles[t].n[k]]; }
+
+/// Twice the area vector.
+Vec3 area_vector(const SurfaceMesh& mesh, TriangleId t) {
+  const Vec3 a = corner(mesh, t, 0);
+  return cross(corner(mesh, t, 1) - a, corner(mesh, t, 2) - a);
+}
+
+Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) { return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3; }
+
+bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
+
+DefectPlace at_edge(const SurfaceMesh& mesh, NodeId a, NodeId b, std::span<const SideId> sides) {
+  return {0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3], sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone};
+}
+
+/// Finds the CAD edges that a mesh edge lies on, to see what the CAD allows there.
+class CadEdgeLookup {
+ public:
+  CadEdgeLookup(const SurfaceMesh& mesh, const CadEdges& cad) : mesh_(mesh) {
+    for (std::size_t e = 0; 2 * e < cad.edge_vertices.size(); ++e)
+      edges_between_.emplace(std::minmax({cad.edge_vertices[2 * e], cad.edge_vertices[2 * e + 1]}), static_cast<EdgeId>(e));
+  }
+  /// Whether `flags` is set for a CAD edge under the mesh edge (a, b).
+  bool is_allowed(std::span<const std::uint8_t> flags, NodeId a, NodeId b) const {
+    if (flags.empty()) return false;
+    if (dim(a) < dim(b)) std::swap(a, b);
+    if (dim(a) == 1) return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b] : flags[mesh_.node_entity[a]] != 0;
+    if (dim(a) != 0) return false;
+    const auto [begin, end] = edges_between_.equal_range(std::minmax({mesh_.node_entity[a], mesh_.node_entity[b]}));
+    return std::any_of(begin, end, [&](const auto& pair) { return flags[pair.second] != 0; });
+  }
+
+ private:
+  int dim(NodeId n) const { return mesh_.node_entity_dim[n]; }
+  const SurfaceMesh& mesh_;
+  std::multimap<std::pair<VertexId, VertexId>, EdgeId> edges_between_;
+};
+
+/// The node of a side's triangle that is not on the side.
+NodeId opposite(const SurfaceMesh& mesh, SideId side) { return mesh.triangles[side / 3].n[(side % 3 + 2) % 3]; }
+
+/// Duplicates among the triangles on the edge between their two lowest nodes.
+void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideId> sides, Defects& duplicates) {
+  if (sides.size() < 2) return;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const NodeId third = opposite(mesh, sides[i]);
+    if (third < high) continue;
+    const bool is_repeated = std::any_of(sides.begin(), sides.begin() + i, [&](SideId s) { return opposite(mesh, s) == third; });
+    if (is_repeated) duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone});
+  }
+}
+
+/// Joins the corners that an edge puts into one fan, at both of its nodes.
+void join_fans(const SurfaceMesh& mesh, std::span<const SideId> sides, DisjointSets& corners) {
+  const auto corner_at = [&](SideId s, NodeId n) { return mesh.triangles[s / 3].n[s % 3] == n ? s : s / 3 * 3 + (s % 3 + 1) % 3; };
+  const NodeId a = side_start(mesh.triangles, sides[0]), b = mesh.triangles[sides[0] / 3].n[(sides[0] % 3 + 1) % 3];
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    corners.join(corner_at(sides[0], a), corner_at(sides[i], a));
+    corners.join(corner_at(sides[0], b), corner_at(sides[i], b));
+  }
+}
+
+void find_pinched_nodes(const SurfaceMesh& mesh, DisjointSets& corners, Defects& pinched) {
+  std::vector<std::uint8_t> n_fans(mesh.n_nodes(), 0);
+  for (std::int32_t c = 0; c < 3 * static_cast<std::int32_t>(mesh.n_triangles()); ++c) {
+    const Triangle& t = mesh.triangles[c / 3];
+    if (has_repeated_node(t) || corners.find(c) != c) continue;
+    if (++n_fans[t.n[c % 3]] == 2) pinched.add({mesh.node_xyz[t.n[c % 3]], mesh.triangle_face[c / 3], kNone});
+    n_fans[t.n[c % 3]] = std::min<std::uint8_t>(n_fans[t.n[c % 3]], 3);
+  }
+}
+
+}  // namespace
+
+TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
+  TopologyReport r;
+  const CadEdgeLookup lookup(mesh, cad);
+  DisjointSets corners(3 * mesh.n_triangles());
+  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    ++r.n_edges;
+    if (sides.size() == 1) {
+      if (lookup.is_allowed(cad.may_be_open, a, b)) ++r.n_cad_boundary_edges;
+      else r.boundary_edges.add(at_edge(mesh, a, b, sides));
+    } else if (sides.size() > 2) {
+      if (lookup.is_allowed(cad.may_be_nonmanifold, a, b)) ++r.n_cad_nonmanifold_edges;
+      else r.nonmanifold_edges.add(at_edge(mesh, a, b, sides));
+    } else if (run_alike(mesh.triangles, sides[0], sides[1])) {
+      r.misoriented_edges.add(at_edge(mesh, a, b, sides));
+    }
+    find_duplicates(mesh, b, sides, r.duplicate_triangles);
+    join_fans(mesh, sides, corners);
+  });
+  std::int64_t n_repeated = 0;
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+    if (has_repeated_node(mesh.triangles[t])) ++n_repeated, r.repeated_nodes.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
+  find_pinched_nodes(mesh, corners, r.pinched_nodes);
+  const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), r.n_components);
+  r.n_used_nodes = mesh.n_nodes() - std::count(component.begin(), component.end(), kNone);
+  r.euler = r.n_used_nodes - r.n_edges + mesh.n_triangles() - n_repeated;
+  r.genus = r.n_components - r.euler / 2;
+  return r;
+}
+
+namespace {
+
+void measure_areas(const SurfaceMesh& mesh, ShapeReport& r) {
+  Box3 box;
+  for (const Vec3 p : mesh.node_xyz) box.add(p);
+  const Vec3 origin = box.center();
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const Vec3 v = area_vector(mesh, t);
+    const auto face = static_cast<std::size_t>(mesh.triangle_face[t]);
+    if (face >= r.face_area.size()) r.face_area.resize(face + 1, 0);
+    r.face_area[face] += 0.5 * norm(v);
+    r.volume += dot(corner(mesh, t, 0) - origin, v) / 6;
+  }
+  for (const double a : r.face_area) r.area += a;
+}
+
+void find_folds(const SurfaceMesh& mesh, Defects& folds) {
+  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      const TriangleId s = sides[0] / 3, t = sides[i] / 3;
+      if (mesh.triangle_face[s] != mesh.triangle_face[t]) continue;
+      const Vec3 ns = area_vector(mesh, s), nt = area_vector(mesh, t);
+      const double cosine = dot(ns, nt) * (run_alike(mesh.triangles, sides[0], sides[i]) ? -1 : 1);
+      if (cosine < kFoldCosine * norm(ns) * norm(nt)) folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
+    }
+  });
+}
+
+/// Any face that uses each node, for places.
+FaceId face_of(const SurfaceMesh& mesh, NodeId n) {
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+    for (const NodeId m : mesh.triangles[t].n)
+      if (m == n) return mesh.triangle_face[t];
+  return kNone;
+}
+
+void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
+  std::int32_t n_components = 0;
+  const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
+  std::vector<NodeId> order;
+  for (NodeId n = 0; n < mesh.n_nodes(); ++n)
+    if (component[n] != kNone) order.push_back(n);
+  const auto key = [&](NodeId n) {
+    const Vec3 p = mesh.node_xyz[n];
+    return std::tuple(component[n], p.x, p.y, p.z);
+  };
+  std::sort(order.begin(), order.end(), [&](NodeId a, NodeId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::vector<NodeId> found;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]) == key(order[i - 1])) found.push_back(order[i]);
+  std::sort(found.begin(), found.end());
+  for (std::size_t i = 0; i < found.size(); ++i) duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
+}
+
+}  // namespace
+
+ShapeReport check_shape(const SurfaceMesh& mesh) {
+  ShapeReport r;
+  r.face_area.assign(mesh.face_name.size(), 0);
+  measure_areas(mesh, r);
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+    if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t])) r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
+  find_duplicate_nodes(mesh, r.duplicate_nodes);
+  find_folds(mesh, r.folds);
+  return r;
+}
+
+CrossingReport check_crossings(const SurfaceMesh& mesh) {
+  CrossingReport r;
+  std::int32_t n_components = 0;
+  const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
+  for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
+    const bool is_contact = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
+    Defects& kind = is_contact ? r.contacts : p.n_shared ? r.overlapping_neighbours : r.crossings;
+    kind.add({centroid(mesh, p.a), mesh.triangle_face[p.a], mesh.triangle_face[p.b]});
+  }
+  return r;
+}
+
+}  // namespace st
