@@ -1,0 +1,312 @@
+#include "geometry/cad_reader.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BinTools.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <OSD.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <TCollection_AsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TColStd_HSequenceOfExtendedString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace st::occt {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) { throw Error(ExitCode::kInput, path + ": " + why); }
+
+std::string format_of(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code code;
+  if (!fs::exists(path, code)) fail(path, "no such file; check the path");
+  if (fs::is_directory(path, code)) fail(path, "is a directory; give a STEP, IGES or BREP file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(path, "cannot be opened; check its permissions");
+  std::string head(4096, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  if (head.empty()) fail(path, "empty file; export the model again");
+  if (head.find("ISO-10303-21") != std::string::npos) return "STEP";
+  if (head.find("DBRep_DrawableShape") != std::string::npos || head.find("CASCADE Topology V") != std::string::npos) return "BREP";
+  if (head.compare(0, 8, "\x89HDF\r\n\x1a\n") == 0) fail(path, "is an HDF5 artifact, not a CAD file; give a STEP, IGES or BREP file");
+  const std::size_t line_end = head.find_first_of("\r\n");
+  if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C')) return "IGES";
+  if (head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79])) return "IGES";
+  fail(path, "not a STEP, IGES or BREP file; export the model as STEP");
+}
+
+bool is_junk(const std::string& name) {
+  return name.empty() || name == "NONE" || name == "FACE" || name == "''" || name == " " || name == "SHELL" || name == "SOLID" ||
+         name == "COMPOUND" || name == "EDGE" || name == "=>";
+}
+
+std::string name_of(const TDF_Label& label) {
+  Handle(TDataStd_Name) attribute;
+  if (label.IsNull() || !label.FindAttribute(TDataStd_Name::GetID(), attribute)) return {};
+  const TCollection_ExtendedString wide = attribute->Get();
+  std::vector<char> utf8(static_cast<std::size_t>(wide.LengthOfCString()) + 1, '\0');
+  Standard_PCharacter out = utf8.data();
+  wide.ToUTF8CString(out);
+  const std::string text = utf8.data();
+  return is_junk(text) ? std::string() : text;
+}
+
+std::int32_t rgb(const Quantity_Color& c) {
+  double r, g, b;
+  c.Values(r, g, b, Quantity_TOC_sRGB);
+  const auto byte = [](double x) { return static_cast<std::int32_t>(std::lround(255 * std::min(1.0, std::max(0.0, x)))); };
+  return byte(r) << 16 | byte(g) << 8 | byte(b);
+}
+
+/// Colours, layers and names of one document, inherited face <- shell/solid <- part.
+class DocumentReader {
+ public:
+  explicit DocumentReader(const Handle(TDocStd_Document)& document)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+        colors_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
+        layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
+
+  std::vector<CadPart> parts() {
+    std::vector<CadPart> result;
+    TDF_LabelSequence free;
+    shapes_->GetFreeShapes(free);
+    for (int i = 1; i <= free.Length(); ++i) visit(free.Value(i), TopLoc_Location(), {}, result);
+    return result;
+  }
+
+ private:
+  struct Style {
+    std::int32_t color = -1;
+    std::string layer, name;
+  };
+
+  Style style_of(const TDF_Label& label, Style inherited) {
+    Quantity_Color color;
+    if (colors_->GetColor(label, XCAFDoc_ColorSurf, color) || colors_->GetColor(label, XCAFDoc_ColorGen, color)) inherited.color = rgb(color);
+    Handle(TColStd_HSequenceOfExtendedString) names;
+    if (layers_->GetLayers(label, names) && !names.IsNull() && names->Length() > 0)
+      inherited.layer = TCollection_AsciiString(names->Value(1)).ToCString();
+    if (std::string name = name_of(label); !name.empty()) inherited.name = name;
+    return inherited;
+  }
+
+  void visit(const TDF_Label& label, const TopLoc_Location& location, const Style& inherited, std::vector<CadPart>& result) {
+    Style style = style_of(label, inherited);
+    TDF_Label target = label;
+    TopLoc_Location place = location;
+    if (XCAFDoc_ShapeTool::IsReference(label)) {
+      XCAFDoc_ShapeTool::GetReferredShape(label, target);
+      place = location * XCAFDoc_ShapeTool::GetLocation(label);
+      Style own = style_of(target, Style());
+      if (style.color < 0) style.color = own.color;
+      if (style.layer.empty()) style.layer = own.layer;
+      if (!own.name.empty()) style.name = own.name;
+    }
+    if (XCAFDoc_ShapeTool::IsAssembly(target)) {
+      TDF_LabelSequence children;
+      XCAFDoc_ShapeTool::GetComponents(target, children);
+      for (int i = 1; i <= children.Length(); ++i) visit(children.Value(i), place, style, result);
+      return;
+    }
+    const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(target);
+    if (!shape.IsNull()) result.push_back(leaf(target, shape, place, style));
+  }
+
+  CadPart leaf(const TDF_Label& label, const TopoDS_Shape& shape, const TopLoc_Location& place, const Style& style) {
+    CadPart part;
+    part.shape = shape.Moved(place);
+    part.name = style.name;
+    // sub-shape styles: solids and shells first, faces override
+    struct Sub {
+      TopTools_IndexedMapOfShape members;
+      Style style;
+    };
+    std::vector<Sub> subs;
+    for (const auto kind : {TopAbs_SOLID, TopAbs_SHELL}) {
+      TopTools_IndexedMapOfShape map;
+      TopExp::MapShapes(shape, kind, map);
+      for (int i = 1; i <= map.Extent(); ++i) {
+        TDF_Label sub;
+        if (!shapes_->FindSubShape(label, map(i), sub)) continue;
+        subs.emplace_back();
+        subs.back().style = style_of(sub, Style());
+        TopExp::MapShapes(map(i), TopAbs_FACE, subs.back().members);
+      }
+    }
+    TopTools_IndexedMapOfShape faces, edges;
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    for (int i = 1; i <= faces.Extent(); ++i) {
+      Style s;
+      s.color = style.color;
+      s.layer = style.layer;
+      for (const Sub& sub : subs)
+        if (sub.members.Contains(faces(i))) {
+          if (sub.style.color >= 0) s.color = sub.style.color;
+          if (!sub.style.layer.empty()) s.layer = sub.style.layer;
+        }
+      TDF_Label sub;
+      if (shapes_->FindSubShape(label, faces(i), sub)) s = style_of(sub, s);
+      part.faces.push_back({faces(i).Moved(place), s.name, s.layer, s.color});
+    }
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i) {
+      TDF_Label sub;
+      if (!shapes_->FindSubShape(label, edges(i), sub)) continue;
+      if (std::string name = name_of(sub); !name.empty()) part.edges.push_back({edges(i).Moved(place), name});
+    }
+    return part;
+  }
+
+  Handle(XCAFDoc_ShapeTool) shapes_;
+  Handle(XCAFDoc_ColorTool) colors_;
+  Handle(XCAFDoc_LayerTool) layers_;
+};
+
+Handle(TDocStd_Document) new_document() {
+  Handle(TDocStd_Document) document;
+  XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
+  return document;
+}
+
+void step_units(const Handle(Interface_InterfaceModel)& model, CadFile& file) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    Handle(StepRepr_GlobalUnitAssignedContext) context;
+    if (const auto a = Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(model->Value(i)))
+      context = a->GlobalUnitAssignedContext();
+    else if (const auto b = Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(model->Value(i)))
+      context = b->GlobalUnitAssignedContext();
+    if (context.IsNull()) continue;
+    STEPConstruct_UnitContext units;
+    units.ComputeFactors(context);
+    if (!units.LengthDone()) continue;
+    const double factor = units.LengthFactor();
+    if (!file.unit_in_mm)
+      file.unit_in_mm = factor;
+    else if (std::abs(*file.unit_in_mm - factor) > 1e-9 * factor)
+      file.has_mixed_units = true;
+  }
+  if (!file.unit_in_mm) file.unit_in_mm = 1.0;
+}
+
+CadFile read_step(const std::string& path) {
+  STEPCAFControl_Controller::Init();
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  Handle(TDocStd_Document) document = new_document();
+  STEPCAFControl_Reader reader;
+  reader.SetNameMode(true);
+  reader.SetColorMode(true);
+  reader.SetLayerMode(true);
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) fail(path, "the STEP file cannot be parsed; export the model again");
+  CadFile file;
+  file.format = "STEP";
+  step_units(reader.Reader().WS()->Model(), file);
+  if (!reader.Transfer(document)) fail(path, "no shape could be made of the STEP file; export the model again");
+  file.parts = DocumentReader(document).parts();
+  // names that XCAF kept no label for: from the STEP entity itself
+  const Handle(XSControl_TransferReader) transfer = reader.Reader().WS()->TransferReader();
+  for (CadPart& part : file.parts)
+    for (auto& face : part.faces) {
+      if (!face.name.empty()) continue;
+      const auto item = Handle(StepRepr_RepresentationItem)::DownCast(transfer->EntityFromShapeResult(face.face.Located(TopLoc_Location()), 1));
+      if (!item.IsNull() && !item->Name().IsNull() && !is_junk(item->Name()->ToCString())) face.name = item->Name()->ToCString();
+    }
+  XCAFApp_Application::GetApplication()->Close(document);
+  return file;
+}
+
+CadFile read_iges(const std::string& path) {
+  IGESControl_Controller::Init();
+  Handle(TDocStd_Document) document = new_document();
+  IGESCAFControl_Reader reader;
+  reader.SetNameMode(true);
+  reader.SetColorMode(true);
+  reader.SetLayerMode(true);
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) fail(path, "the IGES file cannot be parsed; export the model again");
+  CadFile file;
+  file.format = "IGES";
+  const auto model = Handle(IGESData_IGESModel)::DownCast(reader.WS()->Model());
+  file.unit_in_mm = model->GlobalSection().UnitValue();
+  file.resolution_mm = model->GlobalSection().Resolution() * model->GlobalSection().UnitValue();
+  if (!(*file.unit_in_mm > 0)) file.unit_in_mm = 1.0;
+  if (!reader.Transfer(document)) fail(path, "no shape could be made of the IGES file; export the model again");
+  file.parts = DocumentReader(document).parts();
+  XCAFApp_Application::GetApplication()->Close(document);
+  return file;
+}
+
+CadFile read_brep(const std::string& path) {
+  CadFile file;
+  file.format = "BREP";
+  CadPart part;
+  std::ifstream in(path, std::ios::binary);
+  std::string head(64, '\0');
+  in.read(head.data(), 64);
+  in.clear();
+  in.seekg(0);
+  const bool is_binary = head.find("Open CASCADE Topology V") != std::string::npos && head.find("DBRep") == std::string::npos;
+  if (is_binary) {
+    BinTools::Read(part.shape, in);
+  } else {
+    BRep_Builder builder;
+    BRepTools::Read(part.shape, in, builder);
+  }
+  if (part.shape.IsNull()) fail(path, "the BREP file cannot be parsed; export the model again");
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(part.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) part.faces.push_back({faces(i), {}, {}, -1});
+  file.parts.push_back(std::move(part));
+  return file;
+}
+
+}  // namespace
+
+CadFile read_cad(const std::string& path) {
+  const std::string format = format_of(path);
+  OSD::SetSignal(false);
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  try {
+    return format == "STEP" ? read_step(path) : format == "IGES" ? read_iges(path) : read_brep(path);
+  } catch (const Standard_Failure& e) {
+    const char* text = e.GetMessageString();
+    fail(path, "reading the " + format + " file failed (" + (text && *text ? text : e.DynamicType()->Name()) + "); export the model again");
+  }
+}
+
+}  // namespace st::occt

@@ -1,0 +1,40 @@
+// STEP, IGES and BREP files to one shape with names, colours and layers. Included inside lib/geometry only.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace st::occt {
+
+/// One leaf part of the file, already in place, with what the file says of its faces.
+struct CadPart {
+  TopoDS_Shape shape;
+  std::string name;                          ///< UTF-8
+  struct FaceAttributes {
+    TopoDS_Shape face;
+    std::string name, layer;
+    std::int32_t color = -1;
+  };
+  std::vector<FaceAttributes> faces;         ///< in TopExp order
+  struct EdgeName {
+    TopoDS_Shape edge;
+    std::string name;
+  };
+  std::vector<EdgeName> edges;
+};
+
+struct CadFile {
+  std::string format;                        ///< "STEP", "IGES", "BREP"
+  std::vector<CadPart> parts;
+  std::optional<double> unit_in_mm;          ///< of the file; nullopt: none (BREP)
+  bool has_mixed_units = false;
+  double resolution_mm = 0;                  ///< tolerance the file states, 0 when none
+};
+
+/// Coordinates in mm (STEP, IGES) or as they are (BREP). Throws st::Error(kInput).
+CadFile read_cad(const std::string& path);
+
+}  // namespace st::occt
