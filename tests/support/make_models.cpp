@@ -1,0 +1,162 @@
+// Writes the small CAD models of the tests: make_models DIR
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Quantity_Color.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <Standard_Failure.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Application.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Face.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void require(bool ok, const fs::path& path) {
+  if (!ok) throw std::runtime_error("cannot write " + path.string());
+}
+
+void write_brep(const fs::path& path, const TopoDS_Shape& shape) { require(BRepTools::Write(shape, path.c_str()), path); }
+
+/// `unit` as OpenCASCADE spells it ("MM", "INCH", "M"); the shape's numbers are millimetres.
+void write_step(const fs::path& path, const TopoDS_Shape& shape, const char* unit) {
+  STEPControl_Controller::Init();
+  require(Interface_Static::SetCVal("write.step.unit", unit), path);
+  STEPControl_Writer writer;
+  require(writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone, path);
+  Interface_Static::SetCVal("write.step.unit", "MM");
+}
+
+void write_iges(const fs::path& path, const TopoDS_Shape& shape) {
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer("MM", 0);  // 0: loose faces, as most IGES files have them
+  require(writer.AddShape(shape) && writer.Write(path.c_str()), path);
+}
+
+TopoDS_Shape box(double x, double y, double z) { return BRepPrimAPI_MakeBox(x, y, z).Shape(); }
+
+TopoDS_Shape block_with_hole() {
+  const gp_Ax2 axis(gp_Pnt(30, 20, -5), gp_Dir(0, 0, 1));
+  return BRepAlgoAPI_Cut(box(60, 40, 20), BRepPrimAPI_MakeCylinder(axis, 8, 30).Shape()).Shape();
+}
+
+/// One planar face with a round hole: an open model.
+TopoDS_Shape plate_with_hole() {
+  const TopoDS_Shape disc = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(30, 20, -5), gp_Dir(0, 0, 1)), 8, 10).Shape();
+  const TopoDS_Shape plate = BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), 0, 60, 0, 40).Shape();
+  return BRepAlgoAPI_Cut(plate, disc).Shape();
+}
+
+TopoDS_Shape two_boxes_apart() {
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, box(10, 10, 10));
+  gp_Trsf shift;
+  shift.SetTranslation(gp_Vec(30, 0, 0));
+  builder.Add(both, BRepBuilderAPI_Transform(box(10, 10, 10), shift, true).Shape());
+  return both;
+}
+
+void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
+
+/// An assembly: a named block, and two instances of a pin of which one face has a name and a colour.
+void write_assembly(const fs::path& path) {
+  STEPCAFControl_Controller::Init();
+  Handle(TDocStd_Document) document;
+  const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
+  application->NewDocument("MDTV-XCAF", document);
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const Handle(XCAFDoc_ColorTool) colors = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const TopoDS_Shape block = box(60, 40, 20), pin = BRepPrimAPI_MakeCylinder(4, 15).Shape();
+  const TDF_Label assembly = shapes->NewShape(), block_label = shapes->AddShape(block, false), pin_label = shapes->AddShape(pin, false);
+  name(assembly, "assembly");
+  name(block_label, "block");
+  name(pin_label, "pin");
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(pin, TopAbs_FACE, faces);
+  const TDF_Label face_label = shapes->AddSubShape(pin_label, faces(1));
+  name(face_label, "pin_mantle");
+  colors->SetColor(face_label, Quantity_Color(1, 0, 0, Quantity_TOC_RGB), XCAFDoc_ColorSurf);
+  shapes->AddComponent(assembly, block_label, TopLoc_Location());
+  for (const double x : {100.0, 150.0}) {
+    gp_Trsf place;
+    place.SetTranslation(gp_Vec(x, 0, 0));
+    shapes->AddComponent(assembly, pin_label, TopLoc_Location(place));
+  }
+  shapes->UpdateAssemblies();
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  STEPCAFControl_Writer writer;
+  writer.SetNameMode(true);
+  writer.SetColorMode(true);
+  require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone, path);
+  application->Close(document);
+}
+
+void write_all(const fs::path& dir) {
+  fs::create_directories(dir);
+  const gp_Ax2 z(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+  write_step(dir / "box.step", box(60, 40, 20), "MM");
+  write_step(dir / "box_inch.step", box(60, 40, 20), "INCH");
+  write_iges(dir / "box.igs", box(60, 40, 20));
+  write_brep(dir / "box.brep", box(60, 40, 20));
+  write_brep(dir / "sphere.brep", BRepPrimAPI_MakeSphere(10).Shape());
+  write_brep(dir / "cylinder.brep", BRepPrimAPI_MakeCylinder(10, 30).Shape());
+  write_brep(dir / "cone.brep", BRepPrimAPI_MakeCone(z, 10, 0, 20).Shape());
+  write_brep(dir / "torus.brep", BRepPrimAPI_MakeTorus(20, 6).Shape());
+  write_brep(dir / "plate_with_hole.brep", plate_with_hole());
+  write_step(dir / "block_with_hole.step", block_with_hole(), "MM");
+  write_brep(dir / "thin_plate.brep", box(100, 60, 0.2));
+  write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
+  write_assembly(dir / "assembly.step");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_models DIR\n");
+    return 2;
+  }
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  try {
+    write_all(argv[1]);
+  } catch (const Standard_Failure& e) {
+    std::fprintf(stderr, "make_models: error: %s\n", e.GetMessageString());
+    return 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "make_models: error: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,69 @@
+#include "base/length.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+ExitCode code_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    return e.code();
+  }
+  return ExitCode::kOk;
+}
+
+TEST(Length, plain_number_is_in_the_model_unit) {
+  const LengthSpec spec = parse_length("3.5", "--lmin");
+  EXPECT_EQ(spec.kind, LengthSpec::Kind::kModelUnit);
+  EXPECT_EQ(resolve_length(spec, 100, 0.001, "--lmin"), 3.5);
+  EXPECT_EQ(resolve_length(spec, 100, std::nullopt, "--lmin"), 3.5);
+}
+
+TEST(Length, per_cent_is_of_the_diagonal) { EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.1%", "--lmin"), 250, 0.001, "--lmin"), 0.25); }
+
+TEST(Length, unit_is_converted_to_the_model_unit) {
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.25mm", "--lmin"), 1, 1.0, "--lmin"), 0.00025);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("2in", "--lmin"), 1, 0.001, "--lmin"), 50.8);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length(" 2 IN ", "--lmin"), 1, 0.0254, "--lmin"), 2);
+}
+
+TEST(Length, unit_needs_a_model_with_a_unit_and_the_message_names_the_remedy) {
+  try {
+    resolve_length(parse_length("0.25mm", "--lmin"), 1, std::nullopt, "--lmin");
+    FAIL() << "a length with a unit was taken for a model without one";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(e.what()).find("--unit"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("--lmin"), std::string::npos);
+  }
+}
+
+TEST(Length, anything_else_is_a_usage_error_that_names_the_option) {
+  for (const char* text : {"", " ", "x", "mm", "-1", "0", "0%", "1e999", "nan", "inf", "1,5", "3 4", "3pt", "1mm2", "%", "1%%"})
+    EXPECT_EQ(code_of([&] { parse_length(text, "--lmax"); }), ExitCode::kUsage) << "'" << text << "'";
+  try {
+    parse_length("3pt", "--lmax");
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).find("--lmax: '3pt'"), 0u);
+  }
+}
+
+TEST(Length, unit_names_are_known_in_any_case_and_spelling) {
+  EXPECT_EQ(unit_in_metres("mm"), 1e-3);
+  EXPECT_EQ(unit_in_metres("MILLIMETRE"), 1e-3);
+  EXPECT_EQ(unit_in_metres("Inch"), 0.0254);
+  EXPECT_EQ(unit_in_metres("foot"), 0.3048);
+  EXPECT_EQ(unit_in_metres("M"), 1.0);
+  EXPECT_FALSE(unit_in_metres("parsec"));
+  EXPECT_FALSE(unit_in_metres(""));
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,41 @@
+#include "base/log.h"
+
+#include <gtest/gtest.h>
+
+namespace st {
+namespace {
+
+/// What `action` writes to stderr at one verbosity.
+template <class Action>
+std::string said_at(Verbosity v, const Action& action) {
+  set_verbosity(v);
+  testing::internal::CaptureStderr();
+  action();
+  set_verbosity(Verbosity::kNormal);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Log, warnings_show_unless_quiet) {
+  const auto warn = [] { log_warning("w"); };
+  EXPECT_EQ(said_at(Verbosity::kQuiet, warn), "");
+  EXPECT_EQ(said_at(Verbosity::kNormal, warn), "warning: w\n");
+  EXPECT_EQ(said_at(Verbosity::kVerbose, warn), "warning: w\n");
+}
+
+TEST(Log, information_shows_only_when_verbose) {
+  const auto inform = [] { log_info("i"); };
+  EXPECT_EQ(said_at(Verbosity::kQuiet, inform), "");
+  EXPECT_EQ(said_at(Verbosity::kNormal, inform), "");
+  EXPECT_EQ(said_at(Verbosity::kVerbose, inform), "i\n");
+}
+
+TEST(Progress, writes_nothing_where_there_is_no_terminal) {
+  const auto work = [] {
+    Progress progress("faces", 10);
+    progress.update(5);
+  };
+  EXPECT_EQ(said_at(Verbosity::kVerbose, work), "");
+}
+
+}  // namespace
+}  // namespace st
