@@ -115,9 +115,9 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
   return r;
 }
 
-namespace {
-
-void measure_areas(const SurfaceMesh& mesh, ShapeReport& r) {
+MeshMeasure measure_mesh(const SurfaceMesh& mesh) {
+  MeshMeasure r;
+  r.face_area.assign(mesh.face_name.size(), 0);
   Box3 box;
   for (const Vec3 p : mesh.node_xyz) box.add(p);
   const Vec3 origin = box.center();
@@ -129,7 +129,10 @@ void measure_areas(const SurfaceMesh& mesh, ShapeReport& r) {
     r.volume += dot(corner(mesh, t, 0) - origin, v) / 6;
   }
   for (const double a : r.face_area) r.area += a;
+  return r;
 }
+
+namespace {
 
 void find_folds(const SurfaceMesh& mesh, Defects& folds) {
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
@@ -173,8 +176,6 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
 
 ShapeReport check_shape(const SurfaceMesh& mesh) {
   ShapeReport r;
-  r.face_area.assign(mesh.face_name.size(), 0);
-  measure_areas(mesh, r);
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
     if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t])) r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
   find_duplicate_nodes(mesh, r.duplicate_nodes);

@@ -61,11 +61,18 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad = {})
 /// Neighbours of one CAD face whose normals differ by more than this are a fold: cos(148.2 deg).
 inline constexpr double kFoldCosine = -0.85;
 
-/// Where nodes and triangles lie.
-struct ShapeReport {
+/// Areas and volume.
+struct MeshMeasure {
   double area = 0;                       ///< model unit squared
   double volume = 0;                     ///< model unit cubed, signed; meaningful for a closed mesh
   std::vector<double> face_area;         ///< [n_faces] by CAD face
+};
+
+/// Local, linear.
+MeshMeasure measure_mesh(const SurfaceMesh& mesh);
+
+/// Where nodes and triangles lie.
+struct ShapeReport {
   Defects zero_area;                     ///< three different nodes exactly on a line
   Defects duplicate_nodes;               ///< nodes of one component at the coordinates of an earlier one
   Defects folds;                         ///< edges between triangles of one CAD face that turn back on each other (kFoldCosine)

@@ -56,12 +56,12 @@ TEST(Checks, know_genus_components_volume_and_area) {
   const SurfaceMesh pair = shapes::join(shapes::torus(12, 8), shapes::torus(12, 8, 2, 0.5, {9, 0, 0}));
   EXPECT_EQ(check_topology(pair).genus, 2);
   EXPECT_EQ(check_topology(pair).n_components, 2);
-  const ShapeReport cube = check_shape(shapes::cube(4, {5, 6, 7}, 2));
+  const MeshMeasure cube = measure_mesh(shapes::cube(4, {5, 6, 7}, 2));
   EXPECT_NEAR(cube.volume, 8, 1e-12);
   EXPECT_NEAR(cube.area, 24, 1e-12);
   ASSERT_EQ(cube.face_area.size(), 6u);
   for (const double a : cube.face_area) EXPECT_NEAR(a, 4, 1e-12);
-  EXPECT_NEAR(check_shape(shapes::sphere(60)).volume, 4 * kPi / 3, 0.005);
+  EXPECT_NEAR(measure_mesh(shapes::sphere(60)).volume, 4 * kPi / 3, 0.005);
 }
 
 TEST(Checks, find_a_hole_and_its_place) {

@@ -1,0 +1,166 @@
+#include "stages/merge_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "io/artifact.h"
+#include "mesh/checks.h"
+#include "mesh/merge.h"
+
+namespace st {
+
+namespace {
+
+/// Faces without a patch, 1-based, the first of them by number: "3, 17, 20 and 5 more".
+std::string list_faces(std::span<const FaceId> faces) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(faces.size(), kShown); ++i) text += (i ? ", " : "") + std::to_string(faces[i] + 1);
+  return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
+}
+
+std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
+  std::vector<std::uint8_t> is_meshed(patches.face_name.size(), 0);
+  for (const FacePatch& p : patches.patches)
+    if (p.face >= 0 && static_cast<std::size_t>(p.face) < is_meshed.size()) is_meshed[p.face] = 1;
+  std::vector<FaceId> missing;
+  for (std::size_t f = 0; f < is_meshed.size(); ++f)
+    if (!is_meshed[f]) missing.push_back(static_cast<FaceId>(f));
+  return missing;
+}
+
+/// Adds edge e of `from` to `to`. Precondition: edges are added in ascending order.
+void append_edge(const EdgeMesh& from, std::size_t e, EdgeMesh& to) {
+  const std::int32_t begin = from.edge_offsets[e], end = from.edge_offsets[e + 1];
+  to.node_t.insert(to.node_t.end(), from.node_t.begin() + begin, from.node_t.begin() + end);
+  to.node_xyz.insert(to.node_xyz.end(), from.node_xyz.begin() + begin, from.node_xyz.begin() + end);
+  to.node_size.insert(to.node_size.end(), from.node_size.begin() + begin, from.node_size.begin() + end);
+  to.edge_offsets.push_back(static_cast<std::int32_t>(to.node_t.size()));
+}
+
+bool has_same_nodes(const EdgeMesh& a, const EdgeMesh& b, std::size_t e) {
+  const std::int32_t a0 = a.edge_offsets[e], a1 = a.edge_offsets[e + 1], b0 = b.edge_offsets[e], b1 = b.edge_offsets[e + 1];
+  return std::equal(a.node_xyz.begin() + a0, a.node_xyz.begin() + a1, b.node_xyz.begin() + b0, b.node_xyz.begin() + b1);
+}
+
+/// The nodes of edges of two parts; an edge that both have must have the same nodes in both.
+EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& path_a, const std::string& path_b) {
+  if (a.edge_offsets.size() != b.edge_offsets.size()) throw Error(ExitCode::kMismatch, fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
+  EdgeMesh both;
+  both.edge_offsets = {0};
+  for (std::size_t e = 0; e + 1 < a.edge_offsets.size(); ++e) {
+    const bool in_a = a.edge_offsets[e] < a.edge_offsets[e + 1], in_b = b.edge_offsets[e] < b.edge_offsets[e + 1];
+    if (in_a && in_b && !has_same_nodes(a, b, e))
+      throw Error(ExitCode::kMismatch, fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first", e + 1, path_b, path_a));
+    append_edge(in_a ? a : b, e, both);
+  }
+  return both;
+}
+
+/// Parts of one model that were meshed apart, as one.
+void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& path_all, const std::string& path) {
+  require_same_geometry(path_all, all.header, path, part.header);
+  all.edges = unite_edges(all.edges, part.edges, path_all, path);
+  for (FacePatch& p : part.patches) {
+    const auto same = std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
+    if (same != all.patches.end()) throw Error(ExitCode::kMismatch, fmt::format("face {} is meshed in {} and in an earlier part; give each face once", p.face + 1, path));
+    all.patches.push_back(std::move(p));
+  }
+  all.is_complete = find_missing_faces(all).empty();
+}
+
+PatchesArtifact read_parts(const std::vector<std::string>& paths, std::vector<InputRef>& inputs) {
+  if (paths.empty()) throw Error(ExitCode::kUsage, "no patches given; name the artifact of st-mesh");
+  PatchesArtifact all = read_patches(paths[0]);
+  const auto note_input = [&](const std::string& path, const ArtifactHeader& header) {
+    inputs.push_back({"patches", std::filesystem::path(path).filename().string(), header.content_hash});
+  };
+  note_input(paths[0], all.header);
+  for (std::size_t i = 1; i < paths.size(); ++i) {
+    PatchesArtifact part = read_patches(paths[i]);
+    note_input(paths[i], part.header);
+    add_part(all, std::move(part), paths[0], paths[i]);
+  }
+  return all;
+}
+
+void require_complete(const PatchesArtifact& patches, const MergeStageOptions& options) {
+  if (patches.is_complete || options.allow_incomplete) return;
+  const std::vector<FaceId> missing = find_missing_faces(patches);
+  const std::string cause = patches.failures.empty() ? "" : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
+  throw Error(ExitCode::kIncomplete, fmt::format("{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete", options.patches[0],
+                                                 std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ", list_faces(missing), cause));
+}
+
+void warn_of_changes(const OrientationReport& report) {
+  if (!report.turned_faces.empty()) log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(), list_faces(report.turned_faces)));
+  if (report.turned_components) log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components, list_faces(report.inside_out_faces)));
+  if (report.n_one_sided) log_warning(fmt::format("{} parts have one side only and cannot be oriented", report.n_one_sided));
+}
+
+MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs, OrientationReport& report) {
+  MeshArtifact artifact;
+  artifact.header.schema = "mesh";
+  artifact.header.tool = "st-merge";
+  artifact.header.tool_version = ST_VERSION;
+  artifact.header.options_json = nlohmann::json{{"allow_incomplete", options.allow_incomplete}}.dump();
+  artifact.header.unit = patches.header.unit;
+  artifact.header.unit_in_m = patches.header.unit_in_m;
+  artifact.header.geometry_hash = patches.header.geometry_hash;
+  artifact.header.inputs = std::move(inputs);
+  artifact.is_complete = patches.is_complete;
+  artifact.mesh = merge_patches({patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
+  artifact.mesh.face_name = std::move(patches.face_name);
+  artifact.mesh.group_name = std::move(patches.group_name);
+  return artifact;
+}
+
+}  // namespace
+
+StageSummary run_merge(const MergeStageOptions& options) {
+  const Timer timer;
+  require_writable(options.output);
+  for (const std::string& path : options.exports) require_writable(path);
+  std::vector<InputRef> inputs;
+  PatchesArtifact patches = read_parts(options.patches, inputs);
+  require_complete(patches, options);
+  OrientationReport orientation;
+  const MeshArtifact artifact = make_artifact(patches, options, std::move(inputs), orientation);
+  patches = {};
+  warn_of_changes(orientation);
+
+  const SurfaceMesh& mesh = artifact.mesh;
+  const TopologyReport topology = check_topology(mesh);
+  const MeshMeasure measure = measure_mesh(mesh);
+  const std::string hash = write_mesh(options.output, artifact);
+  for (const std::string& path : options.exports) export_mesh(path, mesh);
+
+  const double seconds = timer.seconds();
+  const nlohmann::json json{{"output", options.output},
+                            {"hash", hash},
+                            {"triangles", mesh.n_triangles()},
+                            {"nodes", mesh.n_nodes()},
+                            {"components", topology.n_components},
+                            {"closed", topology.is_closed()},
+                            {"complete", artifact.is_complete},
+                            {"boundary_edges", topology.boundary_edges.count},
+                            {"nonmanifold_edges", topology.nonmanifold_edges.count},
+                            {"misoriented_edges", topology.misoriented_edges.count},
+                            {"turned_faces", orientation.turned_faces.size()},
+                            {"turned_parts", orientation.turned_components},
+                            {"one_sided_parts", orientation.n_one_sided},
+                            {"area", measure.area},
+                            {"volume", measure.volume},
+                            {"seconds", seconds}};
+  const std::string state = topology.is_closed() ? "closed" : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count, topology.nonmanifold_edges.count);
+  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(), state, artifact.is_complete ? "" : ", INCOMPLETE", seconds), json.dump(),
+          ExitCode::kOk};
+}
+
+}  // namespace st
