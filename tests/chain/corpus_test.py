@@ -1,0 +1,47 @@
+"""The chain with no option but the file name, on real CAD files (ST_CORPUS): a mesh that passes st-check, and, where it is there, the
+independent judge ../tools/meshcheck.sh beside the corpus."""
+import json
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+CORPUS = Path(os.environ["ST_CORPUS"])
+FAST = [
+    "aero_onera_m6_sharpte.brep",
+    "aero_evtol_bet.brep",
+    "aero_d150_wing.igs",
+    "mech_netgen_screw.step",
+    "mech_as1_oc_214.stp",
+    "mech_occt_linkrods.step",
+    "basic_refine_sphere_cube.brep",
+    "basic_refine_cone_cone.brep",
+    "aero_d150_wing_body_half.brep",
+]
+
+
+class Corpus(ToolTest):
+    def check(self, name):
+        folder = make_chain(CORPUS / name, self.folder / "chain", n_ranks=2)
+        must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing", folder / "sizing.hdf")
+        judge = CORPUS.parent / "tools" / "meshcheck.sh"
+        if not judge.exists():
+            print(f"SKIPPED: judge not found beside the corpus, {name} was checked by st-check alone", flush=True)
+            return
+        done = subprocess.run([judge, folder / "mesh.hdf", "--cad", CORPUS / name], capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 0, f"{name}: {done.stdout} {done.stderr}")
+
+
+def add_tests():
+    for name in FAST:
+        setattr(Corpus, "test_" + name.split(".")[0], lambda self, name=name: self.check(name))
+
+
+if __name__ == "__main__":
+    if not CORPUS.is_dir():
+        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
+        sys.exit(77)
+    add_tests()
+    unittest.main(verbosity=2)

@@ -1,0 +1,238 @@
+"""The command lines of the tools: help, versions, options, option files, summaries."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
+# Every option with the default that --help shows; "" for none.
+OPTIONS = {
+    "st-import": {"--output": "geometry.hdf", "--unit": "", "--check": "", "--require-closed": ""},
+    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
+    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1"},
+    "st-mesh": {"--output": "patches.hdf", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
+    "st-remesh": {"--output": "patches.hdf", "--too-long": "1.5", "--too-short": "0.5", "--dry-run": "", "--np": "1"},
+    "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
+    "st-check": {"--geometry": "", "--sizing": "", "--area-tolerance": "0.01"},
+    "st-info": {"--hash": ""},
+    "st-diff": {"--tolerance": "0"},
+    "st-export": {"--output": ""},
+}
+# Values that each option with a bounded value refuses.
+REFUSED = {
+    "st-import": {"--unit": ["parsec", ""]},
+    "st-raster": {
+        "--lmin": ["0", "-3", "x", "3pt", "nan"],
+        "--lmax": ["0", "1e999"],
+        "--alpha": ["0", "90.5", "-1", "nan", "x"],
+        "--cell-per-length": ["0.99", "8.1"],
+        "--np": ["0", "-2", "x"],
+    },
+    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"]},
+    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--max-turning": ["0", "61"], "--np": ["0"]},
+    "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
+    "st-check": {"--area-tolerance": ["0", "1.1"]},
+    "st-diff": {"--tolerance": ["-1", "2", "x"]},
+}
+
+
+def inputs(tool):
+    return [f"input{i}" for i in range(N_INPUTS[tool])] + (["-o", "out.stl"] if tool == "st-export" else [])
+
+
+class Help(ToolTest):
+    def test_help_exits_0_and_shows_every_option_with_its_default(self):
+        for tool in TOOLS:
+            run = must(tool, "--help")
+            self.assertEqual(run.err, "")
+            self.assertEqual(must(tool, "-h").out, run.out)
+            for option, default in {**OPTIONS[tool], "--options": "", "--quiet": "", "--verbose": "", "--json": "", "--version": ""}.items():
+                lines = [line for line in run.out.split("\n") if line.startswith("  -") and option in line.split()[0].split(",")]
+                self.assertTrue(lines, f"{tool} --help does not show {option}")
+                if default:
+                    self.assertIn("=" + default, lines[0], f"{tool} {option}")
+
+    def test_help_shows_no_option_that_is_not_tested_here(self):
+        known = {"--help", "--version", "--options", "--print-options", "--quiet", "--verbose", "--json"}
+        for tool in TOOLS:
+            names = {w for line in must(tool, "--help").out.split("\n") if line.startswith("  -") for w in line.split()[0].split(",")}
+            shown = {n for n in names if n.startswith("--")}
+            self.assertEqual(shown - known, set(OPTIONS[tool]), tool)
+
+    def test_version_names_the_tool(self):
+        for tool in TOOLS:
+            self.assertRegex(must(tool, "--version").out, rf"^{tool} \d+\.\d+\.\d+\n$")
+
+    def test_help_of_a_parallel_run_is_printed_once(self):
+        environment_of_mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "2", str(BIN / "st-mesh"), "--version"]
+        done = subprocess.run(environment_of_mpirun, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout.count("st-mesh")), (0, 1), done)
+
+
+class Usage(ToolTest):
+    def test_missing_argument_is_2(self):
+        for tool in TOOLS:
+            self.expect_error(USAGE, tool, says=["required", f"{tool} --help"])
+            for n in range(1, N_INPUTS[tool]):
+                self.expect_error(USAGE, tool, *["x"] * n, says="required")
+
+    def test_missing_output_is_2_where_there_is_no_default(self):
+        self.expect_error(USAGE, "st-export", "mesh.hdf", says="--output")
+
+    def test_surplus_argument_is_2(self):
+        for tool in set(TOOLS) - {"st-merge"}:
+            self.expect_error(USAGE, tool, *inputs(tool), "surplus", says="'surplus'", cwd=self.folder)
+
+    def test_unknown_option_is_2(self):
+        for tool in TOOLS:
+            self.expect_error(USAGE, tool, *inputs(tool), "--no-such-option", says="--no-such-option", cwd=self.folder)
+
+    def test_abbreviated_option_is_2(self):
+        self.expect_error(USAGE, "st-raster", "g.hdf", "--alph", "5", says="--alph")
+        self.expect_error(USAGE, "st-merge", "p.hdf", "--allow", says="--allow")
+
+    def test_value_out_of_range_is_2_and_nothing_is_written(self):
+        for tool, options in REFUSED.items():
+            for option, values in options.items():
+                for value in values:
+                    self.expect_error(USAGE, tool, *inputs(tool), option, value, says=option, cwd=self.folder)
+        self.expect_nothing_left(self.folder)
+
+    def test_quiet_and_verbose_exclude_each_other(self):
+        self.expect_error(USAGE, "st-info", "x", "-q", "-v", says="--verbose")
+
+    def test_output_over_an_input_is_2_and_the_input_stays(self):
+        (self.folder / "a.hdf").write_text("precious")
+        for tool in ("st-raster", "st-prolong", "st-merge", "st-export", "st-import"):
+            self.expect_error(USAGE, tool, "a.hdf", "-o", "./a.hdf", says="overwritten", cwd=self.folder)
+        self.expect_error(USAGE, "st-mesh", "g.hdf", "a.hdf", "-o", self.folder / "a.hdf", says="overwritten", cwd=self.folder)
+        self.assertEqual((self.folder / "a.hdf").read_text(), "precious")
+
+    def test_two_outputs_of_one_name_are_2(self):
+        self.expect_error(USAGE, "st-merge", "p.hdf", "--export", "a.stl", "--export", "./a.stl", says="twice", cwd=self.folder)
+
+    def test_usage_error_with_json_is_an_object(self):
+        run = self.expect_error(USAGE, "st-mesh", "--json", says="required")
+        self.assertEqual((run.json()["exit_code"], run.json()["tool"]), (2, "st-mesh"))
+
+    def test_error_of_a_parallel_run_is_printed_once(self):
+        for arguments, code in ((["missing.hdf", "--np", 3], INPUT), (["g.hdf", "--alpha", "x", "--np", 3], USAGE)):
+            self.expect_error(code, "st-raster", *arguments, cwd=self.folder)
+
+
+class OptionFile(ToolTest):
+    """st-raster on a missing file: 3 means that the options were taken, 2 that they were not."""
+
+    def raster(self, text, code, says=(), arguments=()):
+        (self.folder / "o.toml").write_text(text)
+        return self.expect_error(code, "st-raster", "missing.hdf", "--options", "o.toml", *arguments, says=says, cwd=self.folder)
+
+    def test_known_options_are_taken(self):
+        self.raster('lmin = "0.25mm"\nlmax = 3\nalpha = 7.5\n', INPUT)
+
+    def test_empty_file_and_template_change_nothing(self):
+        self.raster("", INPUT)
+        for tool in TOOLS:
+            (self.folder / "t.toml").write_text(must(tool, "--print-options").out)
+            run = Run(tool, *[f"missing{i}" for i in range(N_INPUTS[tool])], *(["-o", "x.stl"] if tool == "st-export" else []), "--options", "t.toml", cwd=self.folder)
+            self.assertEqual(run.code, INPUT, run)
+
+    def test_template_names_every_option_of_the_stage(self):
+        text = must("st-raster", "--print-options").out
+        for line in ("# lmin = ", "# lmax = ", "# alpha = 10", "# cell-per-length = 2"):
+            self.assertIn(line, text)
+
+    def test_unknown_key_is_2_with_file_and_line(self):
+        self.raster("alpha = 5\nalpa = 5\n", USAGE, says=["o.toml:2", "'alpa'", "alpha"])
+
+    def test_bad_toml_is_2_with_file_and_line(self):
+        self.raster("alpha = 5\nlmin = \n", USAGE, says="o.toml:2")
+        self.raster("alpha = 5\nalpha = 6\n", USAGE, says="o.toml:2")
+
+    def test_bad_value_is_2_with_file_and_line(self):
+        for value in ('"x"', "91", "true", "[1, 2]", "1979-05-27", "{ a = 1 }"):
+            self.raster(f"\nalpha = {value}\n", USAGE, says="o.toml:2")
+
+    def test_table_of_the_tool_overrides_the_top_and_others_are_passed_over(self):
+        self.raster("alpha = 500\n[st-raster]\nalpha = 5\n[st-mesh]\nmax-turning = 10\n", INPUT)
+        self.raster("alpha = 5\n[st-raster]\nalpha = 500\n", USAGE, says="o.toml:3")
+        self.raster("[st-rasta]\nalpha = 5\n", USAGE, says="[st-rasta]")
+
+    def test_command_line_wins(self):
+        self.raster("alpha = 500\n", INPUT, arguments=["--alpha", "5"])
+        self.raster("alpha = 5\n", USAGE, arguments=["--alpha", "500"])
+
+    def test_options_help_and_version_are_no_keys(self):
+        for key in ("options", "help", "version"):
+            self.raster(f'{key} = "x"\n', USAGE, says=f"'{key}'")
+
+    def test_missing_file_and_directory_are_2(self):
+        self.expect_error(USAGE, "st-raster", "g.hdf", "--options", "none.toml", says="none.toml", cwd=self.folder)
+        self.expect_error(USAGE, "st-raster", "g.hdf", "--options", self.folder, says="option file")
+
+    def test_output_and_flags_may_stand_in_the_file(self):
+        artifacts = artifacts_of("box")
+        (self.folder / "o.toml").write_text('output = "m.hdf"\nexport = ["a.stl", "b.obj"]\njson = true\n')
+        run = must("st-merge", artifacts / "patches.hdf", "--options", "o.toml", cwd=self.folder)
+        self.expect_nothing_left(self.folder, "o.toml", "m.hdf", "a.stl", "b.obj")
+        run.json()
+
+
+class Summary(ToolTest):
+    def stages(self):
+        a = artifacts_of("box")
+        return {
+            "st-import": [MODELS / "box.step"],
+            "st-raster": [a / "geometry.hdf"],
+            "st-prolong": [a / "raster.hdf"],
+            "st-mesh": [a / "geometry.hdf", a / "sizing.hdf"],
+            "st-remesh": [a / "mesh.hdf", a / "geometry.hdf", a / "sizing.hdf"],
+            "st-merge": [a / "patches.hdf"],
+            "st-check": [a / "mesh.hdf"],
+            "st-info": [a / "mesh.hdf"],
+            "st-diff": [a / "mesh.hdf", a / "mesh.hdf"],
+            "st-export": [a / "mesh.hdf", "-o", "mesh.stl"],
+        }
+
+    def test_last_line_of_json_is_one_object(self):
+        for tool, arguments in self.stages().items():
+            run = must(tool, *arguments, "--json", cwd=self.folder)
+            self.assertIsInstance(run.json(), dict, tool)
+
+    def test_summary_is_one_line_on_stdout_and_nothing_on_stderr(self):
+        for tool, arguments in self.stages().items():
+            run = must(tool, *arguments, cwd=self.folder)
+            self.assertGreaterEqual(run.out.count("\n"), 1, run)
+            if tool not in ("st-info", "st-check", "st-diff"):
+                self.assertEqual(run.out.count("\n"), 1, run)
+            self.assertEqual(run.err, "", run)
+
+    def test_quiet_stage_says_nothing_and_quiet_report_still_reports(self):
+        for tool, arguments in self.stages().items():
+            run = must(tool, *arguments, "-q", cwd=self.folder)
+            self.assertEqual(run.err, "", run)
+            self.assertEqual(bool(run.out), tool in ("st-check", "st-info", "st-diff"), run)
+
+    def test_stdout_that_takes_nothing_is_6(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([BIN / "st-info", artifacts_of("box") / "mesh.hdf"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, OUTPUT, done)
+
+    def test_hash_is_alone_on_one_line(self):
+        self.assertRegex(must("st-info", artifacts_of("box") / "mesh.hdf", "--hash").out, r"^[0-9a-f]{32}\n$")
+
+    def test_tools_run_from_any_folder_with_relative_and_default_names(self):
+        shutil.copy(MODELS / "box.step", self.folder / "wing.step")
+        must("st-import", "wing.step", cwd=self.folder)
+        must("st-raster", "geometry.hdf", cwd=self.folder)
+        must("st-prolong", "raster.hdf", cwd=self.folder)
+        must("st-mesh", "geometry.hdf", "sizing.hdf", cwd=self.folder)
+        must("st-merge", "patches.hdf", cwd=self.folder)
+        must("st-check", "mesh.hdf", "--geometry", "geometry.hdf", "--sizing", "sizing.hdf", cwd=self.folder)
+        self.expect_nothing_left(self.folder, "wing.step", "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
