@@ -30,14 +30,15 @@ class Communicator {
   void broadcast(Bytes& bytes) const;
   /// Collective: waits for all ranks without burning a core.
   void barrier() const;
-  /// Local: ends every rank at once with this exit code. Call after the message was printed.
+  /// Local: ends every rank at once with this exit code (mpirun takes some tenths of a second). Call after the message was printed.
   [[noreturn]] void abort(int exit_code) const;
 
   /// Collective. Runs `compute(task)` once for each task in [0, n_tasks), on any rank, and `collect(task, result)` on rank 0 only, in
   /// arrival order (a collector that must not depend on it stores by task id). `order`: the sequence in which tasks are handed out
-  /// (heaviest first), a permutation of [0, n_tasks), same on every rank. Rank 0 computes, too: its compute runs on its main thread while a
-  /// helper thread... (see .cpp) -- both cores of a two-rank run are busy. An exception out of compute ends the whole job with its message
-  /// and exit code.
+  /// (heaviest first), a permutation of [0, n_tasks), same on every rank. Rank 0 computes, too: `compute` runs there on a thread of its
+  /// own, so it must not call MPI nor share unguarded state with `collect`, which runs on the main thread; both cores of a two-rank run are
+  /// busy. At one rank everything runs on the main thread. An exception out of `compute` on any rank is thrown on rank 0 as an Error with its
+  /// text and exit code (once: the first that arrives); the other ranks stay in the call, so the job can then only be ended with abort().
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                  const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const;

@@ -1,0 +1,145 @@
+#include "comm/communicator.h"
+
+#define OMPI_SKIP_MPICXX 1  // the C API alone
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+#include "comm/task_farm.h"
+
+namespace st {
+namespace {
+
+/// Number of ranks that a launcher says it started, 0 without a launcher, -1 when it does not say how many.
+int launched_ranks() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* text = std::getenv(name)) return std::max(1, std::atoi(text));
+  if (std::getenv("PMI_RANK") || std::getenv("PMIX_RANK")) return -1;
+  if (std::getenv("SLURM_PROCID") && std::getenv("SLURM_STEP_ID")) {  // srun; a batch script has no step of its own
+    const char* text = std::getenv("SLURM_STEP_NUM_TASKS");
+    return text ? std::max(1, std::atoi(text)) : -1;
+  }
+  return 0;
+}
+
+void require_mpi(int status, const char* what) {
+  if (status != MPI_SUCCESS) throw Error(ExitCode::kInternal, std::string("MPI failed: ") + what);
+}
+
+/// Waits for a request asleep.
+void wait_asleep(MPI_Request& request) {
+  for (Backoff backoff;; backoff.sleep()) {
+    int done = 0;
+    require_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+    if (done) return;
+  }
+}
+
+}  // namespace
+
+struct Communicator::Impl {
+  int rank = 0, size = 1;
+  bool is_initialised = false;
+};
+
+Communicator::Communicator() : impl_(std::make_unique<Impl>()) {
+  const int launched = launched_ranks();
+  if (launched == 0) return;
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  int provided = 0;
+  require_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  impl_->is_initialised = true;
+  MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &impl_->size);
+  if (launched > 1 && impl_->size == 1)
+    throw Error(ExitCode::kUsage, "the launcher started " + std::to_string(launched) + " processes, but MPI does not connect them; start with Open MPI's mpirun, " +
+                                      "with srun --mpi=pmix, or with --np N and no launcher");
+}
+
+Communicator::~Communicator() {
+  if (!impl_->is_initialised) return;
+  try {
+    barrier();  // MPI_Finalize itself would spin
+  } catch (const Error&) {
+  }
+  MPI_Finalize();
+}
+
+int Communicator::rank() const { return impl_->rank; }
+int Communicator::size() const { return impl_->size; }
+
+void Communicator::barrier() const {
+  if (impl_->size == 1) return;
+  MPI_Request request;
+  require_mpi(MPI_Ibarrier(MPI_COMM_WORLD, &request), "MPI_Ibarrier");
+  wait_asleep(request);
+}
+
+void Communicator::broadcast(Bytes& bytes) const {
+  if (impl_->size == 1) return;
+  barrier();  // whoever comes early waits asleep
+  std::uint64_t n = bytes.size();
+  require_mpi(MPI_Bcast(&n, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  bytes.resize(n);
+  for (std::uint64_t start = 0; start < n; start += kMaxMessageBytes) {
+    const int count = static_cast<int>(std::min<std::uint64_t>(kMaxMessageBytes, n - start));
+    require_mpi(MPI_Bcast(bytes.data() + start, count, MPI_BYTE, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  }
+}
+
+void Communicator::abort(int exit_code) const {
+  if (impl_->is_initialised) MPI_Abort(MPI_COMM_WORLD, exit_code);
+  _exit(exit_code);
+}
+
+void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
+                             const std::function<Bytes(std::int32_t task)>& compute,
+                             const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
+  std::vector<char> is_listed(std::max(n_tasks, 0), 0);
+  for (const std::int32_t task : order)
+    if (task < 0 || task >= n_tasks || is_listed[task]++) throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
+  if (n_tasks < 0 || order.size() != is_listed.size()) throw Error(ExitCode::kInternal, "run_tasks: the order does not list every task once");
+  if (impl_->size == 1) {
+    for (const std::int32_t task : order) collect(task, compute(task));
+  } else if (impl_->rank == 0) {
+    distribute_tasks(impl_->size, order, compute, collect);
+  } else {
+    work_on_tasks(compute);
+  }
+}
+
+void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_without_np) {
+  if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is no number of ranks; give 1 or more");
+  if (n == 1 || launched_ranks() != 0) return;
+  // Settings of the user win (no overwriting).
+  const std::pair<const char*, const char*> settings[] = {
+      {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+      {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+      {"OMPI_MCA_mpi_yield_when_idle", "1"},
+      {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+      {"OMPI_MCA_orte_execute_quiet", "1"},
+      {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},  // refused in many containers
+      {"PMIX_MCA_gds", "hash"},                              // the default warns where it may not share memory
+      {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
+      {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
+  for (const auto& [name, value] : settings) setenv(name, value, 0);
+  char self[4096];
+  const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+  if (length <= 0) throw Error(ExitCode::kInternal, "cannot find the path of this program; start it with mpirun -np " + std::to_string(n));
+  std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), std::string(self, length)};
+  words.insert(words.end(), arguments_without_np.begin(), arguments_without_np.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execvp("mpirun", argv.data());
+  throw Error(ExitCode::kInternal, std::string("mpirun cannot be started (") + std::strerror(errno) + "); install Open MPI (openmpi-bin) or leave --np out");
+}
+
+}  // namespace st

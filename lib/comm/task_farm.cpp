@@ -1,0 +1,272 @@
+#include "comm/task_farm.h"
+
+#define OMPI_SKIP_MPICXX 1  // the C API alone
+#include <mpi.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+constexpr int kTagTask = 1, kTagResult = 2, kTagPayload = 3;
+constexpr std::int32_t kStop = -1;
+// A worker whose last task took less than this gets one task ahead.
+constexpr double kShortTaskSeconds = 0.010;
+
+using Clock = std::chrono::steady_clock;
+
+/// A result, or the failure, of one task.
+struct Outcome {
+  std::int32_t task = kStop;
+  std::int32_t code = 0;       ///< 0, or the ExitCode of the failure whose text is in `bytes`
+  double seconds = 0;          ///< time of the computation
+  Bytes bytes;
+};
+
+/// What goes ahead of the bytes of an outcome.
+struct OutcomeMessage {
+  std::int32_t task, code;
+  double seconds;
+  std::uint64_t n_bytes;
+};
+
+void require_mpi(int status, const char* what) {
+  if (status != MPI_SUCCESS) throw Error(ExitCode::kInternal, std::string("MPI failed: ") + what);
+}
+
+Bytes to_bytes(const std::string& text) {
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
+/// Runs one task; every exception becomes data, for it has to travel.
+Outcome run_task(std::int32_t task, const Compute& compute) {
+  Outcome outcome;
+  outcome.task = task;
+  const auto start = Clock::now();
+  const auto fail = [&](ExitCode code, const std::string& text) {
+    outcome.code = static_cast<std::int32_t>(code);
+    outcome.bytes = to_bytes(text);
+  };
+  try {
+    outcome.bytes = compute(task);
+  } catch (const Error& e) {
+    fail(e.code(), e.what());
+  } catch (const std::bad_alloc&) {
+    fail(ExitCode::kInternal, "out of memory; use larger lengths, fewer ranks or a machine with more memory");
+  } catch (const std::exception& e) {
+    fail(ExitCode::kInternal, std::string("internal error: ") + e.what());
+  } catch (...) {
+    fail(ExitCode::kInternal, "internal error: unknown exception");
+  }
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return outcome;
+}
+
+void send_outcome(const Outcome& outcome) {
+  const OutcomeMessage message{outcome.task, outcome.code, outcome.seconds, outcome.bytes.size()};
+  require_mpi(MPI_Send(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD), "MPI_Send");
+  for (std::uint64_t start = 0; start < message.n_bytes; start += kMaxMessageBytes) {
+    const int count = static_cast<int>(std::min(kMaxMessageBytes, message.n_bytes - start));
+    require_mpi(MPI_Send(outcome.bytes.data() + start, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD), "MPI_Send");
+  }
+}
+
+/// Receives the outcome that a probe has announced from `rank`.
+Outcome receive_outcome(int rank) {
+  OutcomeMessage message{};
+  require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+  Outcome outcome{message.task, message.code, message.seconds, Bytes(message.n_bytes)};
+  for (std::uint64_t start = 0; start < message.n_bytes; start += kMaxMessageBytes) {
+    const int count = static_cast<int>(std::min(kMaxMessageBytes, message.n_bytes - start));
+    require_mpi(MPI_Recv(outcome.bytes.data() + start, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+  }
+  return outcome;
+}
+
+/// Rank of the sender of a waiting outcome, if there is one.
+std::optional<int> probe_outcome() {
+  int is_there = 0;
+  MPI_Status status;
+  require_mpi(MPI_Iprobe(MPI_ANY_SOURCE, kTagResult, MPI_COMM_WORLD, &is_there, &status), "MPI_Iprobe");
+  return is_there ? std::optional<int>(status.MPI_SOURCE) : std::nullopt;
+}
+
+/// Rank 0's own computing thread. It never calls MPI.
+class LocalWorker {
+ public:
+  explicit LocalWorker(const Compute& compute) : thread_([this, &compute] { work(compute); }) {}
+  ~LocalWorker() {
+    {
+      const std::lock_guard lock(mutex_);
+      tasks_.clear();
+      tasks_.push_back(kStop);
+    }
+    has_task_.notify_one();
+    thread_.join();
+  }
+
+  void give(std::int32_t task) {
+    {
+      const std::lock_guard lock(mutex_);
+      tasks_.push_back(task);
+    }
+    has_task_.notify_one();
+  }
+
+  /// A finished outcome, if there is one.
+  std::optional<Outcome> take() {
+    const std::lock_guard lock(mutex_);
+    return take_locked();
+  }
+
+  /// Likewise, but sleeps until there is one or the time is over.
+  void wait_for_outcome(std::chrono::microseconds time) {
+    std::unique_lock lock(mutex_);
+    has_outcome_.wait_for(lock, time, [&] { return !outcomes_.empty(); });
+  }
+
+ private:
+  std::optional<Outcome> take_locked() {
+    if (outcomes_.empty()) return std::nullopt;
+    Outcome outcome = std::move(outcomes_.front());
+    outcomes_.pop_front();
+    return outcome;
+  }
+
+  void work(const Compute& compute) {
+    while (true) {
+      std::int32_t task = kStop;
+      {
+        std::unique_lock lock(mutex_);
+        has_task_.wait(lock, [&] { return !tasks_.empty(); });
+        task = tasks_.front();
+        tasks_.pop_front();
+      }
+      if (task == kStop) return;
+      Outcome outcome = run_task(task, compute);
+      {
+        const std::lock_guard lock(mutex_);
+        outcomes_.push_back(std::move(outcome));
+      }
+      has_outcome_.notify_one();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable has_task_, has_outcome_;
+  std::deque<std::int32_t> tasks_;
+  std::deque<Outcome> outcomes_;
+  std::thread thread_;  // last: it uses the members above
+};
+
+/// Hands out tasks in order, and counts what is out.
+class Distributor {
+ public:
+  Distributor(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect)
+      : order_(order), collect_(collect), n_pending_(n_ranks, 0), local_(compute) {}
+
+  void run() {
+    for (int rank = 0; rank < static_cast<int>(n_pending_.size()); ++rank) give(rank);
+    Backoff backoff;
+    while (n_collected_ < order_.size()) {
+      if (receive_all()) {
+        backoff.reset();
+      } else {
+        local_.wait_for_outcome(backoff.next());
+        backoff.lengthen();
+      }
+      collect_all();
+    }
+    for (int rank = 1; rank < static_cast<int>(n_pending_.size()); ++rank) send_task(rank, kStop);
+  }
+
+ private:
+  void send_task(int rank, std::int32_t task) {
+    require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send");
+  }
+
+  /// The next task to a rank, if there is one.
+  void give(int rank) {
+    if (n_given_ == order_.size()) return;
+    const std::int32_t task = order_[n_given_++];
+    ++n_pending_[rank];
+    rank == 0 ? local_.give(task) : send_task(rank, task);
+  }
+
+  /// Takes note of an outcome and keeps its rank busy. Answers come before collecting: that may take its time.
+  void receive(int rank, Outcome&& outcome) {
+    if (outcome.code != 0) {
+      const auto* text = reinterpret_cast<const char*>(outcome.bytes.data());
+      throw Error(static_cast<ExitCode>(outcome.code), std::string(text, outcome.bytes.size()));
+    }
+    --n_pending_[rank];
+    const int n_wanted = outcome.seconds < kShortTaskSeconds ? 2 : 1;
+    while (n_pending_[rank] < n_wanted && n_given_ < order_.size()) give(rank);
+    received_.push_back(std::move(outcome));
+  }
+
+  /// True when something came.
+  bool receive_all() {
+    const std::size_t n_before = received_.size();
+    while (auto outcome = local_.take()) receive(0, std::move(*outcome));
+    while (const auto rank = probe_outcome()) receive(*rank, receive_outcome(*rank));
+    return received_.size() != n_before;
+  }
+
+  /// Collects, but answers whoever reports meanwhile.
+  void collect_all() {
+    while (!received_.empty()) {
+      Outcome outcome = std::move(received_.front());
+      received_.pop_front();
+      collect_(outcome.task, std::move(outcome.bytes));
+      ++n_collected_;
+      receive_all();
+    }
+  }
+
+  const std::vector<std::int32_t>& order_;
+  const Collect& collect_;
+  std::vector<int> n_pending_;   ///< per rank: tasks given, outcome not yet received
+  std::size_t n_given_ = 0, n_collected_ = 0;
+  std::deque<Outcome> received_;
+  LocalWorker local_;
+};
+
+std::int32_t receive_task() {
+  for (Backoff backoff;; backoff.sleep()) {
+    int is_there = 0;
+    require_mpi(MPI_Iprobe(0, kTagTask, MPI_COMM_WORLD, &is_there, MPI_STATUS_IGNORE), "MPI_Iprobe");
+    if (is_there) break;
+  }
+  std::int32_t task = kStop;
+  require_mpi(MPI_Recv(&task, 1, MPI_INT32_T, 0, kTagTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+  return task;
+}
+
+}  // namespace
+
+void Backoff::sleep() {
+  std::this_thread::sleep_for(next_);
+  lengthen();
+}
+
+void Backoff::lengthen() { next_ = std::min(next_ * 3 / 2, std::chrono::microseconds(1000)); }
+
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect) {
+  Distributor(n_ranks, order, compute, collect).run();
+}
+
+void work_on_tasks(const Compute& compute) {
+  for (std::int32_t task = receive_task(); task != kStop; task = receive_task()) send_outcome(run_task(task, compute));
+}
+
+}  // namespace st

@@ -1,0 +1,43 @@
+// The task farm behind Communicator::run_tasks. Internal to comm.
+//
+// Rank 0 hands out tasks and collects results on its main thread, asleep while there is nothing to do, and computes on a second thread; MPI is called from
+// main threads only. Workers get their next task when they send a result. Tasks that take less than a message's latency matters are given
+// one ahead, so nobody waits for them; long ones are not, for a task that waits behind another long one could run elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "comm/communicator.h"
+
+namespace st {
+
+/// Largest single MPI message: counts are int.
+inline constexpr std::uint64_t kMaxMessageBytes = std::uint64_t{1} << 30;
+
+/// Sleeps for longer and longer, up to a millisecond: waiting must not burn a core.
+class Backoff {
+ public:
+  void sleep();
+  void lengthen();
+  void reset() { next_ = kFirst; }
+  std::chrono::microseconds next() const { return next_; }
+
+ private:
+  static constexpr std::chrono::microseconds kFirst{30};
+  std::chrono::microseconds next_ = kFirst;
+};
+
+using Compute = std::function<Bytes(std::int32_t task)>;
+using Collect = std::function<void(std::int32_t task, Bytes&& result)>;
+
+/// Rank 0's side: returns when all results are collected. Throws Error with code and text of the first compute that failed, on any rank, and what
+/// `collect` throws; the other ranks then wait for more until the job is aborted.
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect);
+
+/// Every other rank's side: returns when rank 0 says that there is no more.
+void work_on_tasks(const Compute& compute);
+
+}  // namespace st
