@@ -16,7 +16,7 @@ struct GridPoint {
 
 namespace morton {
 
-inline constexpr std::uint64_t kMaskX = 0x1249249249249249ull;   // bits 0, 3, 6 ... 60
+inline constexpr std::uint64_t kMaskX = 0x1249249249249249ull;  // bits 0, 3, 6 ... 60
 inline constexpr std::uint64_t kMaskY = kMaskX << 1, kMaskZ = kMaskX << 2;
 
 /// Spreads the low 21 bits to every third bit.

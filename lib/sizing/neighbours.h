@@ -8,8 +8,8 @@
 
 namespace st {
 
-/// Displacement from a cell's centre to a neighbour's, in halves of the smaller cell's edge: 2 per axis between equals; +-1 or +-3 between a
-/// cell and one of half its size.
+/// Displacement from a cell's centre to a neighbour's, in halves of the smaller cell's edge: 2 per axis between equals; +-1 or +-3 between
+/// a cell and one of half its size.
 struct CellStep {
   std::int8_t x, y, z;
   std::int8_t length2;      ///< x*x + y*y + z*z: one of 4 8 12 (equals), 11 19 27
@@ -22,8 +22,8 @@ class Neighbours {
   /// Precondition: balanced 2:1 across faces, edges and corners.
   explicit Neighbours(const OctreeView& octree);
 
-  /// Calls f(leaf, step) for every leaf that touches `leaf`, in a fixed order. A larger neighbour may come several times (once for each of the
-  /// directions in which it lies), always with the same step.
+  /// Calls f(leaf, step) for every leaf that touches `leaf`, in a fixed order. A larger neighbour may come several times (once for each of
+  /// the directions in which it lies), always with the same step.
   template <class F>
   void for_each(std::int32_t leaf, F&& f) const;
 
@@ -33,7 +33,8 @@ class Neighbours {
   /// The cell beside child `octant` of `node` in direction (x, y, z): of the same size as the child, or one level larger; or kOutside.
   std::int32_t beside(std::int32_t node, int octant, int x, int y, int z, bool& is_larger) const {
     const int cx = (octant & 1) + x, cy = (octant >> 1 & 1) + y, cz = (octant >> 2) + z;
-    const std::int32_t parent = node_neighbours_[27 * static_cast<std::size_t>(node) + static_cast<std::size_t>(direction(cx >> 1, cy >> 1, cz >> 1))];
+    const std::int32_t parent =
+        node_neighbours_[27 * static_cast<std::size_t>(node) + static_cast<std::size_t>(direction(cx >> 1, cy >> 1, cz >> 1))];
     is_larger = parent < 0;
     if (parent < 0) return parent;
     return octree_.node_children[8 * static_cast<std::size_t>(parent) + static_cast<std::size_t>((cx & 1) | (cy & 1) << 1 | (cz & 1) << 2)];
@@ -42,8 +43,8 @@ class Neighbours {
   void visit_direction(std::int32_t leaf, int x, int y, int z, F&& f) const;
 
   OctreeView octree_;
-  std::vector<std::int32_t> node_neighbours_;   // [27*n_nodes] node, ~leaf or kOutside
-  std::vector<std::int32_t> leaf_parent_;       // [n_leaves]
+  std::vector<std::int32_t> node_neighbours_;  // [27*n_nodes] node, ~leaf or kOutside
+  std::vector<std::int32_t> leaf_parent_;      // [n_leaves]
 };
 
 template <class F>
@@ -77,7 +78,8 @@ void Neighbours::visit_direction(std::int32_t leaf, int x, int y, int z, F&& f) 
       const int bx = o & 1, by = o >> 1 & 1, bz = o >> 2;
       if ((x != 0 && bx != (x < 0)) || (y != 0 && by != (y < 0)) || (z != 0 && bz != (z < 0))) continue;
       const auto offset = [](int bit, int d) { return d != 0 ? 3 * d : 2 * bit - 1; };
-      f(~octree_.node_children[8 * static_cast<std::size_t>(other) + static_cast<std::size_t>(o)], step(offset(bx, x), offset(by, y), offset(bz, z), level + 1));
+      f(~octree_.node_children[8 * static_cast<std::size_t>(other) + static_cast<std::size_t>(o)],
+        step(offset(bx, x), offset(by, y), offset(bz, z), level + 1));
     }
   }
 }

@@ -60,7 +60,8 @@ int required_level(double root_edge, const RasterBox& box) {
 }
 
 /// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight per box).
-void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels, NodeLevels& nodes) {
+void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels,
+                            NodeLevels& nodes) {
   std::array<RepeatFilter, kMaxLevel> filters;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (levels[i] == 0) continue;
@@ -76,8 +77,8 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
   }
 }
 
-/// Sorts each level and adds what tree and balance need, finest level first: where a cell is split, all 26 neighbours of its size must exist, so
-/// their parents are split.
+/// Sorts each level and adds what tree and balance need, finest level first: where a cell is split, all 26 neighbours of its size must
+/// exist, so their parents are split.
 void close_nodes(NodeLevels& nodes) {
   for (int level = kMaxLevel - 1; level >= 0; --level) {
     std::vector<std::uint64_t>& split = nodes[static_cast<std::size_t>(level)];
@@ -129,7 +130,9 @@ void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
 class LengthStore {
  public:
   explicit LengthStore(RasterOctree& octree)
-      : octree_(octree), view_(octree.shape.view()), subtree_max_(octree.shape.node_children.size() / 8, std::numeric_limits<float>::infinity()) {}
+      : octree_(octree),
+        view_(octree.shape.view()),
+        subtree_max_(octree.shape.node_children.size() / 8, std::numeric_limits<float>::infinity()) {}
 
   void insert(const RasterBox& box) {
     range_ = grid_box(octree_.shape, box);
@@ -144,7 +147,8 @@ class LengthStore {
       float largest = 0;
       for (std::size_t o = 0; o < 8; ++o) {
         const std::int32_t child = view_.node_children[8 * node + o];
-        const float length = child >= 0 ? subtree_max_[static_cast<std::size_t>(child)] : octree_.stored_length[static_cast<std::size_t>(~child)];
+        const float length =
+            child >= 0 ? subtree_max_[static_cast<std::size_t>(child)] : octree_.stored_length[static_cast<std::size_t>(~child)];
         largest = std::max(largest, length);
       }
       subtree_max_[node] = largest;
@@ -175,7 +179,7 @@ class LengthStore {
 
   RasterOctree& octree_;
   OctreeView view_;
-  std::vector<float> subtree_max_;   // of nodes, as of the last refresh
+  std::vector<float> subtree_max_;  // of nodes, as of the last refresh
   GridBox range_;
   float length_ = 0;
   std::int32_t cause_ = kNone;
@@ -264,7 +268,8 @@ const char* link_defect(const OctreeView& octree) {
     }
     if (node >= octree.n_nodes() || level >= kMaxLevel || ++n_visited > octree.node_children.size() / 8) return false;
     for (std::uint64_t o = 0; o < 8; ++o)
-      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o], key | o << (3 * (kMaxLevel - 1 - level)), level + 1)) return false;
+      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o], key | o << (3 * (kMaxLevel - 1 - level)), level + 1))
+        return false;
     return true;
   };
   return walk(walk, octree.node_children.empty() ? ~0 : 0, 0, 0) ? nullptr : "links and keys do not agree";

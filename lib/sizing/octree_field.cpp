@@ -8,7 +8,8 @@ namespace st {
 OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length)
     : data_(data), owner_(std::move(owner)), unit_(data.octree.edge / kCoordinateEnd), to_grid_(kCoordinateEnd / data.octree.edge) {
   if (!(min_length > 0)) {
-    const auto smallest = std::min_element(data.cells.begin(), data.cells.end(), [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
+    const auto smallest = std::min_element(data.cells.begin(), data.cells.end(),
+                                           [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
     min_length = static_cast<double>(smallest->length);
   }
   min_size_ = min_length * data_.scale;
@@ -33,7 +34,8 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
   const double half = 0.5 * extent;
   const CellLength& c = data_.cells[static_cast<std::size_t>(hint)];
-  const double rise = static_cast<double>(c.gradient[0]) * (gx - (p.x & mask) - half) + static_cast<double>(c.gradient[1]) * (gy - (p.y & mask) - half) +
+  const double rise = static_cast<double>(c.gradient[0]) * (gx - (p.x & mask) - half) +
+                      static_cast<double>(c.gradient[1]) * (gy - (p.y & mask) - half) +
                       static_cast<double>(c.gradient[2]) * (gz - (p.z & mask) - half);
   return std::max(data_.scale * std::min(static_cast<double>(c.length) + unit_ * rise, static_cast<double>(c.upper)), min_size_);
 }

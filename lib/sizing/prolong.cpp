@@ -26,7 +26,8 @@ class StepWeights {
     for (int level = 0; level <= kMaxLevel; ++level) {
       const double half = 0.5 * root_edge / static_cast<double>(1u << level);
       for (int s = 0; s <= kLargestStep2; ++s)
-        weight_[static_cast<std::size_t>(level)][static_cast<std::size_t>(s)] = static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
+        weight_[static_cast<std::size_t>(level)][static_cast<std::size_t>(s)] =
+            static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
     }
   }
   float operator()(const CellStep& step) const { return weight_[step.fine_level][static_cast<std::size_t>(step.length2)]; }
@@ -101,9 +102,10 @@ struct GradientFit {
   }
 };
 
-/// Least-squares gradient of one cell, shortened until the slope holds and no corner is below the smallest length around; a ridge is cut off by `upper`
-/// instead, so that the field still rises to it.
-CellLength fit_cell(const OctreeView& octree, const Neighbours& neighbours, std::span<const float> lengths, std::int32_t leaf, double slope) {
+/// Least-squares gradient of one cell, shortened until the slope holds and no corner is below the smallest length around; a ridge is cut
+/// off by `upper` instead, so that the field still rises to it.
+CellLength fit_cell(const OctreeView& octree, const Neighbours& neighbours, std::span<const float> lengths, std::int32_t leaf,
+                    double slope) {
   const double length = static_cast<double>(lengths[static_cast<std::size_t>(leaf)]);
   double smallest = length, largest = length;
   GradientFit fit;

@@ -7,17 +7,17 @@ namespace st {
 
 /// Lengths of all cells after prolongation. Arrays are [n_leaves].
 struct ProlongedLengths {
-  std::vector<CellLength> cells;        ///< no point of a cell is below the smallest or above the largest length of the cell and its neighbours
-  std::vector<std::int32_t> cause;      ///< whose sample length it goes back to; kNone: the largest length
+  std::vector<CellLength> cells;    ///< no point of a cell is below the smallest or above the largest length of the cell and its neighbours
+  std::vector<std::int32_t> cause;  ///< whose sample length it goes back to; kNone: the largest length
 };
 
 struct ProlongOptions {
-  double slope = 0.2;                   ///< largest change of length per distance, > 0
-  double max_length = 0;                ///< length where nothing asks for less, model unit, > 0
+  double slope = 0.2;     ///< largest change of length per distance, > 0
+  double max_length = 0;  ///< length where nothing asks for less, model unit, > 0
 };
 
-/// The largest lengths with h <= stored, h <= max_length and h(a) <= h(b) + slope * |centre a - centre b| for all cells a, b that touch at a
-/// face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed point, so the result is exactly
+/// The largest lengths with h <= stored, h <= max_length and h(a) <= h(b) + slope * |centre a - centre b| for all cells a, b that touch at
+/// a face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed point, so the result is exactly
 /// reproducible; equal lengths take the smallest cause. Then the least-squares gradient. O(n) in practice. Precondition: balanced octree.
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
                          const ProlongOptions& options);

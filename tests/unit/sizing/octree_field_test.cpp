@@ -66,7 +66,8 @@ TEST(OctreeField, answers_the_same_whatever_the_hint) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 x{uniform(random), uniform(random), uniform(random)};
     const double expected = field->size(x);
-    for (int hint : {0, n - 1, n, -1, std::numeric_limits<int>::max(), static_cast<int>(random() % static_cast<unsigned>(n))}) ASSERT_EQ(field->size(x, hint), expected);
+    for (int hint : {0, n - 1, n, -1, std::numeric_limits<int>::max(), static_cast<int>(random() % static_cast<unsigned>(n))})
+      ASSERT_EQ(field->size(x, hint), expected);
     ASSERT_EQ(field->size(x, coherent), expected);
     ASSERT_EQ(field->size(x, coherent), expected);
   }
@@ -81,7 +82,8 @@ TEST(OctreeField, clamps_points_outside_to_its_box) {
 
 TEST(OctreeField, scale_multiplies_lengths_and_slope) {
   const auto field = make_field(), half = make_field(0.5);
-  for (const Vec3 x : {Vec3{0.5, 0.5, 0.9}, Vec3{0.1, 0.2, 0.3}, Vec3{0.5, 0.5, 0.7}}) EXPECT_DOUBLE_EQ(half->size(x), 0.5 * field->size(x));
+  for (const Vec3 x : {Vec3{0.5, 0.5, 0.9}, Vec3{0.1, 0.2, 0.3}, Vec3{0.5, 0.5, 0.7}})
+    EXPECT_DOUBLE_EQ(half->size(x), 0.5 * field->size(x));
   EXPECT_DOUBLE_EQ(half->min_size(), 0.5 * field->min_size());
   EXPECT_DOUBLE_EQ(half->slope(), 0.5 * kSlope);
 }

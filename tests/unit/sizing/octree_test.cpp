@@ -15,11 +15,14 @@ namespace {
 using test::kUnitBox;
 using test::sphere_boxes;
 
-RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(CauseKind::kFace, 0)) { return {center, length, length, 0, cause}; }
+RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(CauseKind::kFace, 0)) {
+  return {center, length, length, 0, cause};
+}
 
 bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, double margin) {
   const Vec3 c = octree.shape.view().leaf_center(leaf);
-  const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]) + static_cast<double>(box.half) + margin;
+  const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]) +
+                       static_cast<double>(box.half) + margin;
   return std::abs(c.x - box.center.x) < reach && std::abs(c.y - box.center.y) < reach && std::abs(c.z - box.center.z) < reach;
 }
 
@@ -50,7 +53,8 @@ TEST(Octree, has_no_cell_larger_than_a_box_it_meets) {
   for (const RasterBox& box : boxes)
     for (std::int32_t leaf = 0; leaf < octree.shape.view().n_leaves(); ++leaf) {
       if (!meets(octree, leaf, box, -1e-5)) continue;
-      ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]), 2.0 * static_cast<double>(box.half));
+      ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]),
+                2.0 * static_cast<double>(box.half));
     }
 }
 
@@ -75,7 +79,8 @@ TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
 
 TEST(Octree, does_not_depend_on_the_order_of_boxes) {
   std::vector<RasterBox> boxes = sphere_boxes(5000);
-  for (std::size_t i = 0; i < 1000; ++i) boxes.push_back({boxes[i].center, boxes[i].half, boxes[i].length, 0, pack_cause(CauseKind::kEdge, 3)});
+  for (std::size_t i = 0; i < 1000; ++i)
+    boxes.push_back({boxes[i].center, boxes[i].half, boxes[i].length, 0, pack_cause(CauseKind::kEdge, 3)});
   const RasterOctree a = build_octree(kUnitBox, boxes);
   std::shuffle(boxes.begin(), boxes.end(), std::mt19937(7));
   const RasterOctree b = build_octree(kUnitBox, boxes);

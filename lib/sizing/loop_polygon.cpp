@@ -1,0 +1,126 @@
+#include "sizing/loop_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "sizing/raster_curve.h"
+
+namespace st {
+namespace {
+
+constexpr double kRelativeDeviation = 1e-3;  // of the polygon from the trimming curve, over the face's (u,v) range
+constexpr int kMaxHalvings = 6;
+constexpr int kFirstSides = 4;  // of a degenerate edge
+constexpr std::size_t kMaxBins = 4096;
+
+/// Turns the trimming curves of one face into sides.
+class LoopTracer {
+ public:
+  LoopTracer(const Model& model, FaceId face, const SamplingLimits& limits) : model_(model), face_(face), limits_(limits) {
+    const double* bounds = &model.tables().face_uv_bounds[4 * static_cast<std::size_t>(face)];
+    scale_ = {1 / std::max(bounds[1] - bounds[0], 1e-300), 1 / std::max(bounds[3] - bounds[2], 1e-300)};
+  }
+
+  std::vector<LoopSide> run() {
+    const ModelTables& t = model_.tables();
+    for (std::int32_t loop = t.face_loop_offsets[static_cast<std::size_t>(face_)];
+         loop < t.face_loop_offsets[static_cast<std::size_t>(face_) + 1]; ++loop) {
+      points_.clear();
+      const std::size_t l = static_cast<std::size_t>(loop);
+      for (std::int32_t c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) trace(c);
+      for (std::size_t i = 0; i < points_.size(); ++i) sides_.push_back({points_[i], points_[(i + 1) % points_.size()]});
+    }
+    return std::move(sides_);
+  }
+
+ private:
+  void trace(CoedgeId coedge) {
+    const ModelTables& t = model_.tables();
+    const EdgeId edge = t.coedge_edge[static_cast<std::size_t>(coedge)];
+    std::vector<double> parameters = edge_parameters(edge);
+    if (t.coedge_is_reversed[static_cast<std::size_t>(coedge)]) std::reverse(parameters.begin(), parameters.end());
+    const std::unique_ptr<Curve2d> curve = model_.pcurve(face_, coedge);
+    Vec2 a = curve->point(parameters.front());
+    points_.push_back(a);
+    for (std::size_t i = 1; i < parameters.size(); ++i) {
+      const Vec2 b = curve->point(parameters[i]);
+      follow(*curve, parameters[i - 1], a, parameters[i], b, 0);
+      points_.push_back(b);
+      a = b;
+    }
+  }
+
+  std::vector<double> edge_parameters(EdgeId edge) const {
+    const ModelTables& t = model_.tables();
+    if (!t.edge_is_degenerate[static_cast<std::size_t>(edge)]) return measure_curve(*model_.curve(edge), limits_).t;
+    const double t0 = t.edge_range[2 * static_cast<std::size_t>(edge)], t1 = t.edge_range[2 * static_cast<std::size_t>(edge) + 1];
+    std::vector<double> parameters;
+    for (int i = 0; i <= kFirstSides; ++i) parameters.push_back(t0 + (t1 - t0) * i / kFirstSides);
+    return parameters;
+  }
+
+  /// Adds points between a and b where the trimming curve leaves the straight side.
+  void follow(const Curve2d& curve, double ta, Vec2 a, double tb, Vec2 b, int depth) {
+    if (depth == kMaxHalvings) return;
+    const double tm = 0.5 * (ta + tb);
+    const Vec2 m = curve.point(tm), off = m - 0.5 * (a + b);
+    if (std::hypot(off.x * scale_.x, off.y * scale_.y) < kRelativeDeviation) return;
+    follow(curve, ta, a, tm, m, depth + 1);
+    points_.push_back(m);
+    follow(curve, tm, m, tb, b, depth + 1);
+  }
+
+  const Model& model_;
+  FaceId face_;
+  const SamplingLimits& limits_;
+  Vec2 scale_;
+  std::vector<Vec2> points_;
+  std::vector<LoopSide> sides_;
+};
+
+}  // namespace
+
+LoopPolygons::LoopPolygons(std::vector<LoopSide> sides) : sides_(std::move(sides)) {
+  if (sides_.empty()) return;
+  double v_max = sides_.front().a.y;
+  v_min_ = v_max;
+  for (const LoopSide& s : sides_) {
+    v_min_ = std::min({v_min_, s.a.y, s.b.y});
+    v_max = std::max({v_max, s.a.y, s.b.y});
+  }
+  const std::size_t n_bins = std::clamp<std::size_t>(sides_.size(), 1, kMaxBins);
+  bins_per_v_ = v_max > v_min_ ? static_cast<double>(n_bins) / (v_max - v_min_) : 0;
+  const auto bin = [&](double v) { return std::min(static_cast<std::size_t>((v - v_min_) * bins_per_v_), n_bins - 1); };
+  bin_offsets_.assign(n_bins + 1, 0);
+  for (const LoopSide& s : sides_)
+    for (std::size_t b = bin(std::min(s.a.y, s.b.y)); b <= bin(std::max(s.a.y, s.b.y)); ++b) ++bin_offsets_[b + 1];
+  for (std::size_t b = 0; b < n_bins; ++b) bin_offsets_[b + 1] += bin_offsets_[b];
+  bin_sides_.resize(static_cast<std::size_t>(bin_offsets_.back()));
+  std::vector<std::int32_t> next(bin_offsets_.begin(), bin_offsets_.end() - 1);
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    for (std::size_t b = bin(std::min(sides_[i].a.y, sides_[i].b.y)); b <= bin(std::max(sides_[i].a.y, sides_[i].b.y)); ++b)
+      bin_sides_[static_cast<std::size_t>(next[b]++)] = static_cast<std::int32_t>(i);
+}
+
+bool LoopPolygons::contains(Vec2 uv) const {
+  if (sides_.empty()) return true;
+  const double position = (uv.y - v_min_) * bins_per_v_;
+  const std::size_t n_bins = bin_offsets_.size() - 1;
+  if (!(position >= 0 && position <= static_cast<double>(n_bins))) return false;
+  const std::size_t b = std::min(static_cast<std::size_t>(position), n_bins - 1);
+  bool is_inside = false;
+  for (std::int32_t k = bin_offsets_[b]; k < bin_offsets_[b + 1]; ++k) {
+    const LoopSide& s = sides_[static_cast<std::size_t>(bin_sides_[static_cast<std::size_t>(k)])];
+    if ((s.a.y > uv.y) == (s.b.y > uv.y)) continue;
+    if (uv.x < s.a.x + (uv.y - s.a.y) / (s.b.y - s.a.y) * (s.b.x - s.a.x)) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+LoopPolygons loop_polygons(const Model& model, FaceId face, const SamplingLimits& limits) {
+  return LoopPolygons(LoopTracer(model, face, limits).run());
+}
+
+}  // namespace st

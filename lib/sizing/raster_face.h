@@ -1,0 +1,33 @@
+// Sample lengths inside a trimmed surface.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/surface.h"
+#include "sizing/loop_polygon.h"
+#include "sizing/octree.h"
+#include "sizing/size_limits.h"
+
+namespace st {
+
+/// What sampling a face found.
+struct FaceRasterReport {
+  double area = 0;                 ///< of the trimmed surface as sampled, model unit squared
+  std::int64_t n_patches = 0;      ///< raster boxes made
+  std::int64_t n_evaluations = 0;  ///< of the surface
+};
+
+/// Appends raster boxes that cover the trimmed surface without holes, each with the length that curvature allows: alpha times the smallest
+/// principal radius, clamped to the limits.
+///
+/// The parameter rectangle is halved, always across its longer side in space, until each patch is no larger than its raster box; patches
+/// outside the loops are dropped. A patch is probed at 3 x 3 points by curvature and by the angle between the normals of neighbouring
+/// points, and the two watch each other: an angle that curvature does not explain (a fillet between two probes) makes the patch split; a
+/// curvature that no angle confirms after three halvings is noise of the parametrisation and is cut down to what the angles show. Sizes in
+/// space decide, so poles and stretched iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil
+/// points lie too far apart; halving patches covers the surface by construction.)
+FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
+                             std::vector<RasterBox>& boxes);
+
+}  // namespace st
