@@ -61,6 +61,16 @@ class Help(ToolTest):
             shown = {n for n in names if n.startswith("--")}
             self.assertEqual(shown - known, set(OPTIONS[tool]), tool)
 
+    def test_doc_page_of_a_tool_names_every_option_and_default(self):
+        docs = Path(__file__).resolve().parents[2] / "docs"
+        for tool in TOOLS:
+            rows = [line.split("|") for line in (docs / f"{tool}.md").read_text().split("\n") if line.startswith("| `")]
+            documented = {name.strip("`"): row[2].strip() for row in rows for name in row[1].strip().strip("`").replace(",", " ").split() if name.startswith("--")}
+            self.assertEqual(set(documented), set(OPTIONS[tool]), tool)
+            for option, default in OPTIONS[tool].items():
+                if default:
+                    self.assertEqual(documented[option], default, f"{tool} {option}")
+
     def test_version_names_the_tool(self):
         for tool in TOOLS:
             self.assertRegex(must(tool, "--version").out, rf"^{tool} \d+\.\d+\.\d+\n$")
