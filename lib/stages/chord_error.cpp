@@ -1,0 +1,92 @@
+#include "stages/chord_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace st {
+
+namespace {
+
+/// A parabola's segment has 2/3 of the box around it; an arc of up to 120 degrees (three sides per circle) has up to 10 % more.
+constexpr double kArcSegment = 2.0 / 3.0 * 1.1;
+
+double distance_to_line(Vec3 p, Vec3 a, Vec3 b) {
+  const double length = distance(a, b);
+  return length > 0 ? norm(cross(p - a, b - a)) / length : distance(p, a);
+}
+
+/// Area between a CAD edge and its chords through the parameters t.
+double area_beside_chords(const Curve& curve, const std::vector<double>& t) {
+  double area = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const Vec3 a = curve.point(t[i - 1]), b = curve.point(t[i]), m = curve.point(0.5 * (t[i - 1] + t[i]));
+    const bool is_loop = distance(a, b) < 1e-3 * distance(a, m);  // a closed edge of one segment: all of it is missing
+    area += is_loop ? distance(a, m) * distance(a, m) : kArcSegment * distance_to_line(m, a, b) * distance(a, b);
+  }
+  return area;
+}
+
+/// Parameters of each edge's nodes, from end to end.
+std::vector<std::vector<double>> edge_parameters(const ModelTables& tables, const SurfaceMesh& mesh) {
+  std::vector<std::vector<double>> t(tables.n_edges());
+  for (EdgeId e = 0; e < tables.n_edges(); ++e) t[e].push_back(tables.edge_range[2 * e]);
+  for (std::int64_t n = 0; n < mesh.n_nodes(); ++n)
+    if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kEdge)) t[mesh.node_entity[n]].push_back(mesh.node_t[n]);
+  for (EdgeId e = 0; e < tables.n_edges(); ++e) t[e].push_back(tables.edge_range[2 * e + 1]);
+  return t;
+}
+
+void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
+  const ModelTables& tables = model.tables();
+  const std::vector<std::vector<double>> t = edge_parameters(tables, mesh);
+  std::vector<double> area(tables.n_edges(), 0);
+  for (EdgeId e = 0; e < tables.n_edges(); ++e)
+    if (!tables.edge_is_degenerate[e]) area[e] = area_beside_chords(*model.curve(e), t[e]);
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
+      for (std::int32_t c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c) error.area[f] += area[tables.coedge_edge[c]];
+}
+
+double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
+
+/// The triangle against its four parts with corners on the surface.
+void add_triangle(const Surface& surface, const std::array<Vec3, 3>& x, const std::array<Vec2, 3>& uv, FaceId f, ChordError& error) {
+  constexpr double kRichardson = 4.0 / 3.0;
+  std::array<Vec3, 3> m;
+  for (int k = 0; k < 3; ++k) {
+    m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
+    error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
+  }
+  const double flat = area_of(x[0], x[1], x[2]);
+  const double curved = area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
+  error.area[f] += kRichardson * std::fabs(curved - flat);
+}
+
+void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
+  std::unique_ptr<Surface> surface;
+  FaceId current = kNone;
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const FaceId f = mesh.triangle_face[t];
+    if (f != current) surface = model.surface(f);
+    current = f;
+    if (surface->is_planar()) continue;
+    const auto& n = mesh.triangles[t].n;
+    add_triangle(*surface, {mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]}, {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f,
+                 error);
+  }
+}
+
+}  // namespace
+
+ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
+  ChordError error;
+  error.area.assign(model.tables().n_faces(), 0);
+  error.distance.assign(model.tables().n_faces(), 0);
+  add_edges(model, mesh, error);
+  add_triangles(model, mesh, error);
+  return error;
+}
+
+}  // namespace st
