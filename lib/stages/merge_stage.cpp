@@ -98,6 +98,17 @@ void require_complete(const PatchesArtifact& patches, const MergeStageOptions& o
                                                  std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ", list_faces(missing), cause));
 }
 
+/// Everything that could stop the outputs is found before the work, so that none is left without the others.
+void require_outputs(const MergeStageOptions& options) {
+  require_writable(options.output);
+  for (const std::string& path : options.exports) {
+    const std::string suffix = std::filesystem::path(path).extension().string();
+    if (suffix != ".stl" && suffix != ".vtu" && suffix != ".obj" && suffix != ".ply")
+      throw Error(ExitCode::kUsage, fmt::format("{}: no export for the suffix \"{}\"; use .stl, .vtu, .obj or .ply", path, suffix));
+    require_writable(path);
+  }
+}
+
 void warn_of_changes(const OrientationReport& report) {
   if (!report.turned_faces.empty()) log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(), list_faces(report.turned_faces)));
   if (report.turned_components) log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components, list_faces(report.inside_out_faces)));
@@ -125,8 +136,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
 
 StageSummary run_merge(const MergeStageOptions& options) {
   const Timer timer;
-  require_writable(options.output);
-  for (const std::string& path : options.exports) require_writable(path);
+  require_outputs(options);
   std::vector<InputRef> inputs;
   PatchesArtifact patches = read_parts(options.patches, inputs);
   require_complete(patches, options);
