@@ -20,7 +20,15 @@ if [ ! -f "$build/build.ninja" ]; then
   rm -f "$build/CMakeCache.txt"
   cmake -S "$root" -B "$build" -G Ninja "$@" > "$log" 2>&1 || fail "cmake failed"
 fi
-if ninja -C "$build" -n 2> /dev/null | grep -q 'no work to do'; then exit 0; fi
-echo "build: compiling (the log is $log)"
-ninja -C "$build" 2>&1 | tee "$log" | while IFS= read -r line; do [[ $line != \[* ]] || say "${line:0:100}"; done || fail "compiling failed"
-say ""
+# Shows the progress of ninja's output on a terminal; silent when nothing is compiled.
+progress() {
+  local line started=
+  while IFS= read -r line; do
+    [[ $line == \[*\ Building* || $line == \[*\ Linking* ]] || continue
+    [ -n "$started" ] || echo "build: compiling (the log is $log)"
+    started=1
+    say "${line:0:100}"
+  done
+  say ""
+}
+ninja -C "$build" 2>&1 | tee "$log" | progress || fail "compiling failed"
