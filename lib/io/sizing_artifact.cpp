@@ -1,0 +1,166 @@
+#include "io/sizing_artifact.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/hdf5_file.h"
+
+namespace st {
+
+template <>
+struct Element<CellLength> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 5;
+};
+
+namespace {
+
+constexpr const char* kSizing = "/st/sizing";
+constexpr const char* kRoot = "/st/octree/root";
+constexpr const char* kLeafKey = "/st/octree/leaf_key";
+constexpr const char* kLeafLevel = "/st/octree/leaf_level";
+constexpr const char* kNodeChild = "/st/octree/node_child";
+constexpr const char* kStoredLength = "/st/octree/stored_length";
+constexpr const char* kStoredCause = "/st/octree/stored_cause";
+constexpr const char* kCell = "/st/octree/cell";
+constexpr const char* kCause = "/st/octree/cause";
+constexpr const char* kFaceOffset = "/st/face/cell_offset";
+constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
+constexpr const char* kFaceArea = "/st/face/cell_area";
+constexpr const char* kFaceWeight = "/st/face/weight";
+
+void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
+  file.set_attribute(kSizing, "min_length", n.min_length);
+  file.set_attribute(kSizing, "max_length", n.max_length);
+  file.set_attribute(kSizing, "far_length", n.far_length);
+  file.set_attribute(kSizing, "alpha_deg", n.alpha_deg);
+  file.set_attribute(kSizing, "cell_per_length", n.cell_per_length);
+}
+
+SizingNumbers read_numbers(const Hdf5Reader& file) {
+  const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
+  return {get("min_length"), get("max_length"), get("far_length"), get("alpha_deg"), get("cell_per_length")};
+}
+
+void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
+  file.write<double>(kRoot, std::vector<double>{shape.lo.x, shape.lo.y, shape.lo.z, shape.edge});
+  file.write<std::uint64_t>(kLeafKey, shape.leaf_keys);
+  file.write<std::uint8_t>(kLeafLevel, shape.leaf_levels);
+  file.write<std::int32_t>(kNodeChild, shape.node_children, 8);
+}
+
+/// Sizes that any use of the arrays relies on; their values are covered by checksums.
+void require_shape(const Hdf5Reader& file, std::size_t n_leaves, std::size_t n_levels, std::size_t n_children, double edge) {
+  if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1) file.fail(kLeafKey, "number of leaves does not fit the tree");
+  if (n_levels != n_leaves) file.fail(kLeafLevel, "length does not fit the number of leaves");
+  if (!(edge > 0)) file.fail(kRoot, "root cube has no size");
+}
+
+OctreeShape read_shape(const Hdf5Reader& file) {
+  const std::vector<double> root = file.read_rows<double>(kRoot, 4);
+  OctreeShape shape{{root[0], root[1], root[2]}, root[3], file.read<std::uint64_t>(kLeafKey), file.read<std::uint8_t>(kLeafLevel), file.read<std::int32_t>(kNodeChild, 8)};
+  require_shape(file, shape.leaf_keys.size(), shape.leaf_levels.size(), shape.node_children.size(), shape.edge);
+  return shape;
+}
+
+FaceCells read_face_cells(const Hdf5Reader& file) {
+  FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}};
+  faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
+  if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size())) file.fail(kFaceOffset, "does not fit cell_leaf");
+  return faces;
+}
+
+/// What a mapped field keeps alive.
+struct MappedArrays {
+  MappedArray<std::uint64_t> leaf_key;
+  MappedArray<std::uint8_t> leaf_level;
+  MappedArray<std::int32_t> node_child;
+  MappedArray<CellLength> cell;
+  MappedArray<std::int32_t> cause;
+};
+
+std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
+  const std::vector<double> root = file.read_rows<double>(kRoot, 4);
+  const auto arrays = std::make_shared<const MappedArrays>(MappedArrays{file.map<std::uint64_t>(kLeafKey), file.map<std::uint8_t>(kLeafLevel),
+                                                                        file.map<std::int32_t>(kNodeChild, 8), file.map<CellLength>(kCell), file.map<std::int32_t>(kCause)});
+  require_shape(file, arrays->leaf_key.size(), arrays->leaf_level.size(), arrays->node_child.size(), root[3]);
+  if (arrays->cell.size() != arrays->leaf_key.size()) file.fail(kCell, "length does not fit the number of leaves");
+  if (arrays->cause.size() != arrays->leaf_key.size()) file.fail(kCause, "length does not fit the number of leaves");
+  OctreeFieldData data;
+  data.octree = {{root[0], root[1], root[2]}, root[3], arrays->leaf_key.values(), arrays->leaf_level.values(), arrays->node_child.values()};
+  data.cells = arrays->cell.values();
+  data.cause = arrays->cause.values();
+  data.slope = file.double_attribute(kSizing, "slope");
+  data.scale = file.double_attribute(kSizing, "scale");
+  return std::make_unique<OctreeField>(data, arrays, min_length);
+}
+
+}  // namespace
+
+std::string write_raster(const std::string& path, const RasterArtifact& raster) {
+  Hdf5Writer file(path, raster.header);
+  write_numbers(file, raster.numbers);
+  write_shape(file, raster.octree.shape);
+  file.write<float>(kStoredLength, raster.octree.stored_length);
+  file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
+  file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
+  file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
+  file.write<float>(kFaceArea, raster.faces.area);
+  return file.commit();
+}
+
+RasterArtifact read_raster(const std::string& path) {
+  const Hdf5Reader file(path, "raster");
+  RasterArtifact raster;
+  raster.header = file.header();
+  raster.numbers = read_numbers(file);
+  raster.octree.shape = read_shape(file);
+  const std::size_t n = raster.octree.shape.leaf_keys.size();
+  raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
+  raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
+  raster.faces = read_face_cells(file);
+  return raster;
+}
+
+std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
+  Hdf5Writer file(path, sizing.header);
+  write_numbers(file, sizing.numbers);
+  double smallest = sizing.numbers.far_length;
+  for (const CellLength& c : sizing.lengths.cells) smallest = std::min(smallest, static_cast<double>(c.length));
+  file.set_attribute(kSizing, "slope", sizing.slope);
+  file.set_attribute(kSizing, "scale", sizing.scale);
+  file.set_attribute(kSizing, "smallest_length", smallest);
+  write_shape(file, sizing.shape);
+  file.write<CellLength>(kCell, sizing.lengths.cells);
+  file.write<std::int32_t>(kCause, sizing.lengths.cause);
+  file.write<double>(kFaceWeight, sizing.face_weight);
+  return file.commit();
+}
+
+SizingArtifact read_sizing(const std::string& path) {
+  const Hdf5Reader file(path, "sizing");
+  SizingArtifact sizing;
+  sizing.header = file.header();
+  sizing.numbers = read_numbers(file);
+  sizing.slope = file.double_attribute(kSizing, "slope");
+  sizing.scale = file.double_attribute(kSizing, "scale");
+  sizing.shape = read_shape(file);
+  const std::size_t n = sizing.shape.leaf_keys.size();
+  sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
+  sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
+  sizing.face_weight = file.read<double>(kFaceWeight);
+  return sizing;
+}
+
+MappedSizing map_sizing(const std::string& path) {
+  const Hdf5Reader file(path, "sizing");
+  return {file.header(), read_numbers(file), file.read<double>(kFaceWeight), map_field(file, file.double_attribute(kSizing, "smallest_length"))};
+}
+
+std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header) {
+  MappedSizing sizing = map_sizing(path);
+  if (header) *header = std::move(sizing.header);
+  return std::move(sizing.field);
+}
+
+}  // namespace st

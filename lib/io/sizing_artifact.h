@@ -1,0 +1,62 @@
+// raster.hdf and sizing.hdf: the octree before and after prolongation.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/artifact.h"
+#include "sizing/face_cells.h"
+#include "sizing/octree.h"
+#include "sizing/octree_field.h"
+#include "sizing/prolong.h"
+
+namespace st {
+
+/// Resolved numbers of the sampling, model unit.
+struct SizingNumbers {
+  double min_length = 0;         ///< smallest sample length
+  double max_length = 0;         ///< largest sample length on walls
+  double far_length = 0;         ///< length where nothing asks for less: the largest of all groups, >= max_length
+  double alpha_deg = 0;          ///< largest turning along one length, degrees
+  double cell_per_length = 0;    ///< edge of a raster box over its sample length
+};
+
+/// raster.hdf
+struct RasterArtifact {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  RasterOctree octree;
+  FaceCells faces;               ///< where in the octree each face lies, with its area there
+};
+
+/// sizing.hdf
+struct SizingArtifact {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  double slope = 0;              ///< largest change of length per distance, before `scale`
+  double scale = 1;              ///< multiplies every length of a query
+  OctreeShape shape;
+  ProlongedLengths lengths;
+  std::vector<double> face_weight;   ///< [n_faces] area over squared length: number of triangles times sqrt(3)/4
+};
+
+/// As all write_* and read_* of io/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).
+std::string write_raster(const std::string& path, const RasterArtifact& raster);
+RasterArtifact read_raster(const std::string& path);
+std::string write_sizing(const std::string& path, const SizingArtifact& sizing);
+SizingArtifact read_sizing(const std::string& path);
+
+/// A sizing artifact as a field over the mapped file: costs no memory of its own, shared by all processes of a machine.
+struct MappedSizing {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  std::vector<double> face_weight;           ///< see SizingArtifact
+  std::unique_ptr<OctreeField> field;
+};
+MappedSizing map_sizing(const std::string& path);
+
+/// The field alone; `header` may be null. Throws Error(kInput).
+std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header);
+
+}  // namespace st

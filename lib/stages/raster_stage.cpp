@@ -1,0 +1,213 @@
+#include "stages/raster_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "base/length.h"
+#include "base/log.h"
+#include "comm/packer.h"
+#include "io/artifact.h"
+#include "io/sizing_artifact.h"
+#include "sizing/model_limits.h"
+#include "sizing/raster_curve.h"
+#include "sizing/raster_face.h"
+
+namespace st {
+namespace {
+
+constexpr std::int32_t kEdgesPerTask = 32;
+constexpr double kDefaultMaxLength = 0.025;     // of the reference diagonal
+constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
+
+void require_valid(const RasterStageOptions& o) {
+  if (!(o.alpha_deg > 0 && o.alpha_deg <= 90)) throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
+  if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8)) throw Error(ExitCode::kUsage, fmt::format("--cell-per-length {}: not in [1, 8]", o.cell_per_length));
+}
+
+SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t) {
+  const double diagonal = t.reference_diagonal();
+  if (!(diagonal > 0)) throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
+  SamplingLimits limits;
+  limits.max_length = o.lmax.empty() ? kDefaultMaxLength * diagonal : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
+  limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
+  limits.alpha = radians(o.alpha_deg);
+  limits.cell_per_length = o.cell_per_length;
+  if (limits.min_length > limits.max_length)
+    throw Error(ExitCode::kUsage, fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
+  return limits;
+}
+
+/// The work cut into tasks: first batches of edges, then one task per face.
+class RasterTasks {
+ public:
+  RasterTasks(const Model& model, const ModelLimits& limits)
+      : model_(model), limits_(limits), n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
+
+  std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
+  std::int32_t first_face_task() const { return n_batches_; }
+
+  /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
+  std::vector<std::int32_t> order() const {
+    std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
+    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f) work[static_cast<std::size_t>(n_batches_ + f)] = face_work(static_cast<std::size_t>(f));
+    std::vector<std::int32_t> order(work.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
+    return order;
+  }
+
+  /// Local. Boxes of one task, packed, and what went wrong (empty: nothing).
+  Bytes compute(std::int32_t task) const {
+    std::vector<RasterBox> boxes;
+    std::string failure;
+    try {
+      if (task < n_batches_)
+        raster_edges(task, boxes);
+      else
+        raster_one_face(task - n_batches_, boxes);
+    } catch (const std::exception& e) {
+      boxes.clear();
+      failure = task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
+      failure += std::string(": not sampled, ") + e.what();
+    }
+    Packer packer;
+    packer.add(boxes);
+    packer.add(failure);
+    return packer.take();
+  }
+
+ private:
+  double face_work(std::size_t f) const {
+    const ModelTables& t = model_.tables();
+    if (!limits_.face[f]) return 0;
+    const double flat = t.face_type[f] == SurfaceType::kPlane ? 1 : 10;
+    return flat * t.face_area[f] / (limits_.face[f]->max_length * limits_.face[f]->max_length);
+  }
+
+  void raster_edges(std::int32_t batch, std::vector<RasterBox>& boxes) const {
+    const EdgeId end = std::min((batch + 1) * kEdgesPerTask, model_.tables().n_edges());
+    for (EdgeId e = batch * kEdgesPerTask; e < end; ++e) {
+      const std::optional<SamplingLimits>& limits = limits_.edge[static_cast<std::size_t>(e)];
+      if (limits) raster_curve(*model_.curve(e), *limits, pack_cause(CauseKind::kEdge, e), boxes);
+    }
+  }
+
+  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes) const {
+    const std::optional<SamplingLimits>& limits = limits_.face[static_cast<std::size_t>(f)];
+    if (limits) raster_face(*model_.surface(f), loop_polygons(model_, f, *limits), *limits, pack_cause(CauseKind::kFace, f), boxes);
+  }
+
+  const Model& model_;
+  const ModelLimits& limits_;
+  std::int32_t n_batches_;
+};
+
+/// What rank 0 gathers.
+struct CollectedBoxes {
+  std::vector<std::vector<RasterBox>> by_task;
+  std::vector<std::string> failures;   // by task, empty where there is none
+
+  std::vector<RasterBox> all() const {
+    std::vector<RasterBox> boxes;
+    for (const std::vector<RasterBox>& b : by_task) boxes.insert(boxes.end(), b.begin(), b.end());
+    return boxes;
+  }
+};
+
+/// Collective.
+CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) {
+  CollectedBoxes collected;
+  collected.by_task.resize(static_cast<std::size_t>(tasks.count()));
+  collected.failures.resize(static_cast<std::size_t>(tasks.count()));
+  Progress progress("sampling", tasks.count());
+  std::int32_t n_done = 0;
+  comm.run_tasks(
+      tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task); },
+      [&](std::int32_t task, Bytes&& result) {
+        Unpacker unpacker(result);
+        unpacker.get(collected.by_task[static_cast<std::size_t>(task)]);
+        unpacker.get(collected.failures[static_cast<std::size_t>(task)]);
+        progress.update(++n_done);
+      });
+  return collected;
+}
+
+void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits, ArtifactHeader& header) {
+  header.schema = "raster";
+  header.tool = "st-raster";
+  header.tool_version = ST_VERSION;
+  header.options_json =
+      nlohmann::json{{"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}}.dump();
+  header.unit = geometry.unit;
+  header.unit_in_m = geometry.unit_in_m;
+  header.geometry_hash = geometry.content_hash;
+  header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash}};
+}
+
+RasterArtifact build_artifact(const Model& model, const RasterTasks& tasks, const CollectedBoxes& collected) {
+  const ModelTables& t = model.tables();
+  RasterArtifact artifact;
+  artifact.octree = build_octree(t.box(), collected.all());
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    append_face_cells(artifact.octree.shape.view(), collected.by_task[static_cast<std::size_t>(tasks.first_face_task() + f)], t.face_area[static_cast<std::size_t>(f)],
+                      artifact.faces);
+  return artifact;
+}
+
+StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, std::size_t n_boxes, std::size_t n_failures, double seconds) {
+  const std::size_t n_cells = a.octree.shape.leaf_keys.size();
+  StageSummary summary;
+  summary.line = fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, n_boxes, n_cells, a.numbers.min_length, a.numbers.max_length,
+                             n_failures ? fmt::format(", {} parts not sampled", n_failures) : "", seconds);
+  summary.json = nlohmann::json{{"tool", "st-raster"},
+                                {"output", o.output},
+                                {"samples", n_boxes},
+                                {"cells", n_cells},
+                                {"lmin", a.numbers.min_length},
+                                {"lmax", a.numbers.max_length},
+                                {"far_length", a.numbers.far_length},
+                                {"alpha", a.numbers.alpha_deg},
+                                {"cell_per_length", a.numbers.cell_per_length},
+                                {"not_sampled", n_failures},
+                                {"hash", a.header.content_hash},
+                                {"seconds", seconds}}
+                     .dump();
+  return summary;
+}
+
+}  // namespace
+
+StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
+  const Timer timer;
+  require_valid(o);
+  if (comm.is_root()) require_writable(o.output);
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  const SamplingLimits wall = resolve_limits(o, geometry.tables);
+  const ModelLimits limits = model_limits(geometry.tables, wall);
+  const ArtifactHeader geometry_header = geometry.header;
+  const Model model(std::move(geometry.tables), std::move(geometry.brep));
+
+  const RasterTasks tasks(model, limits);
+  const CollectedBoxes collected = sample_model(tasks, comm);
+  if (!comm.is_root()) return {};
+
+  std::size_t n_failures = 0, n_boxes = 0;
+  for (const std::string& failure : collected.failures)
+    if (!failure.empty()) {
+      log_warning(failure);
+      ++n_failures;
+    }
+  for (const std::vector<RasterBox>& boxes : collected.by_task) n_boxes += boxes.size();
+  RasterArtifact artifact = build_artifact(model, tasks, collected);
+  artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length};
+  fill_header(o, geometry_header, wall, artifact.header);
+  artifact.header.content_hash = write_raster(o.output, artifact);
+  return summarize(o, artifact, n_boxes, n_failures, timer.seconds());
+}
+
+}  // namespace st
