@@ -12,6 +12,9 @@
 
 namespace st {
 
+/// Newest schema versions that this build reads, and those that it writes.
+inline constexpr int kGeometryVersion = 1, kPatchesVersion = 1, kMeshVersion = 1;
+
 /// An input that an artifact was made from.
 struct InputRef {
   std::string role;        ///< "cad", "geometry", "raster", "sizing", "patches", "mesh"
@@ -84,6 +87,9 @@ void require_same_geometry(const std::string& path_a, const ArtifactHeader& a, c
 
 /// Throws Error(kOutput) now, before hours of work, when `path` cannot be written (directory missing, no permission, is a directory).
 void require_writable(const std::string& path);
+
+/// Throws Error(kUsage) unless the suffix is one that export_mesh knows.
+void require_export_suffix(const std::string& path);
 
 /// Exports by suffix: .stl (binary, one solid), .vtu (with face, group, size), .obj, .ply. Throws Error(kUsage) for an unknown suffix, Error(kOutput).
 void export_mesh(const std::string& path, const SurfaceMesh& mesh);

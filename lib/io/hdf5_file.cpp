@@ -85,10 +85,10 @@ Type fixed_string(std::size_t length, bool ascii) {
   return type;
 }
 
+/// The character set stays ASCII although the bytes are UTF-8: VTK 9.1 asks for it, and HDF5 does not convert.
 Type variable_string() {
   Type type(H5Tcopy(H5T_C_S1));
   H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
   return type;
 }
 

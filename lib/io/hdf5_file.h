@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/surface.h"
 #include "io/artifact.h"
 #include "mesh/surface_mesh.h"
 
@@ -186,6 +187,10 @@ class Hdf5Reader {
     return read<T>(name, columns);
   }
   std::vector<std::string> read_strings(const std::string& name) const;
+  std::vector<std::string> read_string_rows(const std::string& name, std::size_t n_rows) const {
+    require_rows(name, n_rows);
+    return read_strings(name);
+  }
   /// Values mapped from the file, checksum verified; a dataset too small to be aligned is copied.
   template <class T>
   MappedArray<T> map(const std::string& name, std::size_t columns = Element<T>::count) const {
