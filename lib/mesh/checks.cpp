@@ -140,7 +140,8 @@ void find_folds(const SurfaceMesh& mesh, Defects& folds) {
       const TriangleId s = sides[0] / 3, t = sides[i] / 3;
       if (mesh.triangle_face[s] != mesh.triangle_face[t]) continue;
       const Vec3 ns = area_vector(mesh, s), nt = area_vector(mesh, t);
-      const double cosine = dot(ns, nt) * (run_alike(mesh.triangles, sides[0], sides[i]) ? -1 : 1);
+      const bool is_misoriented = sides.size() == 2 && run_alike(mesh.triangles, sides[0], sides[1]);  // a defect of its own, no fold
+      const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);
       if (cosine < kFoldCosine * norm(ns) * norm(nt)) folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
     }
   });

@@ -23,12 +23,14 @@ void angles(Vec3 a, Vec3 b, Vec3 c, double& smallest, double& largest) {
   largest = degrees(std::max({alpha, beta, gamma}));
 }
 
-/// Value at the given share of the sorted order. Reorders `values`.
-double percentile(std::vector<double>& values, double share) {
-  const auto k = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+/// The k-th smallest value. Reorders `values`.
+double nth_smallest(std::vector<double>& values, std::size_t k) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
+
+/// The value with `share` of the others below it. Reorders `values`.
+double percentile(std::vector<double>& values, double share) { return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))); }
 
 QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> triangles, std::span<const double> quality) {
   QualityStats s;
@@ -54,7 +56,7 @@ QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> trian
     s.n_below_5_deg += smallest < 5;
   }
   s.mean /= static_cast<double>(triangles.size());
-  s.p1 = percentile(sorted, 0.01);
+  s.p1 = nth_smallest(sorted, sorted.size() / 100);
   return s;
 }
 
