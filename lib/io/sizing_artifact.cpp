@@ -51,14 +51,19 @@ void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
 
 /// Sizes that any use of the arrays relies on; their values are covered by checksums.
 void require_shape(const Hdf5Reader& file, std::size_t n_leaves, std::size_t n_levels, std::size_t n_children, double edge) {
-  if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1) file.fail(kLeafKey, "number of leaves does not fit the tree");
+  if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1)
+    file.fail(kLeafKey, "number of leaves does not fit the tree");
   if (n_levels != n_leaves) file.fail(kLeafLevel, "length does not fit the number of leaves");
   if (!(edge > 0)) file.fail(kRoot, "root cube has no size");
 }
 
 OctreeShape read_shape(const Hdf5Reader& file) {
   const std::vector<double> root = file.read_rows<double>(kRoot, 4);
-  OctreeShape shape{{root[0], root[1], root[2]}, root[3], file.read<std::uint64_t>(kLeafKey), file.read<std::uint8_t>(kLeafLevel), file.read<std::int32_t>(kNodeChild, 8)};
+  OctreeShape shape{{root[0], root[1], root[2]},
+                    root[3],
+                    file.read<std::uint64_t>(kLeafKey),
+                    file.read<std::uint8_t>(kLeafLevel),
+                    file.read<std::int32_t>(kNodeChild, 8)};
   require_shape(file, shape.leaf_keys.size(), shape.leaf_levels.size(), shape.node_children.size(), shape.edge);
   return shape;
 }
@@ -66,7 +71,8 @@ OctreeShape read_shape(const Hdf5Reader& file) {
 FaceCells read_face_cells(const Hdf5Reader& file) {
   FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}};
   faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
-  if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size())) file.fail(kFaceOffset, "does not fit cell_leaf");
+  if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size()))
+    file.fail(kFaceOffset, "does not fit cell_leaf");
   return faces;
 }
 
@@ -81,8 +87,9 @@ struct MappedArrays {
 
 std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
   const std::vector<double> root = file.read_rows<double>(kRoot, 4);
-  const auto arrays = std::make_shared<const MappedArrays>(MappedArrays{file.map<std::uint64_t>(kLeafKey), file.map<std::uint8_t>(kLeafLevel),
-                                                                        file.map<std::int32_t>(kNodeChild, 8), file.map<CellLength>(kCell), file.map<std::int32_t>(kCause)});
+  const auto arrays = std::make_shared<const MappedArrays>(
+      MappedArrays{file.map<std::uint64_t>(kLeafKey), file.map<std::uint8_t>(kLeafLevel), file.map<std::int32_t>(kNodeChild, 8),
+                   file.map<CellLength>(kCell), file.map<std::int32_t>(kCause)});
   require_shape(file, arrays->leaf_key.size(), arrays->leaf_level.size(), arrays->node_child.size(), root[3]);
   if (arrays->cell.size() != arrays->leaf_key.size()) file.fail(kCell, "length does not fit the number of leaves");
   if (arrays->cause.size() != arrays->leaf_key.size()) file.fail(kCause, "length does not fit the number of leaves");
@@ -154,7 +161,8 @@ SizingArtifact read_sizing(const std::string& path) {
 
 MappedSizing map_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing");
-  return {file.header(), read_numbers(file), file.read<double>(kFaceWeight), map_field(file, file.double_attribute(kSizing, "smallest_length"))};
+  return {file.header(), read_numbers(file), file.read<double>(kFaceWeight),
+          map_field(file, file.double_attribute(kSizing, "smallest_length"))};
 }
 
 std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header) {

@@ -15,11 +15,11 @@ namespace st {
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
-  double min_length = 0;         ///< smallest sample length
-  double max_length = 0;         ///< largest sample length on walls
-  double far_length = 0;         ///< length where nothing asks for less: the largest of all groups, >= max_length
-  double alpha_deg = 0;          ///< largest turning along one length, degrees
-  double cell_per_length = 0;    ///< edge of a raster box over its sample length
+  double min_length = 0;       ///< smallest sample length
+  double max_length = 0;       ///< largest sample length on walls
+  double far_length = 0;       ///< length where nothing asks for less: the largest of all groups, >= max_length
+  double alpha_deg = 0;        ///< largest turning along one length, degrees
+  double cell_per_length = 0;  ///< edge of a raster box over its sample length
 };
 
 /// raster.hdf
@@ -27,18 +27,18 @@ struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  FaceCells faces;               ///< where in the octree each face lies, with its area there
+  FaceCells faces;  ///< where in the octree each face lies, with its area there
 };
 
 /// sizing.hdf
 struct SizingArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
-  double slope = 0;              ///< largest change of length per distance, before `scale`
-  double scale = 1;              ///< multiplies every length of a query
+  double slope = 0;  ///< largest change of length per distance, before `scale`
+  double scale = 1;  ///< multiplies every length of a query
   OctreeShape shape;
   ProlongedLengths lengths;
-  std::vector<double> face_weight;   ///< [n_faces] area over squared length: number of triangles times sqrt(3)/4
+  std::vector<double> face_weight;  ///< [n_faces] area over squared length: number of triangles times sqrt(3)/4
 };
 
 /// As all write_* and read_* of io/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).
@@ -51,7 +51,7 @@ SizingArtifact read_sizing(const std::string& path);
 struct MappedSizing {
   ArtifactHeader header;
   SizingNumbers numbers;
-  std::vector<double> face_weight;           ///< see SizingArtifact
+  std::vector<double> face_weight;  ///< see SizingArtifact
   std::unique_ptr<OctreeField> field;
 };
 MappedSizing map_sizing(const std::string& path);

@@ -25,7 +25,8 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.numbers = raster.numbers;
   sizing.slope = o.slope;
   sizing.scale = o.scale;
-  sizing.lengths = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length});
+  sizing.lengths =
+      prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length});
   sizing.face_weight = face_weights(raster.faces, sizing.lengths.cells, o.scale);
   sizing.shape = std::move(raster.octree.shape);
   sizing.header = raster.header;
@@ -43,23 +44,24 @@ double expected_triangles(const SizingArtifact& sizing) {
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
-  const auto [smallest, largest] =
-      std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(), [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
+  const auto [smallest, largest] = std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
+                                                       [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
   const double lo = o.scale * static_cast<double>(smallest->length), hi = o.scale * static_cast<double>(largest->length);
   StageSummary summary;
-  summary.line = fmt::format("{}: {} cells, lengths {:.4g} to {:.4g}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output, sizing.lengths.cells.size(), lo, hi, o.slope,
-                             expected_triangles(sizing), seconds);
-  summary.json = nlohmann::json{{"tool", "st-prolong"},
-                                {"output", o.output},
-                                {"cells", sizing.lengths.cells.size()},
-                                {"lmin", lo},
-                                {"lmax", hi},
-                                {"slope", o.slope},
-                                {"scale", o.scale},
-                                {"expected_triangles", std::llround(expected_triangles(sizing))},
-                                {"hash", sizing.header.content_hash},
-                                {"seconds", seconds}}
-                     .dump();
+  summary.line = fmt::format("{}: {} cells, lengths {:.4g} to {:.4g}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
+                             sizing.lengths.cells.size(), lo, hi, o.slope, expected_triangles(sizing), seconds);
+  summary.json = nlohmann::json{
+      {"tool", "st-prolong"},
+      {"output", o.output},
+      {"cells", sizing.lengths.cells.size()},
+      {"lmin", lo},
+      {"lmax", hi},
+      {"slope", o.slope},
+      {"scale", o.scale},
+      {"expected_triangles", std::llround(expected_triangles(sizing))},
+      {"hash", sizing.header.content_hash},
+      {"seconds",
+       seconds}}.dump();
   return summary;
 }
 

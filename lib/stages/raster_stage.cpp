@@ -25,20 +25,25 @@ constexpr double kDefaultMaxLength = 0.025;     // of the reference diagonal
 constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
 
 void require_valid(const RasterStageOptions& o) {
-  if (!(o.alpha_deg > 0 && o.alpha_deg <= 90)) throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
-  if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8)) throw Error(ExitCode::kUsage, fmt::format("--cell-per-length {}: not in [1, 8]", o.cell_per_length));
+  if (!(o.alpha_deg > 0 && o.alpha_deg <= 90))
+    throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
+  if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8))
+    throw Error(ExitCode::kUsage, fmt::format("--cell-per-length {}: not in [1, 8]", o.cell_per_length));
 }
 
 SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t) {
   const double diagonal = t.reference_diagonal();
   if (!(diagonal > 0)) throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
   SamplingLimits limits;
-  limits.max_length = o.lmax.empty() ? kDefaultMaxLength * diagonal : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
-  limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
+  limits.max_length =
+      o.lmax.empty() ? kDefaultMaxLength * diagonal : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
+  limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length
+                                     : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
   limits.alpha = radians(o.alpha_deg);
   limits.cell_per_length = o.cell_per_length;
   if (limits.min_length > limits.max_length)
-    throw Error(ExitCode::kUsage, fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
+    throw Error(ExitCode::kUsage,
+                fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
   return limits;
 }
 
@@ -54,10 +59,12 @@ class RasterTasks {
   /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
   std::vector<std::int32_t> order() const {
     std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
-    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f) work[static_cast<std::size_t>(n_batches_ + f)] = face_work(static_cast<std::size_t>(f));
+    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f)
+      work[static_cast<std::size_t>(n_batches_ + f)] = face_work(static_cast<std::size_t>(f));
     std::vector<std::int32_t> order(work.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
     return order;
   }
 
@@ -72,7 +79,8 @@ class RasterTasks {
         raster_one_face(task - n_batches_, boxes);
     } catch (const std::exception& e) {
       boxes.clear();
-      failure = task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
+      failure =
+          task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
     }
     Packer packer;
@@ -110,7 +118,7 @@ class RasterTasks {
 /// What rank 0 gathers.
 struct CollectedBoxes {
   std::vector<std::vector<RasterBox>> by_task;
-  std::vector<std::string> failures;   // by task, empty where there is none
+  std::vector<std::string> failures;  // by task, empty where there is none
 
   std::vector<RasterBox> all() const {
     std::vector<RasterBox> boxes;
@@ -141,8 +149,12 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   header.schema = "raster";
   header.tool = "st-raster";
   header.tool_version = ST_VERSION;
-  header.options_json =
-      nlohmann::json{{"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}}.dump();
+  header.options_json = nlohmann::json{
+      {"lmin", limits.min_length},
+      {"lmax", limits.max_length},
+      {"alpha", o.alpha_deg},
+      {"cell_per_length",
+       o.cell_per_length}}.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
   header.geometry_hash = geometry.content_hash;
@@ -154,29 +166,31 @@ RasterArtifact build_artifact(const Model& model, const RasterTasks& tasks, cons
   RasterArtifact artifact;
   artifact.octree = build_octree(t.box(), collected.all());
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    append_face_cells(artifact.octree.shape.view(), collected.by_task[static_cast<std::size_t>(tasks.first_face_task() + f)], t.face_area[static_cast<std::size_t>(f)],
-                      artifact.faces);
+    append_face_cells(artifact.octree.shape.view(), collected.by_task[static_cast<std::size_t>(tasks.first_face_task() + f)],
+                      t.face_area[static_cast<std::size_t>(f)], artifact.faces);
   return artifact;
 }
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, std::size_t n_boxes, std::size_t n_failures, double seconds) {
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
-  summary.line = fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, n_boxes, n_cells, a.numbers.min_length, a.numbers.max_length,
-                             n_failures ? fmt::format(", {} parts not sampled", n_failures) : "", seconds);
-  summary.json = nlohmann::json{{"tool", "st-raster"},
-                                {"output", o.output},
-                                {"samples", n_boxes},
-                                {"cells", n_cells},
-                                {"lmin", a.numbers.min_length},
-                                {"lmax", a.numbers.max_length},
-                                {"far_length", a.numbers.far_length},
-                                {"alpha", a.numbers.alpha_deg},
-                                {"cell_per_length", a.numbers.cell_per_length},
-                                {"not_sampled", n_failures},
-                                {"hash", a.header.content_hash},
-                                {"seconds", seconds}}
-                     .dump();
+  summary.line =
+      fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, n_boxes, n_cells, a.numbers.min_length,
+                  a.numbers.max_length, n_failures ? fmt::format(", {} parts not sampled", n_failures) : "", seconds);
+  summary.json = nlohmann::json{
+      {"tool", "st-raster"},
+      {"output", o.output},
+      {"samples", n_boxes},
+      {"cells", n_cells},
+      {"lmin", a.numbers.min_length},
+      {"lmax", a.numbers.max_length},
+      {"far_length", a.numbers.far_length},
+      {"alpha", a.numbers.alpha_deg},
+      {"cell_per_length", a.numbers.cell_per_length},
+      {"not_sampled", n_failures},
+      {"hash", a.header.content_hash},
+      {"seconds",
+       seconds}}.dump();
   return summary;
 }
 

@@ -1,0 +1,151 @@
+// Times of the sizing layer: sampling a CAD model, building and prolonging its octree, and queries.
+//   sizing_bench MODEL [LMAX_PERCENT]     a CAD file, sampled at default options
+//   sizing_bench --cells MILLIONS         synthetic octree: growth and query times
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/log.h"
+#include "geometry/model.h"
+#include "sizing/face_cells.h"
+#include "sizing/model_limits.h"
+#include "sizing/octree_field.h"
+#include "sizing/prolong.h"
+#include "sizing/raster_curve.h"
+#include "sizing/raster_face.h"
+
+namespace {
+
+using namespace st;
+
+constexpr double kSlope = 0.2;
+
+struct Storage {
+  RasterOctree raster;
+  ProlongedLengths lengths;
+};
+
+template <class... Args>
+void report(fmt::format_string<Args...> format, Args&&... args) {
+  std::fputs(fmt::format(format, std::forward<Args>(args)...).c_str(), stdout);
+}
+
+/// ns per query at random points, and along a walk in steps of half the local length near the boxes.
+void time_queries(const OctreeField& field, const std::vector<RasterBox>& boxes) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  constexpr int kQueries = 4'000'000;
+  const OctreeView& octree = field.data().octree;
+  std::vector<Vec3> points(kQueries);
+  double sum = 0;
+  const auto run = [&](const char* what) {
+    const Timer timer;
+    int hint = 0;
+    for (const Vec3& p : points) sum += field.size(p, hint);
+    report("  query {:<28} {:6.1f} ns\n", what, timer.seconds() / kQueries * 1e9);
+  };
+  for (Vec3& p : points) p = octree.lo + octree.edge * Vec3{uniform(random), uniform(random), uniform(random)};
+  run("random in the root cube");
+  for (Vec3& p : points) {
+    const RasterBox& b = boxes[random() % boxes.size()];
+    p = b.center + static_cast<double>(b.half) * Vec3{uniform(random), uniform(random), uniform(random)};
+  }
+  run("random near samples");
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % 8 == 0) at = (at + 1) % boxes.size();
+    const RasterBox& b = boxes[at];
+    points[i] = b.center + 0.5 * static_cast<double>(b.half) * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
+  }
+  run("coherent (sample by sample)");
+  report("  (mean length {:.4g})\n", sum / kQueries / 3);
+}
+
+void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double far_length) {
+  const auto storage = std::make_shared<Storage>();
+  const Timer build_timer;
+  storage->raster = build_octree(root, boxes);
+  const double build = build_timer.seconds();
+  const OctreeView octree = storage->raster.shape.view();
+  const Timer prolong_timer;
+  storage->lengths = prolong(octree, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, far_length});
+  const double prolong_seconds = prolong_timer.seconds(), n = static_cast<double>(octree.n_leaves());
+  report("octree  {} boxes -> {} cells in {:.3f} s ({:.2g} cells/s), {:.1f} bytes per cell\n", boxes.size(), octree.n_leaves(), build,
+         n / build, sizeof(std::uint64_t) + 1 + 32.0 / 7 + sizeof(CellLength) + sizeof(std::int32_t));
+  report("prolong {:.3f} s ({:.2g} cells/s)\n", prolong_seconds, n / prolong_seconds);
+  time_queries(OctreeField({octree, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage), boxes);
+}
+
+void bench_model(const std::string& path, double lmax_percent) {
+  const Timer import_timer;
+  ImportResult imported = import_model(path, {});
+  const Model model(std::move(imported.tables), std::move(imported.brep));
+  const ModelTables& t = model.tables();
+  report("{}: {} faces, {} edges, import {:.2f} s\n", path, t.n_faces(), t.n_edges(), import_timer.seconds());
+  SamplingLimits wall;
+  wall.max_length = lmax_percent / 100 * t.reference_diagonal();
+  wall.min_length = wall.max_length / 64;
+  const ModelLimits limits = model_limits(t, wall);
+  std::vector<RasterBox> boxes;
+  const Timer curve_timer;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (limits.edge[static_cast<std::size_t>(e)])
+      raster_curve(*model.curve(e), *limits.edge[static_cast<std::size_t>(e)], pack_cause(CauseKind::kEdge, e), boxes);
+  const std::size_t n_edge_boxes = boxes.size();
+  report("edges   {} boxes in {:.3f} s\n", n_edge_boxes, curve_timer.seconds());
+  const Timer face_timer;
+  double loop_seconds = 0, sampled_area = 0, area = 0;
+  std::int64_t n_evaluations = 0;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    const auto& own = limits.face[static_cast<std::size_t>(f)];
+    if (!own) continue;
+    const Timer face_seconds;
+    const auto surface = model.surface(f);
+    const LoopPolygons loops = loop_polygons(model, f, *own);
+    loop_seconds += face_seconds.seconds();
+    const FaceRasterReport r = raster_face(*surface, loops, *own, pack_cause(CauseKind::kFace, f), boxes);
+    n_evaluations += r.n_evaluations;
+    sampled_area += r.area;
+    area += t.face_area[static_cast<std::size_t>(f)];
+    if (std::getenv("SIZING_BENCH_FACES"))
+      report("  {:<28} type {} area {:10.4g} sampled {:10.4g} boxes {:8} evaluations {:9} {:.4f} s\n", t.face_label(f),
+             static_cast<int>(surface->type()), t.face_area[static_cast<std::size_t>(f)], r.area, r.n_patches, r.n_evaluations,
+             face_seconds.seconds());
+  }
+  report("faces   {} boxes in {:.3f} s, {:.3f} s of it loops; {} evaluations; area sampled / CAD = {:.4f}\n", boxes.size() - n_edge_boxes,
+         face_timer.seconds(), loop_seconds, n_evaluations, sampled_area / area);
+  time_octree(t.box(), boxes, limits.far_length);
+}
+
+/// Boxes on a sphere, so many that the octree has about `millions` cells.
+void bench_cells(double millions) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const double length = 0.0016 / std::sqrt(millions);
+  std::vector<RasterBox> boxes;
+  const auto n = static_cast<std::size_t>(2 * 4 * kPi * 0.16 / (length * length));
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 x = 0.4 * normalized(Vec3{normal(random), normal(random), normal(random)});
+    const float own = static_cast<float>(length * (1 + 4 * (x.z + 0.4)));
+    boxes.push_back({x, own, own, 0, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(i % 100))});
+  }
+  time_octree({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, boxes, 0.1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "--cells" && argc > 2)
+    bench_cells(std::atof(argv[2]));
+  else if (!first.empty())
+    bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
+  else
+    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS\n");
+}
