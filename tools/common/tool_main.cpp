@@ -153,7 +153,7 @@ void ToolMain::number(const std::string& flag, int& value, const std::string& in
 }
 
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
-  file_options_.push_back(app_.add_flag(flag, value, help)->default_str("false"));
+  file_options_.push_back(app_.add_flag(flag, value, help));
 }
 
 void ToolMain::begin(int argc, char** argv) {
