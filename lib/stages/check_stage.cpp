@@ -184,6 +184,12 @@ std::string conformity_line(const ConformityReport& c) {
                      100 * c.model.share(), kConformityMin, kConformityMax, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
 }
 
+/// Handles of all parts together, where the number means something.
+std::optional<std::int64_t> genus_of(const TopologyReport& t) {
+  const bool is_manifold = t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
+  return is_manifold ? std::optional(t.genus) : std::nullopt;
+}
+
 std::string verdict_line(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string failed;
   for (const Check& c : f.checks) {
@@ -192,7 +198,9 @@ std::string verdict_line(const CheckStageOptions& options, const SurfaceMesh& me
     failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what, has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
   }
   const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
-  return fmt::format("{}: {}; {} triangles, {} nodes, {} parts, genus {}, {:.1f} s", options.mesh, verdict, mesh.n_triangles(), f.topology.n_used_nodes, f.topology.n_components, f.topology.genus, seconds);
+  const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
+  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", options.mesh, verdict, mesh.n_triangles(), f.topology.n_used_nodes, f.topology.n_components,
+                     f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
 }
 
 std::string report_text(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
@@ -260,7 +268,7 @@ json report_json(const CheckStageOptions& options, const SurfaceMesh& mesh, cons
          {"edges", f.topology.n_edges},
          {"components", f.topology.n_components},
          {"euler", f.topology.euler},
-         {"genus", f.topology.genus},
+         {"genus", genus_of(f.topology) ? json(*genus_of(f.topology)) : json()},
          {"closed", f.topology.is_closed()},
          {"boundary_edges", f.topology.boundary_edges.count},
          {"cad_boundary_edges", f.topology.n_cad_boundary_edges},
