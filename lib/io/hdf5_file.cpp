@@ -670,4 +670,28 @@ double Hdf5Reader::double_attribute(const std::string& group, const std::string&
   return number_attribute<double>(*this, impl_->attributes, {group, name}, 'd');
 }
 
+void Hdf5Reader::verify(const std::string& name) const {
+  const DatasetInfo& d = info(name);
+  if (d.type == ElementType::kString) {
+    read_strings(name);
+    return;
+  }
+  std::size_t n_bytes = element_size(d.type);
+  for (const std::uint64_t extent : d.shape) n_bytes *= extent;
+  std::vector<std::byte> values(n_bytes);
+  read_raw(name, values.data());
+}
+
+std::vector<AttributeSummary> Hdf5Reader::content_attributes() const {
+  std::vector<AttributeSummary> list;
+  for (const auto& [key, value] : impl_->attributes) {
+    if (key.first == kRoot && kProvenance.count(key.second)) continue;
+    const std::string name = key.first + "@" + key.second;
+    if (value.kind == 's') list.push_back({name, value.bytes});
+    if (value.kind == 'i' && value.bytes.size() == sizeof(std::int64_t)) list.push_back({name, int_attribute(key.first, key.second)});
+    if (value.kind == 'd' && value.bytes.size() == sizeof(double)) list.push_back({name, double_attribute(key.first, key.second)});
+  }
+  return list;
+}
+
 }  // namespace st

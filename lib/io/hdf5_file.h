@@ -15,6 +15,7 @@
 #include "base/vec.h"
 #include "geometry/surface.h"
 #include "io/artifact.h"
+#include "io/inspect.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -199,6 +200,11 @@ class Hdf5Reader {
     return {owner, std::span<const T>(static_cast<const T*>(owner.get()), n)};
   }
 
+  /// Reads a dataset only to verify its checksum.
+  void verify(const std::string& name) const;
+
+  /// All single-valued attributes that are part of the content, by name.
+  std::vector<AttributeSummary> content_attributes() const;
   std::string string_attribute(const std::string& group, const std::string& name) const;
   std::int64_t int_attribute(const std::string& group, const std::string& name) const;
   double double_attribute(const std::string& group, const std::string& name) const;

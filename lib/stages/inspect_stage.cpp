@@ -1,0 +1,157 @@
+#include "stages/inspect_stage.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "base/log.h"
+#include "io/artifact.h"
+#include "io/inspect.h"
+#if __has_include("io/octree_export.h")
+#include "io/octree_export.h"
+#endif
+
+namespace st {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Names in artifacts are any bytes; JSON wants UTF-8.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// What there is how many of, by schema: name for people and programs, dataset whose rows are counted, rows that do not count.
+struct Count {
+  const char* name;
+  const char* dataset;
+  std::int64_t surplus = 0;
+};
+
+const std::vector<Count>& counts_of(const std::string& schema) {
+  static const std::map<std::string, std::vector<Count>> counts = {
+      {"geometry",
+       {{"faces", "/st/face/type"}, {"edges", "/st/edge/length"}, {"vertices", "/st/vertex/xyz"}, {"loops", "/st/loop/coedge_offsets", 1}, {"groups", "/st/group/name"}, {"findings", "/st/finding/what"}}},
+      {"raster", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/cell_offset", 1}}},
+      {"sizing", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/weight"}}},
+      {"patches", {{"triangles", "/st/triangle/nodes"}, {"faces", "/st/face/group"}, {"patches", "/st/patch/face"}, {"failures", "/st/failure/face"}, {"groups", "/st/group/name"}}},
+      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/VTKHDF/FieldData/face_name"}, {"groups", "/VTKHDF/FieldData/group_name"}}}};
+  static const std::vector<Count> none;
+  const auto it = counts.find(schema);
+  return it == counts.end() ? none : it->second;
+}
+
+/// Attributes of our own groups, by their names without the group, header apart: resolved numbers, is_closed, is_complete ...
+std::vector<AttributeSummary> properties_of(const ArtifactDescription& artifact) {
+  std::vector<AttributeSummary> properties;
+  for (const AttributeSummary& a : artifact.attributes) {
+    const std::string name = a.name.substr(a.name.find('@') + 1);
+    const bool is_ours = a.name.rfind("/st", 0) == 0, is_header = name == "schema" || name == "schema_version" || name == "unit" || name == "unit_in_m";
+    if (is_ours && !is_header) properties.push_back({name, a.value});
+  }
+  return properties;
+}
+
+/// is_* attributes are truths, whatever HDF5 stores them as.
+Json to_json(const AttributeSummary& property) {
+  return std::visit(
+      [&](const auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::int64_t>)
+          if (property.name.rfind("is_", 0) == 0) return Json(value != 0);
+        return Json(value);
+      },
+      property.value);
+}
+
+Json parse_or_text(const std::string& text) {
+  Json parsed = Json::parse(text, nullptr, false);
+  return parsed.is_discarded() ? Json(text) : parsed;
+}
+
+Json info_json(const std::string& path, const ArtifactDescription& artifact) {
+  const ArtifactHeader& h = artifact.header;
+  Json json = {{"tool", "st-info"}, {"artifact", path}, {"schema", h.schema}, {"schema_version", h.schema_version}, {"written_by", h.tool}, {"version", h.tool_version}};
+  json["unit"] = h.unit.empty() ? Json(nullptr) : Json(h.unit);
+  json["unit_in_m"] = h.unit_in_m ? Json(*h.unit_in_m) : Json(nullptr);
+  json["counts"] = Json::object();
+  for (const Count& c : counts_of(h.schema)) json["counts"][c.name] = artifact.rows(c.dataset) - c.surplus;
+  json["properties"] = Json::object();
+  for (const AttributeSummary& p : properties_of(artifact)) json["properties"][p.name] = to_json(p);
+  json["inputs"] = Json::array();
+  for (const InputRef& input : h.inputs) json["inputs"].push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
+  json["options"] = parse_or_text(h.options_json.empty() ? "{}" : h.options_json);
+  json["geometry_hash"] = h.schema == "geometry" ? h.content_hash : h.geometry_hash;
+  json["hash"] = h.content_hash;
+  return json;
+}
+
+std::string info_lines(const std::string& path, const ArtifactDescription& artifact) {
+  const ArtifactHeader& h = artifact.header;
+  std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
+  const auto row = [&](const std::string& name, const std::string& value) { text += fmt::format("  {:<16} {}\n", name, value); };
+  for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
+  for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
+  row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
+  for (const InputRef& input : h.inputs) row("from " + input.role, fmt::format("{} {}", input.name, input.hash));
+  if (!h.options_json.empty()) row("options", h.options_json);
+  if (h.schema != "geometry") row("geometry", h.geometry_hash);
+  row("hash", h.content_hash);
+  text.pop_back();
+  return text;
+}
+
+StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
+  StageSummary summary;
+  summary.line = fmt::format("{}: {} exported, {:.2f} s", output, artifact, timer.seconds());
+  summary.json = dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
+  return summary;
+}
+
+void export_artifact(const std::string& artifact, const std::string& output) {
+  const std::string schema = read_header(artifact).schema;
+  if (schema == "mesh") {
+    require_export_suffix(output);
+    require_writable(output);
+    export_mesh(output, read_mesh(artifact).mesh);
+#if __has_include("io/octree_export.h")
+  } else if (schema == "raster" || schema == "sizing") {
+    require_writable(output);
+    export_octree(artifact, output);
+#endif
+  } else {
+    throw Error(ExitCode::kInput, fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster or sizing artifact", artifact, schema));
+  }
+}
+
+}  // namespace
+
+StageSummary run_info(const std::string& artifact) {
+  const ArtifactDescription description = describe_artifact(artifact);
+  return {info_lines(artifact, description), dump(info_json(artifact, description))};
+}
+
+StageSummary run_hash(const std::string& artifact) {
+  const std::string hash = describe_artifact(artifact).header.content_hash;
+  return {hash, dump({{"tool", "st-info"}, {"artifact", artifact}, {"hash", hash}})};
+}
+
+StageSummary run_diff(const DiffStageOptions& o) {
+  const std::vector<std::string> differences = compare_artifacts(o.a, o.b, o.tolerance);
+  StageSummary summary;
+  summary.code = differences.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
+  summary.line = differences.empty() ? fmt::format("{} and {} are equal", o.a, o.b) : fmt::format("{} and {} differ in {} places", o.a, o.b, differences.size());
+  if (differences.empty() && o.tolerance > 0) summary.line += fmt::format(" within {:g}", o.tolerance);
+  for (const std::string& difference : differences) summary.line += "\n  " + difference;
+  summary.json = dump({{"tool", "st-diff"}, {"a", o.a}, {"b", o.b}, {"tolerance", o.tolerance}, {"equal", differences.empty()}, {"differences", differences}});
+  return summary;
+}
+
+StageSummary run_export(const std::string& artifact, const std::string& output) {
+  const Timer timer;
+  export_artifact(artifact, output);
+  return export_summary(artifact, output, timer);
+}
+
+}  // namespace st
