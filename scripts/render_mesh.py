@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+"""Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of its difficult places.
+
+usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...]
+Needs python3-vtk9 and, without a display, xvfb.
+"""
+
+import argparse
+import os
+import sys
+
+import render_common as common
+from render_common import numpy, vtk, vtk_to_numpy
+from vtk.util import numpy_support
+
+SIZE = (1280, 800)
+OUTER = ("symmetry", "farfield")  # hidden in all views but the one that is named after it
+
+
+class Mesh:
+    """Triangles with their CAD face and group."""
+
+    def __init__(self, path):
+        self.grid = common.read(path)
+        self.points = vtk_to_numpy(self.grid.GetPoints().GetData())
+        self.triangles = vtk_to_numpy(self.grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        self.face = common.cell_array(self.grid, "face")
+        self.group = common.cell_array(self.grid, "group").astype(int)
+        names = self.grid.GetFieldData().GetAbstractArray("group_name")
+        n_groups = int(self.group.max()) + 1
+        self.names = [names.GetValue(i) for i in range(names.GetNumberOfValues())] if names else [f"group {i}" for i in range(n_groups)]
+
+    def is_outer(self):
+        """Per triangle: far field or symmetry plane."""
+        flags = numpy.array([any(word in n.lower() for word in OUTER) for n in self.names])
+        return flags[self.group]
+
+    def box(self, prefix=None):
+        """Corners of the bounding box of the groups whose name starts so; None when there is no such group. Without prefix: the walls."""
+        selected = ~self.is_outer()
+        if prefix is not None:
+            selected = numpy.array([n.startswith(prefix) for n in self.names])[self.group]
+        if not selected.any():
+            return None
+        used = self.points[self.triangles[selected].ravel()]
+        return numpy.array([used.min(axis=0), used.max(axis=0)])
+
+    def surface(self, selected):
+        """Selected triangles as poly data with their faces and groups."""
+        cells = vtk.vtkCellArray()
+        triangles = self.triangles[selected].astype(numpy.int64)
+        ids = numpy.hstack([numpy.full((len(triangles), 1), 3, numpy.int64), triangles]).ravel()
+        cells.SetCells(len(triangles), numpy_support.numpy_to_vtkIdTypeArray(ids, deep=1))
+        poly = vtk.vtkPolyData()
+        poly.SetPoints(self.grid.GetPoints())
+        poly.SetPolys(cells)
+        colours = (255 * numpy.array(common.PALETTE)[self.group[selected] % len(common.PALETTE)]).astype(numpy.uint8)
+        array = numpy_support.numpy_to_vtk(colours, deep=1)
+        array.SetName("colour")
+        poly.GetCellData().SetScalars(array)
+        return poly
+
+
+def wire(poly):
+    """All triangle edges, each once."""
+    edges = vtk.vtkExtractEdges()
+    edges.SetInputData(poly)
+    edges.Update()
+    return edges.GetOutput()
+
+
+def scene(mesh, selected, edge_opacity):
+    """Surface in the colours of its groups with the triangle edges on it."""
+    poly = mesh.surface(selected)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(poly)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    surface = vtk.vtkActor()
+    surface.SetMapper(mapper)
+    surface.GetProperty().SetInterpolationToFlat()
+    surface.GetProperty().SetAmbient(0.35)
+    surface.GetProperty().SetDiffuse(0.7)
+    renderer = vtk.vtkRenderer()
+    renderer.AddActor(surface)
+    edges = common.actor(wire(poly), colour=(0.12, 0.14, 0.2), line_width=1.0)
+    edges.GetProperty().SetOpacity(edge_opacity)
+    edges.GetProperty().LightingOff()
+    renderer.AddActor(edges)
+    return renderer
+
+
+def at(box, where):
+    """Point of a box by fractions."""
+    return box[0] + (box[1] - box[0]) * numpy.array(where)
+
+
+def fit(points, direction):
+    """Focus and half height of the picture that shows all points."""
+    out = numpy.array(direction) / numpy.linalg.norm(direction)
+    right = numpy.cross((0, 0, 1), out)
+    right /= numpy.linalg.norm(right)
+    up = numpy.cross(out, right)
+    low, high = zip(*((float((points @ axis).min()), float((points @ axis).max())) for axis in (right, up, out)))
+    focus = sum(0.5 * (a + b) * axis for a, b, axis in zip(low, high, (right, up, out)))
+    return focus, 0.52 * max(high[1] - low[1], (high[0] - low[0]) * SIZE[1] / SIZE[0])
+
+
+def views(mesh):
+    """name -> (focus, direction to the viewer, half height of the picture, triangles, opacity of the edges)."""
+    walls, everything = ~mesh.is_outer(), mesh.box()
+    if everything is None:
+        sys.exit("render: error: the mesh has far field and symmetry only")
+    size = float(numpy.linalg.norm(everything[1] - everything[0]))
+    direction = (-0.55, 0.75, 0.45)
+    focus, half_height = fit(mesh.points[mesh.triangles[walls].ravel()], direction)
+    result = {"mesh_whole": (focus, direction, half_height, walls, 0.3)}
+
+    def close_up(name, group, where, direction, half_height, edge_opacity=1.0, selected=walls):
+        box = mesh.box(group)
+        if box is None:
+            print(f"render: no group '{group}*': view {name} left out", file=sys.stderr)
+        else:
+            result[name] = (at(box, where), direction, half_height * size, selected, edge_opacity)
+
+    not_far = numpy.array(["farfield" not in n.lower() for n in mesh.names])[mesh.group]
+    close_up("mesh_symmetry", "fuselage", (0.5, 0, 0.45), (-0.35, 0.9, 0.3), 0.25, 0.4, not_far)
+    close_up("mesh_nose", "fuselage", (0.07, 0.5, 0.3), (-0.75, 0.6, 0.25), 0.05)
+    close_up("mesh_wing_root", "belly_fairing", (0.35, 1, 0.5), (-0.55, 0.75, 0.4), 0.065)
+    close_up("mesh_wing_tip", "wing_tip", (0.3, 0.5, 0), (-0.35, 0.85, 0.45), 0.028)
+    close_up("mesh_trailing_edge", "wing_te", (0.965, 0.985, 0.93), (0.8, -0.5, 0.25), 0.004)
+    close_up("mesh_nacelle", "nacelle_outer", (0.5, 0.5, 0.6), (-0.6, 0.75, 0.3), 0.05)
+    close_up("mesh_nacelle_lip", "nacelle_outer", (0.03, 0.5, 0.95), (-0.75, 0.45, 0.45), 0.011)
+    return result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("mesh", help="mesh artifact (.hdf) or its .vtu export with face and group")
+    parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
+    parser.add_argument("--view", action="append", help="only this view (may be repeated)")
+    options = parser.parse_args()
+    mesh = Mesh(options.mesh)
+    all_views = views(mesh)
+    for name in options.view or []:
+        if name not in all_views:
+            parser.error(f"unknown view '{name}'; there are: {', '.join(all_views)}")
+    os.makedirs(options.output, exist_ok=True)
+    for name in options.view or all_views:
+        focus, direction, half_height, selected, edge_opacity = all_views[name]
+        renderer = scene(mesh, selected, edge_opacity)
+        window = common.window_of(renderer, SIZE)
+        common.look(renderer, focus, direction, half_height)
+        common.write_png(window, os.path.join(options.output, name + ".png"))
+
+
+if __name__ == "__main__":
+    main()

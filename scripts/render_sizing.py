@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale.
+
+usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [-o docs/images]
+With --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
+Needs python3-vtk9 and, without a display, xvfb.
+"""
+
+import argparse
+import os
+
+import render_common as common
+from render_common import numpy, vtk, vtk_to_numpy
+
+SIZE = (1280, 800)
+LENGTH_NAMES = ("length", "size", "prolonged_length")
+
+
+def length_name(grid):
+    """The cell array that holds the requested edge length."""
+    for name in LENGTH_NAMES:
+        if grid.GetCellData().GetArray(name) is not None:
+            return name
+    common.cell_array(grid, LENGTH_NAMES[0])  # ends with the list of what there is
+
+
+def colours(low, high):
+    """Logarithmic scale from fine (dark red) over green to coarse (light blue)."""
+    table = vtk.vtkLookupTable()
+    table.SetScaleToLog10()
+    table.SetTableRange(low, high)
+    table.SetHueRange(0.0, 0.62)
+    table.SetSaturationRange(0.75, 0.45)
+    table.SetValueRange(0.85, 0.97)
+    table.SetNumberOfTableValues(24)
+    table.Build()
+    return table
+
+
+def cut(data, origin, normal):
+    """Cells of a data set that a plane meets, as poly data."""
+    plane = vtk.vtkPlane()
+    plane.SetOrigin(*origin)
+    plane.SetNormal(*normal)
+    cutter = vtk.vtkCutter()
+    cutter.SetInputData(data)
+    cutter.SetCutFunction(plane)
+    cutter.GenerateTrianglesOff()
+    cutter.Update()
+    return cutter.GetOutput()
+
+
+def slice_scene(grid, name, origin, normal, body, half_height):
+    """Coloured slice with cell edges, the section of the body and a scale for the lengths that are in the picture."""
+    piece = cut(grid, origin, normal)
+    centres = vtk.vtkCellCenters()
+    centres.SetInputData(piece)
+    centres.Update()
+    near = numpy.abs(vtk_to_numpy(centres.GetOutput().GetPoints().GetData()) - numpy.array(origin)).max(axis=1) < 1.6 * half_height
+    lengths = vtk_to_numpy(piece.GetCellData().GetArray(name))[near]
+    table = colours(float(lengths.min()), float(lengths.max()))
+
+    piece.GetCellData().SetActiveScalars(name)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(piece)
+    mapper.SetScalarModeToUseCellData()
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    cells = vtk.vtkActor()
+    cells.SetMapper(mapper)
+    cells.GetProperty().LightingOff()
+    cells.GetProperty().EdgeVisibilityOn()
+    cells.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
+    cells.GetProperty().SetLineWidth(0.5)
+    renderer = vtk.vtkRenderer()
+    renderer.AddActor(cells)
+    if body is not None:
+        outline = common.actor(cut(body, origin, normal), colour=(0, 0, 0), line_width=2.5)
+        outline.GetProperty().LightingOff()
+        outline.SetPosition(*(1e-3 * half_height * numpy.array(normal)))  # in front of the cells
+        renderer.AddActor(outline)
+    renderer.AddViewProp(scale_bar(table))
+    return renderer
+
+
+def scale_bar(table):
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle("edge length")
+    bar.SetNumberOfLabels(5)
+    bar.SetLabelFormat("%.3g")
+    bar.SetWidth(0.085)
+    bar.SetHeight(0.5)
+    bar.SetPosition(0.905, 0.03)
+    bar.SetTextPad(6)
+    bar.SetVerticalTitleSeparation(10)
+    bar.DrawBackgroundOn()
+    bar.GetBackgroundProperty().SetColor(1, 1, 1)
+    for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        text.SetColor(0, 0, 0)
+        text.ShadowOff()
+        text.ItalicOff()
+        text.SetFontSize(16)
+    bar.UnconstrainedFontSizeOn()
+    return bar
+
+
+def finest_place(grid, name):
+    """Centre of the finest cell and the extent of the cells that are at most eight times as long."""
+    lengths = common.cell_array(grid, name)
+    centres = vtk.vtkCellCenters()
+    centres.SetInputData(grid)
+    centres.Update()
+    points = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
+    fine = points[lengths <= 8 * lengths.min()]
+    return points[int(numpy.argmin(lengths))], float(numpy.linalg.norm(fine.max(axis=0) - fine.min(axis=0)))
+
+
+def slices(grid, name, mesh):
+    """name -> (point on the plane and in the middle of the picture, normal towards the viewer, half height)."""
+    place, extent = finest_place(grid, name)
+    result = {}
+    if mesh is not None:
+        everything = mesh.box()
+        size = float(numpy.linalg.norm(everything[1] - everything[0]))
+        nacelle = mesh.box("nacelle_outer")
+        if nacelle is not None:
+            middle = 0.5 * (nacelle[0] + nacelle[1])
+            y = middle[1] + 0.0037 * size  # beside patch boundaries in the middle of the nacelle
+            result["sizing_nacelle"] = ((middle[0] + 0.06 * size, y, middle[2] + 0.02 * size), (0, -1, 0), 0.085 * size)
+            x = nacelle[0][0] + 0.93 * (nacelle[1][0] - nacelle[0][0])  # meets nacelle, pylon, wing and fuselage
+            result["sizing_section"] = ((x, 0.75 * middle[1], middle[2] + 0.03 * size), (-1, 0, 0), 0.08 * size)
+    if not result:
+        result["sizing_slice"] = (tuple(place), (0, -1, 0), 0.6 * extent)
+    return result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("sizing", help="octree exported as .vtu")
+    parser.add_argument("--mesh", help="mesh artifact: places the slices and shows the body")
+    parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
+    options = parser.parse_args()
+    grid = common.read(options.sizing)
+    name = length_name(grid)
+    mesh = body = None
+    if options.mesh:
+        from render_mesh import Mesh
+        mesh = Mesh(options.mesh)
+        body = mesh.surface(~mesh.is_outer())
+    os.makedirs(options.output, exist_ok=True)
+    for picture, (origin, normal, half_height) in slices(grid, name, mesh).items():
+        renderer = slice_scene(grid, name, origin, normal, body, half_height)
+        window = common.window_of(renderer, SIZE)
+        common.look(renderer, origin, normal, half_height)
+        common.write_png(window, os.path.join(options.output, picture + ".png"))
+
+
+if __name__ == "__main__":
+    main()
