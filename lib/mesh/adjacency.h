@@ -38,7 +38,9 @@ class EdgeTable {
 
 inline NodeId side_start(std::span<const Triangle> triangles, SideId side) { return triangles[side / 3].n[side % 3]; }
 /// True when the two sides run the same way: their triangles are not oriented alike.
-inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) { return side_start(triangles, a) == side_start(triangles, b); }
+inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) {
+  return side_start(triangles, a) == side_start(triangles, b);
+}
 
 /// Sets of elements that were joined; the representative of a set is its lowest element.
 class DisjointSets {

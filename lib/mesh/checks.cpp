@@ -24,7 +24,8 @@ Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) { return (corner(mesh, t, 0
 bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
 
 DefectPlace at_edge(const SurfaceMesh& mesh, NodeId a, NodeId b, std::span<const SideId> sides) {
-  return {0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3], sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone};
+  return {0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],
+          sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone};
 }
 
 /// Finds the CAD edges that a mesh edge lies on, to see what the CAD allows there.
@@ -38,7 +39,8 @@ class CadEdgeLookup {
   bool is_allowed(std::span<const std::uint8_t> flags, NodeId a, NodeId b) const {
     if (flags.empty()) return false;
     if (dim(a) < dim(b)) std::swap(a, b);
-    if (dim(a) == 1) return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b] : flags[mesh_.node_entity[a]] != 0;
+    if (dim(a) == 1)
+      return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b] : flags[mesh_.node_entity[a]] != 0;
     if (dim(a) != 0) return false;
     const auto [begin, end] = edges_between_.equal_range(std::minmax({mesh_.node_entity[a], mesh_.node_entity[b]}));
     return std::any_of(begin, end, [&](const auto& pair) { return flags[pair.second] != 0; });
@@ -93,11 +95,15 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     ++r.n_edges;
     if (sides.size() == 1) {
-      if (lookup.is_allowed(cad.may_be_open, a, b)) ++r.n_cad_boundary_edges;
-      else r.boundary_edges.add(at_edge(mesh, a, b, sides));
+      if (lookup.is_allowed(cad.may_be_open, a, b))
+        ++r.n_cad_boundary_edges;
+      else
+        r.boundary_edges.add(at_edge(mesh, a, b, sides));
     } else if (sides.size() > 2) {
-      if (lookup.is_allowed(cad.may_be_nonmanifold, a, b)) ++r.n_cad_nonmanifold_edges;
-      else r.nonmanifold_edges.add(at_edge(mesh, a, b, sides));
+      if (lookup.is_allowed(cad.may_be_nonmanifold, a, b))
+        ++r.n_cad_nonmanifold_edges;
+      else
+        r.nonmanifold_edges.add(at_edge(mesh, a, b, sides));
     } else if (run_alike(mesh.triangles, sides[0], sides[1])) {
       r.misoriented_edges.add(at_edge(mesh, a, b, sides));
     }
@@ -142,7 +148,8 @@ void find_folds(const SurfaceMesh& mesh, Defects& folds) {
       const Vec3 ns = area_vector(mesh, s), nt = area_vector(mesh, t);
       const bool is_misoriented = sides.size() == 2 && run_alike(mesh.triangles, sides[0], sides[1]);  // a defect of its own, no fold
       const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);
-      if (cosine < kFoldCosine * norm(ns) * norm(nt)) folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
+      if (cosine < kFoldCosine * norm(ns) * norm(nt))
+        folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
     }
   });
 }
@@ -170,7 +177,8 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
   for (std::size_t i = 1; i < order.size(); ++i)
     if (key(order[i]) == key(order[i - 1])) found.push_back(order[i]);
   std::sort(found.begin(), found.end());
-  for (std::size_t i = 0; i < found.size(); ++i) duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
+  for (std::size_t i = 0; i < found.size(); ++i)
+    duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
 }
 
 }  // namespace
@@ -178,7 +186,8 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
 ShapeReport check_shape(const SurfaceMesh& mesh) {
   ShapeReport r;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
-    if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t])) r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
+    if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t]))
+      r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
   find_duplicate_nodes(mesh, r.duplicate_nodes);
   find_folds(mesh, r.folds);
   return r;

@@ -11,15 +11,15 @@ namespace st {
 
 /// Where a defect is.
 struct DefectPlace {
-  Vec3 xyz;                              ///< model unit
-  FaceId face_a = kNone, face_b = kNone; ///< 0-based CAD faces, kNone when there is no second one
+  Vec3 xyz;                               ///< model unit
+  FaceId face_a = kNone, face_b = kNone;  ///< 0-based CAD faces, kNone when there is no second one
 };
 
 /// Defects of one kind: how many, and where the first of them are.
 struct Defects {
   static constexpr std::size_t kMaxPlaces = 10;
   std::int64_t count = 0;
-  std::vector<DefectPlace> first;        ///< at most kMaxPlaces, in the order of the mesh
+  std::vector<DefectPlace> first;  ///< at most kMaxPlaces, in the order of the mesh
 
   void add(const DefectPlace& place) {
     ++count;
@@ -29,25 +29,25 @@ struct Defects {
 
 /// Where the CAD itself is open or non-manifold. Empty spans: nowhere.
 struct CadEdges {
-  std::span<const VertexId> edge_vertices;         ///< [2*n_edges]
-  std::span<const std::uint8_t> may_be_open;       ///< [n_edges] 1: used by one face only
-  std::span<const std::uint8_t> may_be_nonmanifold;///< [n_edges] 1: used by more than two faces
+  std::span<const VertexId> edge_vertices;           ///< [2*n_edges]
+  std::span<const std::uint8_t> may_be_open;         ///< [n_edges] 1: used by one face only
+  std::span<const std::uint8_t> may_be_nonmanifold;  ///< [n_edges] 1: used by more than two faces
 };
 
 /// How triangles meet.
 struct TopologyReport {
   std::int64_t n_edges = 0;
   std::int64_t n_used_nodes = 0;
-  std::int32_t n_components = 0;         ///< connected by common nodes
-  std::int64_t euler = 0;                ///< nodes - edges + triangles (those without a repeated node)
-  std::int64_t genus = 0;                ///< of all components together; meaningful when is_closed() and nothing is pinched
-  Defects boundary_edges;                ///< used by one triangle
-  Defects nonmanifold_edges;             ///< used by more than two
-  Defects misoriented_edges;             ///< used by two triangles that run along it the same way
-  Defects repeated_nodes;                ///< triangles that name a node twice
-  Defects duplicate_triangles;           ///< triangles with the same three nodes as an earlier one
-  Defects pinched_nodes;                 ///< nodes whose triangles form more than one fan: parts that touch in a point
-  std::int64_t n_cad_boundary_edges = 0; ///< used by one triangle, where the CAD is open, too: in no list
+  std::int32_t n_components = 0;          ///< connected by common nodes
+  std::int64_t euler = 0;                 ///< nodes - edges + triangles (those without a repeated node)
+  std::int64_t genus = 0;                 ///< of all components together; meaningful when is_closed() and nothing is pinched
+  Defects boundary_edges;                 ///< used by one triangle
+  Defects nonmanifold_edges;              ///< used by more than two
+  Defects misoriented_edges;              ///< used by two triangles that run along it the same way
+  Defects repeated_nodes;                 ///< triangles that name a node twice
+  Defects duplicate_triangles;            ///< triangles with the same three nodes as an earlier one
+  Defects pinched_nodes;                  ///< nodes whose triangles form more than one fan: parts that touch in a point
+  std::int64_t n_cad_boundary_edges = 0;  ///< used by one triangle, where the CAD is open, too: in no list
   std::int64_t n_cad_nonmanifold_edges = 0;
 
   /// Closed, or open only where the CAD is, and manifold likewise.
@@ -63,9 +63,9 @@ inline constexpr double kFoldCosine = -0.85;
 
 /// Areas and volume.
 struct MeshMeasure {
-  double area = 0;                       ///< model unit squared
-  double volume = 0;                     ///< model unit cubed, signed; meaningful for a closed mesh
-  std::vector<double> face_area;         ///< [n_faces] by CAD face
+  double area = 0;                ///< model unit squared
+  double volume = 0;              ///< model unit cubed, signed; meaningful for a closed mesh
+  std::vector<double> face_area;  ///< [n_faces] by CAD face
 };
 
 /// Local, linear.
@@ -73,9 +73,9 @@ MeshMeasure measure_mesh(const SurfaceMesh& mesh);
 
 /// Where nodes and triangles lie.
 struct ShapeReport {
-  Defects zero_area;                     ///< three different nodes exactly on a line
-  Defects duplicate_nodes;               ///< nodes of one component at the coordinates of an earlier one
-  Defects folds;                         ///< edges between triangles of one CAD face that turn back on each other (kFoldCosine)
+  Defects zero_area;        ///< three different nodes exactly on a line
+  Defects duplicate_nodes;  ///< nodes of one component at the coordinates of an earlier one
+  Defects folds;            ///< edges between triangles of one CAD face that turn back on each other (kFoldCosine)
   bool passes() const { return zero_area.count == 0 && duplicate_nodes.count == 0 && folds.count == 0; }
 };
 
@@ -84,9 +84,9 @@ ShapeReport check_shape(const SurfaceMesh& mesh);
 
 /// Which triangles meet where they should not. Exact.
 struct CrossingReport {
-  Defects crossings;                     ///< pairs within one component without a common node that have a point in common
-  Defects overlapping_neighbours;        ///< pairs with one or two common nodes that have more in common than these
-  Defects contacts;                      ///< pairs of different components that have a point in common: parts in contact, no defect
+  Defects crossings;               ///< pairs within one component without a common node that have a point in common
+  Defects overlapping_neighbours;  ///< pairs with one or two common nodes that have more in common than these
+  Defects contacts;                ///< pairs of different components that have a point in common: parts in contact, no defect
   bool passes() const { return crossings.count == 0 && overlapping_neighbours.count == 0; }
 };
 

@@ -198,7 +198,8 @@ class BoxTree {
       if (is_degenerate(points, triangles[t])) continue;
       const Points p = corners(points, triangles[t]);
       const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
-      const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 | spread(cell(c.z, all.lo.z, extent.z)) << 2;
+      const std::uint64_t key =
+          spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 | spread(cell(c.z, all.lo.z, extent.z)) << 2;
       keyed.emplace_back(key, static_cast<TriangleId>(t));
     }
     std::sort(keyed.begin(), keyed.end());
@@ -274,10 +275,14 @@ bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Tria
       if (a.n[i] == b.n[j]) corner_a[n_shared] = i, corner_b[n_shared++] = j;
   const Points pa = corners(points, a), pb = corners(points, b);
   switch (n_shared) {
-    case 0: return disjoint_nodes_cross(pa, pb);
-    case 1: return one_node_cross(rotated(pa, corner_a[0]), rotated(pb, corner_b[0]));
-    case 2: return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]], pb[3 - corner_b[0] - corner_b[1]]);
-    default: return false;
+    case 0:
+      return disjoint_nodes_cross(pa, pb);
+    case 1:
+      return one_node_cross(rotated(pa, corner_a[0]), rotated(pb, corner_b[0]));
+    case 2:
+      return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]], pb[3 - corner_b[0] - corner_b[1]]);
+    default:
+      return false;
   }
 }
 
@@ -289,7 +294,8 @@ std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, 
     int n_shared = 0;
     if (triangles_cross(points, triangles[a], triangles[b], n_shared)) pairs.push_back({a, b, n_shared});
   });
-  std::sort(pairs.begin(), pairs.end(), [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   return pairs;
 }
 

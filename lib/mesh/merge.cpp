@@ -35,23 +35,27 @@ std::vector<const FacePatch*> patches_by_face(std::span<const FacePatch> patches
 
 void require_valid(const MergeInput& in, const FacePatch& p) {
   const auto n_boundary = static_cast<std::size_t>(p.n_boundary);
-  if (p.n_boundary < 0 || p.boundary_dim.size() != n_boundary || p.boundary_entity.size() != n_boundary || p.boundary_index.size() != n_boundary ||
-      p.inner_uv.size() != p.inner_xyz.size() || p.inner_size.size() != p.inner_xyz.size() || p.corner_uv.size() != 3 * p.triangles.size())
+  if (p.n_boundary < 0 || p.boundary_dim.size() != n_boundary || p.boundary_entity.size() != n_boundary ||
+      p.boundary_index.size() != n_boundary || p.inner_uv.size() != p.inner_xyz.size() || p.inner_size.size() != p.inner_xyz.size() ||
+      p.corner_uv.size() != 3 * p.triangles.size())
     throw_bad_patch(p.face, "has arrays that do not fit each other");
   const auto n_edges = static_cast<std::int64_t>(in.edges.edge_offsets.size()) - 1;
   for (std::size_t i = 0; i < n_boundary; ++i) {
     const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     const bool on_vertex = p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex);
     if (on_vertex ? entity < 0 || entity >= static_cast<std::int64_t>(in.vertex_xyz.size()) : entity < 0 || entity >= n_edges)
-      throw_bad_patch(p.face, std::string("names ") + (on_vertex ? "vertex " : "edge ") + std::to_string(entity + 1) + ", which does not exist");
+      throw_bad_patch(p.face,
+                      std::string("names ") + (on_vertex ? "vertex " : "edge ") + std::to_string(entity + 1) + ", which does not exist");
     if (!on_vertex && (p.boundary_dim[i] != static_cast<std::uint8_t>(EntityDim::kEdge) || index < 1 ||
                        index + 1 >= in.edges.edge_offsets[entity + 1] - in.edges.edge_offsets[entity]))
-      throw_bad_patch(p.face, "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) + ", which is no inner node of it");
+      throw_bad_patch(p.face,
+                      "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) + ", which is no inner node of it");
   }
   const auto n_nodes = static_cast<std::int64_t>(n_boundary + p.inner_xyz.size());
   for (const Triangle& t : p.triangles)
     for (const NodeId n : t.n)
-      if (n < 0 || n >= n_nodes) throw_bad_patch(p.face, "has a triangle with node " + std::to_string(n) + " of " + std::to_string(n_nodes));
+      if (n < 0 || n >= n_nodes)
+        throw_bad_patch(p.face, "has a triangle with node " + std::to_string(n) + " of " + std::to_string(n_nodes));
 }
 
 NodeId& boundary_number(NodeNumbers& numbers, const MergeInput& in, const FacePatch& p, std::int32_t i) {

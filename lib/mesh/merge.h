@@ -13,22 +13,22 @@ namespace st {
 /// Views of what a patches artifact holds. The order of `patches` is irrelevant; a face occurs once at most.
 struct MergeInput {
   const EdgeMesh& edges;
-  std::span<const Vec3> vertex_xyz;            ///< [n_vertices]
-  std::span<const VertexId> edge_vertices;     ///< [2*n_edges]
-  std::span<const FacePatch> patches;          ///< of the faces that were meshed
-  std::span<const std::int32_t> face_group;    ///< [n_faces] index into group_name; may be empty: group 0
+  std::span<const Vec3> vertex_xyz;          ///< [n_vertices]
+  std::span<const VertexId> edge_vertices;   ///< [2*n_edges]
+  std::span<const FacePatch> patches;        ///< of the faces that were meshed
+  std::span<const std::int32_t> face_group;  ///< [n_faces] index into group_name; may be empty: group 0
 };
 
 /// What the orientation had to change. Ids 0-based, ascending.
 struct OrientationReport {
-  std::vector<FaceId> turned_faces;       ///< turned to agree with their neighbours (the model's faces disagree)
-  std::int32_t turned_components = 0;     ///< closed components that were inside out and are turned as a whole
-  std::vector<FaceId> inside_out_faces;   ///< the faces of those
-  std::int32_t n_one_sided = 0;           ///< components that cannot be oriented (a Moebius strip); left as they are
+  std::vector<FaceId> turned_faces;      ///< turned to agree with their neighbours (the model's faces disagree)
+  std::int32_t turned_components = 0;    ///< closed components that were inside out and are turned as a whole
+  std::vector<FaceId> inside_out_faces;  ///< the faces of those
+  std::int32_t n_one_sided = 0;          ///< components that cannot be oriented (a Moebius strip); left as they are
 };
 
-/// Welds, orders and orients. Nodes: (entity dim, entity id, index); nodes without a triangle are omitted. Triangles: (face, position in its
-/// patch). Triangles with a repeated node stay: check_topology() counts them. face_name and group_name of the result are left empty.
+/// Welds, orders and orients. Nodes: (entity dim, entity id, index); nodes without a triangle are omitted. Triangles: (face, position in
+/// its patch). Triangles with a repeated node stay: check_topology() counts them. face_name and group_name of the result are left empty.
 /// Orientation: faces that share a manifold edge are made to agree, the larger area deciding; a closed component of negative volume is
 /// turned, unless it lies inside another closed one as a void does (odd nesting depth).
 /// Throws Error(kInput) when a patch names an entity or node that does not exist, or a face occurs twice.

@@ -15,16 +15,16 @@ namespace {
 
 /// Two faces that share manifold mesh edges.
 struct FaceLink {
-  FaceId a = kNone, b = kNone;   ///< a < b
-  std::int32_t agreement = 0;    ///< edges along which their triangles are oriented alike, minus those where not
+  FaceId a = kNone, b = kNone;  ///< a < b
+  std::int32_t agreement = 0;   ///< edges along which their triangles are oriented alike, minus those where not
 };
 
 /// Faces connected by manifold edges, and what was found out about them.
 struct FaceComponent {
-  std::vector<FaceId> faces;     ///< ascending
+  std::vector<FaceId> faces;  ///< ascending
   bool is_one_sided = false;
   bool is_closed = true;
-  double volume = 0;             ///< signed
+  double volume = 0;  ///< signed
   Box3 box;
   std::vector<TriangleId> triangles;  ///< filled only when nesting must be decided
 };
@@ -45,8 +45,10 @@ std::vector<FaceLink> find_links(const SurfaceMesh& mesh, const EdgeTable& edges
   std::sort(links.begin(), links.end(), [](const FaceLink& x, const FaceLink& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   std::size_t n = 0;
   for (const FaceLink& l : links)
-    if (n && links[n - 1].a == l.a && links[n - 1].b == l.b) links[n - 1].agreement += l.agreement;
-    else links[n++] = l;
+    if (n && links[n - 1].a == l.a && links[n - 1].b == l.b)
+      links[n - 1].agreement += l.agreement;
+    else
+      links[n++] = l;
   links.resize(n);
   return links;
 }
@@ -118,8 +120,8 @@ std::vector<std::int32_t> component_of_face(std::span<const FaceComponent> compo
 }
 
 /// Closed: along every edge, as many sides of the component run one way as the other, once the faces are turned.
-void find_open(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const std::uint8_t> is_turned, std::span<const std::int32_t> face_component,
-               std::vector<FaceComponent>& components) {
+void find_open(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const std::uint8_t> is_turned,
+               std::span<const std::int32_t> face_component, std::vector<FaceComponent>& components) {
   edges.for_each_edge([&](NodeId low, NodeId, std::span<const SideId> sides) {
     for (const SideId s : sides) {
       const std::int32_t c = face_component[mesh.triangle_face[s / 3]];
@@ -152,7 +154,8 @@ void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_compone
 // --- nesting ---------------------------------------------------------------------------------------------------------------------------
 
 bool contains(const Box3& outer, const Box3& inner) {
-  return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && outer.lo.z <= inner.lo.z && outer.hi.x >= inner.hi.x && outer.hi.y >= inner.hi.y && outer.hi.z >= inner.hi.z;
+  return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && outer.lo.z <= inner.lo.z && outer.hi.x >= inner.hi.x &&
+         outer.hi.y >= inner.hi.y && outer.hi.z >= inner.hi.z;
 }
 
 int sign(double x) { return (x > 0) - (x < 0); }
@@ -177,7 +180,8 @@ std::optional<bool> is_inside(const SurfaceMesh& mesh, const FaceComponent& comp
 /// Whether `outer` encloses `inner` (they may touch): asked from several nodes in several directions until the answer is clear.
 bool encloses(const SurfaceMesh& mesh, const FaceComponent& outer, const FaceComponent& inner) {
   if (!contains(outer.box, inner.box)) return false;
-  static constexpr std::array<Vec3, 3> kDirections{Vec3{0.8017, 0.4211, 0.4243}, Vec3{-0.3701, 0.7369, -0.5657}, Vec3{0.1361, -0.5039, 0.8531}};
+  static constexpr std::array<Vec3, 3> kDirections{Vec3{0.8017, 0.4211, 0.4243}, Vec3{-0.3701, 0.7369, -0.5657},
+                                                   Vec3{0.1361, -0.5039, 0.8531}};
   constexpr std::size_t kTries = 32;
   const std::size_t step = std::max<std::size_t>(1, inner.triangles.size() / kTries);
   for (std::size_t i = 0; i < inner.triangles.size(); i += step)
@@ -190,14 +194,16 @@ bool encloses(const SurfaceMesh& mesh, const FaceComponent& outer, const FaceCom
 }
 
 /// Closed components by nesting depth; `parent[c]`: the innermost one around c.
-void find_nesting(const SurfaceMesh& mesh, std::span<const FaceComponent> components, std::vector<std::int32_t>& depth, std::vector<std::int32_t>& parent) {
+void find_nesting(const SurfaceMesh& mesh, std::span<const FaceComponent> components, std::vector<std::int32_t>& depth,
+                  std::vector<std::int32_t>& parent) {
   const auto n = components.size();
   depth.assign(n, 0);
   parent.assign(n, kNone);
   std::vector<std::vector<std::int32_t>> around(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t o = 0; o < n; ++o)
-      if (i != o && components[i].is_closed && components[o].is_closed && encloses(mesh, components[o], components[i])) around[i].push_back(static_cast<std::int32_t>(o));
+      if (i != o && components[i].is_closed && components[o].is_closed && encloses(mesh, components[o], components[i]))
+        around[i].push_back(static_cast<std::int32_t>(o));
   for (std::size_t i = 0; i < n; ++i) depth[i] = static_cast<std::int32_t>(around[i].size());
   for (std::size_t i = 0; i < n; ++i)
     for (const std::int32_t o : around[i])
@@ -205,12 +211,14 @@ void find_nesting(const SurfaceMesh& mesh, std::span<const FaceComponent> compon
 }
 
 /// Components to turn: negative at even depth (a body inside out), and the voids of such bodies.
-std::vector<std::uint8_t> find_inside_out(const SurfaceMesh& mesh, std::vector<FaceComponent>& components, std::span<const std::int32_t> face_component) {
+std::vector<std::uint8_t> find_inside_out(const SurfaceMesh& mesh, std::vector<FaceComponent>& components,
+                                          std::span<const std::int32_t> face_component) {
   std::vector<std::uint8_t> is_turned(components.size(), 0);
   const auto is_negative = [](const FaceComponent& c) { return c.is_closed && !c.is_one_sided && c.volume < 0; };
   if (std::none_of(components.begin(), components.end(), is_negative)) return is_turned;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (const std::int32_t c = face_component[mesh.triangle_face[t]]; c != kNone) components[c].triangles.push_back(static_cast<TriangleId>(t));
+    if (const std::int32_t c = face_component[mesh.triangle_face[t]]; c != kNone)
+      components[c].triangles.push_back(static_cast<TriangleId>(t));
   std::vector<std::int32_t> depth, parent;
   find_nesting(mesh, components, depth, parent);
   for (std::size_t c = 0; c < components.size(); ++c) is_turned[c] = is_negative(components[c]) && depth[c] % 2 == 0;

@@ -30,7 +30,9 @@ double nth_smallest(std::vector<double>& values, std::size_t k) {
 }
 
 /// The value with `share` of the others below it. Reorders `values`.
-double percentile(std::vector<double>& values, double share) { return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))); }
+double percentile(std::vector<double>& values, double share) {
+  return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+}
 
 QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> triangles, std::span<const double> quality) {
   QualityStats s;
@@ -61,7 +63,8 @@ QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> trian
 }
 
 /// Triangles by key (face or group), ascending within each: one QualityStats per key.
-std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const std::int32_t> key, std::size_t n_keys, std::span<const double> quality) {
+std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const std::int32_t> key, std::size_t n_keys,
+                                       std::span<const double> quality) {
   for (const std::int32_t k : key) n_keys = std::max(n_keys, static_cast<std::size_t>(k) + 1);
   std::vector<std::int64_t> offsets(n_keys + 1, 0);
   for (const std::int32_t k : key) ++offsets[k + 1];
@@ -98,7 +101,8 @@ double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
 QualityReport measure_quality(const SurfaceMesh& mesh) {
   std::vector<double> quality;
   quality.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) quality.push_back(triangle_quality(mesh.node_xyz[t.n[0]], mesh.node_xyz[t.n[1]], mesh.node_xyz[t.n[2]]));
+  for (const Triangle& t : mesh.triangles)
+    quality.push_back(triangle_quality(mesh.node_xyz[t.n[0]], mesh.node_xyz[t.n[1]], mesh.node_xyz[t.n[2]]));
   std::vector<TriangleId> all(mesh.triangles.size());
   std::iota(all.begin(), all.end(), 0);
   QualityReport report;

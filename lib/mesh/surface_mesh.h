@@ -21,24 +21,24 @@ enum class EntityDim : std::uint8_t { kVertex = 0, kEdge = 1, kFace = 2 };
 /// Nodes on the CAD edges: made once, used by every face. Node i of edge e is edge_node_* [edge_offsets[e] + i]; the first and the
 /// last lie on the edge's vertices (edge_vertices[2e], [2e+1]). A degenerate edge, and an edge not meshed, has no nodes.
 struct EdgeMesh {
-  std::vector<std::int32_t> edge_offsets;   ///< [n_edges+1]
-  std::vector<double> node_t;               ///< parameter on the edge, strictly increasing within an edge
-  std::vector<Vec3> node_xyz;               ///< model unit; end nodes are the vertices' own coordinates
-  std::vector<double> node_size;            ///< requested length at the node
+  std::vector<std::int32_t> edge_offsets;  ///< [n_edges+1]
+  std::vector<double> node_t;              ///< parameter on the edge, strictly increasing within an edge
+  std::vector<Vec3> node_xyz;              ///< model unit; end nodes are the vertices' own coordinates
+  std::vector<double> node_size;           ///< requested length at the node
 };
 
 /// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the rest are inside.
 struct FacePatch {
   FaceId face = kNone;
   std::int32_t n_boundary = 0;
-  std::vector<std::uint8_t> boundary_dim;       ///< [n_boundary] EntityDim: 0 vertex, 1 edge
-  std::vector<std::int32_t> boundary_entity;    ///< [n_boundary] vertex id, or edge id
-  std::vector<std::int32_t> boundary_index;     ///< [n_boundary] node index on that edge (1 .. n-2), 0 for a vertex
-  std::vector<Vec3> inner_xyz;                  ///< [n_inner]
-  std::vector<Vec2> inner_uv;                   ///< [n_inner]
-  std::vector<double> inner_size;               ///< [n_inner] requested length
-  std::vector<Triangle> triangles;              ///< patch node ids; already oriented out of the solid
-  std::vector<Vec2> corner_uv;                  ///< [3*n_triangles] (u,v) of each corner: a seam node has two
+  std::vector<std::uint8_t> boundary_dim;     ///< [n_boundary] EntityDim: 0 vertex, 1 edge
+  std::vector<std::int32_t> boundary_entity;  ///< [n_boundary] vertex id, or edge id
+  std::vector<std::int32_t> boundary_index;   ///< [n_boundary] node index on that edge (1 .. n-2), 0 for a vertex
+  std::vector<Vec3> inner_xyz;                ///< [n_inner]
+  std::vector<Vec2> inner_uv;                 ///< [n_inner]
+  std::vector<double> inner_size;             ///< [n_inner] requested length
+  std::vector<Triangle> triangles;            ///< patch node ids; already oriented out of the solid
+  std::vector<Vec2> corner_uv;                ///< [3*n_triangles] (u,v) of each corner: a seam node has two
 };
 
 /// Why a face has no complete patch.
@@ -52,14 +52,14 @@ struct FaceFailure {
 /// The merged mesh. Canonical: nodes by (entity dim, entity id, index), triangles by (face, position in its patch).
 struct SurfaceMesh {
   std::vector<Vec3> node_xyz;
-  std::vector<std::uint8_t> node_entity_dim;    ///< EntityDim
-  std::vector<std::int32_t> node_entity;        ///< 0-based id of the vertex, edge or face
-  std::vector<double> node_t;                   ///< edge parameter of nodes with dim 1, else 0
-  std::vector<double> node_size;                ///< requested length
+  std::vector<std::uint8_t> node_entity_dim;  ///< EntityDim
+  std::vector<std::int32_t> node_entity;      ///< 0-based id of the vertex, edge or face
+  std::vector<double> node_t;                 ///< edge parameter of nodes with dim 1, else 0
+  std::vector<double> node_size;              ///< requested length
   std::vector<Triangle> triangles;
-  std::vector<FaceId> triangle_face;            ///< 0-based CAD face
-  std::vector<std::int32_t> triangle_group;     ///< index into group_name
-  std::vector<Vec2> corner_uv;                  ///< [3*n_triangles]
+  std::vector<FaceId> triangle_face;         ///< 0-based CAD face
+  std::vector<std::int32_t> triangle_group;  ///< index into group_name
+  std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(node_xyz.size()); }

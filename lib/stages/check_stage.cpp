@@ -26,11 +26,11 @@ using nlohmann::json;
 
 /// One line of the report: what was looked for, what was found.
 struct Check {
-  std::string name;        ///< "closed", "folds" ...
-  std::string what;        ///< what is counted: "open edges"
+  std::string name;  ///< "closed", "folds" ...
+  std::string what;  ///< what is counted: "open edges"
   Defects defects;
-  bool decides = true;     ///< the mesh fails when something was found
-  std::string note;        ///< added to the line, found or not
+  bool decides = true;  ///< the mesh fails when something was found
+  std::string note;     ///< added to the line, found or not
 
   bool fails() const { return decides && defects.count > 0; }
 };
@@ -63,7 +63,9 @@ struct Findings {
   std::optional<ChordError> chords;
   std::vector<Check> checks;
 
-  bool passes() const { return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.fails(); }); }
+  bool passes() const {
+    return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.fails(); });
+  }
 };
 
 std::string face_label(const SurfaceMesh& mesh, FaceId f) {
@@ -83,7 +85,8 @@ std::vector<Vec3> face_places(const SurfaceMesh& mesh, std::size_t n_faces) {
   std::vector<Vec3> place(n_faces);
   for (TriangleId t = static_cast<TriangleId>(mesh.n_triangles()) - 1; t >= 0; --t) {
     const auto& n = mesh.triangles[t].n;
-    if (static_cast<std::size_t>(mesh.triangle_face[t]) < n_faces) place[mesh.triangle_face[t]] = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
+    if (static_cast<std::size_t>(mesh.triangle_face[t]) < n_faces)
+      place[mesh.triangle_face[t]] = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
   }
   return place;
 }
@@ -110,7 +113,8 @@ Check check_faces(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
 }
 
 /// Faces whose mesh area differs from the CAD's by more than the tolerance and what chords explain together.
-Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables, const ChordError& chords, double tolerance) {
+Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables, const ChordError& chords,
+                  double tolerance) {
   Check c{"areas", "faces whose area differs from the CAD's", {}, true, ""};
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
   double largest = 0;
@@ -120,7 +124,9 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
     if (difference > tolerance * cad + chords.area[f] && measure.face_area[f] > 0) c.defects.add({place[f], f, kNone});
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }
-  if (worst != kNone) c.note = fmt::format("largest difference {:.3g} % ({}; chords explain {:.3g} %)", 100 * largest, face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
+  if (worst != kNone)
+    c.note = fmt::format("largest difference {:.3g} % ({}; chords explain {:.3g} %)", 100 * largest, face_label(mesh, worst),
+                         100 * chords.area[worst] / tables.face_area[worst]);
   return c;
 }
 
@@ -139,8 +145,10 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, Findings&
   f.crossings = check_crossings(mesh);
   f.measure = measure_mesh(mesh);
   f.quality = measure_quality(mesh);
-  const std::string open = f.topology.n_cad_boundary_edges ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges) : "";
-  const std::string nonmanifold = f.topology.n_cad_nonmanifold_edges ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges) : "";
+  const std::string open =
+      f.topology.n_cad_boundary_edges ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges) : "";
+  const std::string nonmanifold =
+      f.topology.n_cad_nonmanifold_edges ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges) : "";
   f.checks = {check_complete(artifact),
               {"closed", "open edges", f.topology.boundary_edges, true, open},
               {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
@@ -175,13 +183,17 @@ std::string check_line(const SurfaceMesh& mesh, const Check& c) {
 
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
   const std::string worst = q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
-  return fmt::format("  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth {:.2f} (99.9 %)\n", "quality", q.model.mean,
-                     q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg, q.jump_p999);
+  return fmt::format(
+      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth {:.2f} (99.9 %)\n",
+      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg,
+      q.jump_p999);
 }
 
 std::string conformity_line(const ConformityReport& c) {
-  return fmt::format("  {:<20} {:.1f} % of all edges within {} to {} of the requested length, {:.1f} % of those inside faces; mean {:.3f}, 1 % to 99 %: {:.2f} to {:.2f}\n", "sizes",
-                     100 * c.model.share(), kConformityMin, kConformityMax, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
+  return fmt::format(
+      "  {:<20} {:.1f} % of all edges within {} to {} of the requested length, {:.1f} % of those inside faces; mean {:.3f}, 1 % to 99 %: "
+      "{:.2f} to {:.2f}\n",
+      "sizes", 100 * c.model.share(), kConformityMin, kConformityMax, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
 }
 
 /// Handles of all parts together, where the number means something.
@@ -195,12 +207,13 @@ std::string verdict_line(const CheckStageOptions& options, const SurfaceMesh& me
   for (const Check& c : f.checks) {
     if (!c.fails()) continue;
     const bool has_place = c.defects.first[0].face_a != kNone;
-    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what, has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
+    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
+                          has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
   }
   const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
   const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
-  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", options.mesh, verdict, mesh.n_triangles(), f.topology.n_used_nodes, f.topology.n_components,
-                     f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
+  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", options.mesh, verdict, mesh.n_triangles(),
+                     f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
 }
 
 std::string report_text(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
@@ -223,14 +236,21 @@ json check_json(const Check& c) {
 }
 
 json quality_json(const QualityStats& q) {
-  return {{"triangles", q.n_triangles},         {"mean", q.mean},
-          {"p1", q.p1},                         {"min", q.min},
-          {"below_0.3", q.n_below_03},          {"histogram", q.histogram},
-          {"min_angle_deg", q.min_angle_deg},   {"max_angle_deg", q.max_angle_deg},
-          {"below_20_deg", q.n_below_20_deg},   {"below_5_deg", q.n_below_5_deg}};
+  return {{"triangles", q.n_triangles},
+          {"mean", q.mean},
+          {"p1", q.p1},
+          {"min", q.min},
+          {"below_0.3", q.n_below_03},
+          {"histogram", q.histogram},
+          {"min_angle_deg", q.min_angle_deg},
+          {"max_angle_deg", q.max_angle_deg},
+          {"below_20_deg", q.n_below_20_deg},
+          {"below_5_deg", q.n_below_5_deg}};
 }
 
-json conformity_json(const ConformityStats& c) { return {{"edges", c.n_edges}, {"share", c.share()}, {"mean", c.mean()}, {"min", c.min}, {"max", c.max}}; }
+json conformity_json(const ConformityStats& c) {
+  return {{"edges", c.n_edges}, {"share", c.share()}, {"mean", c.mean()}, {"min", c.min}, {"max", c.max}};
+}
 
 json groups_json(const SurfaceMesh& mesh, const Findings& f) {
   json groups = json::array();
@@ -246,7 +266,12 @@ json faces_json(const SurfaceMesh& mesh, const Findings& f) {
   json faces = json::array();
   for (std::size_t i = 0; i < f.quality.faces.size(); ++i) {
     const QualityStats& q = f.quality.faces[i];
-    json entry{{"face", i + 1}, {"name", i < mesh.face_name.size() ? mesh.face_name[i] : ""}, {"triangles", q.n_triangles}, {"area", f.measure.face_area[i]}, {"mean", q.mean}, {"min", q.min}};
+    json entry{{"face", i + 1},
+               {"name", i < mesh.face_name.size() ? mesh.face_name[i] : ""},
+               {"triangles", q.n_triangles},
+               {"area", f.measure.face_area[i]},
+               {"mean", q.mean},
+               {"min", q.min}};
     if (f.chords) entry["chord_distance"] = f.chords->distance[i];
     if (f.conformity && i < f.conformity->faces.size()) entry["size_share"] = f.conformity->faces[i].share();
     faces.push_back(entry);
@@ -287,7 +312,11 @@ json report_json(const CheckStageOptions& options, const SurfaceMesh& mesh, cons
          {"groups", groups_json(mesh, f)},
          {"faces", faces_json(mesh, f)},
          {"seconds", seconds}};
-  if (f.conformity) j["sizes"] = {{"all", conformity_json(f.conformity->model)}, {"inner", conformity_json(f.conformity->inner)}, {"p1", f.conformity->p1}, {"p99", f.conformity->p99}};
+  if (f.conformity)
+    j["sizes"] = {{"all", conformity_json(f.conformity->model)},
+                  {"inner", conformity_json(f.conformity->inner)},
+                  {"p1", f.conformity->p1},
+                  {"p99", f.conformity->p99}};
   return j;
 }
 
@@ -320,7 +349,8 @@ StageSummary run_check(const CheckStageOptions& options) {
   if (field) f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
 
   const double seconds = timer.seconds();
-  return {report_text(options, artifact.mesh, f, seconds), report_json(options, artifact.mesh, f, seconds).dump(), f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
+  return {report_text(options, artifact.mesh, f, seconds), report_json(options, artifact.mesh, f, seconds).dump(),
+          f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
 }
 
 }  // namespace st

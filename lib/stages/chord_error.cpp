@@ -46,7 +46,8 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
     if (!tables.edge_is_degenerate[e]) area[e] = area_beside_chords(*model.curve(e), t[e]);
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
-      for (std::int32_t c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c) error.area[f] += area[tables.coedge_edge[c]];
+      for (std::int32_t c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c)
+        error.area[f] += area[tables.coedge_edge[c]];
 }
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
@@ -73,8 +74,8 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& erro
     current = f;
     if (surface->is_planar()) continue;
     const auto& n = mesh.triangles[t].n;
-    add_triangle(*surface, {mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]}, {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f,
-                 error);
+    add_triangle(*surface, {mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]},
+                 {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f, error);
   }
 }
 

@@ -10,8 +10,8 @@ namespace st {
 
 /// What chords explain, per CAD face.
 struct ChordError {
-  std::vector<double> area;       ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
-  std::vector<double> distance;   ///< [n_faces] largest distance found between a triangle's side and the surface, model unit
+  std::vector<double> area;      ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
+  std::vector<double> distance;  ///< [n_faces] largest distance found between a triangle's side and the surface, model unit
 };
 
 /// Along edges: the segments between chord and arc. Inside: triangles against their halves on the surface at the middle of their sides in

@@ -51,13 +51,17 @@ bool has_same_nodes(const EdgeMesh& a, const EdgeMesh& b, std::size_t e) {
 
 /// The nodes of edges of two parts; an edge that both have must have the same nodes in both.
 EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& path_a, const std::string& path_b) {
-  if (a.edge_offsets.size() != b.edge_offsets.size()) throw Error(ExitCode::kMismatch, fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
+  if (a.edge_offsets.size() != b.edge_offsets.size())
+    throw Error(ExitCode::kMismatch,
+                fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
   EdgeMesh both;
   both.edge_offsets = {0};
   for (std::size_t e = 0; e + 1 < a.edge_offsets.size(); ++e) {
     const bool in_a = a.edge_offsets[e] < a.edge_offsets[e + 1], in_b = b.edge_offsets[e] < b.edge_offsets[e + 1];
     if (in_a && in_b && !has_same_nodes(a, b, e))
-      throw Error(ExitCode::kMismatch, fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first", e + 1, path_b, path_a));
+      throw Error(
+          ExitCode::kMismatch,
+          fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first", e + 1, path_b, path_a));
     append_edge(in_a ? a : b, e, both);
   }
   return both;
@@ -69,7 +73,9 @@ void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& pat
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
   for (FacePatch& p : part.patches) {
     const auto same = std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
-    if (same != all.patches.end()) throw Error(ExitCode::kMismatch, fmt::format("face {} is meshed in {} and in an earlier part; give each face once", p.face + 1, path));
+    if (same != all.patches.end())
+      throw Error(ExitCode::kMismatch,
+                  fmt::format("face {} is meshed in {} and in an earlier part; give each face once", p.face + 1, path));
     all.patches.push_back(std::move(p));
   }
   all.is_complete = find_missing_faces(all).empty();
@@ -93,9 +99,12 @@ PatchesArtifact read_parts(const std::vector<std::string>& paths, std::vector<In
 void require_complete(const PatchesArtifact& patches, const MergeStageOptions& options) {
   if (patches.is_complete || options.allow_incomplete) return;
   const std::vector<FaceId> missing = find_missing_faces(patches);
-  const std::string cause = patches.failures.empty() ? "" : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
-  throw Error(ExitCode::kIncomplete, fmt::format("{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete", options.patches[0],
-                                                 std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ", list_faces(missing), cause));
+  const std::string cause =
+      patches.failures.empty() ? "" : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
+  throw Error(ExitCode::kIncomplete,
+              fmt::format("{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
+                          options.patches[0], std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ",
+                          list_faces(missing), cause));
 }
 
 /// Everything that could stop the outputs is found before the work, so that none is left without the others.
@@ -110,12 +119,17 @@ void require_outputs(const MergeStageOptions& options) {
 }
 
 void warn_of_changes(const OrientationReport& report) {
-  if (!report.turned_faces.empty()) log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(), list_faces(report.turned_faces)));
-  if (report.turned_components) log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components, list_faces(report.inside_out_faces)));
+  if (!report.turned_faces.empty())
+    log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(),
+                            list_faces(report.turned_faces)));
+  if (report.turned_components)
+    log_warning(
+        fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components, list_faces(report.inside_out_faces)));
   if (report.n_one_sided) log_warning(fmt::format("{} parts have one side only and cannot be oriented", report.n_one_sided));
 }
 
-MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs, OrientationReport& report) {
+MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs,
+                           OrientationReport& report) {
   MeshArtifact artifact;
   artifact.header.schema = "mesh";
   artifact.header.tool = "st-merge";
@@ -168,9 +182,12 @@ StageSummary run_merge(const MergeStageOptions& options) {
                             {"area", measure.area},
                             {"volume", measure.volume},
                             {"seconds", seconds}};
-  const std::string state = topology.is_closed() ? "closed" : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count, topology.nonmanifold_edges.count);
-  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(), state, artifact.is_complete ? "" : ", INCOMPLETE", seconds), json.dump(),
-          ExitCode::kOk};
+  const std::string state = topology.is_closed() ? "closed"
+                                                 : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count,
+                                                               topology.nonmanifold_edges.count);
+  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(), state,
+                      artifact.is_complete ? "" : ", INCOMPLETE", seconds),
+          json.dump(), ExitCode::kOk};
 }
 
 }  // namespace st

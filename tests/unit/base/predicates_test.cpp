@@ -68,12 +68,15 @@ struct Int512 {
 int sign(double x) { return (x > 0) - (x < 0); }
 
 int oracle2d(Vec2 a, Vec2 b, Vec2 c) {
-  const Int512 px = Int512(a.x) - Int512(c.x), py = Int512(a.y) - Int512(c.y), qx = Int512(b.x) - Int512(c.x), qy = Int512(b.y) - Int512(c.y);
+  const Int512 px = Int512(a.x) - Int512(c.x), py = Int512(a.y) - Int512(c.y), qx = Int512(b.x) - Int512(c.x),
+               qy = Int512(b.y) - Int512(c.y);
   return (px * qy - py * qx).sign();
 }
 
 int oracle3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  const auto minus = [](Vec3 p, Vec3 q) { return std::array<Int512, 3>{Int512(p.x) - Int512(q.x), Int512(p.y) - Int512(q.y), Int512(p.z) - Int512(q.z)}; };
+  const auto minus = [](Vec3 p, Vec3 q) {
+    return std::array<Int512, 3>{Int512(p.x) - Int512(q.x), Int512(p.y) - Int512(q.y), Int512(p.z) - Int512(q.z)};
+  };
   const auto p = minus(b, a), q = minus(c, a), r = minus(d, a);
   return ((p[1] * q[2] - p[2] * q[1]) * r[0] + (p[2] * q[0] - p[0] * q[2]) * r[1] + (p[0] * q[1] - p[1] * q[0]) * r[2]).sign();
 }
@@ -92,13 +95,18 @@ class Trouble {
  public:
   double small() { return static_cast<double>(static_cast<int>(random_() % 9) - 4); }
   double near_one() { return 0.5 + std::ldexp(small(), -20); }
-  double mixed() { return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random_() % 2001) - 1000), static_cast<int>(random_() % 70) - 20); }
+  double mixed() {
+    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random_() % 2001) - 1000), static_cast<int>(random_() % 70) - 20);
+  }
   double grid() { return std::ldexp(static_cast<double>(random_() % 33), -5) * 12; }
   double any() {
     switch (random_() % 3) {
-      case 0: return near_one();
-      case 1: return mixed();
-      default: return grid();
+      case 0:
+        return near_one();
+      case 1:
+        return mixed();
+      default:
+        return grid();
     }
   }
   Vec2 any2() { return {any(), any()}; }

@@ -18,10 +18,10 @@ Found find_all(const SurfaceMesh& m, const CadEdges& cad = {}) {
   const TopologyReport t = check_topology(m, cad);
   const ShapeReport s = check_shape(m);
   const CrossingReport c = check_crossings(m);
-  Found found{{"boundary", t.boundary_edges.count},   {"nonmanifold", t.nonmanifold_edges.count}, {"misoriented", t.misoriented_edges.count},
-              {"repeated", t.repeated_nodes.count},   {"duplicate", t.duplicate_triangles.count}, {"pinched", t.pinched_nodes.count},
-              {"zero_area", s.zero_area.count},       {"duplicate_node", s.duplicate_nodes.count}, {"fold", s.folds.count},
-              {"crossing", c.crossings.count},        {"overlap", c.overlapping_neighbours.count}, {"contact", c.contacts.count}};
+  Found found{{"boundary", t.boundary_edges.count}, {"nonmanifold", t.nonmanifold_edges.count},  {"misoriented", t.misoriented_edges.count},
+              {"repeated", t.repeated_nodes.count}, {"duplicate", t.duplicate_triangles.count},  {"pinched", t.pinched_nodes.count},
+              {"zero_area", s.zero_area.count},     {"duplicate_node", s.duplicate_nodes.count}, {"fold", s.folds.count},
+              {"crossing", c.crossings.count},      {"overlap", c.overlapping_neighbours.count}, {"contact", c.contacts.count}};
   std::erase_if(found, [](const auto& entry) { return entry.second == 0; });
   return found;
 }
@@ -125,7 +125,9 @@ TEST(Checks, find_a_triangle_without_area) {
   faces.insert(faces.end(), {faces[0], faces[0]});
   const Found found = find_all(shapes::from(points, triangles, faces));
   EXPECT_EQ(found.at("zero_area"), 1);
-  EXPECT_EQ(found.count("boundary") + found.count("nonmanifold") + found.count("misoriented") + found.count("fold") + found.count("duplicate_node"), 0u);
+  EXPECT_EQ(found.count("boundary") + found.count("nonmanifold") + found.count("misoriented") + found.count("fold") +
+                found.count("duplicate_node"),
+            0u);
 }
 
 TEST(Checks, find_a_triangle_present_twice) {
@@ -176,7 +178,8 @@ TEST(Checks, find_a_fold) {
   const Found found = find_all(m);
   ASSERT_EQ(found.count("fold"), 1u);
   EXPECT_EQ(check_shape(m).folds.first[0].face_a, 5);
-  for (const char* other : {"boundary", "nonmanifold", "misoriented", "repeated", "duplicate", "pinched", "zero_area", "duplicate_node", "contact"})
+  for (const char* other :
+       {"boundary", "nonmanifold", "misoriented", "repeated", "duplicate", "pinched", "zero_area", "duplicate_node", "contact"})
     EXPECT_EQ(found.count(other), 0u) << other;
 }
 

@@ -30,15 +30,21 @@ std::vector<TrianglePair> every_pair(const SurfaceMesh& m) {
 
 const std::array<Vec3, 3> kFlat{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
 
-TEST(Crossing, finds_an_edge_through_the_middle_of_a_triangle) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, -1}, Vec3{1, 1, 1}, Vec3{9, 9, 1}})); }
-TEST(Crossing, ignores_a_triangle_whose_plane_is_cut_outside) { EXPECT_FALSE(cross_points(kFlat, {Vec3{3, 3, -1}, Vec3{3, 3, 1}, Vec3{9, 9, 1}})); }
+TEST(Crossing, finds_an_edge_through_the_middle_of_a_triangle) {
+  EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, -1}, Vec3{1, 1, 1}, Vec3{9, 9, 1}}));
+}
+TEST(Crossing, ignores_a_triangle_whose_plane_is_cut_outside) {
+  EXPECT_FALSE(cross_points(kFlat, {Vec3{3, 3, -1}, Vec3{3, 3, 1}, Vec3{9, 9, 1}}));
+}
 TEST(Crossing, counts_a_corner_that_touches_from_above) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1, 1, 1}, Vec3{9, 9, 1}})); }
 TEST(Crossing, ignores_a_corner_that_hovers_by_one_rounding_error) {
   EXPECT_FALSE(cross_points(kFlat, {Vec3{1, 1, 1e-300}, Vec3{1, 1, 1}, Vec3{9, 9, 1}}));
 }
 TEST(Crossing, counts_edges_that_touch_in_a_point) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 0, -1}, Vec3{1, 0, 1}, Vec3{1, -5, 0}})); }
 TEST(Crossing, counts_coplanar_overlap) { EXPECT_TRUE(cross_points(kFlat, {Vec3{3, 3, 0}, Vec3{-1, 3, 0}, Vec3{-1, -1, 0}})); }
-TEST(Crossing, counts_a_coplanar_triangle_inside_another) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1.5, 1, 0}, Vec3{1, 1.5, 0}})); }
+TEST(Crossing, counts_a_coplanar_triangle_inside_another) {
+  EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1.5, 1, 0}, Vec3{1, 1.5, 0}}));
+}
 TEST(Crossing, ignores_coplanar_triangles_apart) { EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, 1, 0}})); }
 TEST(Crossing, ignores_coplanar_triangles_in_line) { EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, -1, 0}})); }
 TEST(Crossing, decides_overlap_in_an_oblique_plane) {
@@ -48,7 +54,8 @@ TEST(Crossing, decides_overlap_in_an_oblique_plane) {
 }
 
 TEST(Crossing, of_triangles_with_one_common_node_needs_a_second_common_point) {
-  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {-1, -1, 2}, {-3, -1, 0}, {-1, -3, 0}, {1, 2, 0}, {2, 1, 0}};
+  const std::vector<Vec3> points{{0, 0, 0},   {4, 0, 0},   {0, 4, 0},   {1, 1, -1}, {1, 1, 1},
+                                 {-1, -1, 2}, {-3, -1, 0}, {-1, -3, 0}, {1, 2, 0},  {2, 1, 0}};
   const auto crosses = [&](Triangle t) { return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty(); };
   EXPECT_TRUE(crosses({{0, 3, 4}})) << "the opposite edge pierces";
   EXPECT_TRUE(crosses({{0, 8, 9}})) << "flat on the other";
@@ -66,7 +73,8 @@ TEST(Crossing, of_triangles_with_a_common_edge_means_folded_flat) {
 }
 
 TEST(Crossing, finds_nothing_in_clean_closed_meshes) {
-  for (const SurfaceMesh& m : {shapes::cube(7), shapes::sphere(6, {3, 1, 2}), shapes::torus(24, 12)}) EXPECT_TRUE(find_crossing_triangles(m.node_xyz, m.triangles).empty());
+  for (const SurfaceMesh& m : {shapes::cube(7), shapes::sphere(6, {3, 1, 2}), shapes::torus(24, 12)})
+    EXPECT_TRUE(find_crossing_triangles(m.node_xyz, m.triangles).empty());
 }
 
 TEST(Crossing, finds_the_same_pairs_as_a_comparison_of_all_with_all) {

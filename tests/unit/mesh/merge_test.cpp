@@ -15,14 +15,18 @@ namespace {
 using shapes::CubePatches;
 
 bool same(const SurfaceMesh& a, const SurfaceMesh& b) {
-  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity && a.node_t == b.node_t && a.node_size == b.node_size &&
-         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), [](const Triangle& x, const Triangle& y) { return std::equal(x.n, x.n + 3, y.n); }) &&
+  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity && a.node_t == b.node_t &&
+         a.node_size == b.node_size &&
+         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
+                    [](const Triangle& x, const Triangle& y) { return std::equal(x.n, x.n + 3, y.n); }) &&
          a.triangle_face == b.triangle_face && a.triangle_group == b.triangle_group && a.corner_uv == b.corner_uv;
 }
 
 bool is_closed_and_alike(const SurfaceMesh& m) {
   bool ok = true;
-  EdgeTable(m.triangles, m.n_nodes()).for_each_edge([&](NodeId, NodeId, std::span<const SideId> s) { ok = ok && s.size() == 2 && !run_alike(m.triangles, s[0], s[1]); });
+  EdgeTable(m.triangles, m.n_nodes()).for_each_edge([&](NodeId, NodeId, std::span<const SideId> s) {
+    ok = ok && s.size() == 2 && !run_alike(m.triangles, s[0], s[1]);
+  });
   return ok;
 }
 
@@ -181,7 +185,8 @@ TEST(Orientation, of_a_one_sided_strip_is_reported_and_left) {
   constexpr int n = 12;
   for (int i = 0; i < n; ++i) {
     const double u = 2 * kPi * i / n, w = u / 2;
-    for (const double s : {-0.3, 0.3}) points.push_back({(1 + s * std::cos(w)) * std::cos(u), (1 + s * std::cos(w)) * std::sin(u), s * std::sin(w)});
+    for (const double s : {-0.3, 0.3})
+      points.push_back({(1 + s * std::cos(w)) * std::cos(u), (1 + s * std::cos(w)) * std::sin(u), s * std::sin(w)});
     const bool last = i == n - 1;
     const NodeId a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
     triangles.push_back({{a, b, d}});

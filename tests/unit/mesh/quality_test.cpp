@@ -34,7 +34,8 @@ TEST(Quality, of_faces_adds_up_to_the_model) {
   ASSERT_EQ(r.faces.size(), 6u);
   std::int64_t n = 0;
   double sum = 0, worst = 1;
-  for (const QualityStats& f : r.faces) n += f.n_triangles, sum += f.mean * static_cast<double>(f.n_triangles), worst = std::min(worst, f.min);
+  for (const QualityStats& f : r.faces)
+    n += f.n_triangles, sum += f.mean * static_cast<double>(f.n_triangles), worst = std::min(worst, f.min);
   EXPECT_EQ(n, m.n_triangles());
   EXPECT_NEAR(sum / static_cast<double>(n), r.model.mean, 1e-12);
   EXPECT_EQ(worst, r.model.min);

@@ -78,7 +78,8 @@ class MergeCheck : public testing::Test {
 TEST_F(MergeCheck, makes_a_mesh_that_passes) {
   const StageSummary merged = run_merge(options({write("p.hdf", artifact({}))}));
   EXPECT_EQ(merged.code, ExitCode::kOk);
-  for (const char* entry : {"\"triangles\":48", "\"nodes\":26", "\"closed\":true", "\"boundary_edges\":0", "\"nonmanifold_edges\":0", "\"misoriented_edges\":0", "\"volume\":1.0", "\"area\":6.0"})
+  for (const char* entry : {"\"triangles\":48", "\"nodes\":26", "\"closed\":true", "\"boundary_edges\":0", "\"nonmanifold_edges\":0",
+                            "\"misoriented_edges\":0", "\"volume\":1.0", "\"area\":6.0"})
     EXPECT_NE(merged.json.find(entry), std::string::npos) << entry << " in " << merged.json;
   const MeshArtifact mesh = read_mesh(path("mesh.hdf"));
   EXPECT_EQ(mesh.mesh.n_triangles(), 48);
@@ -161,7 +162,9 @@ TEST_F(MergeCheck, exports_beside_the_mesh_and_refuses_unknown_suffixes_before_t
   EXPECT_EQ(fs::file_size(path("m.stl")), 84u + 50u * 48u);
 }
 
-TEST_F(MergeCheck, of_nothing_is_an_error) { EXPECT_EQ(code_of([&] { run_merge(options({})); }, "no patches"), ExitCode::kUsage); }
+TEST_F(MergeCheck, of_nothing_is_an_error) {
+  EXPECT_EQ(code_of([&] { run_merge(options({})); }, "no patches"), ExitCode::kUsage);
+}
 
 }  // namespace
 }  // namespace st
