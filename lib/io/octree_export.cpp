@@ -1,0 +1,139 @@
+#include "io/octree_export.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <vector>
+
+#include "base/error.h"
+#include "io/sizing_artifact.h"
+#include "io/temporary_file.h"
+#include "sizing/radix_sort.h"
+
+namespace st {
+namespace {
+
+constexpr std::uint8_t kVtkVoxel = 11;
+constexpr int kCornerBits = 21;  // corners lie at 0 .. 2^20
+
+/// What is shown: one value per leaf.
+struct CellData {
+  std::vector<float> size;
+  std::vector<std::int32_t> cause;
+};
+
+std::uint64_t pack_corner(GridPoint p) {
+  return p.x | static_cast<std::uint64_t>(p.y) << kCornerBits | static_cast<std::uint64_t>(p.z) << (2 * kCornerBits);
+}
+
+GridPoint unpack_corner(std::uint64_t key) {
+  constexpr std::uint64_t mask = (1u << kCornerBits) - 1;
+  return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> kCornerBits & mask),
+          static_cast<std::uint32_t>(key >> (2 * kCornerBits))};
+}
+
+/// Corners of a leaf in VTK's voxel order: x fastest.
+std::array<std::uint64_t, 8> leaf_corners(const OctreeView& octree, std::size_t leaf) {
+  const GridPoint p = morton::decode(octree.leaf_keys[leaf]);
+  const std::uint32_t extent = morton::cell_extent(octree.leaf_levels[leaf]);
+  std::array<std::uint64_t, 8> corners;
+  for (std::uint32_t c = 0; c < 8; ++c)
+    corners[c] = pack_corner({p.x + (c & 1) * extent, p.y + (c >> 1 & 1) * extent, p.z + (c >> 2) * extent});
+  return corners;
+}
+
+/// Collects arrays for the appended section of a .vtu and knows their offsets.
+class VtuArrays {
+ public:
+  template <class T>
+  std::string add(const std::string& name, const char* type, const std::vector<T>& values, int components = 1) {
+    const std::string header = "        <DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                               std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>\n";
+    const std::uint64_t n = values.size() * sizeof(T);
+    append(&n, sizeof n);
+    append(values.data(), n);
+    return header;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t n) {
+    if (n) bytes_.append(static_cast<const char*>(data), n);
+  }
+  std::string bytes_;
+};
+
+std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays& arrays) {
+  const std::vector<std::int32_t> level(octree.leaf_levels.begin(), octree.leaf_levels.end());
+  std::vector<std::int32_t> kind, id;
+  for (const std::int32_t cause : data.cause) {
+    kind.push_back(cause == kNone ? kNone : static_cast<std::int32_t>(cause_kind(cause)));
+    id.push_back(cause == kNone ? 0 : cause_id(cause) + 1);
+  }
+  return "      <CellData Scalars=\"size\">\n" + arrays.add("size", "Float32", data.size) + arrays.add("level", "Int32", level) +
+         arrays.add("cause_kind", "Int32", kind) + arrays.add("cause_id", "Int32", id) + "      </CellData>\n";
+}
+
+std::string points_and_cells(const OctreeView& octree, VtuArrays& arrays, std::size_t& n_points) {
+  const std::size_t n = octree.leaf_keys.size();
+  std::vector<std::uint64_t> corners;
+  corners.reserve(8 * n);
+  for (std::size_t leaf = 0; leaf < n; ++leaf)
+    for (const std::uint64_t c : leaf_corners(octree, leaf)) corners.push_back(c);
+  sort_unique(corners);
+  n_points = corners.size();
+  std::vector<double> xyz;
+  const double unit = octree.edge / kCoordinateEnd;
+  for (const std::uint64_t c : corners) {
+    const GridPoint p = unpack_corner(c);
+    xyz.insert(xyz.end(), {octree.lo.x + p.x * unit, octree.lo.y + p.y * unit, octree.lo.z + p.z * unit});
+  }
+  std::vector<std::int64_t> connectivity, offsets;
+  connectivity.reserve(8 * n);
+  for (std::size_t leaf = 0; leaf < n; ++leaf) {
+    for (const std::uint64_t c : leaf_corners(octree, leaf))
+      connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), c) - corners.begin());
+    offsets.push_back(static_cast<std::int64_t>(8 * (leaf + 1)));
+  }
+  return "      <Points>\n" + arrays.add("Points", "Float64", xyz, 3) + "      </Points>\n      <Cells>\n" +
+         arrays.add("connectivity", "Int64", connectivity) + arrays.add("offsets", "Int64", offsets) +
+         arrays.add("types", "UInt8", std::vector<std::uint8_t>(n, kVtkVoxel)) + "      </Cells>\n";
+}
+
+void write_vtu(const OctreeView& octree, const CellData& data, const std::string& output) {
+  VtuArrays arrays;
+  std::size_t n_points = 0;
+  const std::string cells = cell_data(octree, data, arrays), geometry = points_and_cells(octree, arrays, n_points);
+  TemporaryFile temporary(output);
+  std::ofstream file(temporary.name(), std::ios::binary);
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+          "header_type=\"UInt64\">\n  <UnstructuredGrid>\n"
+       << "    <Piece NumberOfPoints=\"" << n_points << "\" NumberOfCells=\"" << octree.leaf_keys.size() << "\">\n"
+       << cells << geometry << "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_" << arrays.bytes()
+       << "\n  </AppendedData>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw Error(ExitCode::kOutput, output + ": cannot be written; check free space and permissions");
+  temporary.commit();
+}
+
+}  // namespace
+
+void export_octree(const std::string& artifact, const std::string& output) {
+  if (!output.ends_with(".vtu")) throw Error(ExitCode::kUsage, output + ": an octree is exported as .vtu; give that suffix");
+  CellData data;
+  if (read_header(artifact).schema == "raster") {
+    const RasterArtifact raster = read_raster(artifact);
+    data.size = raster.octree.stored_length;
+    for (float& size : data.size) size = std::min(size, static_cast<float>(raster.numbers.far_length));
+    data.cause = raster.octree.stored_cause;
+    write_vtu(raster.octree.shape.view(), data, output);
+    return;
+  }
+  const SizingArtifact sizing = read_sizing(artifact);
+  for (const CellLength& c : sizing.lengths.cells) data.size.push_back(static_cast<float>(sizing.scale) * c.length);
+  data.cause = sizing.lengths.cause;
+  write_vtu(sizing.shape.view(), data, output);
+}
+
+}  // namespace st
