@@ -1,0 +1,28 @@
+// Nodes on the CAD edges: each topological edge once, for all its faces.
+#pragma once
+
+#include <vector>
+
+#include "base/ids.h"
+#include "geometry/curve.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+struct CurveMeshOptions {
+  double max_turning_deg = 30;   ///< largest turning of the tangent along one segment
+  int min_segments = 1;          ///< 3 for a closed edge that is a loop of its own, 2 for one of two edges of a loop
+};
+
+/// Nodes on one edge, its ends included.
+struct CurveNodes {
+  std::vector<double> t;         ///< strictly increasing from t_min to t_max
+  std::vector<Vec3> x;           ///< points of the curve
+  std::vector<double> h;         ///< requested length
+};
+
+/// Spaces nodes by the integral of 1/size along the curve: as many segments as the integral says (rounded, at least min_segments), each with
+/// the same share. The turning of the tangent bounds the size from above. Local, pure.
+CurveNodes discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
+
+}  // namespace st

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/predicates.h"
+#include "meshing/front.h"
+
+namespace st {
+namespace {
+
+constexpr int kNext[3] = {1, 2, 0};
+constexpr int kPrev[3] = {2, 0, 1};
+constexpr double kGoodQuality = 0.93;      // nodes whose triangles are all better stay where they are
+constexpr double kShortEdge = 0.55;        // of the requested length: collapsed where that does no harm
+constexpr double kLongEdge = 1.45;         // of the requested length: no collapse makes such an edge
+constexpr double kSwapGain = 1e-3;
+
+class Enhancer {
+ public:
+  explicit Enhancer(FaceWork& work) : w_(work), m_(work.mesh) {}
+
+  void run(int rounds) {
+    swap_sweeps();
+    for (int round = 0; round < rounds; ++round) {
+      if (round < 2) collapse_sweep();
+      smooth_sweep();
+      swap_sweeps();
+    }
+  }
+
+ private:
+  Vec3 normal_at(const MeshNode& n) const { return cross(n.du, n.dv); }
+
+  /// 4 sqrt(3) A / sum l^2 in space, negative where the triangle is turned against the surface.
+  double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
+    const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
+    const Vec3 n = cross(ab, ac);
+    const double sum = norm2(ab) + norm2(ac) + norm2(bc);
+    if (!(sum > 0)) return 0;
+    const double q = 3.4641016151377544 * norm(n) / sum;
+    if (dot(n, normal_at(a)) >= 0 && dot(n, normal_at(b)) >= 0 && dot(n, normal_at(c)) >= 0) return q;
+    // fold test against the mean of the unit normals (a pole has none)
+    const Vec3 mean = normalized(normal_at(a)) + normalized(normal_at(b)) + normalized(normal_at(c));
+    return dot(n, mean) > 0.2 * norm(n) * norm(mean) ? 0.5 * q : -1 + q;
+  }
+  double quality(std::int32_t a, std::int32_t b, std::int32_t c) const { return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]); }
+
+  bool is_inside(const PlaneTriangle& t) const { return t.state != kOutside && t.state != kDead; }
+
+  void swap_sweeps() {
+    for (int sweep = 0; sweep < 4; ++sweep) {
+      std::size_t n_swaps = 0;
+      for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+        if (!is_inside(m_.triangles[i])) continue;
+        for (int k = 0; k < 3; ++k)
+          if (try_swap(static_cast<std::int32_t>(i), k)) ++n_swaps;
+      }
+      if (n_swaps * 1000 < m_.triangles.size()) return;
+    }
+  }
+
+  bool try_swap(std::int32_t t, int k) {
+    const PlaneTriangle& r = m_.triangles[t];
+    const std::int32_t o = r.n[k];
+    if (o < t || (r.constrained >> k & 1)) return false;  // each edge once; kNone is negative
+    const PlaneTriangle& s = m_.triangles[o];
+    const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
+    const std::int32_t a = r.v[k], b = r.v[kNext[k]], c = r.v[kPrev[k]], d = s.v[kPrev[j]];
+    const MeshNode &nc = m_.nodes[c], &nd = m_.nodes[d];
+    if (nc.id != kNone && nc.id == nd.id) return false;  // seam twins
+    if (nc.is_pole && nd.is_pole) return false;
+    const double before = std::min(quality(a, b, c), quality(b, a, d));
+    if (before > 0.9) return false;
+    const double after = std::min(quality(c, a, d), quality(c, d, b));
+    if (after <= before + kSwapGain || !m_.can_swap(t, k)) return false;
+    // a new edge must not run along the surface much further than through the air
+    const double chord = distance(nc.x, nd.x);
+    if (w_.edge_length(c, d) > chord && w_.edge_length(a, b) <= distance(m_.nodes[a].x, m_.nodes[b].x)) return false;
+    m_.swap(t, k);
+    return true;
+  }
+
+  void smooth_sweep() {
+    const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
+    for (std::int32_t i = first; i < n; ++i)
+      if (m_.triangle_at(i) != kNone) smooth(i);
+  }
+
+  double ring_quality(const MeshNode& centre, double& mean) const {
+    double worst = 2, sum = 0;
+    const std::size_t n = around_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double q = quality(centre, m_.nodes[around_[i]], m_.nodes[around_[(i + 1) % n]]);
+      worst = std::min(worst, q);
+      sum += q;
+    }
+    mean = sum / static_cast<double>(n);
+    return worst;
+  }
+
+  void smooth(std::int32_t i) {
+    if (!m_.ring_of(i, around_, tris_)) return;
+    const MeshNode& old = m_.nodes[i];
+    double mean_before;
+    const double before = ring_quality(old, mean_before);
+    if (before > kGoodQuality) return;
+    // mean of the ring, each neighbour pulled to its requested distance
+    Vec3 target{};
+    const double n = static_cast<double>(around_.size());
+    for (std::int32_t j : around_) {
+      const MeshNode& b = m_.nodes[j];
+      const Vec3 d = old.x - b.x;
+      const double l = norm(d), h = 0.5 * (old.h + b.h);
+      target += b.x + (l > 0 ? 0.5 + 0.5 * h / l : 1.0) * d;
+    }
+    Vec3 laplace{};
+    for (std::int32_t j : around_) laplace += m_.nodes[j].x;
+    target = 0.5 * (target / n) + 0.5 * (laplace / n);
+    const Metric m = metric_of(old.du, old.dv);
+    const double det = m.e * m.g - m.f * m.f;
+    if (!(det > 0)) return;
+    for (double step : {1.0, 0.4}) {
+      const Vec3 move = step * (target - old.x);
+      const double mu = dot(move, old.du), mv = dot(move, old.dv);
+      MeshNode moved = old;
+      moved.p = old.p + Vec2{(m.g * mu - m.f * mv) / det, (m.e * mv - m.f * mu) / det};
+      if (!is_valid_at(moved.p)) continue;
+      w_.evaluate(moved);
+      double mean_after;
+      const double after = ring_quality(moved, mean_after);
+      if (after > before + 1e-4 || (after > 0.6 && after > before - 0.05 && mean_after > mean_before + 1e-4)) {
+        m_.nodes[i] = moved;
+        return;
+      }
+    }
+  }
+
+  bool is_valid_at(Vec2 p) const {
+    const std::size_t n = around_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      if (orient2d(p, m_.nodes[around_[i]].p, m_.nodes[around_[(i + 1) % n]].p) <= 0) return false;
+    return true;
+  }
+
+  void collapse_sweep() {
+    const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
+    for (std::int32_t i = first; i < n; ++i)
+      if (m_.triangle_at(i) != kNone) try_collapse(i);
+  }
+
+  void try_collapse(std::int32_t i) {
+    if (!m_.ring_of(i, around_, tris_)) return;
+    const MeshNode& node = m_.nodes[i];
+    const int n = static_cast<int>(around_.size());
+    double shortest = 1e300;
+    for (std::int32_t j : around_) shortest = std::min(shortest, distance(node.x, m_.nodes[j].x) / (0.5 * (node.h + m_.nodes[j].h)));
+    if (shortest > kShortEdge && n > 4) return;
+    double mean;
+    const double before = ring_quality(node, mean);
+    int best = -1;
+    double best_quality = n <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;
+    for (int c = 0; c < n; ++c) {
+      const double q = collapsed_quality(c);
+      if (q > best_quality) {
+        best_quality = q;
+        best = c;
+      }
+    }
+    if (best >= 0) m_.collapse(i, best, around_, tris_);
+  }
+
+  /// Worst quality after moving the node onto ring node c; -2 when invalid.
+  double collapsed_quality(int c) const {
+    const int n = static_cast<int>(around_.size());
+    const MeshNode& target = m_.nodes[around_[c]];
+    double worst = 2;
+    for (int k = 0; k < n; ++k) {
+      const int l = (k + 1) % n;
+      if (k == c || l == c) continue;
+      const MeshNode &a = m_.nodes[around_[k]], &b = m_.nodes[around_[l]];
+      if (orient2d(target.p, a.p, b.p) <= 0) return -2;
+      worst = std::min(worst, quality(target, a, b));
+    }
+    // edges that appear: target to every ring node but its neighbours
+    for (int k = 0; k < n; ++k) {
+      if (k == c || k == (c + 1) % n || k == (c + n - 1) % n) continue;
+      const MeshNode& a = m_.nodes[around_[k]];
+      if (a.id != kNone && a.id == target.id) return -2;
+      if (w_.edge_length(around_[c], around_[k]) > kLongEdge * 0.5 * (a.h + target.h)) return -2;
+    }
+    return worst;
+  }
+
+  FaceWork& w_;
+  Triangulation& m_;
+  std::vector<std::int32_t> around_, tris_;
+};
+
+}  // namespace
+
+void enhance(FaceWork& work, int rounds) { Enhancer(work).run(rounds); }
+
+}  // namespace st

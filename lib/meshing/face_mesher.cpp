@@ -1,0 +1,252 @@
+#include "meshing/face_mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/predicates.h"
+#include "meshing/front.h"
+
+namespace st {
+namespace {
+
+constexpr double kSnap = 1e-3;             // of the requested length: same-id nodes nearer than this are one (KERNEL.md)
+constexpr int kProbe = 6;                  // grid of the curvature probe
+
+/// Work on one face: the named steps of meshing.
+class FaceMesher {
+ public:
+  FaceMesher(const Surface& surface, const FaceBoundary& boundary) : surface_(surface), boundary_(boundary) { work_.surface = &surface; }
+
+  std::vector<RefinementPoint> prepare() {
+    scale_plane();
+    add_nodes();
+    add_segments();
+    std::vector<RefinementPoint> places;
+    for (const LoopConflict& c : work_.mesh.build(segments_)) places.push_back(place_of(c));
+    return places;
+  }
+
+  FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options) {
+    FaceMesh result;
+    if (boundary_.nodes.size() < 3) {
+      result.cause = "its loops have fewer than three nodes";
+      return result;
+    }
+    result.refinement = prepare();
+    if (!result.refinement.empty()) {
+      result.cause = "its loops cross or touch in (u,v)";
+      return result;
+    }
+    work_.field = &field;
+    work_.max_turning = radians(options.max_turning_deg);
+    probe_curvature();
+    advance_front(work_);
+    enhance(work_, options.enhance_rounds);
+    collect(result);
+    validate(result);
+    return result;
+  }
+
+ private:
+  void scale_plane() {
+    double su = 0, sv = 0;
+    const double du = (surface_.u_max() - surface_.u_min()) / kProbe, dv = (surface_.v_max() - surface_.v_min()) / kProbe;
+    for (int i = 0; i < kProbe; ++i)
+      for (int j = 0; j < kProbe; ++j) {
+        const SurfacePoint s = surface_.evaluate({surface_.u_min() + (i + 0.5) * du, surface_.v_min() + (j + 0.5) * dv});
+        su += norm(s.du);
+        sv += norm(s.dv);
+      }
+    const double n = kProbe * kProbe;
+    work_.scale = {su > 0 && std::isfinite(su) ? su / n : 1.0, sv > 0 && std::isfinite(sv) ? sv / n : 1.0};
+  }
+
+  /// Plane nodes; nodes of the same id that nearly coincide become one.
+  void add_nodes() {
+    std::map<std::int32_t, std::vector<std::int32_t>> same;
+    node_of_.resize(boundary_.nodes.size());
+    for (std::size_t i = 0; i < boundary_.nodes.size(); ++i) {
+      const FaceBoundary::Node& b = boundary_.nodes[i];
+      MeshNode n;
+      n.p = {b.uv.x * work_.scale.x, b.uv.y * work_.scale.y};
+      work_.evaluate(n);
+      n.x = b.x;
+      n.h = b.h;
+      n.id = b.id;
+      n.is_pole = b.is_pole;
+      std::vector<std::int32_t>& twins = same[b.id];
+      std::int32_t found = kNone;
+      for (std::int32_t t : twins) {
+        const MeshNode& o = work_.mesh.nodes[t];
+        const Vec2 d = o.p - n.p;
+        if (norm(d.x * n.du + d.y * n.dv) < kSnap * b.h && norm(d) < kSnap * b.h * 10) found = t;
+        if (d.x == 0 && d.y == 0) found = t;
+      }
+      if (found == kNone) {
+        found = static_cast<std::int32_t>(work_.mesh.nodes.size());
+        work_.mesh.nodes.push_back(n);
+        local_to_boundary_.push_back(static_cast<std::int32_t>(i));
+        twins.push_back(found);
+      }
+      node_of_[i] = found;
+    }
+  }
+
+  void add_segments() {
+    for (const auto& [a, b] : boundary_.segments)
+      if (node_of_[a] != node_of_[b]) segments_.push_back({node_of_[a], node_of_[b]});
+  }
+
+  RefinementPoint place_of(const LoopConflict& c) const {
+    const auto& n = work_.mesh.nodes;
+    Vec3 x = 0.25 * (n[c.node_a].x + n[c.node_b].x + n[c.other_a].x + n[c.other_b].x);
+    const double h = std::max({distance(n[c.node_a].x, n[c.node_b].x), distance(n[c.other_a].x, n[c.other_b].x), 1e-3 * n[c.node_a].h});
+    return {x, 0.5 * h};
+  }
+
+  /// Is there a place where the radius of curvature is too small for the requested length?
+  void probe_curvature() {
+    if (surface_.is_planar()) return;
+    const double du = (surface_.u_max() - surface_.u_min()) / 12, dv = (surface_.v_max() - surface_.v_min()) / 12;
+    for (int i = 0; i <= 12 && !work_.limits_turning; ++i)
+      for (int j = 0; j <= 12 && !work_.limits_turning; ++j) {
+        const SurfacePoint2 s = surface_.evaluate2({surface_.u_min() + i * du, surface_.v_min() + j * dv});
+        const double k = std::abs(principal_curvature(s).k1);
+        if (k > 0 && k * work_.field->size(s.x, work_.hint) > work_.max_turning) work_.limits_turning = true;
+      }
+  }
+
+  void collect(FaceMesh& result) const {
+    const Triangulation& m = work_.mesh;
+    const std::int32_t n_local = m.n_boundary, first_inner = n_local + 4;
+    const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
+    std::vector<std::int32_t> number(m.nodes.size(), kNone);
+    for (std::int32_t i = 0; i < n_local; ++i) number[i] = local_to_boundary_[i];
+    for (const PlaneTriangle& t : m.triangles) {
+      if (t.state == kOutside || t.state == kDead) continue;
+      int n_pole = 0;
+      for (std::int32_t v : t.v) n_pole += m.nodes[v].is_pole;
+      if (n_pole >= 2 && same_pole(t)) continue;
+      for (std::int32_t v : t.v) {
+        if (number[v] == kNone && v >= first_inner) {
+          number[v] = n_boundary + static_cast<std::int32_t>(result.inner.size());
+          result.inner.push_back({work_.to_uv(m.nodes[v].p), m.nodes[v].x, m.nodes[v].h});
+        }
+        result.corners.push_back(number[v]);
+      }
+    }
+  }
+
+  bool same_pole(const PlaneTriangle& t) const {
+    const auto& n = work_.mesh.nodes;
+    for (int k = 0; k < 3; ++k) {
+      const MeshNode &a = n[t.v[k]], &b = n[t.v[(k + 1) % 3]];
+      if (a.is_pole && b.is_pole && a.id == b.id) return true;
+    }
+    return false;
+  }
+
+  struct EdgeUse {
+    std::int64_t key;
+    Vec3 x;
+    double length;
+    bool is_boundary;
+    bool operator<(const EdgeUse& o) const { return key < o.key; }
+  };
+
+  std::int64_t node_key(std::int32_t corner) const {
+    const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
+    return corner < n_boundary ? boundary_.nodes[corner].id : (std::int64_t{1} << 31) + corner;
+  }
+  Vec3 position(const FaceMesh& r, std::int32_t corner) const {
+    const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
+    return corner < n_boundary ? boundary_.nodes[corner].x : r.inner[corner - n_boundary].x;
+  }
+
+  /// Every edge used twice (boundary segments as often as the loops use them), no triangle with a repeated node, no repeated triangle.
+  void validate(FaceMesh& r) const {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> uses;  // (smaller key, larger key) of edges between boundary nodes only
+    std::map<std::pair<std::int64_t, std::int64_t>, int> count;
+    const auto ordered = [](std::int64_t a, std::int64_t b) { return a < b ? std::pair{a, b} : std::pair{b, a}; };
+    const auto refine = [&](Vec3 x, double length) {
+      if (r.refinement.size() < 64) r.refinement.push_back({x, length});
+    };
+    const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
+    for (std::size_t i = 0; i < r.corners.size(); i += 3) {
+      const std::int32_t* c = &r.corners[i];
+      const std::int64_t key[3] = {node_key(c[0]), node_key(c[1]), node_key(c[2])};
+      for (int k = 0; k < 3; ++k) {
+        if (c[k] == kNone) {
+          r.cause = "a triangle reaches outside its loops";
+          return;
+        }
+        const int l = (k + 1) % 3;
+        if (key[k] == key[l]) {
+          r.cause = "too few nodes around a narrow part";
+          refine(position(r, c[k]), 0.5 * distance(position(r, c[0]), position(r, c[1])) + 0.25 * distance(position(r, c[1]), position(r, c[2])));
+          break;
+        }
+        if (c[k] < n_boundary || c[l] < n_boundary) ++count[ordered(key[k], key[l])];
+      }
+    }
+    std::map<std::pair<std::int64_t, std::int64_t>, int> loop_uses;
+    for (const auto& [a, b] : boundary_.segments)
+      if (boundary_.nodes[a].id != boundary_.nodes[b].id) ++loop_uses[ordered(boundary_.nodes[a].id, boundary_.nodes[b].id)];
+    for (const auto& [segment, uses_in_loops] : loop_uses)
+      if (count[segment] != uses_in_loops) {
+        r.cause = "a boundary segment is not used as often as the loops use it";
+        report_edge(r, segment, refine);
+      }
+    for (const auto& [edge, n] : count)
+      if (!loop_uses.count(edge) && n != 2) {
+        r.cause = "too few nodes around a narrow part";
+        report_edge(r, edge, refine);
+      }
+    check_folds(r);
+  }
+
+  template <class Refine>
+  void report_edge(const FaceMesh& r, const std::pair<std::int64_t, std::int64_t>& edge, const Refine& refine) const {
+    for (std::size_t i = 0; i < r.corners.size(); ++i) {
+      const std::size_t j = i % 3 == 2 ? i - 2 : i + 1;
+      const std::int64_t a = node_key(r.corners[i]), b = node_key(r.corners[j]);
+      if ((a == edge.first && b == edge.second) || (a == edge.second && b == edge.first)) {
+        const Vec3 x = position(r, r.corners[i]), y = position(r, r.corners[j]);
+        refine(0.5 * (x + y), 0.5 * distance(x, y));
+        return;
+      }
+    }
+  }
+
+  void check_folds(FaceMesh& r) const {
+    for (const PlaneTriangle& t : work_.mesh.triangles) {
+      if (t.state == kOutside || t.state == kDead || same_pole(t)) continue;
+      const MeshNode &a = work_.mesh.nodes[t.v[0]], &b = work_.mesh.nodes[t.v[1]], &c = work_.mesh.nodes[t.v[2]];
+      const Vec3 n = cross(b.x - a.x, c.x - a.x);
+      const Vec3 mean = normalized(cross(a.du, a.dv)) + normalized(cross(b.du, b.dv)) + normalized(cross(c.du, c.dv));
+      if (dot(n, mean) >= 0) continue;
+      ++r.n_folds;
+      const double size = std::sqrt(std::max({norm2(b.x - a.x), norm2(c.x - a.x), norm2(c.x - b.x)}));
+      if (r.refinement.size() < 64) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});
+    }
+  }
+
+  const Surface& surface_;
+  const FaceBoundary& boundary_;
+  FaceWork work_;
+  std::vector<std::int32_t> node_of_, local_to_boundary_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> segments_;
+};
+
+}  // namespace
+
+FaceMesh mesh_face(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, const FaceMeshOptions& options) {
+  return FaceMesher(surface, boundary).mesh(field, options);
+}
+
+std::vector<RefinementPoint> check_boundary(const Surface& surface, const FaceBoundary& boundary) {
+  return FaceMesher(surface, boundary).prepare();
+}
+
+}  // namespace st

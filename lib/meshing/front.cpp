@@ -1,0 +1,266 @@
+#include "meshing/front.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/predicates.h"
+
+namespace st {
+namespace {
+
+constexpr int kNext[3] = {1, 2, 0};
+constexpr int kPrev[3] = {2, 0, 1};
+
+// KERNEL.md: found on 16,000 real faces.
+constexpr double kFinishedRadius = 0.68;    // circumradius over requested length; equilateral: 0.577
+constexpr double kNearNode = 0.65;          // of the side: a new node nearer than this to another is not made
+constexpr double kNearBoundary = 0.4;       // of the side: nor nearer than this to a boundary segment
+constexpr double kGrowth = 1.25;            // size of a new node over its base side
+constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
+
+double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 d = b - a;
+  const double l2 = norm2(d);
+  const double s = l2 > 0 ? std::clamp(dot(p - a, d) / l2, 0.0, 1.0) : 0.0;
+  return distance(p, a + s * d);
+}
+
+class Front {
+ public:
+  explicit Front(FaceWork& work) : w_(work), m_(work.mesh) {}
+
+  void run() {
+    start();
+    advance();
+    split_large();
+  }
+
+ private:
+  struct Entry {
+    std::int32_t t, a, b;
+  };
+
+  bool is_finished(const PlaneTriangle& t) const {
+    const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
+    return w_.circumradius(t) < kFinishedRadius * h;
+  }
+
+  void start() {
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i)
+      if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside) t.state = is_finished(t) ? kFinished : kUnfinished;
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i)
+      if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
+  }
+
+  /// Edges of an unfinished triangle that border on something finished, or on the boundary.
+  void push_front_edges(std::int32_t t) {
+    const PlaneTriangle& r = m_.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const bool boundary = r.constrained >> k & 1;
+      if (boundary || (r.n[k] != kNone && m_.triangles[r.n[k]].state == kFinished)) queue_.push_back({t, r.v[k], r.v[kNext[k]]});
+    }
+  }
+
+  void advance() {
+    for (std::size_t head = 0; head < queue_.size(); ++head) {
+      if (head > 4096 && head * 2 > queue_.size()) {
+        queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(head));
+        head = 0;
+      }
+      const Entry e = queue_[head];
+      const PlaneTriangle& r = m_.triangles[e.t];
+      if (r.state != kUnfinished) continue;
+      int k = 0;
+      while (k < 3 && !(r.v[k] == e.a && r.v[kNext[k]] == e.b)) ++k;
+      if (k == 3) continue;
+      if (m_.nodes[e.a].is_pole && m_.nodes[e.b].is_pole) continue;
+      if (!place(e.t, e.a, e.b)) retire(e.t);
+    }
+  }
+
+  void retire(std::int32_t t) {
+    m_.triangles[t].state = kFinished;
+    const PlaneTriangle r = m_.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t o = r.n[k];
+      if ((r.constrained >> k & 1) || o == kNone || m_.triangles[o].state != kUnfinished) continue;
+      queue_.push_back({o, r.v[kNext[k]], r.v[k]});
+    }
+  }
+
+  /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
+  bool ideal_point(const MeshNode& a, const MeshNode& b, double r, MeshNode& p) const {
+    const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
+    const Metric m = metric_of(du, dv);
+    const Vec2 e = b.p - a.p;
+    const double base = distance(a.x, b.x), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
+    if (!(e2 > 0) || !(det > 0)) return false;
+    const double height = std::sqrt(std::max(r * r - 0.25 * base * base, 0.04 * r * r));
+    const double f = height / std::sqrt(e2 * det);
+    p.p = 0.5 * (a.p + b.p) + f * Vec2{-(m.f * e.x + m.g * e.y), m.e * e.x + m.f * e.y};
+    for (int step = 0;; ++step) {
+      w_.evaluate(p);
+      const Vec3 ra = p.x - a.x, rb = p.x - b.x;
+      const double la = norm(ra), lb = norm(rb);
+      if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
+      if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      const double a11 = 2 * dot(ra, p.du), a12 = 2 * dot(ra, p.dv), a21 = 2 * dot(rb, p.du), a22 = 2 * dot(rb, p.dv);
+      const double f1 = r * r - la * la, f2 = r * r - lb * lb, d = a11 * a22 - a12 * a21;
+      const double size = std::abs(a11 * a22) + std::abs(a12 * a21);
+      if (!(std::abs(d) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      Vec2 move{(f1 * a22 - f2 * a12) / d, (a11 * f2 - a21 * f1) / d};
+      const double length = norm(move.x * p.du + move.y * p.dv);
+      if (length > 0.5 * r) move = (0.5 * r / length) * move;
+      p.p = p.p + move;
+    }
+  }
+
+  bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
+    const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
+    const double base = distance(a.x, b.x);
+    if (!(base > 0)) return false;
+    const double wanted = std::min(0.5 * (a.h + b.h), kGrowth * base);
+    const double r = std::max(wanted, 0.62 * base);
+    MeshNode p;
+    if (!ideal_point(a, b, r, p)) return false;
+    return insert(p, t, r, kGrowth * base);
+  }
+
+  /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
+  bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
+    const std::int32_t at = m_.locate(p.p, start);
+    if (at == kNone || m_.triangles[at].state == kOutside) return false;
+    const Metric metric = metric_of(p.du, p.dv);
+    if (!m_.find_cavity(p.p, metric, at)) return false;
+    if (is_crowded(p, metric, r)) return false;
+    p.h = std::min(w_.size_at(p), largest);
+    // an unexpectedly small size at the new node: stay apart by the old rule only
+    m_.nodes.push_back(p);
+    m_.added_node();
+    m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
+    fan_ = m_.new_triangles();
+    for (std::int32_t t : fan_) m_.triangles[t].state = is_finished(m_.triangles[t]) ? kFinished : kUnfinished;
+    for (std::int32_t t : fan_) {
+      const PlaneTriangle& f = m_.triangles[t];
+      if (f.state == kUnfinished) {
+        push_front_edges(t);
+      } else if (!(f.constrained & 1) && f.n[0] != kNone && m_.triangles[f.n[0]].state == kUnfinished) {
+        queue_.push_back({f.n[0], f.v[1], f.v[0]});
+      }
+    }
+    return true;
+  }
+
+  bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
+    const double near2 = kNearNode * kNearNode * r * r;
+    for (const Triangulation::RingEdge& e : m_.ring()) {
+      const MeshNode &a = m_.nodes[e.a], &b = m_.nodes[e.b];
+      if (norm2(a.x - p.x) < near2 && (a.is_pole || metric.length2(a.p - p.p) < 4 * near2)) return true;
+      if (!e.constrained || (a.is_pole && b.is_pole)) continue;
+      if (segment_distance(p.x, a.x, b.x) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r)) return true;
+    }
+    return false;
+  }
+
+  static bool plane_near(const MeshNode& p, const Metric& m, const MeshNode& a, const MeshNode& b, double reach) {
+    const Vec2 d = b.p - a.p, q = p.p - a.p;
+    const double l2 = m.length2(d);
+    const double along = m.e * d.x * q.x + m.f * (d.x * q.y + d.y * q.x) + m.g * d.y * q.y;
+    const double s = l2 > 0 ? std::clamp(along / l2, 0.0, 1.0) : 0.0;
+    return m.length2(q - s * d) < reach * reach;
+  }
+
+  /// Triangles that the front left too large: a node at the middle of the longest edge, or the centre, until none is left.
+  void split_large() {
+    for (int round = 0; round < 12; ++round) {
+      bool changed = false;
+      const std::size_t n = m_.triangles.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const PlaneTriangle t = m_.triangles[i];
+        if (t.state == kOutside || t.state == kDead) continue;
+        const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
+        if (w_.circumradius(t) < kTooLarge * h) continue;
+        changed |= split(static_cast<std::int32_t>(i), t, h);
+      }
+      advance();
+      if (!changed) return;
+    }
+  }
+
+  bool split(std::int32_t i, const PlaneTriangle& t, double h) {
+    int longest = 0;
+    double length = 0;
+    for (int k = 0; k < 3; ++k)
+      if (const double l = w_.edge_length(t.v[k], t.v[kNext[k]]); l > length) {
+        length = l;
+        longest = k;
+      }
+    if (length < 1.3 * h) return false;
+    const Vec2 a = m_.nodes[t.v[0]].p, b = m_.nodes[t.v[1]].p, c = m_.nodes[t.v[2]].p;
+    const bool boundary = t.constrained >> longest & 1;
+    const Vec2 middle = 0.5 * (m_.nodes[t.v[longest]].p + m_.nodes[t.v[kNext[longest]]].p);
+    const Vec2 centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+    for (int attempt = boundary ? 1 : 0; attempt < 2; ++attempt) {
+      MeshNode p;
+      p.p = attempt == 0 ? middle : centre;
+      w_.evaluate(p);
+      if (insert(p, i, std::min(h, length / 2 / kNearNode * 0.99), h * 1.25)) return true;
+    }
+    return false;
+  }
+
+  FaceWork& w_;
+  Triangulation& m_;
+  std::vector<Entry> queue_;
+  std::vector<std::int32_t> fan_;
+};
+
+}  // namespace
+
+Metric metric_of(Vec3 du, Vec3 dv) {
+  Metric m{norm2(du), dot(du, dv), norm2(dv)};
+  const double floor = 1e-9 * (m.e + m.g);  // a pole has a direction without length
+  m.e += floor;
+  m.g += floor;
+  return m;
+}
+
+void FaceWork::evaluate(MeshNode& n) const {
+  const SurfacePoint s = surface->evaluate(to_uv(n.p));
+  n.x = s.x;
+  n.du = s.du / scale.x;
+  n.dv = s.dv / scale.y;
+}
+
+double FaceWork::size_at(const MeshNode& n) {
+  double h = field->size(n.x, hint);
+  if (limits_turning) {
+    const Curvature k = principal_curvature(surface->evaluate2(to_uv(n.p)));
+    if (std::abs(k.k1) * h > max_turning) h = max_turning / std::abs(k.k1);
+  }
+  return h;
+}
+
+double FaceWork::edge_length(std::int32_t ia, std::int32_t ib) const {
+  const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
+  const double chord = distance(a.x, b.x);
+  const Vec2 e = b.p - a.p;
+  const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
+  const double along = norm(e.x * du + e.y * dv);
+  return along > 2 * chord && !(a.is_pole && b.is_pole) ? along : chord;
+}
+
+double FaceWork::circumradius(const PlaneTriangle& t) const {
+  const double a = edge_length(t.v[0], t.v[1]), b = edge_length(t.v[1], t.v[2]), c = edge_length(t.v[2], t.v[0]);
+  const double longest = std::max({a, b, c});
+  const Vec3 &x0 = mesh.nodes[t.v[0]].x, &x1 = mesh.nodes[t.v[1]].x, &x2 = mesh.nodes[t.v[2]].x;
+  const double area4 = 2 * norm(cross(x1 - x0, x2 - x0));
+  if (area4 <= 1e-12 * longest * longest) {  // a sliver, or no triangle in space (at a pole): as large as its longest side
+    return longest;
+  }
+  return std::max(a * b * c / area4 > 10 * longest ? 10 * longest : a * b * c / area4, longest / 2);
+}
+
+void advance_front(FaceWork& work) { Front(work).run(); }
+
+}  // namespace st

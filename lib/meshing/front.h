@@ -1,0 +1,41 @@
+// The advancing front inside a constrained triangulation of the face (Rebay 1993; Marcum and Weatherill 1995): internal to lib/meshing.
+#pragma once
+
+#include <vector>
+
+#include "geometry/surface.h"
+#include "meshing/triangulation.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// The face being meshed: its triangulation, surface, sizes and the scaling of (u,v) to the plane.
+struct FaceWork {
+  Triangulation mesh;
+  const Surface* surface = nullptr;
+  const SizeField* field = nullptr;
+  Vec2 scale{1, 1};                  ///< plane = scale * (u,v)
+  double max_turning = 1.0;          ///< radians of the normal along one length
+  bool limits_turning = false;       ///< somewhere the radius of curvature is too small for the field
+  int hint = 0;
+
+  Vec2 to_uv(Vec2 p) const { return {p.x / scale.x, p.y / scale.y}; }
+  /// Fills x, du, dv of a node from its p.
+  void evaluate(MeshNode& n) const;
+  /// Requested length at a node, limited by curvature where needed.
+  double size_at(const MeshNode& n);
+  /// Circumradius of triangle t in space; large where it does not resolve the surface (seam twins, sheets).
+  double circumradius(const PlaneTriangle& t) const;
+  /// Length of an edge: in space, or along the surface where that is much longer.
+  double edge_length(std::int32_t a, std::int32_t b) const;
+};
+
+Metric metric_of(Vec3 du, Vec3 dv);
+
+/// Advances the front from the boundary until every triangle is finished or retired, then splits what is still too large.
+void advance_front(FaceWork& work);
+
+/// Swaps, smooths, collapses and splits for `rounds` rounds; keeps the triangulation valid in the plane and does not fold it in space.
+void enhance(FaceWork& work, int rounds);
+
+}  // namespace st

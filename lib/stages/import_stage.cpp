@@ -1,0 +1,111 @@
+#include "stages/import_stage.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/hash.h"
+#include "base/log.h"
+#include "io/artifact.h"
+
+namespace st {
+namespace {
+
+constexpr int kFindingsShown = 10;
+
+std::string file_hash(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << in.rdbuf();
+  const std::string text = bytes.str();
+  return hash_hex(text.data(), text.size());
+}
+
+nlohmann::json finding_json(const ImportFinding& f) {
+  return {{"what", f.what}, {"entity", f.entity}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}, {"size", f.size}, {"repair", f.is_repair}};
+}
+
+nlohmann::json report(const std::string& model, const ImportResult& r) {
+  const ModelTables& t = r.tables;
+  const Box3 box = t.box();
+  nlohmann::json findings = nlohmann::json::array(), repairs = nlohmann::json::array();
+  for (const ImportFinding& f : r.findings) (f.is_repair ? repairs : findings).push_back(finding_json(f));
+  return {{"tool", "st-import"},
+          {"model", model},
+          {"format", r.format},
+          {"closed", r.is_closed},
+          {"unit", t.unit},
+          {"solids", t.n_solids},
+          {"shells", t.n_shells},
+          {"faces", t.n_faces()},
+          {"edges", t.n_edges()},
+          {"vertices", t.n_vertices()},
+          {"groups", t.group_name.size()},
+          {"free_edges", r.n_free_edges},
+          {"nonmanifold_edges", r.n_nonmanifold_edges},
+          {"repairs", repairs},
+          {"findings", findings},
+          {"area", r.area},
+          {"volume", r.volume},
+          {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
+}
+
+void warn(const std::string& model, const ImportResult& r) {
+  if (!r.is_closed)
+    log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there", model, r.n_free_edges));
+  int n = 0;
+  for (const ImportFinding& f : r.findings) {
+    if (n++ == kFindingsShown) {
+      log_info("  ... more in the JSON report (--json)");
+      break;
+    }
+    log_info(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what,
+                         f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size));
+  }
+}
+
+}  // namespace
+
+StageSummary run_import(const ImportStageOptions& o) {
+  const Timer timer;
+  if (!o.check) require_writable(o.output);
+  ImportOptions options;
+  options.unit = o.unit;
+  options.check_only = o.check;
+  options.require_closed = o.require_closed;
+  ImportResult r = import_model(o.model, options);
+  warn(o.model, r);
+  nlohmann::json json = report(o.model, r);
+  const ModelTables& t = r.tables;
+  const Box3 box = t.box();
+  const std::string unit = t.unit.empty() ? "" : " " + t.unit;
+  StageSummary s;
+  s.line = fmt::format("{}: {} faces, {} edges, {}, box {:.6g} x {:.6g} x {:.6g}{}, {} repairs", o.check ? o.model : o.output, t.n_faces(), t.n_edges(),
+                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), box.hi.x - box.lo.x, box.hi.y - box.lo.y,
+                       box.hi.z - box.lo.z, unit, r.n_repairs);
+  if (!o.check) {
+    GeometryArtifact g;
+    g.header.schema = "geometry";
+    g.header.tool = "st-import";
+    g.header.tool_version = ST_VERSION;
+    g.header.options_json = nlohmann::json{{"unit", o.unit}}.dump();
+    g.header.unit = t.unit;
+    g.header.unit_in_m = t.unit_in_m;
+    g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
+    g.findings = r.findings;
+    g.is_closed = r.is_closed;
+    g.tables = std::move(r.tables);
+    g.brep = std::move(r.brep);
+    json["hash"] = write_geometry(o.output, g);
+    json["output"] = o.output;
+  }
+  json["seconds"] = timer.seconds();
+  s.line += fmt::format(", {:.2f} s", timer.seconds());
+  s.json = json.dump();
+  return s;
+}
+
+}  // namespace st

@@ -1,0 +1,396 @@
+#include "stages/model_mesher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "comm/packer.h"
+#include "mesh/crossing.h"
+#include "meshing/curve_discretiser.h"
+#include "meshing/face_boundary.h"
+#include "meshing/refined_field.h"
+
+namespace st {
+namespace {
+
+constexpr std::int32_t kEdgesPerTask = 24;
+
+std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
+  std::vector<std::int32_t> order(weight.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
+  return order;
+}
+
+void pack(Packer& p, const FacePatch& f) {
+  p.add(f.face);
+  p.add(f.n_boundary);
+  p.add(f.boundary_dim);
+  p.add(f.boundary_entity);
+  p.add(f.boundary_index);
+  p.add(f.inner_xyz);
+  p.add(f.inner_uv);
+  p.add(f.inner_size);
+  p.add(f.triangles);
+  p.add(f.corner_uv);
+}
+
+void unpack(Unpacker& u, FacePatch& f) {
+  u.get(f.face);
+  u.get(f.n_boundary);
+  u.get(f.boundary_dim);
+  u.get(f.boundary_entity);
+  u.get(f.boundary_index);
+  u.get(f.inner_xyz);
+  u.get(f.inner_uv);
+  u.get(f.inner_size);
+  u.get(f.triangles);
+  u.get(f.corner_uv);
+}
+
+double box_distance(const Box3& b, Vec3 p) {
+  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
+  return norm(Vec3{out(b.lo.x, b.hi.x, p.x), out(b.lo.y, b.hi.y, p.y), out(b.lo.z, b.hi.z, p.z)});
+}
+
+/// A face's mesh as a patch: boundary nodes once each, triangles out of the solid.
+FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh, const BoundaryNumbering& numbering) {
+  FacePatch patch;
+  patch.face = face;
+  const std::int32_t n_local = static_cast<std::int32_t>(boundary.nodes.size());
+  std::vector<std::pair<std::int32_t, std::int32_t>> by_id;  // (global id, local)
+  for (std::int32_t i = 0; i < n_local; ++i) by_id.push_back({boundary.nodes[i].id, i});
+  std::sort(by_id.begin(), by_id.end());
+  std::vector<std::int32_t> number(n_local);
+  for (std::size_t i = 0; i < by_id.size(); ++i) {
+    if (i == 0 || by_id[i].first != by_id[i - 1].first) {
+      const auto entity = numbering.entity(by_id[i].first);
+      patch.boundary_dim.push_back(static_cast<std::uint8_t>(entity.dim));
+      patch.boundary_entity.push_back(entity.entity);
+      patch.boundary_index.push_back(entity.index);
+      ++patch.n_boundary;
+    }
+    number[by_id[i].second] = patch.n_boundary - 1;
+  }
+  for (const FaceMesh::InnerNode& n : mesh.inner) {
+    patch.inner_xyz.push_back(n.x);
+    patch.inner_uv.push_back(n.uv);
+    patch.inner_size.push_back(n.h);
+  }
+  const auto node = [&](std::int32_t c) { return c < n_local ? number[c] : patch.n_boundary + c - n_local; };
+  const auto uv = [&](std::int32_t c) { return c < n_local ? boundary.nodes[c].uv : mesh.inner[c - n_local].uv; };
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    std::int32_t c[3] = {mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]};
+    if (t.face_is_reversed[face]) std::swap(c[1], c[2]);
+    patch.triangles.push_back({{node(c[0]), node(c[1]), node(c[2])}});
+    for (std::int32_t k : c) patch.corner_uv.push_back(uv(k));
+  }
+  return patch;
+}
+
+}  // namespace
+
+ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
+                         const Communicator& comm)
+    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), comm_(comm) {
+  const ModelTables& t = model.tables();
+  min_segments_ = min_segments_per_edge(t);
+  if (static_cast<std::int32_t>(face_weight_.size()) != t.n_faces()) face_weight_ = t.face_area;
+  patches.resize(t.n_faces());
+  face_folds_.assign(t.n_faces(), 0);
+  face_cause_.resize(t.n_faces());
+  face_cause_xyz_.resize(t.n_faces());
+  face_fold_places_.resize(t.n_faces());
+  edges.edge_offsets.assign(t.n_edges() + 1, 0);
+}
+
+void ModelMesher::run() {
+  std::vector<EdgeId> all_edges;
+  for (EdgeId e = 0; e < model_.tables().n_edges(); ++e)
+    if (!model_.tables().edge_is_degenerate[e]) all_edges.push_back(e);
+  std::vector<FaceId> all_faces(model_.tables().n_faces());
+  std::iota(all_faces.begin(), all_faces.end(), 0);
+  rounds(std::move(all_edges), std::move(all_faces));
+}
+
+void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patches, const std::vector<FaceId>& faces_to_redo) {
+  edges = std::move(old_edges);
+  patches = std::move(old_patches);
+  patches.resize(model_.tables().n_faces());
+  std::vector<char> redo(model_.tables().n_faces(), 0);
+  for (FaceId f : faces_to_redo) redo[f] = 1;
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  model_.tables().edge_faces(offsets, faces);
+  std::vector<EdgeId> dirty;
+  for (EdgeId e = 0; e < model_.tables().n_edges(); ++e) {
+    bool all = !model_.tables().edge_is_degenerate[e] && offsets[e + 1] > offsets[e];
+    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && redo[faces[i]];
+    if (all) dirty.push_back(e);
+  }
+  rounds(std::move(dirty), faces_to_redo);
+}
+
+void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces) {
+  int n_crossing_rounds = 0;
+  for (;;) {
+    Timer timer;
+    mesh_edges(dirty_edges);
+    times.edges += timer.seconds();
+    timer = Timer();
+    std::vector<RefinementPoint> wanted = mesh_faces(dirty_faces);
+    times.faces += timer.seconds();
+    ++n_rounds;
+    const bool may_refine = n_rounds - n_crossing_rounds <= options_.max_rounds;
+    if (!may_refine) wanted.clear();
+    if (wanted.empty()) {
+      timer = Timer();
+      wanted = find_crossings();
+      times.crossing += timer.seconds();
+      if (n_crossing_rounds >= options_.max_crossing_rounds) wanted.clear();
+      ++n_crossing_rounds;
+    }
+    if (wanted.empty()) break;
+    accept(wanted, dirty_edges, dirty_faces);
+  }
+  if (!comm_.is_root()) return;
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+    folds.insert(folds.end(), face_fold_places_[f].begin(), face_fold_places_[f].end());
+    if (!face_cause_[f].empty())
+      failures.push_back({f, face_cause_[f], "repair the face in the CAD system, or ask for smaller sizes there", face_cause_xyz_[f]});
+  }
+}
+
+double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
+
+/// New places become part of the field; what they reach is done again.
+void ModelMesher::accept(const std::vector<RefinementPoint>& points, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces) {
+  const ModelTables& t = model_.tables();
+  std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
+  for (const RefinementPoint& p : points) {
+    points_.push_back(p);
+    point_reach_.push_back(reach(p));
+    for (EdgeId e = 0; e < t.n_edges(); ++e)
+      for (std::int32_t i = edges.edge_offsets[e]; !edge_dirty[e] && i < edges.edge_offsets[e + 1]; ++i)
+        edge_dirty[e] = distance(edges.node_xyz[i], p.x) < point_reach_.back() + edges.node_size[i];
+    for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], p.x) < point_reach_.back();
+  }
+  n_refinements += static_cast<int>(points.size());
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l)
+      for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
+  dirty_edges.clear();
+  dirty_faces.clear();
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (edge_dirty[e]) dirty_edges.push_back(e);
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (face_dirty[f]) dirty_faces.push_back(f);
+  log_info("refining at " + std::to_string(points.size()) + " places: " + std::to_string(dirty_edges.size()) + " edges, " +
+           std::to_string(dirty_faces.size()) + " faces again");
+}
+
+std::vector<RefinementPoint> ModelMesher::points_near(const Box3& box) const {
+  std::vector<RefinementPoint> near;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (box_distance(box, points_[i].x) <= point_reach_[i]) near.push_back(points_[i]);
+  return near;
+}
+
+Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
+  const ModelTables& t = model_.tables();
+  Packer packer;
+  for (EdgeId e : batch) {
+    const auto curve = model_.curve(e);
+    Box3 box;
+    const int n_samples = 32;
+    for (int i = 0; i <= n_samples; ++i) box.add(curve->point(curve->t_min() + (curve->t_max() - curve->t_min()) * i / n_samples));
+    const double margin = 0.05 * box.diagonal();
+    box.lo -= {margin, margin, margin};
+    box.hi += {margin, margin, margin};
+    const RefinedField field(field_, points_near(box));
+    CurveNodes nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
+    nodes.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
+    nodes.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
+    packer.add(e);
+    packer.add(nodes.t);
+    packer.add(nodes.x);
+    packer.add(nodes.h);
+  }
+  return packer.take();
+}
+
+void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
+  const std::int32_t n_tasks = (static_cast<std::int32_t>(dirty.size()) + kEdgesPerTask - 1) / kEdgesPerTask;
+  const std::int32_t n_edges = model_.tables().n_edges();
+  std::vector<CurveNodes> fresh(n_edges);
+  std::vector<std::int32_t> order(n_tasks);
+  std::iota(order.begin(), order.end(), 0);
+  const auto batch_of = [&](std::int32_t task) {
+    const auto first = dirty.begin() + static_cast<std::ptrdiff_t>(task) * kEdgesPerTask;
+    const auto last = static_cast<std::size_t>(task + 1) * kEdgesPerTask < dirty.size() ? first + kEdgesPerTask : dirty.end();
+    return std::vector<EdgeId>(first, last);
+  };
+  comm_.run_tasks(
+      n_tasks, order, [&](std::int32_t task) { return compute_edges(batch_of(task)); },
+      [&](std::int32_t task, Bytes&& result) {
+        Unpacker u(result);
+        for (std::size_t i = 0; i < batch_of(task).size(); ++i) {
+          EdgeId e;
+          u.get(e);
+          u.get(fresh[e].t);
+          u.get(fresh[e].x);
+          u.get(fresh[e].h);
+        }
+      });
+  if (comm_.is_root()) {
+    EdgeMesh next;
+    next.edge_offsets.push_back(0);
+    for (EdgeId e = 0; e < n_edges; ++e) {
+      if (!fresh[e].t.empty()) {
+        next.node_t.insert(next.node_t.end(), fresh[e].t.begin(), fresh[e].t.end());
+        next.node_xyz.insert(next.node_xyz.end(), fresh[e].x.begin(), fresh[e].x.end());
+        next.node_size.insert(next.node_size.end(), fresh[e].h.begin(), fresh[e].h.end());
+      } else {
+        const std::int32_t a = edges.edge_offsets[e], b = edges.edge_offsets[e + 1];
+        next.node_t.insert(next.node_t.end(), edges.node_t.begin() + a, edges.node_t.begin() + b);
+        next.node_xyz.insert(next.node_xyz.end(), edges.node_xyz.begin() + a, edges.node_xyz.begin() + b);
+        next.node_size.insert(next.node_size.end(), edges.node_size.begin() + a, edges.node_size.begin() + b);
+      }
+      next.edge_offsets.push_back(static_cast<std::int32_t>(next.node_t.size()));
+    }
+    edges = std::move(next);
+  }
+  broadcast_edges();
+}
+
+void ModelMesher::broadcast_edges() {
+  if (comm_.size() == 1) return;
+  Bytes bytes;
+  if (comm_.is_root()) {
+    Packer p;
+    p.add(edges.edge_offsets);
+    p.add(edges.node_t);
+    p.add(edges.node_xyz);
+    p.add(edges.node_size);
+    bytes = p.take();
+  }
+  comm_.broadcast(bytes);
+  if (comm_.is_root()) return;
+  Unpacker u(bytes);
+  u.get(edges.edge_offsets);
+  u.get(edges.node_t);
+  u.get(edges.node_xyz);
+  u.get(edges.node_size);
+}
+
+Bytes ModelMesher::compute_face(FaceId f) const {
+  const BoundaryNumbering numbering(model_.tables(), edges);
+  FaceMesh mesh;
+  FacePatch patch;
+  patch.face = f;
+  try {
+    const auto surface = model_.surface(f);
+    const FaceBoundary boundary = make_face_boundary(model_, *surface, f, numbering);
+    FaceMeshOptions options;
+    options.enhance_rounds = options_.enhance_rounds;
+    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[f]);
+    if (near.empty()) {
+      mesh = mesh_face(*surface, boundary, field_, options);
+    } else {
+      mesh = mesh_face(*surface, boundary, RefinedField(field_, near), options);
+    }
+    if (mesh.cause.empty()) patch = make_patch(model_.tables(), f, boundary, mesh, numbering);
+  } catch (const Error& e) {
+    mesh.cause = e.what();
+  }
+  Packer packer;
+  pack(packer, patch);
+  packer.add(mesh.cause);
+  packer.add(mesh.refinement);
+  packer.add(mesh.n_folds);
+  return packer.take();
+}
+
+std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& dirty) {
+  std::vector<double> weight;
+  for (FaceId f : dirty) weight.push_back(face_weight_[f]);
+  std::vector<std::vector<RefinementPoint>> wanted(dirty.size());
+  Progress progress("meshing", static_cast<double>(dirty.size()));
+  std::size_t n_done = 0;
+  comm_.run_tasks(
+      static_cast<std::int32_t>(dirty.size()), heaviest_first(weight), [&](std::int32_t task) { return compute_face(dirty[task]); },
+      [&](std::int32_t task, Bytes&& result) {
+        const FaceId f = dirty[task];
+        Unpacker u(result);
+        unpack(u, patches[f]);
+        u.get(face_cause_[f]);
+        u.get(wanted[task]);
+        u.get(face_folds_[f]);
+        face_fold_places_[f] = face_folds_[f] ? wanted[task] : std::vector<RefinementPoint>();
+        face_cause_xyz_[f] = wanted[task].empty() ? model_.tables().face_box[f].center() : wanted[task][0].x;
+        progress.update(static_cast<double>(++n_done));
+      });
+  std::vector<RefinementPoint> all;
+  for (const auto& w : wanted) all.insert(all.end(), w.begin(), w.end());
+  Bytes bytes;
+  if (comm_.is_root()) {
+    Packer p;
+    p.add(all);
+    bytes = p.take();
+  }
+  comm_.broadcast(bytes);
+  Unpacker(bytes).get(all);
+  return all;
+}
+
+/// Facets of one part that cross: both are refined.
+std::vector<RefinementPoint> ModelMesher::find_crossings() {
+  std::vector<RefinementPoint> places;
+  Bytes bytes;
+  if (comm_.is_root()) {
+    const ModelTables& t = model_.tables();
+    const BoundaryNumbering numbering(t, edges);
+    std::vector<Vec3> points = t.vertex_xyz;
+    points.resize(numbering.first_inner.back());
+    for (EdgeId e = 0; e < t.n_edges(); ++e)
+      for (std::int32_t i = edges.edge_offsets[e] + 1; i + 1 < edges.edge_offsets[e + 1]; ++i)
+        points[numbering.first_inner[e] + i - edges.edge_offsets[e] - 1] = edges.node_xyz[i];
+    std::vector<Triangle> triangles;
+    std::vector<FaceId> face;
+    for (const FacePatch& p : patches) {
+      std::vector<std::int32_t> number(p.n_boundary);
+      for (std::int32_t i = 0; i < p.n_boundary; ++i)
+        number[i] = p.boundary_dim[i] == 0 ? p.boundary_entity[i] : numbering.edge_node(p.boundary_entity[i], p.boundary_index[i]);
+      const std::int32_t first_inner = static_cast<std::int32_t>(points.size()) - p.n_boundary;
+      for (const Triangle& tri : p.triangles) {
+        Triangle g;
+        for (int k = 0; k < 3; ++k) g.n[k] = tri.n[k] < p.n_boundary ? number[tri.n[k]] : first_inner + tri.n[k];
+        triangles.push_back(g);
+        face.push_back(p.face);
+      }
+      points.insert(points.end(), p.inner_xyz.begin(), p.inner_xyz.end());
+    }
+    n_crossing_pairs = 0;
+    for (const TrianglePair& pair : find_crossing_triangles(points, triangles)) {
+      if (pair.n_shared > 0 || t.face_shell[face[pair.a]] != t.face_shell[face[pair.b]]) continue;
+      ++n_crossing_pairs;
+      if (places.size() >= 2000) continue;
+      for (TriangleId id : {pair.a, pair.b}) {
+        const Triangle& tri = triangles[id];
+        const Vec3 a = points[tri.n[0]], b = points[tri.n[1]], c = points[tri.n[2]];
+        const double longest = std::sqrt(std::max({norm2(a - b), norm2(b - c), norm2(c - a)}));
+        places.push_back({(a + b + c) / 3, 0.5 * longest});
+      }
+    }
+    Packer p;
+    p.add(places);
+    bytes = p.take();
+  }
+  comm_.broadcast(bytes);
+  Unpacker(bytes).get(places);
+  return places;
+}
+
+}  // namespace st

@@ -1,0 +1,73 @@
+// Meshes the edges and faces of a model on all ranks, in rounds: what cannot be meshed, folds or crosses is refined and done again.
+#pragma once
+
+#include <vector>
+
+#include "comm/communicator.h"
+#include "geometry/model.h"
+#include "mesh/surface_mesh.h"
+#include "meshing/face_mesher.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+struct ModelMesherOptions {
+  int enhance_rounds = 3;
+  double max_turning_deg = 30;      ///< of a CAD edge along one segment
+  int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
+  int max_crossing_rounds = 4;      ///< refinements of crossing facets
+};
+
+/// Where the time went, seconds on rank 0.
+struct ModelMesherTimes {
+  double edges = 0, faces = 0, crossing = 0;
+};
+
+class ModelMesher {
+ public:
+  /// `face_weight`: expected work per face, [n_faces] or empty. All references outlive the object.
+  ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
+              const Communicator& comm);
+
+  /// Collective. Meshes everything.
+  void run();
+  /// Collective. Keeps the given nodes of every edge and the patches of faces not in `faces_to_redo` (on rank 0); edges of which all faces are redone
+  /// get new nodes.
+  void run_from(EdgeMesh edges, std::vector<FacePatch> patches, const std::vector<FaceId>& faces_to_redo);
+
+  // results, complete on rank 0 only (edges on every rank)
+  EdgeMesh edges;
+  std::vector<FacePatch> patches;           ///< by face; without triangles where the face failed
+  std::vector<FaceFailure> failures;        ///< by face
+  std::vector<RefinementPoint> folds;       ///< places where a triangle is still turned against the surface
+  int n_rounds = 0, n_crossing_pairs = 0, n_refinements = 0;
+  ModelMesherTimes times;
+
+ private:
+  struct FaceOutcome;
+  void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
+  void mesh_edges(const std::vector<EdgeId>& dirty);
+  std::vector<RefinementPoint> mesh_faces(const std::vector<FaceId>& dirty);
+  std::vector<RefinementPoint> find_crossings();
+  void accept(const std::vector<RefinementPoint>& points, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces);
+  std::vector<RefinementPoint> points_near(const Box3& box) const;
+  double reach(const RefinementPoint& p) const;
+  Bytes compute_edges(const std::vector<EdgeId>& batch) const;
+  Bytes compute_face(FaceId f) const;
+  void broadcast_edges();
+
+  const Model& model_;
+  const SizeField& field_;
+  std::vector<double> face_weight_;
+  ModelMesherOptions options_;
+  const Communicator& comm_;
+  std::vector<int> min_segments_;
+  std::vector<RefinementPoint> points_;      // all refinements so far
+  std::vector<double> point_reach_;
+  std::vector<int> face_folds_;
+  std::vector<std::string> face_cause_;
+  std::vector<Vec3> face_cause_xyz_;
+  std::vector<std::vector<RefinementPoint>> face_fold_places_;
+};
+
+}  // namespace st

@@ -1,0 +1,82 @@
+#include "stages/patches_result.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace st {
+namespace {
+
+nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
+  return {{"face", f.face + 1}, {"name", t.face_name[f.face]}, {"cause", f.cause}, {"remedy", f.remedy}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
+}
+
+}  // namespace
+
+StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry, ArtifactHeader header,
+                                  ModelMesher& m, const RunFacts& facts) {
+  PatchesArtifact out;
+  header.schema = "patches";
+  header.tool_version = ST_VERSION;
+  header.unit = geometry.unit;
+  header.unit_in_m = geometry.unit_in_m;
+  header.geometry_hash = geometry.content_hash;
+  out.header = header;
+  out.edges = std::move(m.edges);
+  out.vertex_xyz = t.vertex_xyz;
+  out.edge_vertices = t.edge_vertices;
+  out.patches = std::move(m.patches);
+  out.failures = m.failures;
+  out.face_name = t.face_name;
+  out.group_name = t.group_name;
+  out.face_group = t.face_group;
+  out.face_shell = t.face_shell;
+  out.face_area = t.face_area;
+  out.is_complete = m.failures.empty();
+  std::size_t n_triangles = 0, n_nodes = 0;
+  for (const FacePatch& p : out.patches) {
+    n_triangles += p.triangles.size();
+    n_nodes += p.inner_xyz.size();
+  }
+  const Timer write_timer;
+  const std::string hash = write_patches(path, out);
+  const double write_seconds = write_timer.seconds(), seconds = facts.timer.seconds();
+
+  nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
+  for (const FaceFailure& f : m.failures) {
+    failures.push_back(failure_json(t, f));
+    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause, f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
+  }
+  for (const RefinementPoint& p : m.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
+  if (!m.folds.empty()) log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})", m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
+  if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
+
+  StageSummary s;
+  s.code = out.is_complete ? ExitCode::kOk : ExitCode::kIncomplete;
+  s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path, n_triangles,
+                       t.n_faces() - static_cast<int>(m.failures.size()), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
+                       seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);
+  s.json = nlohmann::json{{"tool", header.tool},
+                          {"output", path},
+                          {"triangles", n_triangles},
+                          {"inner_nodes", n_nodes},
+                          {"faces", t.n_faces()},
+                          {"faces_failed", m.failures.size()},
+                          {"failures", failures},
+                          {"folds", folds},
+                          {"crossing_pairs", m.n_crossing_pairs},
+                          {"rounds", m.n_rounds},
+                          {"refinements", m.n_refinements},
+                          {"ranks", facts.n_ranks},
+                          {"seconds", seconds},
+                          {"seconds_load", facts.load_seconds},
+                          {"seconds_edges", m.times.edges},
+                          {"seconds_faces", m.times.faces},
+                          {"seconds_crossing", m.times.crossing},
+                          {"seconds_write", write_seconds},
+                          {"hash", hash}}
+               .dump();
+  return s;
+}
+
+}  // namespace st

@@ -1,0 +1,23 @@
+// The end that st-mesh and st-remesh share: the patches artifact and its summary.
+#pragma once
+
+#include <string>
+
+#include "base/log.h"
+#include "io/artifact.h"
+#include "stages/model_mesher.h"
+#include "stages/summary.h"
+
+namespace st {
+
+struct RunFacts {
+  Timer timer;
+  double load_seconds;
+  int n_ranks;
+};
+
+/// Local, on rank 0. Completes `header` (tool, options and inputs are the caller's), writes the artifact, warns of every face without a patch.
+StageSummary write_patches_result(const std::string& path, const ModelTables& tables, const ArtifactHeader& geometry, ArtifactHeader header,
+                                  ModelMesher& mesher, const RunFacts& facts);
+
+}  // namespace st
