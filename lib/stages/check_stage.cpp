@@ -130,6 +130,28 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   return c;
 }
 
+/// Faces with a node off the surface by more than the CAD's own tolerances there explain.
+Check check_on_surface(const SurfaceMesh& mesh, const ModelTables& tables, const ChordError& chords) {
+  constexpr double kRounding = 1e-9;  // of the model's diagonal
+  Check c{"on-surface", "faces with nodes off the surface by more than the CAD's tolerance", {}, false, ""};
+  const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
+  const double rounding = kRounding * tables.box().diagonal();
+  double largest = 0;
+  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+    double tolerance = tables.face_tolerance[f] + rounding;
+    for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
+      for (std::int32_t k = tables.loop_coedge_offsets[l]; k < tables.loop_coedge_offsets[l + 1]; ++k) {
+        const EdgeId e = tables.coedge_edge[k];
+        tolerance = std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[tables.edge_vertices[2 * e]],
+                              tables.vertex_tolerance[tables.edge_vertices[2 * e + 1]]});
+      }
+    if (chords.node_distance[f] > 2 * tolerance) c.defects.add({place[f], f, kNone});
+    largest = std::max(largest, chords.node_distance[f]);
+  }
+  c.note = fmt::format("largest distance {:.3g}", largest);
+  return c;
+}
+
 Check check_volume(const TopologyReport& topology, const MeshMeasure& measure) {
   Check c{"volume", "closed meshes of no or negative volume", {}, true, ""};
   const bool has_volume = topology.is_closed() && topology.n_cad_boundary_edges == 0;
@@ -170,6 +192,7 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.chords = estimate_chord_error(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
+  f.checks.push_back(check_on_surface(mesh, cad.model.tables(), *f.chords));
 }
 
 // --- report ----------------------------------------------------------------------------------------------------------------------------
@@ -272,7 +295,7 @@ json faces_json(const SurfaceMesh& mesh, const Findings& f) {
                {"area", f.measure.face_area[i]},
                {"mean", q.mean},
                {"min", q.min}};
-    if (f.chords) entry["chord_distance"] = f.chords->distance[i];
+    if (f.chords && i < f.chords->distance.size()) entry["chord_distance"] = f.chords->distance[i];
     if (f.conformity && i < f.conformity->faces.size()) entry["size_share"] = f.conformity->faces[i].share();
     faces.push_back(entry);
   }

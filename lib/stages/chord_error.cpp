@@ -52,14 +52,16 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
 
-/// The triangle against its four parts with corners on the surface.
-void add_triangle(const Surface& surface, const std::array<Vec3, 3>& x, const std::array<Vec2, 3>& uv, FaceId f, ChordError& error) {
+/// The triangle of the surface's points at its corners, against its four parts with corners on the surface.
+void add_triangle(const Surface& surface, const std::array<Vec3, 3>& node, const std::array<Vec2, 3>& uv, FaceId f, ChordError& error) {
   constexpr double kRichardson = 4.0 / 3.0;
-  std::array<Vec3, 3> m;
+  std::array<Vec3, 3> x, m;
   for (int k = 0; k < 3; ++k) {
+    x[k] = surface.point(uv[k]);
     m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
-    error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
+    error.node_distance[f] = std::max(error.node_distance[f], distance(x[k], node[k]));
   }
+  for (int k = 0; k < 3; ++k) error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
   const double flat = area_of(x[0], x[1], x[2]);
   const double curved = area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
   error.area[f] += kRichardson * std::fabs(curved - flat);
@@ -72,7 +74,6 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& erro
     const FaceId f = mesh.triangle_face[t];
     if (f != current) surface = model.surface(f);
     current = f;
-    if (surface->is_planar()) continue;
     const auto& n = mesh.triangles[t].n;
     add_triangle(*surface, {mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]},
                  {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f, error);
@@ -85,6 +86,7 @@ ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
   ChordError error;
   error.area.assign(model.tables().n_faces(), 0);
   error.distance.assign(model.tables().n_faces(), 0);
+  error.node_distance.assign(model.tables().n_faces(), 0);
   add_edges(model, mesh, error);
   add_triangles(model, mesh, error);
   return error;

@@ -10,12 +10,14 @@ namespace st {
 
 /// What chords explain, per CAD face.
 struct ChordError {
-  std::vector<double> area;      ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
-  std::vector<double> distance;  ///< [n_faces] largest distance found between a triangle's side and the surface, model unit
+  std::vector<double> area;           ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
+  std::vector<double> distance;       ///< [n_faces] largest distance found between the side of a triangle and the surface, model unit
+  std::vector<double> node_distance;  ///< [n_faces] largest distance between a node and the surface at its corner's (u,v), model unit
 };
 
-/// Along edges: the segments between chord and arc. Inside: triangles against their halves on the surface at the middle of their sides in
-/// (u,v), extrapolated. Precondition: `mesh` was made on `model`. Local; three surface evaluations per triangle of a curved face.
+/// Along edges: the segments between chord and arc. Inside: triangles against their parts on the surface halved in (u,v), extrapolated;
+/// from the (u,v) alone, so that a misplaced node explains nothing. Precondition: `mesh` was made on `model`. Local; six surface
+/// evaluations per triangle.
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh);
 
 }  // namespace st

@@ -1,0 +1,268 @@
+// st-check with a geometry: areas that chords explain, edges the CAD leaves open, faces without a mesh.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/model.h"
+#include "io/artifact.h"
+#include "stages/check_stage.h"
+#include "stages/chord_error.h"
+
+namespace st {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A cylinder of radius 10 and height 30, written by OpenCASCADE.
+constexpr const char* kCylinder = R"brep(
+DBRep_DrawableShape
+
+CASCADE Topology V3, (c) Open Cascade
+Locations 0
+Curve2ds 6
+1 0 30 1 0 
+2 0 0 1 0 -0 1 10
+1 6.2831853071795862 -0 0 1 
+1 0 -0 0 1 
+1 0 0 1 0 
+2 0 0 1 0 -0 1 10
+Curves 3
+2 0 0 30 0 0 1 1 0 -0 -0 1 0 10
+1 10 -2.4492935982947065e-15 0 0 0 1 
+2 0 0 0 0 0 1 1 0 -0 -0 1 0 10
+Polygon3D 0
+PolygonOnTriangulations 0
+Surfaces 3
+2 0 0 0 0 0 1 1 0 -0 -0 1 0 10
+1 0 0 30 0 0 1 1 0 -0 -0 1 0 
+1 0 0 0 0 0 1 1 0 -0 -0 1 0 
+Triangulations 0
+
+TShapes 13
+Ve
+1e-07
+10 -2.44929359829471e-15 30
+0 0
+
+0101101
+*
+Ed
+ 1e-07 1 1 0
+1  1 0 0 6.28318530717959
+2  1 1 0 0 6.28318530717959
+2  2 2 0 0 6.28318530717959
+0
+
+0101000
++13 0 -13 0 *
+Ve
+1e-07
+10 -2.44929359829471e-15 0
+0 0
+
+0101101
+*
+Ed
+ 1e-07 1 1 0
+1  2 0 0 30
+3  3 4CN 1 0 0 30
+0
+
+0101000
+-13 0 +11 0 *
+Ed
+ 1e-07 1 1 0
+1  3 0 0 6.28318530717959
+2  5 1 0 0 6.28318530717959
+2  6 3 0 0 6.28318530717959
+0
+
+0101000
++11 0 -11 0 *
+Wi
+
+0101100
+-12 0 +10 0 +9 0 -10 0 *
+Fa
+0  1e-07 1 0
+
+0111000
++8 0 *
+Wi
+
+0101100
++12 0 *
+Fa
+0  1e-07 2 0
+
+0111000
++6 0 *
+Wi
+
+0101100
+-9 0 *
+Fa
+0  1e-07 3 0
+
+0111000
+-4 0 *
+Sh
+
+0101100
++7 0 +5 0 -3 0 *
+So
+
+1100000
++2 0 *
+
++1 0 )brep";
+
+constexpr double kRadius = 10, kHeight = 30;
+
+class CheckCad : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "st_check_cad_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    std::ofstream(path("cylinder.brep")) << kCylinder;
+    ImportResult imported = import_model(path("cylinder.brep"), {});
+    geometry_.header.schema = "geometry";
+    geometry_.header.tool = "test";
+    geometry_.header.options_json = "{}";
+    geometry_.tables = imported.tables;
+    geometry_.brep = imported.brep;
+    geometry_.is_closed = true;
+    geometry_hash_ = write_geometry(path("geometry.hdf"), geometry_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Face whose surface has this type and, for planes, this height.
+  FaceId face(SurfaceType type, double z = -1) const {
+    for (FaceId f = 0; f < geometry_.tables.n_faces(); ++f)
+      if (geometry_.tables.face_type[f] == type && (z < 0 || std::fabs(geometry_.tables.face_box[f].center().z - z) < 1e-3)) return f;
+    return kNone;
+  }
+  /// The circle at height z.
+  EdgeId circle(const Model& model, double z) const {
+    for (EdgeId e = 0; e < geometry_.tables.n_edges(); ++e)
+      if (std::fabs(model.curve(e)->point(1).z - z) < 1e-9 && std::fabs(model.curve(e)->point(2).z - z) < 1e-9) return e;
+    return kNone;
+  }
+
+  /// The coarsest mesh of n sides: quads halved along the side, fans without a middle node on both caps.
+  MeshArtifact make_mesh(int n) const {
+    const Model model(geometry_.tables, geometry_.brep);
+    MeshArtifact a;
+    SurfaceMesh& m = a.mesh;
+    for (int ring = 0; ring < 2; ++ring) add_ring(model, ring * kHeight, n, m);
+    const FaceId side = face(SurfaceType::kCylinder), bottom = face(SurfaceType::kPlane, 0), top = face(SurfaceType::kPlane, kHeight);
+    for (int i = 0; i < n; ++i) {
+      const NodeId j = (i + 1) % n;
+      const double u = 2 * kPi * i / n, w = 2 * kPi * (i + 1) / n;
+      add_triangle(m, side, {{i, j, n + j}}, {Vec2{u, 0}, {w, 0}, {w, kHeight}});
+      add_triangle(m, side, {{i, n + j, n + i}}, {Vec2{u, 0}, {w, kHeight}, {u, kHeight}});
+    }
+    for (NodeId i = 1; i + 1 < n; ++i) {
+      add_flat(m, bottom, {{0, i + 1, i}});
+      add_flat(m, top, {{n, n + i, n + i + 1}});
+    }
+    m.face_name = geometry_.tables.face_name;
+    m.group_name = geometry_.tables.group_name;
+    a.header.schema = "mesh";
+    a.header.tool = "test";
+    a.header.options_json = "{}";
+    a.header.geometry_hash = geometry_hash_;
+    return a;
+  }
+  void add_ring(const Model& model, double z, int n, SurfaceMesh& m) const {
+    const EdgeId e = circle(model, z);
+    for (int i = 0; i < n; ++i) {
+      const double t = 2 * kPi * i / n;
+      m.node_xyz.push_back(model.curve(e)->point(t));
+      m.node_entity_dim.push_back(i ? 1 : 0);
+      m.node_entity.push_back(i ? e : geometry_.tables.edge_vertices[2 * e]);
+      m.node_t.push_back(i ? t : 0);
+      m.node_size.push_back(1);
+    }
+  }
+  static void add_triangle(SurfaceMesh& m, FaceId f, Triangle t, std::array<Vec2, 3> uv) {
+    m.triangles.push_back(t);
+    m.triangle_face.push_back(f);
+    m.triangle_group.push_back(0);
+    m.corner_uv.insert(m.corner_uv.end(), uv.begin(), uv.end());
+  }
+  static void add_flat(SurfaceMesh& m, FaceId f, Triangle t) {
+    const auto uv = [&](int k) { return Vec2{m.node_xyz[t.n[k]].x, m.node_xyz[t.n[k]].y}; };
+    add_triangle(m, f, t, {uv(0), uv(1), uv(2)});
+  }
+  StageSummary check(const MeshArtifact& mesh) const {
+    write_mesh(path("mesh.hdf"), mesh);
+    return run_check({path("mesh.hdf"), path("geometry.hdf"), "", 0.01});
+  }
+  static bool says(const StageSummary& s, const std::string& text) { return s.json.find(text) != std::string::npos; }
+
+  fs::path folder_;
+  GeometryArtifact geometry_;
+  std::string geometry_hash_;
+};
+
+TEST_F(CheckCad, explains_the_missing_area_of_the_coarsest_mesh_by_its_chords) {
+  const Model model(geometry_.tables, geometry_.brep);
+  for (const int n : {3, 4, 8, 40}) {
+    const MeshArtifact a = make_mesh(n);
+    const StageSummary s = check(a);
+    EXPECT_EQ(s.code, ExitCode::kOk) << n << " sides: " << s.line;
+    const ChordError chords = estimate_chord_error(model, a.mesh);
+    const double missing_cap = kPi * kRadius * kRadius - 0.5 * n * kRadius * kRadius * std::sin(2 * kPi / n);
+    const double missing_side = 2 * kHeight * kRadius * (kPi - n * std::sin(kPi / n));
+    EXPECT_GE(chords.area[face(SurfaceType::kPlane, 0)], 0.99 * missing_cap);
+    EXPECT_LE(chords.area[face(SurfaceType::kPlane, 0)], 1.3 * missing_cap);
+    EXPECT_GE(chords.area[face(SurfaceType::kCylinder)], 0.9 * missing_side);
+    EXPECT_NEAR(chords.distance[face(SurfaceType::kCylinder)], kRadius * (1 - std::cos(kPi / n)), 1e-6);
+  }
+}
+
+TEST_F(CheckCad, finds_a_face_whose_area_is_wrong) {
+  MeshArtifact a = make_mesh(40);
+  for (std::size_t n = 40; n < 80; ++n) a.mesh.node_xyz[n].z -= 0.6;  // 2 % of the height
+  const StageSummary s = check(a);
+  EXPECT_EQ(s.code, ExitCode::kIncomplete);
+  EXPECT_TRUE(says(s, "\"failed\":[\"areas\"]")) << s.json;
+  EXPECT_NE(s.line.find("note: 2 faces with nodes off the surface"), std::string::npos) << s.line;
+}
+
+TEST_F(CheckCad, finds_a_face_without_triangles) {
+  const FaceId top = face(SurfaceType::kPlane, kHeight);
+  const MeshArtifact whole = make_mesh(12);
+  MeshArtifact a = whole;
+  a.mesh.triangles.clear(), a.mesh.triangle_face.clear(), a.mesh.triangle_group.clear(), a.mesh.corner_uv.clear();
+  for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t) {
+    const Vec2* uv = &whole.mesh.corner_uv[3 * t];
+    if (whole.mesh.triangle_face[t] != top)
+      add_triangle(a.mesh, whole.mesh.triangle_face[t], whole.mesh.triangles[t], {uv[0], uv[1], uv[2]});
+  }
+  const StageSummary s = check(a);
+  EXPECT_EQ(s.code, ExitCode::kIncomplete);
+  EXPECT_TRUE(says(s, "\"failed\":[\"closed\",\"faces\"]")) << s.json;
+  EXPECT_TRUE(says(s, "\"boundary_edges\":12"));
+}
+
+TEST_F(CheckCad, refuses_a_mesh_of_another_geometry) {
+  MeshArtifact a = make_mesh(12);
+  a.header.geometry_hash = "0123456789abcdef0123456789abcdef";
+  try {
+    check(a);
+    FAIL() << "accepted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kMismatch);
+  }
+}
+
+}  // namespace
+}  // namespace st
