@@ -279,7 +279,7 @@ void Hdf5Writer::write_raw(const std::string& name, ElementType type, const void
   const Space space(H5Screate_simple(columns == 1 ? 1 : 2, dims, nullptr));
   const Dataset dataset = impl_->create_dataset(name, native_type(type), space);
   if (n_elements) impl_->require(H5Dwrite(dataset, native_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, name);
-  DatasetInfo info{name, type, {n_rows}, hash_hex(values, n_elements * element_size(type))};
+  DatasetInfo info{name, type, {n_rows}, hash_hex(values, n_elements * element_size(type)), false};
   if (columns != 1) info.shape.push_back(columns);
   impl_->finish_dataset(dataset, std::move(info));
 }
@@ -296,7 +296,7 @@ void Hdf5Writer::write_strings(const std::string& name, const std::vector<std::s
   const Type type = fixed_string(width, false);
   const Dataset dataset = impl_->create_dataset(name, type, space);
   if (n) impl_->require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) >= 0, name);
-  impl_->finish_dataset(dataset, {name, ElementType::kString, {n}, checksum_of(stored)});
+  impl_->finish_dataset(dataset, {name, ElementType::kString, {n}, checksum_of(stored), false});
 }
 
 void Hdf5Writer::write_vtk_strings(const std::string& name, const std::vector<std::string>& values) {
@@ -311,7 +311,7 @@ void Hdf5Writer::write_vtk_strings(const std::string& name, const std::vector<st
   const Type type = variable_string();
   const Dataset dataset = impl_->create_dataset(name, type, space);
   if (n) impl_->require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0, name);
-  impl_->finish_dataset(dataset, {name, ElementType::kString, {n}, checksum_of(stored)});
+  impl_->finish_dataset(dataset, {name, ElementType::kString, {n}, checksum_of(stored), true});
 }
 
 void Hdf5Writer::set_attribute(const std::string& group, const std::string& name, const std::string& value) {
@@ -413,7 +413,6 @@ struct Hdf5Reader::Impl {
   void read_header();
   std::string text(const std::string& name, bool required = true) const;
   const DatasetInfo* find(const std::string& name) const;
-  std::vector<char> read_fixed_strings(hid_t dataset, std::size_t n, std::size_t& width) const;
 };
 
 void Hdf5Reader::Impl::open() {
@@ -497,13 +496,14 @@ void Hdf5Reader::Impl::read_dataset_info(const std::string& name) {
   const int rank = H5Sget_simple_extent_ndims(space);
   const auto element_type = element_type_of(type);
   if (!element_type || rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, dims, nullptr) < 0) damaged("dataset " + name + " cannot be read");
-  DatasetInfo info{name, *element_type, {dims, dims + rank}, ""};
+  DatasetInfo info{name, *element_type, {dims, dims + rank}, "", false};
   const std::size_t bytes_each = std::max<std::size_t>(1, element_size(*element_type));
   if (dims[0] > file_bytes || (rank == 2 && dims[1] > file_bytes) || dims[0] * (rank == 2 ? dims[1] : 1) > file_bytes / bytes_each)
     damaged("dataset " + name + " is larger than the file");
   const Attribute attribute(H5Aopen(dataset, kChecksum, H5P_DEFAULT));
   if (!attribute.is_valid()) damaged("dataset " + name + " has no checksum");
   if (const auto value = read_attribute(attribute)) info.checksum = value->bytes;
+  info.is_foreign = H5Tis_variable_str(type) != 0;
   datasets.push_back(std::move(info));
 }
 
@@ -593,34 +593,17 @@ void Hdf5Reader::read_raw(const std::string& name, void* values) const {
   if (hash_hex(values, n * element_size(d.type)) != d.checksum) fail(name, "does not fit its checksum");
 }
 
-std::vector<char> Hdf5Reader::Impl::read_fixed_strings(hid_t dataset, std::size_t n, std::size_t& width) const {
-  const Type type(H5Dget_type(dataset));
-  width = H5Tget_size(type);
-  if (width > file_bytes || (n && width > file_bytes / n)) return {};
-  std::vector<char> padded(n * width);
-  if (n && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0) return {};
-  return padded;
-}
-
 std::vector<std::string> Hdf5Reader::read_strings(const std::string& name) const {
   const std::size_t n = count_elements(name, ElementType::kString, 1);
   const Dataset dataset(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT));
-  const Type stored_type(H5Dget_type(dataset));
+  const Type type(H5Dget_type(dataset));
+  const std::size_t width = H5Tget_size(type);
+  if (H5Tis_variable_str(type) != 0) fail(name, "has strings of variable length, which are for other programs");
+  if (n && width > impl_->file_bytes / n) fail(name, "is larger than the file");
+  std::vector<char> padded(n * width);
+  if (n && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()) < 0) fail(name, "cannot be read");
   std::vector<std::string> values(n);
-  if (H5Tis_variable_str(stored_type) > 0) {
-    std::vector<char*> pointers(n, nullptr);
-    const Type type = variable_string();
-    const Space space(H5Dget_space(dataset));
-    const bool ok = n == 0 || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
-    for (std::size_t i = 0; ok && i < n; ++i) values[i] = pointers[i] ? pointers[i] : "";
-    if (n) H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
-    if (!ok) fail(name, "cannot be read");
-  } else {
-    std::size_t width = 0;
-    const std::vector<char> padded = impl_->read_fixed_strings(dataset, n, width);
-    if (n && padded.empty()) fail(name, "cannot be read");
-    for (std::size_t i = 0; i < n; ++i) values[i] = up_to_nul(padded.data() + i * width, width);
-  }
+  for (std::size_t i = 0; i < n; ++i) values[i] = up_to_nul(padded.data() + i * width, width);
   if (checksum_of(values) != info(name).checksum) fail(name, "does not fit its checksum");
   return values;
 }
@@ -672,6 +655,7 @@ double Hdf5Reader::double_attribute(const std::string& group, const std::string&
 
 void Hdf5Reader::verify(const std::string& name) const {
   const DatasetInfo& d = info(name);
+  if (d.is_foreign) return;
   if (d.type == ElementType::kString) {
     read_strings(name);
     return;
@@ -680,6 +664,12 @@ void Hdf5Reader::verify(const std::string& name) const {
   for (const std::uint64_t extent : d.shape) n_bytes *= extent;
   std::vector<std::byte> values(n_bytes);
   read_raw(name, values.data());
+}
+
+std::int64_t Hdf5Reader::file_offset(const std::string& name) const {
+  const Dataset dataset(H5Dopen2(impl_->file, info(name).name.c_str(), H5P_DEFAULT));
+  const haddr_t offset = H5Dget_offset(dataset);
+  return offset == HADDR_UNDEF ? -1 : static_cast<std::int64_t>(offset);
 }
 
 std::vector<AttributeSummary> Hdf5Reader::content_attributes() const {

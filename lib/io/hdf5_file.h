@@ -109,7 +109,8 @@ class Hdf5Writer {
   }
   /// UTF-8 strings, fixed-length and padded with NUL (a NUL inside a string ends it), shape (n).
   void write_strings(const std::string& name, const std::vector<std::string>& values);
-  /// UTF-8 strings of variable length: the only kind that VTK's reader takes, shape (n).
+  /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for HDF5 1.10 overruns its buffers
+  /// on damaged ones; write_strings() has to store the same strings elsewhere.
   void write_vtk_strings(const std::string& name, const std::vector<std::string>& values);
 
   /// Attributes of a group (made as needed), part of the content.
@@ -138,6 +139,7 @@ struct DatasetInfo {
   ElementType type = ElementType::kUint8;
   std::vector<std::uint64_t> shape;
   std::string checksum;                ///< as stored
+  bool is_foreign = false;             ///< strings of variable length, written for VTK and never read by us
 };
 
 /// A read-only array that lives in the page cache: shared by all processes of a machine that map the same file. Keeps the file mapped.
@@ -202,6 +204,9 @@ class Hdf5Reader {
 
   /// Reads a dataset only to verify its checksum.
   void verify(const std::string& name) const;
+
+  /// Where the values start in the file, bytes; -1 for an empty dataset.
+  std::int64_t file_offset(const std::string& name) const;
 
   /// All single-valued attributes that are part of the content, by name.
   std::vector<AttributeSummary> content_attributes() const;

@@ -66,11 +66,6 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
   return triangles;
 }
 
-void read_names(const Hdf5Reader& r, SurfaceMesh& m) {
-  if (r.has("/VTKHDF/FieldData/face_name")) m.face_name = r.read_strings("/VTKHDF/FieldData/face_name");
-  if (r.has("/VTKHDF/FieldData/group_name")) m.group_name = r.read_strings("/VTKHDF/FieldData/group_name");
-}
-
 }  // namespace
 
 std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
@@ -80,6 +75,8 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   header.schema_version = kMeshVersion;
   Hdf5Writer w(path, header);
   write_vtk(w, m);
+  w.write_strings("/st/face/name", m.face_name);
+  w.write_strings("/st/group/name", m.group_name);
   w.write("/st/node/t", m.node_t);
   w.write("/st/triangle/corner_uv", m.corner_uv);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
@@ -99,7 +96,8 @@ MeshArtifact read_mesh(const std::string& path) {
   m.node_size = r.read_rows<double>("/VTKHDF/PointData/size", n_nodes);
   m.node_t = r.read_rows<double>("/st/node/t", n_nodes);
   m.triangles = read_triangles(r, n_nodes);
-  read_names(r, m);
+  m.face_name = r.read_strings("/st/face/name");
+  m.group_name = r.read_strings("/st/group/name");
   m.triangle_face = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/face", m.triangles.size()));
   require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.face_name.size());
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));

@@ -37,7 +37,7 @@ const std::vector<Count>& counts_of(const std::string& schema) {
       {"raster", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/cell_offset", 1}}},
       {"sizing", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/weight"}}},
       {"patches", {{"triangles", "/st/triangle/nodes"}, {"faces", "/st/face/group"}, {"patches", "/st/patch/face"}, {"failures", "/st/failure/face"}, {"groups", "/st/group/name"}}},
-      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/VTKHDF/FieldData/face_name"}, {"groups", "/VTKHDF/FieldData/group_name"}}}};
+      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/st/face/name"}, {"groups", "/st/group/name"}}}};
   static const std::vector<Count> none;
   const auto it = counts.find(schema);
   return it == counts.end() ? none : it->second;

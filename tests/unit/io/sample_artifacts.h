@@ -1,0 +1,113 @@
+// Small artifacts with every field filled, for the tests of io: a tetrahedron-like mesh of four faces.
+#pragma once
+
+#include "io/artifact.h"
+
+namespace st {
+
+inline ArtifactHeader sample_header() {
+  ArtifactHeader header;
+  header.tool = "st-test";
+  header.tool_version = "1.2.3";
+  header.options_json = R"({"slope":0.2})";
+  header.unit = "mm";
+  header.unit_in_m = 0.001;
+  header.geometry_hash = "0123";
+  header.inputs = {{"raster", "ra ster.hdf", "4567"}};
+  return header;
+}
+
+inline GeometryArtifact sample_geometry() {
+  GeometryArtifact g;
+  g.header = sample_header();
+  g.header.geometry_hash.clear();
+  ModelTables& t = g.tables;
+  t.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  t.vertex_tolerance = {1e-7, 1e-6, 1e-5};
+  t.edge_vertices = {0, 1, 1, 2, 2, 0, 0, 0};
+  t.edge_range = {0, 1, 0, 2, -1, 1, 0, 6.28};
+  t.edge_length = {1, 1.4142135623730951, 1, 0};
+  t.edge_tolerance = {1e-7, 1e-7, 1e-7, 1e-3};
+  t.edge_is_degenerate = {0, 0, 0, 1};
+  t.edge_name = {"", "TE", "", "Pol, Süd"};
+  t.face_loop_offsets = {0, 1, 2};
+  t.loop_coedge_offsets = {0, 3, 7};
+  t.coedge_edge = {0, 1, 2, 2, 1, 0, 3};
+  t.coedge_is_reversed = {0, 0, 0, 1, 1, 1, 0};
+  t.face_is_reversed = {0, 1};
+  t.face_type = {SurfaceType::kPlane, SurfaceType::kBspline};
+  t.face_uv_bounds = {0, 1, 0, 1, -1, 1, -2, 2};
+  t.face_tolerance = {1e-7, 2e-7};
+  t.face_area = {0.5, 0.75};
+  t.face_box = {{{0, 0, 0}, {1, 1, 0}}, {{0, 0, -1}, {1, 1, 1}}};
+  t.face_name = {"WING_UPPER", "Flügel unten"};
+  t.face_color = {0xff8000, kNone};
+  t.face_layer = {"", "7"};
+  t.face_group = {0, 1};
+  t.face_shell = {0, 0};
+  t.face_solid = {0, kNone};
+  t.group_name = {"WING", "far field"};
+  t.group_role = {"wall", "farfield"};
+  t.n_shells = 1;
+  t.n_solids = 1;
+  t.unit = "mm";
+  t.unit_in_m = 0.001;
+  for (int i = 0; i < 3000; ++i) g.brep.push_back(static_cast<std::byte>(i * 7));
+  g.findings = {{"short edge", "edge 3 \"TE\"", {1, 2, 3}, 1e-4, false}, {"sewn", "", {}, 0, true}};
+  g.is_closed = true;
+  return g;
+}
+
+inline PatchesArtifact sample_patches() {
+  PatchesArtifact p;
+  p.header = sample_header();
+  p.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  p.edge_vertices = {0, 1, 1, 2, 2, 0};
+  p.edges.edge_offsets = {0, 3, 6, 8};
+  p.edges.node_t = {0, 0.5, 1, 0, 0.4, 1, 0, 1};
+  p.edges.node_xyz = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0.6, 0.4, 0}, {0, 1, 0}, {0, 1, 0}, {0, 0, 0}};
+  p.edges.node_size = {0.5, 0.5, 0.5, 0.5, 0.6, 0.5, 1, 1};
+  FacePatch patch;
+  patch.face = 0;
+  patch.n_boundary = 5;
+  patch.boundary_dim = {0, 1, 0, 1, 0};
+  patch.boundary_entity = {0, 0, 1, 1, 2};
+  patch.boundary_index = {0, 1, 0, 1, 0};
+  patch.inner_xyz = {{0.3, 0.3, 0}};
+  patch.inner_uv = {{0.3, 0.3}};
+  patch.inner_size = {0.4};
+  patch.triangles = {{{0, 1, 5}}, {{1, 2, 5}}, {{2, 3, 5}}, {{3, 4, 5}}, {{4, 0, 5}}};
+  for (const Triangle& t : patch.triangles)
+    for (const NodeId n : t.n) patch.corner_uv.push_back({0.1 * n, 0.2 * n});
+  FacePatch empty;
+  empty.face = 1;
+  p.patches = {patch, empty};
+  p.failures = {{1, "the boundary crosses itself", "use a smaller lmin", {0.5, 0.5, 0}}};
+  p.face_name = {"top", ""};
+  p.group_name = {"default"};
+  p.face_group = {0, 0};
+  p.face_shell = {0, kNone};
+  p.face_area = {0.5, 0.6};
+  p.is_complete = false;
+  return p;
+}
+
+inline MeshArtifact sample_mesh() {
+  MeshArtifact artifact;
+  artifact.header = sample_header();
+  SurfaceMesh& m = artifact.mesh;
+  m.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 1}};
+  m.node_entity_dim = {0, 0, 1, 2};
+  m.node_entity = {0, 1, 4, 3};
+  m.node_t = {0, 0, 0.7, 0};
+  m.node_size = {1, 1.5, 1, 2};
+  m.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}};
+  m.triangle_face = {0, 1, 2, 3};
+  m.triangle_group = {0, 0, 1, 1};
+  for (int i = 0; i < 12; ++i) m.corner_uv.push_back({0.1 * i, -0.1 * i});
+  m.face_name = {"bottom", "", "Flügel", "a b"};
+  m.group_name = {"body", "wing"};
+  return artifact;
+}
+
+}  // namespace st
