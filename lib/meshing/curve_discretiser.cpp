@@ -13,7 +13,8 @@ constexpr double kSamplesPerLength = 2.0;   // samples of the size along one req
 struct Sample {
   double t;
   Vec3 x, d1;
-  double h;
+  double h;           // requested length, limited by the turning
+  double field_h;     // requested length
 };
 
 class Discretiser {
@@ -30,11 +31,12 @@ class Discretiser {
  private:
   Sample at(double t) {
     const CurvePoint p = curve_.evaluate(t);
-    double h = field_.size(p.x, hint_);
+    const double field_h = field_.size(p.x, hint_);
+    double h = field_h;
     const double speed = norm(p.d1);
     const double curvature = speed > 0 ? norm(cross(p.d1, p.d2)) / (speed * speed * speed) : 0;
     if (curvature * h > max_turning_) h = max_turning_ / curvature;
-    return {t, p.x, p.d1, h};
+    return {t, p.x, p.d1, h, field_h};
   }
 
   void sample() {
@@ -90,7 +92,7 @@ class Discretiser {
     for (double t : nodes.t) {
       const Sample s = at(t);
       nodes.x.push_back(s.x);
-      nodes.h.push_back(s.h);
+      nodes.h.push_back(s.field_h);
     }
     return nodes;
   }

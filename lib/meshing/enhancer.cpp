@@ -28,8 +28,6 @@ class Enhancer {
   }
 
  private:
-  Vec3 normal_at(const MeshNode& n) const { return cross(n.du, n.dv); }
-
   /// 4 sqrt(3) A / sum l^2 in space, negative where the triangle is turned against the surface.
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
     const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
@@ -37,9 +35,8 @@ class Enhancer {
     const double sum = norm2(ab) + norm2(ac) + norm2(bc);
     if (!(sum > 0)) return 0;
     const double q = 3.4641016151377544 * norm(n) / sum;
-    if (dot(n, normal_at(a)) >= 0 && dot(n, normal_at(b)) >= 0 && dot(n, normal_at(c)) >= 0) return q;
-    // fold test against the mean of the unit normals (a pole has none)
-    const Vec3 mean = normalized(normal_at(a)) + normalized(normal_at(b)) + normalized(normal_at(c));
+    if (dot(n, a.normal) >= 0 && dot(n, b.normal) >= 0 && dot(n, c.normal) >= 0) return q;
+    const Vec3 mean = a.normal + b.normal + c.normal;
     return dot(n, mean) > 0.2 * norm(n) * norm(mean) ? 0.5 * q : -1 + q;
   }
   double quality(std::int32_t a, std::int32_t b, std::int32_t c) const { return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]); }

@@ -40,7 +40,6 @@ class FaceMesher {
     }
     work_.field = &field;
     work_.max_turning = radians(options.max_turning_deg);
-    probe_curvature();
     advance_front(work_);
     enhance(work_, options.enhance_rounds);
     collect(result);
@@ -103,18 +102,6 @@ class FaceMesher {
     Vec3 x = 0.25 * (n[c.node_a].x + n[c.node_b].x + n[c.other_a].x + n[c.other_b].x);
     const double h = std::max({distance(n[c.node_a].x, n[c.node_b].x), distance(n[c.other_a].x, n[c.other_b].x), 1e-3 * n[c.node_a].h});
     return {x, 0.5 * h};
-  }
-
-  /// Is there a place where the radius of curvature is too small for the requested length?
-  void probe_curvature() {
-    if (surface_.is_planar()) return;
-    const double du = (surface_.u_max() - surface_.u_min()) / 12, dv = (surface_.v_max() - surface_.v_min()) / 12;
-    for (int i = 0; i <= 12 && !work_.limits_turning; ++i)
-      for (int j = 0; j <= 12 && !work_.limits_turning; ++j) {
-        const SurfacePoint2 s = surface_.evaluate2({surface_.u_min() + i * du, surface_.v_min() + j * dv});
-        const double k = std::abs(principal_curvature(s).k1);
-        if (k > 0 && k * work_.field->size(s.x, work_.hint) > work_.max_turning) work_.limits_turning = true;
-      }
   }
 
   void collect(FaceMesh& result) const {
@@ -224,8 +211,7 @@ class FaceMesher {
       if (t.state == kOutside || t.state == kDead || same_pole(t)) continue;
       const MeshNode &a = work_.mesh.nodes[t.v[0]], &b = work_.mesh.nodes[t.v[1]], &c = work_.mesh.nodes[t.v[2]];
       const Vec3 n = cross(b.x - a.x, c.x - a.x);
-      const Vec3 mean = normalized(cross(a.du, a.dv)) + normalized(cross(b.du, b.dv)) + normalized(cross(c.du, c.dv));
-      if (dot(n, mean) >= 0) continue;
+      if (dot(n, a.normal + b.normal + c.normal) >= 0) continue;
       ++r.n_folds;
       const double size = std::sqrt(std::max({norm2(b.x - a.x), norm2(c.x - a.x), norm2(c.x - b.x)}));
       if (r.refinement.size() < 64) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});

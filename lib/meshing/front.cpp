@@ -27,7 +27,8 @@ double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
 
 class Front {
  public:
-  explicit Front(FaceWork& work) : w_(work), m_(work.mesh) {}
+  explicit Front(FaceWork& work)
+      : w_(work), m_(work.mesh), cos_turning_(std::cos(work.max_turning)), cos_too_far_(std::cos(1.25 * work.max_turning)) {}
 
   void run() {
     start();
@@ -42,7 +43,8 @@ class Front {
 
   bool is_finished(const PlaneTriangle& t) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
-    return w_.circumradius(t) < kFinishedRadius * h;
+    const double radius = w_.circumradius(t);
+    return radius < kFinishedRadius * h && !(radius > 0.25 * kFinishedRadius * h && turns_too_far(t));
   }
 
   void start() {
@@ -89,7 +91,7 @@ class Front {
   }
 
   /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
-  bool ideal_point(const MeshNode& a, const MeshNode& b, double r, MeshNode& p) const {
+  bool ideal_point(const MeshNode& a, const MeshNode& b, double& r, MeshNode& p) {
     const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
     const Metric m = metric_of(du, dv);
     const Vec2 e = b.p - a.p;
@@ -100,6 +102,11 @@ class Front {
     p.p = 0.5 * (a.p + b.p) + f * Vec2{-(m.f * e.x + m.g * e.y), m.e * e.x + m.f * e.y};
     for (int step = 0;; ++step) {
       w_.evaluate(p);
+      if (step == 0) {  // the side's length is the mean of the sizes at its ends
+        p.h = w_.field->size(p.x, w_.hint);
+        r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base, kGrowth * base);
+        limit_turning(a, b, p, r);
+      }
       const Vec3 ra = p.x - a.x, rb = p.x - b.x;
       const double la = norm(ra), lb = norm(rb);
       if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
@@ -115,12 +122,26 @@ class Front {
     }
   }
 
+  /// A side along which the normal turns too far becomes shorter, whatever the field says; not below a quarter.
+  void limit_turning(const MeshNode& a, const MeshNode& b, MeshNode& p, double& r) const {
+    const double c = std::min(dot(a.normal, p.normal), dot(b.normal, p.normal));
+    if (c > cos_turning_ || a.is_pole || b.is_pole) return;
+    const double f = std::max(0.25, w_.max_turning / std::acos(std::clamp(c, -1.0, 1.0)));
+    r *= f;
+    p.h = std::min(p.h, r);
+  }
+
+  bool turns_too_far(const PlaneTriangle& t) const {
+    const MeshNode &a = m_.nodes[t.v[0]], &b = m_.nodes[t.v[1]], &c = m_.nodes[t.v[2]];
+    if (a.is_pole || b.is_pole || c.is_pole) return false;
+    return std::min({dot(a.normal, b.normal), dot(b.normal, c.normal), dot(c.normal, a.normal)}) < cos_too_far_;
+  }
+
   bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
     const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
     const double base = distance(a.x, b.x);
     if (!(base > 0)) return false;
-    const double wanted = std::min(0.5 * (a.h + b.h), kGrowth * base);
-    const double r = std::max(wanted, 0.62 * base);
+    double r = std::max(std::min(0.5 * (a.h + b.h), kGrowth * base), 0.62 * base);
     MeshNode p;
     if (!ideal_point(a, b, r, p)) return false;
     return insert(p, t, r, kGrowth * base);
@@ -133,8 +154,7 @@ class Front {
     const Metric metric = metric_of(p.du, p.dv);
     if (!m_.find_cavity(p.p, metric, at)) return false;
     if (is_crowded(p, metric, r)) return false;
-    p.h = std::min(w_.size_at(p), largest);
-    // an unexpectedly small size at the new node: stay apart by the old rule only
+    p.h = std::min(p.h, largest);
     m_.nodes.push_back(p);
     m_.added_node();
     m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
@@ -204,6 +224,7 @@ class Front {
       MeshNode p;
       p.p = attempt == 0 ? middle : centre;
       w_.evaluate(p);
+      p.h = w_.field->size(p.x, w_.hint);
       if (insert(p, i, std::min(h, length / 2 / kNearNode * 0.99), h * 1.25)) return true;
     }
     return false;
@@ -211,6 +232,7 @@ class Front {
 
   FaceWork& w_;
   Triangulation& m_;
+  double cos_turning_, cos_too_far_;
   std::vector<Entry> queue_;
   std::vector<std::int32_t> fan_;
 };
@@ -230,15 +252,7 @@ void FaceWork::evaluate(MeshNode& n) const {
   n.x = s.x;
   n.du = s.du / scale.x;
   n.dv = s.dv / scale.y;
-}
-
-double FaceWork::size_at(const MeshNode& n) {
-  double h = field->size(n.x, hint);
-  if (limits_turning) {
-    const Curvature k = principal_curvature(surface->evaluate2(to_uv(n.p)));
-    if (std::abs(k.k1) * h > max_turning) h = max_turning / std::abs(k.k1);
-  }
-  return h;
+  n.normal = normalized(cross(n.du, n.dv));
 }
 
 double FaceWork::edge_length(std::int32_t ia, std::int32_t ib) const {

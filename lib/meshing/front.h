@@ -15,15 +15,12 @@ struct FaceWork {
   const Surface* surface = nullptr;
   const SizeField* field = nullptr;
   Vec2 scale{1, 1};                  ///< plane = scale * (u,v)
-  double max_turning = 1.0;          ///< radians of the normal along one length
-  bool limits_turning = false;       ///< somewhere the radius of curvature is too small for the field
+  double max_turning = 1.0;          ///< radians between the normals of two nodes of a side, where L_min would allow more
   int hint = 0;
 
   Vec2 to_uv(Vec2 p) const { return {p.x / scale.x, p.y / scale.y}; }
-  /// Fills x, du, dv of a node from its p.
+  /// Fills x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
-  /// Requested length at a node, limited by curvature where needed.
-  double size_at(const MeshNode& n);
   /// Circumradius of triangle t in space; large where it does not resolve the surface (seam twins, sheets).
   double circumradius(const PlaneTriangle& t) const;
   /// Length of an edge: in space, or along the surface where that is much longer.

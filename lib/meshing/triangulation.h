@@ -15,6 +15,7 @@ struct MeshNode {
   Vec2 p;                 ///< scaled parameter plane
   Vec3 x;                 ///< space, model unit
   Vec3 du, dv;            ///< derivatives by the scaled parameters
+  Vec3 normal;            ///< unit normal du x dv; zero at a pole
   double h = 0;           ///< requested edge length
   std::int32_t id = kNone; ///< the boundary node's id outside the face; equal for seam twins and the nodes of a pole; kNone inside
   bool is_pole = false;   ///< one of the plane nodes of a degenerate edge
