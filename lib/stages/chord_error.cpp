@@ -17,13 +17,15 @@ double distance_to_line(Vec3 p, Vec3 a, Vec3 b) {
   return length > 0 ? norm(cross(p - a, b - a)) / length : distance(p, a);
 }
 
-/// Area between a CAD edge and its chords through the parameters t.
-double area_beside_chords(const Curve& curve, const std::vector<double>& t) {
+/// Area on the surface between a trimming curve and the straight lines in (u,v) through its points at the parameters t.
+double area_beside_chords(const Surface& surface, const Curve2d& pcurve, const std::vector<double>& t) {
   double area = 0;
   for (std::size_t i = 1; i < t.size(); ++i) {
-    const Vec3 a = curve.point(t[i - 1]), b = curve.point(t[i]), m = curve.point(0.5 * (t[i - 1] + t[i]));
-    const bool is_loop = distance(a, b) < 1e-3 * distance(a, m);  // a closed edge of one segment: all of it is missing
-    area += is_loop ? distance(a, m) * distance(a, m) : kArcSegment * distance_to_line(m, a, b) * distance(a, b);
+    const Vec2 from = pcurve.point(t[i - 1]), to = pcurve.point(t[i]), middle = pcurve.point(0.5 * (t[i - 1] + t[i]));
+    const Vec3 a = surface.point(from), b = surface.point(to), m = surface.point(middle);
+    const double chord = distance(a, b), sagitta = distance(m, surface.point(0.5 * (from + to)));
+    const bool is_loop = chord < 1e-3 * sagitta;  // a closed edge of one segment: all that it encloses is missing
+    area += is_loop ? sagitta * sagitta : kArcSegment * sagitta * chord;
   }
   return area;
 }
@@ -41,13 +43,12 @@ std::vector<std::vector<double>> edge_parameters(const ModelTables& tables, cons
 void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
   const ModelTables& tables = model.tables();
   const std::vector<std::vector<double>> t = edge_parameters(tables, mesh);
-  std::vector<double> area(tables.n_edges(), 0);
-  for (EdgeId e = 0; e < tables.n_edges(); ++e)
-    if (!tables.edge_is_degenerate[e]) area[e] = area_beside_chords(*model.curve(e), t[e]);
-  for (FaceId f = 0; f < tables.n_faces(); ++f)
+  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+    const std::unique_ptr<Surface> surface = model.surface(f);
     for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
-      for (std::int32_t c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c)
-        error.area[f] += area[tables.coedge_edge[c]];
+      for (CoedgeId c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c)
+        error.area[f] += area_beside_chords(*surface, *model.pcurve(f, c), t[tables.coedge_edge[c]]);
+  }
 }
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }

@@ -15,9 +15,9 @@ struct ChordError {
   std::vector<double> node_distance;  ///< [n_faces] largest distance between a node and the surface at its corner's (u,v), model unit
 };
 
-/// Along edges: the segments between chord and arc. Inside: triangles against their parts on the surface halved in (u,v), extrapolated;
-/// from the (u,v) alone, so that a misplaced node explains nothing. Precondition: `mesh` was made on `model`. Local; six surface
-/// evaluations per triangle.
+/// Along edges: the segments between trimming curve and chord in (u,v). Inside: triangles against their parts on the surface halved in
+/// (u,v), extrapolated; from the (u,v) alone, so that a misplaced node explains nothing. Precondition: `mesh` was made on `model`. Local;
+/// six surface evaluations per triangle.
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh);
 
 }  // namespace st
