@@ -1,0 +1,86 @@
+#!/usr/bin/python3
+"""read_samples.py WRITE_SAMPLES FORMAT: writes the sample mesh and reads it with VTK; the expected values are those of tests/unit/io/sample_artifacts.h."""
+import subprocess
+import sys
+import tempfile
+
+try:
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    from vtkmodules.vtkIOPLY import vtkPLYReader
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+except ImportError as error:
+    print(f"SKIPPED: VTK's python modules are missing (Debian: python3-vtk9): {error}")
+    sys.exit(77)
+
+POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.2, 1)]
+TRIANGLES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+CELL_DATA = {"face": [1, 2, 3, 4], "group": [1, 1, 2, 2]}
+POINT_DATA = {"entity_dim": [0, 0, 1, 2], "entity_id": [1, 2, 5, 4], "size": [1, 1.5, 1, 2]}
+FIELD_DATA = {"face_name": ["bottom", "", "Flügel", "a b"], "group_name": ["body", "wing"]}
+READERS = {"hdf": vtkHDFReader, "vtu": vtkXMLUnstructuredGridReader, "stl": vtkSTLReader, "obj": vtkOBJReader, "ply": vtkPLYReader}
+
+
+def read(path, kind):
+    reader = READERS[kind]()
+    reader.SetFileName(path)
+    if kind in ("hdf", "vtu", "ply"):
+        assert reader.CanReadFile(path), "the reader does not take the file"
+    complaints = []
+    reader.AddObserver("ErrorEvent", lambda *_: complaints.append("error"))
+    reader.AddObserver("WarningEvent", lambda *_: complaints.append("warning"))
+    reader.Update()
+    assert not complaints, complaints
+    return reader.GetOutput()
+
+
+def corners(mesh):
+    """Coordinates of the corners of each cell: STL has no node numbers."""
+    cells = []
+    for c in range(mesh.GetNumberOfCells()):
+        assert mesh.GetCellType(c) == 5, "no triangle"
+        ids = mesh.GetCell(c).GetPointIds()
+        cells.append([mesh.GetPoint(ids.GetId(k)) for k in range(3)])
+    return cells
+
+
+def values(data, name):
+    array = data.GetAbstractArray(name)
+    assert array is not None, f"array {name} is missing"
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())]
+
+
+def check_geometry(mesh):
+    found = corners(mesh)
+    assert len(found) == len(TRIANGLES), len(found)
+    for cell, triangle in zip(found, TRIANGLES):
+        for point, node in zip(cell, triangle):
+            assert all(abs(a - b) < 1e-6 for a, b in zip(point, POINTS[node])), (point, POINTS[node])
+
+
+def check_data(data, expected):
+    for name, numbers in expected.items():
+        assert values(data, name) == numbers, (name, values(data, name))
+
+
+def main():
+    program, kind = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, folder], check=True)
+        mesh = read(f"{folder}/mesh.{kind}", kind)
+        check_geometry(mesh)
+        if kind in ("hdf", "vtu"):
+            assert [mesh.GetPoint(i) for i in range(mesh.GetNumberOfPoints())] == POINTS
+            check_data(mesh.GetCellData(), CELL_DATA)
+        if kind == "vtu":
+            check_data(mesh.GetPointData(), POINT_DATA)
+        if kind == "hdf":
+            check_data(mesh.GetPointData(), POINT_DATA)
+            check_data(mesh.GetFieldData(), FIELD_DATA)
+        if kind == "obj":
+            assert sum(line.startswith("g face_") for line in open(f"{folder}/mesh.obj")) == 4
+            assert "g face_4_a_b\n" in open(f"{folder}/mesh.obj")
+    print(f"{kind}: read as written")
+
+
+main()
