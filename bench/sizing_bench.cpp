@@ -133,7 +133,7 @@ void bench_cells(double millions) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 x = 0.4 * normalized(Vec3{normal(random), normal(random), normal(random)});
     const float own = static_cast<float>(length * (1 + 4 * (x.z + 0.4)));
-    boxes.push_back({x, own, own, 0, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(i % 100))});
+    boxes.push_back({x, own, own, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(i % 100))});
   }
   time_octree({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, boxes, 0.1);
 }

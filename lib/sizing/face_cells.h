@@ -5,22 +5,31 @@
 #include <span>
 #include <vector>
 
+#include "geometry/surface.h"
+#include "sizing/loop_polygon.h"
 #include "sizing/octree.h"
 
 namespace st {
 
+/// Area of a face in a cell.
+struct CellArea {
+  std::int32_t leaf = 0;
+  float area = 0;  ///< model unit squared
+};
+
 /// CSR by face: cells that hold part of the face, ascending, and the area in them.
 struct FaceCells {
-  std::vector<std::int64_t> offsets;     ///< [n_faces+1]
+  std::vector<std::int64_t> offsets{0};  ///< [n_faces+1]
   std::vector<std::int32_t> leaf;        ///< [offsets.back()]
   std::vector<float> area;               ///< model unit squared, > 0
 
   std::int32_t n_faces() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
+  void append_face(std::span<const CellArea> cells);
 };
 
-/// Appends the next face: the areas of its raster boxes (all of that face), summed per cell of the box's centre and scaled to `face_area` (model unit
-/// squared; 0: unknown, not scaled).
-void append_face_cells(const OctreeView& octree, std::span<const RasterBox> boxes, double face_area, FaceCells& cells);
+/// The cells in which a trimmed surface lies: it is halved in (u,v) until each patch is no larger than the cell at its centre. Areas are
+/// scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
+std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree, double face_area);
 
 /// Per face: sum of area over squared length. Times 4/sqrt(3): the number of triangles. `lengths` by leaf, times `scale`.
 std::vector<double> face_weights(const FaceCells& faces, std::span<const CellLength> lengths, double scale);

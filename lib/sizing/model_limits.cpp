@@ -44,7 +44,8 @@ ModelLimits model_limits(const ModelTables& t, const SamplingLimits& wall) {
   t.edge_faces(offsets, faces);
   for (std::size_t e = 0; e < static_cast<std::size_t>(t.n_edges()); ++e) {
     std::optional<SamplingLimits> own;
-    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) own = smaller(own, limits.face[static_cast<std::size_t>(faces[static_cast<std::size_t>(k)])]);
+    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
+      own = smaller(own, limits.face[static_cast<std::size_t>(faces[static_cast<std::size_t>(k)])]);
     if (offsets[e] == offsets[e + 1]) own = wall;
     if (t.edge_is_degenerate[e]) own.reset();
     limits.edge.push_back(own);

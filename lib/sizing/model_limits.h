@@ -11,13 +11,13 @@ namespace st {
 
 /// Limits per face and edge, by the role of the face's group.
 ///
-/// Walls take the limits as given. A far field takes its own largest length, 1/20 of the diagonal of the face's box (never less than the walls'): sizes meant for
-/// the body would fill it with triangles. A symmetry plane asks for nothing: its sizes come from what it touches. An edge takes the smallest limits of its faces.
-/// A model without walls is sampled like one wall.
+/// Walls take the limits as given. A far field takes its own largest length, 1/20 of the diagonal of the face's box (never less than the
+/// walls'): sizes meant for the body would fill it with triangles. A symmetry plane asks for nothing: its sizes come from what it touches.
+/// An edge takes the smallest limits of its faces. A model without walls is sampled like one wall.
 struct ModelLimits {
-  std::vector<std::optional<SamplingLimits>> face;   ///< [n_faces]; nullopt: not sampled
-  std::vector<std::optional<SamplingLimits>> edge;   ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
-  double far_length = 0;                             ///< largest max_length of all: the length where nothing asks for less
+  std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
+  std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
+  double far_length = 0;                            ///< largest max_length of all: the length where nothing asks for less
 };
 
 /// Longest side of a far-field triangle over the diagonal of its face's box.

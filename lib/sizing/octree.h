@@ -22,7 +22,6 @@ struct RasterBox {
   Vec3 center;       ///< model unit
   float half = 0;    ///< half the edge, model unit, > 0
   float length = 0;  ///< sample length, model unit, > 0
-  float area = 0;    ///< area of the trimmed surface that the sample stands for, model unit squared; 0 on curves
   std::int32_t cause = kNone;
 };
 

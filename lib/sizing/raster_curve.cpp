@@ -128,7 +128,7 @@ class PieceWalker {
 
   void add_box(Vec3 center, double length, std::int32_t cause, std::vector<RasterBox>& boxes) const {
     length = std::clamp(std::min(length, table_.s.back()), limits_.min_length, limits_.max_length);
-    boxes.push_back({center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), 0, cause});
+    boxes.push_back({center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause});
   }
 
   const Curve& curve_;

@@ -13,6 +13,7 @@
 #include "comm/packer.h"
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
+#include "sizing/face_cells.h"
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
@@ -47,6 +48,14 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t)
   return limits;
 }
 
+std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
+  std::vector<std::int32_t> order(work.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
+  return order;
+}
+
 /// The work cut into tasks: first batches of edges, then one task per face.
 class RasterTasks {
  public:
@@ -54,18 +63,13 @@ class RasterTasks {
       : model_(model), limits_(limits), n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
   std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
-  std::int32_t first_face_task() const { return n_batches_; }
 
   /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
   std::vector<std::int32_t> order() const {
     std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
     for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f)
       work[static_cast<std::size_t>(n_batches_ + f)] = face_work(static_cast<std::size_t>(f));
-    std::vector<std::int32_t> order(work.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
-    return order;
+    return heaviest_first(work);
   }
 
   /// Local. Boxes of one task, packed, and what went wrong (empty: nothing).
@@ -145,6 +149,22 @@ CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) 
   return collected;
 }
 
+struct SampleCounts {
+  std::size_t n_boxes = 0, n_failures = 0;
+};
+
+/// Counts, and warns of what could not be sampled.
+SampleCounts report_samples(const CollectedBoxes& collected) {
+  SampleCounts counts;
+  for (const std::vector<RasterBox>& boxes : collected.by_task) counts.n_boxes += boxes.size();
+  for (const std::string& failure : collected.failures) {
+    if (failure.empty()) continue;
+    log_warning(failure);
+    ++counts.n_failures;
+  }
+  return counts;
+}
+
 void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits, ArtifactHeader& header) {
   header.schema = "raster";
   header.tool = "st-raster";
@@ -161,33 +181,67 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash}};
 }
 
-RasterArtifact build_artifact(const Model& model, const RasterTasks& tasks, const CollectedBoxes& collected) {
-  const ModelTables& t = model.tables();
-  RasterArtifact artifact;
-  artifact.octree = build_octree(t.box(), collected.all());
-  for (FaceId f = 0; f < t.n_faces(); ++f)
-    append_face_cells(artifact.octree.shape.view(), collected.by_task[static_cast<std::size_t>(tasks.first_face_task() + f)],
-                      t.face_area[static_cast<std::size_t>(f)], artifact.faces);
-  return artifact;
+/// Collective: the octree of rank 0 on every rank.
+void share_shape(OctreeShape& shape, const Communicator& comm) {
+  Bytes bytes;
+  if (comm.is_root()) {
+    Packer packer;
+    packer.add(shape.lo);
+    packer.add(shape.edge);
+    packer.add(shape.leaf_keys);
+    packer.add(shape.leaf_levels);
+    packer.add(shape.node_children);
+    bytes = packer.take();
+  }
+  comm.broadcast(bytes);
+  if (comm.is_root()) return;
+  Unpacker unpacker(bytes);
+  unpacker.get(shape.lo);
+  unpacker.get(shape.edge);
+  unpacker.get(shape.leaf_keys);
+  unpacker.get(shape.leaf_levels);
+  unpacker.get(shape.node_children);
 }
 
-StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, std::size_t n_boxes, std::size_t n_failures, double seconds) {
+/// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
+FaceCells locate_faces(const Model& model, const OctreeShape& shape, const SamplingLimits& limits, const Communicator& comm) {
+  const ModelTables& t = model.tables();
+  std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
+  comm.run_tasks(
+      t.n_faces(), heaviest_first(t.face_area),
+      [&](std::int32_t f) {
+        Packer packer;
+        try {
+          packer.add(
+              locate_face(*model.surface(f), loop_polygons(model, f, limits), shape.view(), t.face_area[static_cast<std::size_t>(f)]));
+        } catch (const std::exception&) {  // reported when it was sampled
+          packer.add(std::vector<CellArea>());
+        }
+        return packer.take();
+      },
+      [&](std::int32_t f, Bytes&& result) { Unpacker(result).get(by_face[static_cast<std::size_t>(f)]); });
+  FaceCells faces;
+  for (const std::vector<CellArea>& cells : by_face) faces.append_face(cells);
+  return faces;
+}
+
+StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, double seconds) {
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
   summary.line =
-      fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, n_boxes, n_cells, a.numbers.min_length,
-                  a.numbers.max_length, n_failures ? fmt::format(", {} parts not sampled", n_failures) : "", seconds);
+      fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, counts.n_boxes, n_cells, a.numbers.min_length,
+                  a.numbers.max_length, counts.n_failures ? fmt::format(", {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = nlohmann::json{
       {"tool", "st-raster"},
       {"output", o.output},
-      {"samples", n_boxes},
+      {"samples", counts.n_boxes},
       {"cells", n_cells},
       {"lmin", a.numbers.min_length},
       {"lmax", a.numbers.max_length},
       {"far_length", a.numbers.far_length},
       {"alpha", a.numbers.alpha_deg},
       {"cell_per_length", a.numbers.cell_per_length},
-      {"not_sampled", n_failures},
+      {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
       {"seconds",
        seconds}}.dump();
@@ -206,22 +260,23 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
 
-  const RasterTasks tasks(model, limits);
-  const CollectedBoxes collected = sample_model(tasks, comm);
+  RasterArtifact artifact;
+  SampleCounts counts;
+  {
+    const CollectedBoxes collected = sample_model(RasterTasks(model, limits), comm);
+    if (comm.is_root()) {
+      counts = report_samples(collected);
+      artifact.octree = build_octree(model.tables().box(), collected.all());
+    }
+  }
+  share_shape(artifact.octree.shape, comm);
+  artifact.faces = locate_faces(model, artifact.octree.shape, wall, comm);
   if (!comm.is_root()) return {};
 
-  std::size_t n_failures = 0, n_boxes = 0;
-  for (const std::string& failure : collected.failures)
-    if (!failure.empty()) {
-      log_warning(failure);
-      ++n_failures;
-    }
-  for (const std::vector<RasterBox>& boxes : collected.by_task) n_boxes += boxes.size();
-  RasterArtifact artifact = build_artifact(model, tasks, collected);
   artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length};
   fill_header(o, geometry_header, wall, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
-  return summarize(o, artifact, n_boxes, n_failures, timer.seconds());
+  return summarize(o, artifact, counts, timer.seconds());
 }
 
 }  // namespace st

@@ -20,7 +20,7 @@ inline std::vector<RasterBox> sphere_boxes(int n, unsigned seed = 1) {
     if (norm(d) < 0.1 || norm(d) > 1) continue;
     const Vec3 x = Vec3{0.5, 0.5, 0.5} + 0.4 * normalized(d);
     const float length = static_cast<float>(0.001 + 0.05 * distance(x, {0.5, 0.5, 0.9}));
-    boxes.push_back({x, length, length, 0, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(boxes.size() % 7))});
+    boxes.push_back({x, length, length, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(boxes.size() % 7))});
   }
   return boxes;
 }
@@ -29,7 +29,7 @@ inline std::vector<RasterBox> sphere_boxes(int n, unsigned seed = 1) {
 inline std::vector<RasterBox> wall_boxes(float length) {
   std::vector<RasterBox> boxes;
   for (double y = 0; y <= 1; y += static_cast<double>(length))
-    for (double z = 0; z <= 1; z += static_cast<double>(length)) boxes.push_back({{0, y, z}, length, length, 0, 0});
+    for (double z = 0; z <= 1; z += static_cast<double>(length)) boxes.push_back({{0, y, z}, length, length, 0});
   return boxes;
 }
 

@@ -16,7 +16,7 @@ using test::kUnitBox;
 using test::sphere_boxes;
 
 RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(CauseKind::kFace, 0)) {
-  return {center, length, length, 0, cause};
+  return {center, length, length, cause};
 }
 
 bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, double margin) {
@@ -80,7 +80,7 @@ TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
 TEST(Octree, does_not_depend_on_the_order_of_boxes) {
   std::vector<RasterBox> boxes = sphere_boxes(5000);
   for (std::size_t i = 0; i < 1000; ++i)
-    boxes.push_back({boxes[i].center, boxes[i].half, boxes[i].length, 0, pack_cause(CauseKind::kEdge, 3)});
+    boxes.push_back({boxes[i].center, boxes[i].half, boxes[i].length, pack_cause(CauseKind::kEdge, 3)});
   const RasterOctree a = build_octree(kUnitBox, boxes);
   std::shuffle(boxes.begin(), boxes.end(), std::mt19937(7));
   const RasterOctree b = build_octree(kUnitBox, boxes);

@@ -52,8 +52,8 @@ TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
 }
 
 TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
-  std::vector<RasterBox> boxes{{{0.25, 0.5, 0.5}, 0.002F, 0.002F, 0, pack_cause(CauseKind::kEdge, 11)},
-                               {{0.75, 0.5, 0.5}, 0.004F, 0.004F, 0, pack_cause(CauseKind::kFace, 5)}};
+  std::vector<RasterBox> boxes{{{0.25, 0.5, 0.5}, 0.002F, 0.002F, pack_cause(CauseKind::kEdge, 11)},
+                               {{0.75, 0.5, 0.5}, 0.004F, 0.004F, pack_cause(CauseKind::kFace, 5)}};
   const RasterOctree raster = build_octree(test::kUnitBox, boxes);
   const OctreeView view = raster.shape.view();
   const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, {kSlope, 0.05});
