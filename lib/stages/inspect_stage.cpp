@@ -11,9 +11,7 @@
 #include "base/log.h"
 #include "io/artifact.h"
 #include "io/inspect.h"
-#if __has_include("io/octree_export.h")
 #include "io/octree_export.h"
-#endif
 
 namespace st {
 namespace {
@@ -115,11 +113,9 @@ void export_artifact(const std::string& artifact, const std::string& output) {
     require_export_suffix(output);
     require_writable(output);
     export_mesh(output, read_mesh(artifact).mesh);
-#if __has_include("io/octree_export.h")
   } else if (schema == "raster" || schema == "sizing") {
     require_writable(output);
     export_octree(artifact, output);
-#endif
   } else {
     throw Error(ExitCode::kInput, fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster or sizing artifact", artifact, schema));
   }
