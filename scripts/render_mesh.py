@@ -25,7 +25,7 @@ class Mesh:
         self.points = vtk_to_numpy(self.grid.GetPoints().GetData())
         self.triangles = vtk_to_numpy(self.grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
         self.face = common.cell_array(self.grid, "face")
-        self.group = common.cell_array(self.grid, "group").astype(int)
+        self.group = common.cell_array(self.grid, "group").astype(int) - 1  # the artifact counts from 1
         names = self.grid.GetFieldData().GetAbstractArray("group_name")
         n_groups = int(self.group.max()) + 1
         self.names = [names.GetValue(i) for i in range(names.GetNumberOfValues())] if names else [f"group {i}" for i in range(n_groups)]
@@ -46,34 +46,40 @@ class Mesh:
         return numpy.array([used.min(axis=0), used.max(axis=0)])
 
     def surface(self, selected):
-        """Selected triangles as poly data with their faces and groups."""
-        cells = vtk.vtkCellArray()
-        triangles = self.triangles[selected].astype(numpy.int64)
-        ids = numpy.hstack([numpy.full((len(triangles), 1), 3, numpy.int64), triangles]).ravel()
-        cells.SetCells(len(triangles), numpy_support.numpy_to_vtkIdTypeArray(ids, deep=1))
+        """Selected triangles as poly data in the colours of their groups."""
         poly = vtk.vtkPolyData()
         poly.SetPoints(self.grid.GetPoints())
-        poly.SetPolys(cells)
+        poly.SetPolys(cell_list(self.triangles[selected]))
         colours = (255 * numpy.array(common.PALETTE)[self.group[selected] % len(common.PALETTE)]).astype(numpy.uint8)
         array = numpy_support.numpy_to_vtk(colours, deep=1)
         array.SetName("colour")
         poly.GetCellData().SetScalars(array)
         return poly
 
+    def wire(self, selected):
+        """All edges of the selected triangles, each once."""
+        t = self.triangles[selected]
+        pairs = numpy.sort(numpy.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]), axis=1)
+        keys = numpy.unique(pairs[:, 0].astype(numpy.int64) * len(self.points) + pairs[:, 1])
+        poly = vtk.vtkPolyData()
+        poly.SetPoints(self.grid.GetPoints())
+        poly.SetLines(cell_list(numpy.stack([keys // len(self.points), keys % len(self.points)], axis=1)))
+        return poly
 
-def wire(poly):
-    """All triangle edges, each once."""
-    edges = vtk.vtkExtractEdges()
-    edges.SetInputData(poly)
-    edges.Update()
-    return edges.GetOutput()
+
+def cell_list(nodes):
+    """VTK's cells for an array of one row per cell."""
+    n_cells, n_corners = nodes.shape
+    ids = numpy.hstack([numpy.full((n_cells, 1), n_corners, numpy.int64), nodes.astype(numpy.int64)]).ravel()
+    cells = vtk.vtkCellArray()
+    cells.SetCells(n_cells, numpy_support.numpy_to_vtkIdTypeArray(ids, deep=1))
+    return cells
 
 
-def scene(mesh, selected, edge_opacity):
+def scene(mesh, selected, edge_width):
     """Surface in the colours of its groups with the triangle edges on it."""
-    poly = mesh.surface(selected)
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputData(poly)
+    mapper.SetInputData(mesh.surface(selected))
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     surface = vtk.vtkActor()
     surface.SetMapper(mapper)
@@ -82,8 +88,7 @@ def scene(mesh, selected, edge_opacity):
     surface.GetProperty().SetDiffuse(0.7)
     renderer = vtk.vtkRenderer()
     renderer.AddActor(surface)
-    edges = common.actor(wire(poly), colour=(0.12, 0.14, 0.2), line_width=1.0)
-    edges.GetProperty().SetOpacity(edge_opacity)
+    edges = common.actor(mesh.wire(selected), colour=(0.12, 0.14, 0.2), line_width=common.SAMPLES * edge_width)
     edges.GetProperty().LightingOff()
     renderer.AddActor(edges)
     return renderer
@@ -94,36 +99,50 @@ def at(box, where):
     return box[0] + (box[1] - box[0]) * numpy.array(where)
 
 
-def fit(points, direction):
-    """Focus and half height of the picture that shows all points."""
+def axes(direction):
+    """Unit vectors to the right, up and towards the viewer."""
     out = numpy.array(direction) / numpy.linalg.norm(direction)
     right = numpy.cross((0, 0, 1), out)
     right /= numpy.linalg.norm(right)
-    up = numpy.cross(out, right)
-    low, high = zip(*((float((points @ axis).min()), float((points @ axis).max())) for axis in (right, up, out)))
-    focus = sum(0.5 * (a + b) * axis for a, b, axis in zip(low, high, (right, up, out)))
+    return right, numpy.cross(out, right), out
+
+
+def fit(points, direction):
+    """Focus and half height of the picture that shows all points."""
+    frame = axes(direction)
+    low, high = zip(*((float((points @ axis).min()), float((points @ axis).max())) for axis in frame))
+    focus = sum(0.5 * (a + b) * axis for a, b, axis in zip(low, high, frame))
     return focus, 0.52 * max(high[1] - low[1], (high[0] - low[0]) * SIZE[1] / SIZE[0])
 
 
+def in_picture(mesh, focus, direction, half_height):
+    """Per triangle: may it be seen in the picture? Spares the software renderer the rest of a large mesh."""
+    result = numpy.ones(len(mesh.triangles), bool)
+    for axis, reach in zip(axes(direction)[:2], (half_height * SIZE[0] / SIZE[1], half_height)):
+        corners = (mesh.points @ axis - numpy.dot(focus, axis))[mesh.triangles]
+        result &= (corners.min(axis=1) < reach) & (corners.max(axis=1) > -reach)
+    return result
+
+
 def views(mesh):
-    """name -> (focus, direction to the viewer, half height of the picture, triangles, opacity of the edges)."""
+    """name -> (focus, direction to the viewer, half height of the picture, triangles, width of their edges in pixels)."""
     walls, everything = ~mesh.is_outer(), mesh.box()
     if everything is None:
         sys.exit("render: error: the mesh has far field and symmetry only")
     size = float(numpy.linalg.norm(everything[1] - everything[0]))
     direction = (-0.55, 0.75, 0.45)
     focus, half_height = fit(mesh.points[mesh.triangles[walls].ravel()], direction)
-    result = {"mesh_whole": (focus, direction, half_height, walls, 0.3)}
+    result = {"mesh_whole": (focus, direction, half_height, walls, 0.5)}
 
-    def close_up(name, group, where, direction, half_height, edge_opacity=1.0, selected=walls):
+    def close_up(name, group, where, direction, half_height, edge_width=1.0, selected=walls):
         box = mesh.box(group)
         if box is None:
             print(f"render: no group '{group}*': view {name} left out", file=sys.stderr)
         else:
-            result[name] = (at(box, where), direction, half_height * size, selected, edge_opacity)
+            result[name] = (at(box, where), direction, half_height * size, selected, edge_width)
 
     not_far = numpy.array(["farfield" not in n.lower() for n in mesh.names])[mesh.group]
-    close_up("mesh_symmetry", "fuselage", (0.5, 0, 0.45), (-0.35, 0.9, 0.3), 0.25, 0.4, not_far)
+    close_up("mesh_symmetry", "fuselage", (0.5, 0, 0.45), (-0.35, 0.9, 0.3), 0.25, 0.5, not_far)
     close_up("mesh_nose", "fuselage", (0.07, 0.5, 0.3), (-0.75, 0.6, 0.25), 0.05)
     close_up("mesh_wing_root", "belly_fairing", (0.35, 1, 0.5), (-0.55, 0.75, 0.4), 0.065)
     close_up("mesh_wing_tip", "wing_tip", (0.3, 0.5, 0), (-0.35, 0.85, 0.45), 0.028)
@@ -146,8 +165,8 @@ def main():
             parser.error(f"unknown view '{name}'; there are: {', '.join(all_views)}")
     os.makedirs(options.output, exist_ok=True)
     for name in options.view or all_views:
-        focus, direction, half_height, selected, edge_opacity = all_views[name]
-        renderer = scene(mesh, selected, edge_opacity)
+        focus, direction, half_height, selected, edge_width = all_views[name]
+        renderer = scene(mesh, selected & in_picture(mesh, focus, direction, half_height), edge_width)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, focus, direction, half_height)
         common.write_png(window, os.path.join(options.output, name + ".png"))

@@ -71,11 +71,11 @@ def slice_scene(grid, name, origin, normal, body, half_height):
     cells.GetProperty().LightingOff()
     cells.GetProperty().EdgeVisibilityOn()
     cells.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
-    cells.GetProperty().SetLineWidth(0.5)
+    cells.GetProperty().SetLineWidth(0.7 * common.SAMPLES)
     renderer = vtk.vtkRenderer()
     renderer.AddActor(cells)
     if body is not None:
-        outline = common.actor(cut(body, origin, normal), colour=(0, 0, 0), line_width=2.5)
+        outline = common.actor(cut(body, origin, normal), colour=(0, 0, 0), line_width=2 * common.SAMPLES)
         outline.GetProperty().LightingOff()
         outline.SetPosition(*(1e-3 * half_height * numpy.array(normal)))  # in front of the cells
         renderer.AddActor(outline)
@@ -92,15 +92,15 @@ def scale_bar(table):
     bar.SetWidth(0.085)
     bar.SetHeight(0.5)
     bar.SetPosition(0.905, 0.03)
-    bar.SetTextPad(6)
-    bar.SetVerticalTitleSeparation(10)
+    bar.SetTextPad(6 * common.SAMPLES)
+    bar.SetVerticalTitleSeparation(10 * common.SAMPLES)
     bar.DrawBackgroundOn()
     bar.GetBackgroundProperty().SetColor(1, 1, 1)
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0, 0, 0)
         text.ShadowOff()
         text.ItalicOff()
-        text.SetFontSize(16)
+        text.SetFontSize(15 * common.SAMPLES)
     bar.UnconstrainedFontSizeOn()
     return bar
 
