@@ -130,25 +130,29 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   return c;
 }
 
+/// Largest tolerance of a face, its edges and its vertices, model unit.
+double cad_tolerance(const ModelTables& tables, FaceId f) {
+  double tolerance = tables.face_tolerance[f];
+  for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
+    for (std::int32_t k = tables.loop_coedge_offsets[l]; k < tables.loop_coedge_offsets[l + 1]; ++k) {
+      const EdgeId e = tables.coedge_edge[k];
+      const VertexId a = tables.edge_vertices[2 * e], b = tables.edge_vertices[2 * e + 1];
+      tolerance = std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[a], tables.vertex_tolerance[b]});
+    }
+  return tolerance;
+}
+
 /// Faces with a node off the surface by more than the CAD's own tolerances there explain.
-Check check_on_surface(const SurfaceMesh& mesh, const ModelTables& tables, const ChordError& chords) {
-  constexpr double kRounding = 1e-9;  // of the model's diagonal
-  Check c{"on-surface", "faces with nodes off the surface by more than the CAD's tolerance", {}, false, ""};
-  const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
-  const double rounding = kRounding * tables.box().diagonal();
-  double largest = 0;
+Check check_on_surface(const ModelTables& tables, const ChordError& chords) {
+  Check c{"on-surface", "faces with nodes off the surface by more than twice the CAD's tolerance", {}, false, ""};
+  const double rounding = 1e-9 * tables.box().diagonal();
+  FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
-    double tolerance = tables.face_tolerance[f] + rounding;
-    for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
-      for (std::int32_t k = tables.loop_coedge_offsets[l]; k < tables.loop_coedge_offsets[l + 1]; ++k) {
-        const EdgeId e = tables.coedge_edge[k];
-        tolerance = std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[tables.edge_vertices[2 * e]],
-                              tables.vertex_tolerance[tables.edge_vertices[2 * e + 1]]});
-      }
-    if (chords.node_distance[f] > 2 * tolerance) c.defects.add({place[f], f, kNone});
-    largest = std::max(largest, chords.node_distance[f]);
+    if (chords.node_distance[f] > 2 * cad_tolerance(tables, f) + rounding) c.defects.add({chords.node_place[f], f, kNone});
+    if (worst == kNone || chords.node_distance[f] > chords.node_distance[worst]) worst = f;
   }
-  c.note = fmt::format("largest distance {:.3g}", largest);
+  if (worst != kNone)
+    c.note = fmt::format("largest distance {:.3g} (CAD tolerance there {:.3g})", chords.node_distance[worst], cad_tolerance(tables, worst));
   return c;
 }
 
@@ -192,7 +196,7 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.chords = estimate_chord_error(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
-  f.checks.push_back(check_on_surface(mesh, cad.model.tables(), *f.chords));
+  f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords));
 }
 
 // --- report ----------------------------------------------------------------------------------------------------------------------------

@@ -60,7 +60,7 @@ void add_triangle(const Surface& surface, const std::array<Vec3, 3>& node, const
   for (int k = 0; k < 3; ++k) {
     x[k] = surface.point(uv[k]);
     m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
-    error.node_distance[f] = std::max(error.node_distance[f], distance(x[k], node[k]));
+    if (const double d = distance(x[k], node[k]); d > error.node_distance[f]) error.node_distance[f] = d, error.node_place[f] = node[k];
   }
   for (int k = 0; k < 3; ++k) error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
   const double flat = area_of(x[0], x[1], x[2]);
@@ -88,6 +88,7 @@ ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
   error.area.assign(model.tables().n_faces(), 0);
   error.distance.assign(model.tables().n_faces(), 0);
   error.node_distance.assign(model.tables().n_faces(), 0);
+  error.node_place.resize(model.tables().n_faces());
   add_edges(model, mesh, error);
   add_triangles(model, mesh, error);
   return error;

@@ -13,6 +13,7 @@ struct ChordError {
   std::vector<double> area;           ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
   std::vector<double> distance;       ///< [n_faces] largest distance found between the side of a triangle and the surface, model unit
   std::vector<double> node_distance;  ///< [n_faces] largest distance between a node and the surface at its corner's (u,v), model unit
+  std::vector<Vec3> node_place;       ///< [n_faces] where that is
 };
 
 /// Along edges: the segments between trimming curve and chord in (u,v). Inside: triangles against their parts on the surface halved in
