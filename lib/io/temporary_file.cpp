@@ -7,7 +7,11 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "base/error.h"
 #include "io/artifact.h"
@@ -61,6 +65,26 @@ void sync(const std::string& name, const std::string& path) {
     fail(path, std::string("cannot be synced (") + std::strerror(error) + ")", "free some space or choose another directory");
 }
 
+/// Process that made a temporary file of `base`: the number in ".base.tmp.<pid>.<n>", 0 for any other name.
+pid_t maker_of(const std::string& name, const std::string& base) {
+  const std::string start = "." + base + ".tmp.";
+  return name.rfind(start, 0) == 0 ? static_cast<pid_t>(std::atol(name.c_str() + start.size())) : 0;
+}
+
+/// Removes what processes that were killed while writing `path` have left. A minute's grace: it might be a process of another machine.
+void remove_stale(const std::string& path) {
+  constexpr auto kGrace = std::chrono::minutes(1);
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (fs::directory_iterator it(directory_of(path), error), end; !error && it != end; it.increment(error)) {
+    const pid_t maker = maker_of(it->path().filename().string(), base_of(path));
+    if (maker <= 0 || kill(maker, 0) == 0 || errno != ESRCH) continue;
+    std::error_code gone;
+    const auto written = fs::last_write_time(it->path(), gone);
+    if (!gone && fs::file_time_type::clock::now() - written > kGrace) fs::remove(it->path(), gone);
+  }
+}
+
 }  // namespace
 
 void remove_temporaries() noexcept {
@@ -86,6 +110,7 @@ void require_writable(const std::string& path) {
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   static std::atomic<int> counter{0};
   require_writable(path);
+  remove_stale(path);
   name_ = directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + std::to_string(counter++);
   if (name_.size() >= kNameLength || base_of(path).size() > 220) fail(path, "the name is too long", "choose a shorter one");
   slot_ = reserve_slot(name_);

@@ -65,7 +65,7 @@ TEST_P(Artifact, is_refused_or_unchanged_when_any_byte_is_flipped) {
   kind().write(file());
   const std::string whole = read_bytes(file());
   int n_refused = 0, n_unchanged = 0;
-  for (std::size_t i = 0; i < whole.size(); i += 13) {
+  for (std::size_t i = 0; i < whole.size(); i += 29) {
     std::string flipped = whole;
     flipped[i] = static_cast<char>(flipped[i] ^ 0x10);
     write_bytes(file("flipped.hdf"), flipped);
@@ -190,6 +190,18 @@ TEST_P(Artifact, leaves_nothing_when_the_writer_is_ended_by_a_signal) {
   });
   EXPECT_EQ(WEXITSTATUS(status), 143);
   EXPECT_TRUE(dir_.files().empty());
+}
+
+TEST_P(Artifact, has_no_name_when_the_writer_is_killed) {
+  const int status = in_child([&] {
+    ArtifactHeader header = sample_header();
+    header.schema = GetParam();
+    Hdf5Writer writer(file(), header);
+    writer.write("/st/x", std::vector<double>(100000));
+    raise(SIGKILL);
+  });
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
 TEST(GeometryArtifact, gives_back_every_table) {

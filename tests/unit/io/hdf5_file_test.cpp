@@ -1,6 +1,9 @@
 #include "io/hdf5_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
@@ -130,6 +133,28 @@ TEST(Hdf5File, leaves_nothing_without_commit) {
     EXPECT_EQ(dir.files().size(), 1u);
   }
   EXPECT_TRUE(dir.files().empty());
+}
+
+TEST(Hdf5File, removes_what_a_killed_process_left_of_the_same_file_and_nothing_else) {
+  TemporaryDirectory dir;
+  const std::string nobody = "4194999", somebody = std::to_string(getpid());  // above the largest process id of Linux
+  const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+  const std::vector<std::string> kept = {".a.hdf.tmp." + somebody + ".77", ".b.hdf.tmp." + nobody + ".0", ".a.hdf.tmp.", "a.hdf.tmp." + nobody + ".0"};
+  std::vector<std::string> all = kept;
+  all.push_back(".a.hdf.tmp." + nobody + ".0");
+  for (const std::string& name : all) {
+    write_bytes(dir / name, "x");
+    std::filesystem::last_write_time(dir / name, long_ago);
+  }
+  write_bytes(dir / (".a.hdf.tmp." + nobody + ".1"), "just written");
+  write_sample(dir / "a.hdf");
+  std::vector<std::string> expected = kept;
+  expected.push_back(".a.hdf.tmp." + nobody + ".1");
+  expected.push_back("a.hdf");
+  std::vector<std::string> files = dir.files();
+  std::sort(files.begin(), files.end());
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(files, expected);
 }
 
 TEST(Hdf5File, leaves_nothing_after_remove_temporaries) {
