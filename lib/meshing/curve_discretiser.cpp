@@ -8,13 +8,13 @@ namespace {
 
 constexpr int kInitialIntervals = 16;
 constexpr int kMaxDepth = 16;
+constexpr double kMostByTurning = 64;       // segments for one, where the curve turns; a corner is no reason for more
 constexpr double kSamplesPerLength = 2.0;   // samples of the size along one requested length
 
 struct Sample {
   double t;
   Vec3 x, d1;
-  double h;           // requested length, limited by the turning
-  double field_h;     // requested length
+  double h;
 };
 
 class Discretiser {
@@ -31,12 +31,7 @@ class Discretiser {
  private:
   Sample at(double t) {
     const CurvePoint p = curve_.evaluate(t);
-    const double field_h = field_.size(p.x, hint_);
-    double h = field_h;
-    const double speed = norm(p.d1);
-    const double curvature = speed > 0 ? norm(cross(p.d1, p.d2)) / (speed * speed * speed) : 0;
-    if (curvature * h > max_turning_) h = max_turning_ / curvature;
-    return {t, p.x, p.d1, h, field_h};
+    return {t, p.x, p.d1, field_.size(p.x, hint_)};
   }
 
   void sample() {
@@ -68,7 +63,9 @@ class Discretiser {
     share_.assign(1, 0.0);
     for (std::size_t i = 1; i < samples_.size(); ++i) {
       const Sample &a = samples_[i - 1], &b = samples_[i];
-      share_.push_back(share_.back() + distance(a.x, b.x) * 0.5 * (1 / a.h + 1 / b.h));
+      const double by_size = distance(a.x, b.x) * 0.5 * (1 / a.h + 1 / b.h);
+      const double by_turning = angle_between(a.d1, b.d1) / max_turning_;
+      share_.push_back(share_.back() + std::clamp(by_turning, by_size, kMostByTurning * by_size));
     }
   }
 
@@ -92,7 +89,7 @@ class Discretiser {
     for (double t : nodes.t) {
       const Sample s = at(t);
       nodes.x.push_back(s.x);
-      nodes.h.push_back(s.field_h);
+      nodes.h.push_back(s.h);
     }
     return nodes;
   }

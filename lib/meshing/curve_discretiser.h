@@ -22,7 +22,7 @@ struct CurveNodes {
 };
 
 /// Spaces nodes by the integral of 1/size along the curve: as many segments as the integral says (rounded, at least min_segments), each with
-/// the same share. The turning of the tangent bounds the size from above. Local, pure.
+/// the same share. Where the tangent turns faster than max_turning per length, the turning counts instead. Local, pure.
 CurveNodes discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
 
 }  // namespace st

@@ -11,7 +11,9 @@ namespace st {
 namespace {
 
 constexpr double kSnap = 1e-3;             // of the requested length: same-id nodes nearer than this are one (KERNEL.md)
-constexpr int kProbe = 6;                  // grid of the curvature probe
+constexpr int kProbe = 6;                  // grid of the scale of the plane
+constexpr int kAreaProbe = 24;             // grid of the expected number of nodes
+constexpr double kRunaway = 30;            // times the expected number of nodes
 
 /// Work on one face: the named steps of meshing.
 class FaceMesher {
@@ -40,7 +42,12 @@ class FaceMesher {
     }
     work_.field = &field;
     work_.max_turning = radians(options.max_turning_deg);
+    work_.max_nodes = expected_nodes();
     advance_front(work_);
+    if (work_.mesh.nodes.size() >= work_.max_nodes) {
+      result.cause = "the sizes ask for far more nodes than the face's area explains";
+      return result;
+    }
     enhance(work_, options.enhance_rounds);
     collect(result);
     validate(result);
@@ -71,7 +78,7 @@ class FaceMesher {
       n.p = {b.uv.x * work_.scale.x, b.uv.y * work_.scale.y};
       work_.evaluate(n);
       n.x = b.x;
-      n.h = b.h;
+      n.h = n.request = b.h;
       n.id = b.id;
       n.is_pole = b.is_pole;
       std::vector<std::int32_t>& twins = same[b.id];
@@ -102,6 +109,20 @@ class FaceMesher {
     Vec3 x = 0.25 * (n[c.node_a].x + n[c.node_b].x + n[c.other_a].x + n[c.other_b].x);
     const double h = std::max({distance(n[c.node_a].x, n[c.node_b].x), distance(n[c.other_a].x, n[c.other_b].x), 1e-3 * n[c.node_a].h});
     return {x, 0.5 * h};
+  }
+
+  /// What area over squared length explains, with a wide margin.
+  std::size_t expected_nodes() {
+    const double du = (surface_.u_max() - surface_.u_min()) / kAreaProbe, dv = (surface_.v_max() - surface_.v_min()) / kAreaProbe;
+    double n = 0;
+    for (int i = 0; i < kAreaProbe; ++i)
+      for (int j = 0; j < kAreaProbe; ++j) {
+        const SurfacePoint s = surface_.evaluate({surface_.u_min() + (i + 0.5) * du, surface_.v_min() + (j + 0.5) * dv});
+        const double h = work_.field->size(s.x, work_.hint);
+        n += norm(cross(s.du, s.dv)) * du * dv / (h * h);
+      }
+    const double boundary = static_cast<double>(boundary_.nodes.size());
+    return static_cast<std::size_t>(std::min(1e9, kRunaway * (n + boundary * boundary) + 10000));
   }
 
   void collect(FaceMesh& result) const {

@@ -16,6 +16,7 @@ constexpr double kFinishedRadius = 0.68;    // circumradius over requested lengt
 constexpr double kNearNode = 0.65;          // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;       // of the side: nor nearer than this to a boundary segment
 constexpr double kGrowth = 1.25;            // size of a new node over its base side
+constexpr double kTurningFloor = 0.25;      // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
 
 double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
@@ -44,7 +45,9 @@ class Front {
   bool is_finished(const PlaneTriangle& t) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
     const double radius = w_.circumradius(t);
-    return radius < kFinishedRadius * h && !(radius > 0.25 * kFinishedRadius * h && turns_too_far(t));
+    if (!(radius < kFinishedRadius * h)) return false;
+    const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
+    return !(radius > kTurningFloor * kFinishedRadius * request && turns_too_far(t));
   }
 
   void start() {
@@ -103,7 +106,7 @@ class Front {
     for (int step = 0;; ++step) {
       w_.evaluate(p);
       if (step == 0) {  // the side's length is the mean of the sizes at its ends
-        p.h = w_.field->size(p.x, w_.hint);
+        p.request = p.h = w_.field->size(p.x, w_.hint);
         r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base, kGrowth * base);
         limit_turning(a, b, p, r);
       }
@@ -122,13 +125,13 @@ class Front {
     }
   }
 
-  /// A side along which the normal turns too far becomes shorter, whatever the field says; not below a quarter.
+  /// A side along which the normal turns too far becomes shorter, whatever the field says; to a quarter at the most.
   void limit_turning(const MeshNode& a, const MeshNode& b, MeshNode& p, double& r) const {
     const double c = std::min(dot(a.normal, p.normal), dot(b.normal, p.normal));
     if (c > cos_turning_ || a.is_pole || b.is_pole) return;
-    const double f = std::max(0.25, w_.max_turning / std::acos(std::clamp(c, -1.0, 1.0)));
-    r *= f;
-    p.h = std::min(p.h, r);
+    const double least = kTurningFloor * p.request;  // at a crease no length is short enough
+    r = std::max(std::min(r, least), r * w_.max_turning / std::acos(std::clamp(c, -1.0, 1.0)));
+    p.h = std::max(least, std::min(p.h, r));
   }
 
   bool turns_too_far(const PlaneTriangle& t) const {
@@ -149,6 +152,7 @@ class Front {
 
   /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
   bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
+    if (m_.nodes.size() >= w_.max_nodes) return false;
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside) return false;
     const Metric metric = metric_of(p.du, p.dv);
@@ -224,7 +228,7 @@ class Front {
       MeshNode p;
       p.p = attempt == 0 ? middle : centre;
       w_.evaluate(p);
-      p.h = w_.field->size(p.x, w_.hint);
+      p.request = p.h = w_.field->size(p.x, w_.hint);
       if (insert(p, i, std::min(h, length / 2 / kNearNode * 0.99), h * 1.25)) return true;
     }
     return false;

@@ -16,6 +16,7 @@ struct FaceWork {
   const SizeField* field = nullptr;
   Vec2 scale{1, 1};                  ///< plane = scale * (u,v)
   double max_turning = 1.0;          ///< radians between the normals of two nodes of a side, where L_min would allow more
+  std::size_t max_nodes = 0;         ///< more is a runaway: the front stops
   int hint = 0;
 
   Vec2 to_uv(Vec2 p) const { return {p.x / scale.x, p.y / scale.y}; }

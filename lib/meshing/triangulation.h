@@ -16,7 +16,8 @@ struct MeshNode {
   Vec3 x;                 ///< space, model unit
   Vec3 du, dv;            ///< derivatives by the scaled parameters
   Vec3 normal;            ///< unit normal du x dv; zero at a pole
-  double h = 0;           ///< requested edge length
+  double h = 0;           ///< edge length to aim at: the request, limited by growth and turning
+  double request = 0;     ///< edge length that the field asks for
   std::int32_t id = kNone; ///< the boundary node's id outside the face; equal for seam twins and the nodes of a pole; kNone inside
   bool is_pole = false;   ///< one of the plane nodes of a degenerate edge
 };
