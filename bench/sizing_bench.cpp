@@ -54,14 +54,14 @@ void time_queries(const OctreeField& field, const std::vector<RasterBox>& boxes)
   run("random in the root cube");
   for (Vec3& p : points) {
     const RasterBox& b = boxes[random() % boxes.size()];
-    p = b.center + static_cast<double>(b.half) * Vec3{uniform(random), uniform(random), uniform(random)};
+    p = b.center + b.half * Vec3{uniform(random), uniform(random), uniform(random)};
   }
   run("random near samples");
   std::size_t at = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % 8 == 0) at = (at + 1) % boxes.size();
     const RasterBox& b = boxes[at];
-    points[i] = b.center + 0.5 * static_cast<double>(b.half) * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
+    points[i] = b.center + 0.5 * b.half * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
   }
   run("coherent (sample by sample)");
   report("  (mean length {:.4g})\n", sum / kQueries / 3);
@@ -95,15 +95,14 @@ void bench_model(const std::string& path, double lmax_percent) {
   std::vector<RasterBox> boxes;
   const Timer curve_timer;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (limits.edge[static_cast<std::size_t>(e)])
-      raster_curve(*model.curve(e), *limits.edge[static_cast<std::size_t>(e)], pack_cause(CauseKind::kEdge, e), boxes);
+    if (limits.edge[e]) raster_curve(*model.curve(e), *limits.edge[e], pack_cause(CauseKind::kEdge, e), boxes);
   const std::size_t n_edge_boxes = boxes.size();
   report("edges   {} boxes in {:.3f} s\n", n_edge_boxes, curve_timer.seconds());
   const Timer face_timer;
   double loop_seconds = 0, sampled_area = 0, area = 0;
   std::int64_t n_evaluations = 0;
   for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const auto& own = limits.face[static_cast<std::size_t>(f)];
+    const auto& own = limits.face[f];
     if (!own) continue;
     const Timer face_seconds;
     const auto surface = model.surface(f);
@@ -112,11 +111,10 @@ void bench_model(const std::string& path, double lmax_percent) {
     const FaceRasterReport r = raster_face(*surface, loops, *own, pack_cause(CauseKind::kFace, f), boxes);
     n_evaluations += r.n_evaluations;
     sampled_area += r.area;
-    area += t.face_area[static_cast<std::size_t>(f)];
+    area += t.face_area[f];
     if (std::getenv("SIZING_BENCH_FACES"))
       report("  {:<28} type {} area {:10.4g} sampled {:10.4g} boxes {:8} evaluations {:9} {:.4f} s\n", t.face_label(f),
-             static_cast<int>(surface->type()), t.face_area[static_cast<std::size_t>(f)], r.area, r.n_patches, r.n_evaluations,
-             face_seconds.seconds());
+             static_cast<int>(surface->type()), t.face_area[f], r.area, r.n_patches, r.n_evaluations, face_seconds.seconds());
   }
   report("faces   {} boxes in {:.3f} s, {:.3f} s of it loops; {} evaluations; area sampled / CAD = {:.4f}\n", boxes.size() - n_edge_boxes,
          face_timer.seconds(), loop_seconds, n_evaluations, sampled_area / area);

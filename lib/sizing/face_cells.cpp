@@ -41,13 +41,13 @@ class CellLocator {
 std::vector<CellArea> unite(std::vector<CellArea> parts, double face_area) {
   std::stable_sort(parts.begin(), parts.end(), [](const CellArea& a, const CellArea& b) { return a.leaf < b.leaf; });
   double total = 0;
-  for (const CellArea& p : parts) total += static_cast<double>(p.area);
+  for (const CellArea& p : parts) total += p.area;
   const double scale = face_area > 0 && total > 0 ? face_area / total : 1;
   std::vector<CellArea> cells;
   for (std::size_t i = 0; i < parts.size();) {
     const std::int32_t leaf = parts[i].leaf;
     double area = 0;
-    for (; i < parts.size() && parts[i].leaf == leaf; ++i) area += static_cast<double>(parts[i].area);
+    for (; i < parts.size() && parts[i].leaf == leaf; ++i) area += parts[i].area;
     if (area > 0) cells.push_back({leaf, static_cast<float>(scale * area)});
   }
   return cells;
@@ -75,7 +75,7 @@ std::vector<double> face_weights(const FaceCells& faces, std::span<const CellLen
   for (std::size_t f = 0; f < weights.size(); ++f)
     for (std::int64_t k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k) {
       const std::size_t i = static_cast<std::size_t>(k);
-      const double length = scale * static_cast<double>(lengths[static_cast<std::size_t>(faces.leaf[i])].length);
+      const double length = scale * static_cast<double>(lengths[faces.leaf[i]].length);
       weights[f] += static_cast<double>(faces.area[i]) / (length * length);
     }
   return weights;

@@ -25,8 +25,7 @@ class LoopTracer {
 
   std::vector<LoopSide> run() {
     const ModelTables& t = model_.tables();
-    for (std::int32_t loop = t.face_loop_offsets[static_cast<std::size_t>(face_)];
-         loop < t.face_loop_offsets[static_cast<std::size_t>(face_) + 1]; ++loop) {
+    for (std::int32_t loop = t.face_loop_offsets[face_]; loop < t.face_loop_offsets[static_cast<std::size_t>(face_) + 1]; ++loop) {
       points_.clear();
       const std::size_t l = static_cast<std::size_t>(loop);
       for (std::int32_t c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) trace(c);
@@ -38,9 +37,9 @@ class LoopTracer {
  private:
   void trace(CoedgeId coedge) {
     const ModelTables& t = model_.tables();
-    const EdgeId edge = t.coedge_edge[static_cast<std::size_t>(coedge)];
+    const EdgeId edge = t.coedge_edge[coedge];
     std::vector<double> parameters = edge_parameters(edge);
-    if (t.coedge_is_reversed[static_cast<std::size_t>(coedge)]) std::reverse(parameters.begin(), parameters.end());
+    if (t.coedge_is_reversed[coedge]) std::reverse(parameters.begin(), parameters.end());
     const std::unique_ptr<Curve2d> curve = model_.pcurve(face_, coedge);
     Vec2 a = curve->point(parameters.front());
     points_.push_back(a);
@@ -54,7 +53,7 @@ class LoopTracer {
 
   std::vector<double> edge_parameters(EdgeId edge) const {
     const ModelTables& t = model_.tables();
-    if (!t.edge_is_degenerate[static_cast<std::size_t>(edge)]) return measure_curve(*model_.curve(edge), limits_).t;
+    if (!t.edge_is_degenerate[edge]) return measure_curve(*model_.curve(edge), limits_).t;
     const double t0 = t.edge_range[2 * static_cast<std::size_t>(edge)], t1 = t.edge_range[2 * static_cast<std::size_t>(edge) + 1];
     std::vector<double> parameters;
     for (int i = 0; i <= kFirstSides; ++i) parameters.push_back(t0 + (t1 - t0) * i / kFirstSides);
@@ -101,7 +100,7 @@ LoopPolygons::LoopPolygons(std::vector<LoopSide> sides) : sides_(std::move(sides
   std::vector<std::int32_t> next(bin_offsets_.begin(), bin_offsets_.end() - 1);
   for (std::size_t i = 0; i < sides_.size(); ++i)
     for (std::size_t b = bin(std::min(sides_[i].a.y, sides_[i].b.y)); b <= bin(std::max(sides_[i].a.y, sides_[i].b.y)); ++b)
-      bin_sides_[static_cast<std::size_t>(next[b]++)] = static_cast<std::int32_t>(i);
+      bin_sides_[next[b]++] = static_cast<std::int32_t>(i);
 }
 
 bool LoopPolygons::contains(Vec2 uv) const {
@@ -112,7 +111,7 @@ bool LoopPolygons::contains(Vec2 uv) const {
   const std::size_t b = std::min(static_cast<std::size_t>(position), n_bins - 1);
   bool is_inside = false;
   for (std::int32_t k = bin_offsets_[b]; k < bin_offsets_[b + 1]; ++k) {
-    const LoopSide& s = sides_[static_cast<std::size_t>(bin_sides_[static_cast<std::size_t>(k)])];
+    const LoopSide& s = sides_[bin_sides_[k]];
     if ((s.a.y > uv.y) == (s.b.y > uv.y)) continue;
     if (uv.x < s.a.x + (uv.y - s.a.y) / (s.b.y - s.a.y) * (s.b.x - s.a.x)) is_inside = !is_inside;
   }

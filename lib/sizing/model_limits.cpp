@@ -13,7 +13,7 @@ std::vector<Role> face_roles(const ModelTables& t) {
   bool has_wall = false;
   for (std::size_t f = 0; f < roles.size(); ++f) {
     const std::int32_t group = f < t.face_group.size() ? t.face_group[f] : kNone;
-    const std::string& role = group >= 0 ? t.group_role[static_cast<std::size_t>(group)] : std::string();
+    const std::string& role = group >= 0 ? t.group_role[group] : std::string();
     roles[f] = role == "farfield" ? Role::kFarfield : role == "symmetry" ? Role::kSymmetry : Role::kWall;
     has_wall = has_wall || roles[f] == Role::kWall;
   }
@@ -44,8 +44,7 @@ ModelLimits model_limits(const ModelTables& t, const SamplingLimits& wall) {
   t.edge_faces(offsets, faces);
   for (std::size_t e = 0; e < static_cast<std::size_t>(t.n_edges()); ++e) {
     std::optional<SamplingLimits> own;
-    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-      own = smaller(own, limits.face[static_cast<std::size_t>(faces[static_cast<std::size_t>(k)])]);
+    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) own = smaller(own, limits.face[faces[k]]);
     if (offsets[e] == offsets[e + 1]) own = wall;
     if (t.edge_is_degenerate[e]) own.reset();
     limits.edge.push_back(own);

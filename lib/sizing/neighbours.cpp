@@ -7,12 +7,12 @@ Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
   node_neighbours_.assign(27 * n_nodes, kOutside);
   leaf_parent_.assign(octree.leaf_keys.size(), kNone);
   if (n_nodes == 0) return;
-  node_neighbours_[static_cast<std::size_t>(direction(0, 0, 0))] = 0;
+  node_neighbours_[direction(0, 0, 0)] = 0;
   for (std::size_t node = 0; node < n_nodes; ++node) {  // parents come before their children
     for (int o = 0; o < 8; ++o) {
       const std::int32_t child = octree.node_children[8 * node + static_cast<std::size_t>(o)];
       if (child < 0) {
-        leaf_parent_[static_cast<std::size_t>(~child)] = static_cast<std::int32_t>(node);
+        leaf_parent_[~child] = static_cast<std::int32_t>(node);
         continue;
       }
       for (int d = 0; d < 27; ++d) {

@@ -55,7 +55,7 @@ GridBox grid_box(const OctreeShape& shape, const RasterBox& box) {
 /// Coarsest level whose cells are not larger than the raster box.
 int required_level(double root_edge, const RasterBox& box) {
   int level = 0;
-  for (double cell = root_edge; level < kMaxLevel && cell > 2.0 * static_cast<double>(box.half); cell *= 0.5) ++level;
+  for (double cell = root_edge; level < kMaxLevel && cell > 2.0 * box.half; cell *= 0.5) ++level;
   return level;
 }
 
@@ -72,7 +72,7 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
       for (std::uint32_t y = range.lo.y >> shift; y <= range.hi.y >> shift; ++y)
         for (std::uint32_t x = range.lo.x >> shift; x <= range.hi.x >> shift; ++x) {
           const std::uint64_t key = morton::encode({x, y, z});
-          if (filters[static_cast<std::size_t>(parent)].is_new(key)) nodes[static_cast<std::size_t>(parent)].push_back(key);
+          if (filters[parent].is_new(key)) nodes[parent].push_back(key);
         }
   }
 }
@@ -81,10 +81,10 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
 /// exist, so their parents are split.
 void close_nodes(NodeLevels& nodes) {
   for (int level = kMaxLevel - 1; level >= 0; --level) {
-    std::vector<std::uint64_t>& split = nodes[static_cast<std::size_t>(level)];
+    std::vector<std::uint64_t>& split = nodes[level];
     sort_unique(split);
     if (level == 0) break;
-    std::vector<std::uint64_t>& parents = nodes[static_cast<std::size_t>(level - 1)];
+    std::vector<std::uint64_t>& parents = nodes[level - 1];
     RepeatFilter filter;
     const std::uint32_t end = 1u << (level - 1);
     for (const std::uint64_t key : split) {
@@ -147,8 +147,7 @@ class LengthStore {
       float largest = 0;
       for (std::size_t o = 0; o < 8; ++o) {
         const std::int32_t child = view_.node_children[8 * node + o];
-        const float length =
-            child >= 0 ? subtree_max_[static_cast<std::size_t>(child)] : octree_.stored_length[static_cast<std::size_t>(~child)];
+        const float length = child >= 0 ? subtree_max_[child] : octree_.stored_length[~child];
         largest = std::max(largest, length);
       }
       subtree_max_[node] = largest;
@@ -158,7 +157,7 @@ class LengthStore {
  private:
   void visit(std::int32_t node, GridPoint lo, std::uint32_t half) {
     if (node < 0) return store(static_cast<std::size_t>(~node));
-    if (subtree_max_[static_cast<std::size_t>(node)] < length_) return;
+    if (subtree_max_[node] < length_) return;
     const GridPoint middle{lo.x + half, lo.y + half, lo.z + half};
     for (unsigned o = 0; o < 8; ++o) {
       if ((o & 1 ? range_.hi.x < middle.x : range_.lo.x >= middle.x) || (o & 2 ? range_.hi.y < middle.y : range_.lo.y >= middle.y) ||
@@ -201,8 +200,8 @@ void store_lengths(std::span<const RasterBox> boxes, std::span<const std::uint8_
 }  // namespace
 
 Vec3 OctreeView::leaf_center(std::int32_t leaf) const {
-  const GridPoint p = morton::decode(leaf_keys[static_cast<std::size_t>(leaf)]);
-  const double unit = edge / kCoordinateEnd, half = 0.5 * morton::cell_extent(leaf_levels[static_cast<std::size_t>(leaf)]);
+  const GridPoint p = morton::decode(leaf_keys[leaf]);
+  const double unit = edge / kCoordinateEnd, half = 0.5 * morton::cell_extent(leaf_levels[leaf]);
   return {lo.x + (p.x + half) * unit, lo.y + (p.y + half) * unit, lo.z + (p.z + half) * unit};
 }
 
@@ -263,8 +262,7 @@ const char* link_defect(const OctreeView& octree) {
   const auto walk = [&](const auto& self, std::int32_t node, std::uint64_t key, int level) -> bool {
     if (node < 0) {
       const std::int32_t leaf = ~node;
-      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[static_cast<std::size_t>(leaf)] == key &&
-             octree.leaf_levels[static_cast<std::size_t>(leaf)] == level;
+      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[leaf] == key && octree.leaf_levels[leaf] == level;
     }
     if (node >= octree.n_nodes() || level >= kMaxLevel || ++n_visited > octree.node_children.size() / 8) return false;
     for (std::uint64_t o = 0; o < 8; ++o)
@@ -277,13 +275,13 @@ const char* link_defect(const OctreeView& octree) {
 
 const char* balance_defect(const OctreeView& octree) {
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
-    const int level = octree.leaf_levels[static_cast<std::size_t>(leaf)];
-    const GridPoint p = morton::decode(octree.leaf_keys[static_cast<std::size_t>(leaf)]);
+    const int level = octree.leaf_levels[leaf];
+    const GridPoint p = morton::decode(octree.leaf_keys[leaf]);
     const std::uint32_t extent = morton::cell_extent(level);
     for (int d = 0; d < 27; ++d) {
       const GridPoint q{p.x + (d % 3 - 1u) * extent, p.y + (d / 3 % 3 - 1u) * extent, p.z + (d / 9 - 1u) * extent};
       if (q.x >= kCoordinateEnd || q.y >= kCoordinateEnd || q.z >= kCoordinateEnd) continue;
-      if (octree.leaf_levels[static_cast<std::size_t>(octree.find_leaf(morton::encode(q)))] + 1 < level) return "not balanced 2:1";
+      if (octree.leaf_levels[octree.find_leaf(morton::encode(q))] + 1 < level) return "not balanced 2:1";
     }
   }
   return nullptr;

@@ -53,7 +53,7 @@ struct OctreeView {
     return ~node;
   }
   bool leaf_contains(std::int32_t leaf, std::uint64_t key) const {
-    return ((key ^ leaf_keys[static_cast<std::size_t>(leaf)]) >> (3 * (kMaxLevel - leaf_levels[static_cast<std::size_t>(leaf)]))) == 0;
+    return ((key ^ leaf_keys[leaf]) >> (3 * (kMaxLevel - leaf_levels[leaf]))) == 0;
   }
 };
 

@@ -10,7 +10,7 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
   if (!(min_length > 0)) {
     const auto smallest = std::min_element(data.cells.begin(), data.cells.end(),
                                            [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
-    min_length = static_cast<double>(smallest->length);
+    min_length = smallest->length;
   }
   min_size_ = min_length * data_.scale;
 }
@@ -28,16 +28,15 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   const std::uint64_t key = morton::encode(p);
   int level = 0;
   if (hint >= 0 && hint < octree.n_leaves() && octree.leaf_contains(hint, key))
-    level = octree.leaf_levels[static_cast<std::size_t>(hint)];
+    level = octree.leaf_levels[hint];
   else
     hint = octree.find_leaf(key, level);
   const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
   const double half = 0.5 * extent;
-  const CellLength& c = data_.cells[static_cast<std::size_t>(hint)];
-  const double rise = static_cast<double>(c.gradient[0]) * (gx - (p.x & mask) - half) +
-                      static_cast<double>(c.gradient[1]) * (gy - (p.y & mask) - half) +
-                      static_cast<double>(c.gradient[2]) * (gz - (p.z & mask) - half);
-  return std::max(data_.scale * std::min(static_cast<double>(c.length) + unit_ * rise, static_cast<double>(c.upper)), min_size_);
+  const CellLength& c = data_.cells[hint];
+  const double rise =
+      c.gradient[0] * (gx - (p.x & mask) - half) + c.gradient[1] * (gy - (p.y & mask) - half) + c.gradient[2] * (gz - (p.z & mask) - half);
+  return std::max(data_.scale * std::min<double>(c.length + unit_ * rise, c.upper), min_size_);
 }
 
 SizeExplanation OctreeField::explain(Vec3 xyz) const {
@@ -49,7 +48,7 @@ SizeExplanation OctreeField::explain(Vec3 xyz) const {
   result.level = data_.octree.leaf_levels[l];
   result.cell_edge = data_.octree.cell_edge(result.level);
   const float* g = data_.cells[l].gradient;
-  result.gradient = data_.scale * Vec3{static_cast<double>(g[0]), static_cast<double>(g[1]), static_cast<double>(g[2])};
+  result.gradient = data_.scale * Vec3{g[0], g[1], g[2]};
   result.cause = data_.cause[l];
   return result;
 }

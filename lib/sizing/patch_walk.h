@@ -123,7 +123,7 @@ class PatchWalk {
   /// Sets sides, is_inside, n_inside. False: the patch lies outside the loops.
   bool classify(Patch<Probe>& patch, const std::vector<std::int32_t>& candidates) const {
     for (const std::int32_t s : candidates)
-      if (meets(patch, loops_.sides()[static_cast<std::size_t>(s)])) patch.sides.push_back(s);
+      if (meets(patch, loops_.sides()[s])) patch.sides.push_back(s);
     if (patch.sides.empty()) {
       if (!loops_.contains(patch.uv(4))) return false;
       patch.is_inside.fill(true);

@@ -25,12 +25,10 @@ class StepWeights {
   StepWeights(double root_edge, double slope) {
     for (int level = 0; level <= kMaxLevel; ++level) {
       const double half = 0.5 * root_edge / static_cast<double>(1u << level);
-      for (int s = 0; s <= kLargestStep2; ++s)
-        weight_[static_cast<std::size_t>(level)][static_cast<std::size_t>(s)] =
-            static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
+      for (int s = 0; s <= kLargestStep2; ++s) weight_[level][s] = static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
     }
   }
-  float operator()(const CellStep& step) const { return weight_[step.fine_level][static_cast<std::size_t>(step.length2)]; }
+  float operator()(const CellStep& step) const { return weight_[step.fine_level][step.length2]; }
 
  private:
   std::array<std::array<float, kLargestStep2 + 1>, kMaxLevel + 1> weight_;
@@ -65,10 +63,10 @@ void pass_lengths(const OctreeView& octree, const Neighbours& neighbours, double
   for (std::size_t b = 0; b < buckets.size(); ++b) {
     for (std::size_t i = 0; i < buckets[b].size(); ++i) {  // grows while cells of this bucket are improved again
       const std::int32_t leaf = buckets[b][i];
-      if (!is_waiting[static_cast<std::size_t>(leaf)]) continue;
-      is_waiting[static_cast<std::size_t>(leaf)] = 0;
-      const float length = cells.length[static_cast<std::size_t>(leaf)];
-      const std::int32_t cause = cells.cause[static_cast<std::size_t>(leaf)];
+      if (!is_waiting[leaf]) continue;
+      is_waiting[leaf] = 0;
+      const float length = cells.length[leaf];
+      const std::int32_t cause = cells.cause[leaf];
       neighbours.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
         const std::size_t o = static_cast<std::size_t>(other);
         const float limit = length + weight(step);
@@ -106,12 +104,12 @@ struct GradientFit {
 /// off by `upper` instead, so that the field still rises to it.
 CellLength fit_cell(const OctreeView& octree, const Neighbours& neighbours, std::span<const float> lengths, std::int32_t leaf,
                     double slope) {
-  const double length = static_cast<double>(lengths[static_cast<std::size_t>(leaf)]);
+  const double length = static_cast<double>(lengths[leaf]);
   double smallest = length, largest = length;
   GradientFit fit;
-  const int level = octree.leaf_levels[static_cast<std::size_t>(leaf)];
+  const int level = octree.leaf_levels[leaf];
   neighbours.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
-    const double other_length = static_cast<double>(lengths[static_cast<std::size_t>(other)]);
+    const double other_length = static_cast<double>(lengths[other]);
     const double unit = step.fine_level > level ? 0.25 : 0.5;  // halves of the smaller cell, in edges of this one
     smallest = std::min(smallest, other_length);
     largest = std::max(largest, other_length);
@@ -154,7 +152,7 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
   ProlongedLengths result;
   result.cells.resize(lengths.length.size());
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
-    result.cells[static_cast<std::size_t>(leaf)] = fit_cell(octree, neighbours, lengths.length, leaf, options.slope);
+    result.cells[leaf] = fit_cell(octree, neighbours, lengths.length, leaf, options.slope);
   result.cause = std::move(lengths.cause);
   return result;
 }

@@ -184,7 +184,7 @@ class FaceRaster {
     double curvature = 0;
     const std::size_t step = (patch.sides.size() + kMaxProbes - 1) / kMaxProbes;
     for (std::size_t i = 0; i < patch.sides.size(); i += step) {
-      const LoopSide& s = loops_.sides()[static_cast<std::size_t>(patch.sides[i])];
+      const LoopSide& s = loops_.sides()[patch.sides[i]];
       const Vec2 middle = 0.5 * (s.a + s.b);
       const Vec2 uv{std::clamp(middle.x, patch.u[0], patch.u[2]), std::clamp(middle.y, patch.v[0], patch.v[2])};
       curvature = std::max(curvature, probe(uv).curvature);

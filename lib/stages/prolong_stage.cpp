@@ -46,7 +46,7 @@ double expected_triangles(const SizingArtifact& sizing) {
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
   const auto [smallest, largest] = std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                                                        [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
-  const double lo = o.scale * static_cast<double>(smallest->length), hi = o.scale * static_cast<double>(largest->length);
+  const double lo = o.scale * smallest->length, hi = o.scale * largest->length;
   StageSummary summary;
   summary.line = fmt::format("{}: {} cells, lengths {:.4g} to {:.4g}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
                              sizing.lengths.cells.size(), lo, hi, o.slope, expected_triangles(sizing), seconds);

@@ -51,8 +51,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t)
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
   std::vector<std::int32_t> order(work.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return work[static_cast<std::size_t>(a)] > work[static_cast<std::size_t>(b)]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return work[a] > work[b]; });
   return order;
 }
 
@@ -67,8 +66,7 @@ class RasterTasks {
   /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
   std::vector<std::int32_t> order() const {
     std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
-    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f)
-      work[static_cast<std::size_t>(n_batches_ + f)] = face_work(static_cast<std::size_t>(f));
+    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f) work[n_batches_ + f] = face_work(static_cast<std::size_t>(f));
     return heaviest_first(work);
   }
 
@@ -104,13 +102,13 @@ class RasterTasks {
   void raster_edges(std::int32_t batch, std::vector<RasterBox>& boxes) const {
     const EdgeId end = std::min((batch + 1) * kEdgesPerTask, model_.tables().n_edges());
     for (EdgeId e = batch * kEdgesPerTask; e < end; ++e) {
-      const std::optional<SamplingLimits>& limits = limits_.edge[static_cast<std::size_t>(e)];
+      const std::optional<SamplingLimits>& limits = limits_.edge[e];
       if (limits) raster_curve(*model_.curve(e), *limits, pack_cause(CauseKind::kEdge, e), boxes);
     }
   }
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes) const {
-    const std::optional<SamplingLimits>& limits = limits_.face[static_cast<std::size_t>(f)];
+    const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (limits) raster_face(*model_.surface(f), loop_polygons(model_, f, *limits), *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
@@ -142,8 +140,8 @@ CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) 
       tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task); },
       [&](std::int32_t task, Bytes&& result) {
         Unpacker unpacker(result);
-        unpacker.get(collected.by_task[static_cast<std::size_t>(task)]);
-        unpacker.get(collected.failures[static_cast<std::size_t>(task)]);
+        unpacker.get(collected.by_task[task]);
+        unpacker.get(collected.failures[task]);
         progress.update(++n_done);
       });
   return collected;
@@ -212,14 +210,13 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Sampl
       [&](std::int32_t f) {
         Packer packer;
         try {
-          packer.add(
-              locate_face(*model.surface(f), loop_polygons(model, f, limits), shape.view(), t.face_area[static_cast<std::size_t>(f)]));
+          packer.add(locate_face(*model.surface(f), loop_polygons(model, f, limits), shape.view(), t.face_area[f]));
         } catch (const std::exception&) {  // reported when it was sampled
           packer.add(std::vector<CellArea>());
         }
         return packer.take();
       },
-      [&](std::int32_t f, Bytes&& result) { Unpacker(result).get(by_face[static_cast<std::size_t>(f)]); });
+      [&](std::int32_t f, Bytes&& result) { Unpacker(result).get(by_face[f]); });
   FaceCells faces;
   for (const std::vector<CellArea>& cells : by_face) faces.append_face(cells);
   return faces;

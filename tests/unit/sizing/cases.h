@@ -28,8 +28,8 @@ inline std::vector<RasterBox> sphere_boxes(int n, unsigned seed = 1) {
 /// Boxes of one length that cover the side x = 0 of the unit box: the prolonged field is length + slope * x.
 inline std::vector<RasterBox> wall_boxes(float length) {
   std::vector<RasterBox> boxes;
-  for (double y = 0; y <= 1; y += static_cast<double>(length))
-    for (double z = 0; z <= 1; z += static_cast<double>(length)) boxes.push_back({{0, y, z}, length, length, 0});
+  for (double y = 0; y <= 1; y += length)
+    for (double z = 0; z <= 1; z += length) boxes.push_back({{0, y, z}, length, length, 0});
   return boxes;
 }
 

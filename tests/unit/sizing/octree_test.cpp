@@ -21,8 +21,7 @@ RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(Caus
 
 bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, double margin) {
   const Vec3 c = octree.shape.view().leaf_center(leaf);
-  const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]) +
-                       static_cast<double>(box.half) + margin;
+  const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[leaf]) + box.half + margin;
   return std::abs(c.x - box.center.x) < reach && std::abs(c.y - box.center.y) < reach && std::abs(c.z - box.center.z) < reach;
 }
 
@@ -53,8 +52,7 @@ TEST(Octree, has_no_cell_larger_than_a_box_it_meets) {
   for (const RasterBox& box : boxes)
     for (std::int32_t leaf = 0; leaf < octree.shape.view().n_leaves(); ++leaf) {
       if (!meets(octree, leaf, box, -1e-5)) continue;
-      ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[static_cast<std::size_t>(leaf)]),
-                2.0 * static_cast<double>(box.half));
+      ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[leaf]), 2.0 * box.half);
     }
 }
 
@@ -67,10 +65,10 @@ TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
       if (meets(octree, leaf, box, -1e-5)) surely = std::min(surely, box.length);
       if (meets(octree, leaf, box, 1e-5)) perhaps = std::min(perhaps, box.length);
     }
-    const float stored = octree.stored_length[static_cast<std::size_t>(leaf)];
+    const float stored = octree.stored_length[leaf];
     ASSERT_LE(stored, surely);
     ASSERT_GE(stored, perhaps);
-    const std::int32_t cause = octree.stored_cause[static_cast<std::size_t>(leaf)];
+    const std::int32_t cause = octree.stored_cause[leaf];
     ASSERT_EQ(std::isinf(stored), cause == kNone);
     if (cause == kNone) continue;
     ASSERT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const RasterBox& b) { return b.length == stored && b.cause == cause; }));
@@ -127,7 +125,7 @@ TEST(Octree, finds_the_leaf_whose_box_holds_the_point) {
     const Vec3 x{uniform(random), uniform(random), uniform(random)};
     const std::int32_t leaf = view.find_leaf(morton::encode(view.grid_point(x)));
     const Vec3 c = view.leaf_center(leaf);
-    const double half = 0.5000001 * view.cell_edge(view.leaf_levels[static_cast<std::size_t>(leaf)]);
+    const double half = 0.5000001 * view.cell_edge(view.leaf_levels[leaf]);
     ASSERT_TRUE(std::abs(x.x - c.x) <= half && std::abs(x.y - c.y) <= half && std::abs(x.z - c.z) <= half);
   }
 }

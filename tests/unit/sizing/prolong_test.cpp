@@ -43,7 +43,7 @@ TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
     const float own = limit;
     neighbours.for_each(a, [&](std::int32_t b, const CellStep&) {
       const double d = distance(c.view().leaf_center(a), c.view().leaf_center(b));
-      limit = std::min(limit, static_cast<float>(static_cast<double>(c.cells.cells[static_cast<std::size_t>(b)].length) + kSlope * d));
+      limit = std::min(limit, static_cast<float>(c.cells.cells[b].length + kSlope * d));
     });
     ASSERT_NEAR(c.cells.cells[i].length, limit, 1e-6F * limit);
     n_limited += c.cells.cells[i].length < own;
@@ -57,7 +57,7 @@ TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
   const RasterOctree raster = build_octree(test::kUnitBox, boxes);
   const OctreeView view = raster.shape.view();
   const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, {kSlope, 0.05});
-  const auto cause_at = [&](Vec3 x) { return cells.cause[static_cast<std::size_t>(view.find_leaf(morton::encode(view.grid_point(x))))]; };
+  const auto cause_at = [&](Vec3 x) { return cells.cause[view.find_leaf(morton::encode(view.grid_point(x)))]; };
   EXPECT_EQ(cause_at({0.25, 0.5, 0.55}), boxes[0].cause);
   EXPECT_EQ(cause_at({0.75, 0.55, 0.5}), boxes[1].cause);
   EXPECT_EQ(cause_at({0.01, 0.01, 0.01}), kNone);
@@ -92,8 +92,8 @@ TEST(Prolong, gradient_never_exceeds_the_slope_nor_leaves_the_neighbours_range) 
     const std::size_t i = static_cast<std::size_t>(a);
     float lo = c.cells.cells[i].length, hi = lo;
     neighbours.for_each(a, [&](std::int32_t b, const CellStep&) {
-      lo = std::min(lo, c.cells.cells[static_cast<std::size_t>(b)].length);
-      hi = std::max(hi, c.cells.cells[static_cast<std::size_t>(b)].length);
+      lo = std::min(lo, c.cells.cells[b].length);
+      hi = std::max(hi, c.cells.cells[b].length);
     });
     const float* g = c.cells.cells[i].gradient;
     const float reach =

@@ -25,7 +25,7 @@ void expect_covered(const Curve& curve, const std::vector<RasterBox>& boxes) {
     const Vec3 x = curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * i / 2000);
     ASSERT_TRUE(std::any_of(boxes.begin(), boxes.end(),
                             [&](const RasterBox& b) {
-                              const double half = static_cast<double>(b.half) * (1 + 1e-6);
+                              const double half = b.half * (1 + 1e-6);
                               return std::abs(x.x - b.center.x) <= half && std::abs(x.y - b.center.y) <= half &&
                                      std::abs(x.z - b.center.z) <= half;
                             }))

@@ -42,7 +42,7 @@ class FormulaSurface : public Surface {
 };
 
 bool contains(const RasterBox& b, Vec3 x) {
-  const double half = static_cast<double>(b.half) * (1 + 1e-6);
+  const double half = b.half * (1 + 1e-6);
   return std::abs(x.x - b.center.x) <= half && std::abs(x.y - b.center.y) <= half && std::abs(x.z - b.center.z) <= half;
 }
 
@@ -54,12 +54,12 @@ struct Sampling {
   double length_at(Vec3 x) const {
     double length = 0;
     for (const RasterBox& b : boxes)
-      if (contains(b, x) && (length == 0 || static_cast<double>(b.length) < length)) length = static_cast<double>(b.length);
+      if (contains(b, x) && (length == 0 || b.length < length)) length = b.length;
     return length;
   }
   double smallest() const {
     double length = 1e300;
-    for (const RasterBox& b : boxes) length = std::min(length, static_cast<double>(b.length));
+    for (const RasterBox& b : boxes) length = std::min<double>(length, b.length);
     return length;
   }
 };

@@ -1,0 +1,125 @@
+#include "io/sizing_artifact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "io/octree_export.h"
+#include "unit/io/sample_artifacts.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+RasterArtifact sample_raster() {
+  RasterArtifact raster;
+  raster.header = sample_header();
+  raster.header.schema = "raster";
+  raster.numbers = {0.01, 0.1, 0.2, 10, 2};
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < 40; ++i)
+    boxes.push_back({{0.02 * i, 0.5, 0.3},
+                     0.01F * static_cast<float>(1 + i % 5),
+                     0.01F * static_cast<float>(1 + i % 5),
+                     pack_cause(CauseKind::kEdge, i)});
+  raster.octree = build_octree({{0, 0, 0}, {1, 1, 1}}, boxes);
+  raster.faces.append_face(std::vector<CellArea>{{1, 0.5F}, {7, 0.25F}});
+  raster.faces.append_face({});
+  return raster;
+}
+
+SizingArtifact sample_sizing() {
+  RasterArtifact raster = sample_raster();
+  SizingArtifact sizing;
+  sizing.header = raster.header;
+  sizing.header.schema = "sizing";
+  sizing.numbers = raster.numbers;
+  sizing.slope = 0.2;
+  sizing.scale = 1.5;
+  sizing.lengths = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {0.2, 0.2});
+  sizing.face_weight = face_weights(raster.faces, sizing.lengths.cells, 1.5);
+  sizing.shape = raster.octree.shape;
+  return sizing;
+}
+
+class SizingArtifacts : public testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return dir_ / name; }
+  TemporaryDirectory dir_;
+};
+
+TEST_F(SizingArtifacts, raster_is_the_same_bytes_after_reading_and_writing) {
+  const std::string hash = write_raster(file("a.hdf"), sample_raster());
+  EXPECT_EQ(write_raster(file("b.hdf"), read_raster(file("a.hdf"))), hash);
+  EXPECT_EQ(read_bytes(file("a.hdf")), read_bytes(file("b.hdf")));
+}
+
+TEST_F(SizingArtifacts, sizing_is_the_same_bytes_after_reading_and_writing) {
+  const std::string hash = write_sizing(file("a.hdf"), sample_sizing());
+  EXPECT_EQ(write_sizing(file("b.hdf"), read_sizing(file("a.hdf"))), hash);
+  EXPECT_EQ(read_bytes(file("a.hdf")), read_bytes(file("b.hdf")));
+}
+
+TEST_F(SizingArtifacts, numbers_are_content) {
+  SizingArtifact sizing = sample_sizing();
+  const std::string hash = write_sizing(file("a.hdf"), sizing);
+  sizing.slope = 0.3;
+  EXPECT_NE(write_sizing(file("b.hdf"), sizing), hash);
+}
+
+TEST_F(SizingArtifacts, mapped_field_answers_like_the_one_in_memory) {
+  const SizingArtifact sizing = sample_sizing();
+  write_sizing(file("a.hdf"), sizing);
+  const MappedSizing mapped = map_sizing(file("a.hdf"));
+  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale}, nullptr);
+  EXPECT_EQ(mapped.field->min_size(), field.min_size());
+  EXPECT_EQ(mapped.field->slope(), field.slope());
+  EXPECT_EQ(mapped.face_weight, sizing.face_weight);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-0.1, 1.1);
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 x{uniform(random), uniform(random), uniform(random)};
+    ASSERT_EQ(static_cast<const SizeField&>(*mapped.field).size(x), static_cast<const SizeField&>(field).size(x));
+  }
+}
+
+TEST_F(SizingArtifacts, mapped_field_outlives_the_name_of_its_file) {
+  write_sizing(file("a.hdf"), sample_sizing());
+  const std::unique_ptr<SizeField> field = open_sizing(file("a.hdf"), nullptr);
+  std::filesystem::remove(file("a.hdf"));
+  EXPECT_TRUE(std::isfinite(field->size(Vec3{0.5, 0.5, 0.5})));
+}
+
+TEST_F(SizingArtifacts, refuse_each_other) {
+  write_raster(file("r.hdf"), sample_raster());
+  write_sizing(file("s.hdf"), sample_sizing());
+  EXPECT_ERROR(read_sizing(file("r.hdf")), kInput, "st-prolong");
+  EXPECT_ERROR(open_sizing(file("r.hdf"), nullptr), kInput, "st-prolong");
+  EXPECT_ERROR(read_raster(file("s.hdf")), kInput, "st-raster");
+}
+
+TEST_F(SizingArtifacts, refuse_arrays_that_do_not_fit) {
+  SizingArtifact sizing = sample_sizing();
+  sizing.shape.leaf_levels.pop_back();
+  write_sizing(file("a.hdf"), sizing);
+  EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "leaf_level");
+  EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "leaf_level");
+  sizing = sample_sizing();
+  sizing.lengths.cells.pop_back();
+  write_sizing(file("a.hdf"), sizing);
+  EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "cell");
+  EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "cell");
+}
+
+TEST_F(SizingArtifacts, export_needs_a_vtu_name_and_an_octree) {
+  write_raster(file("r.hdf"), sample_raster());
+  write_mesh(file("m.hdf"), sample_mesh());
+  EXPECT_ERROR(export_octree(file("r.hdf"), file("r.stl")), kUsage, ".vtu");
+  EXPECT_ERROR(export_octree(file("m.hdf"), file("m.vtu")), kInput, "mesh");
+  export_octree(file("r.hdf"), file("r.vtu"));
+  EXPECT_GT(read_bytes(file("r.vtu")).size(), 1000u);
+}
+
+}  // namespace
+}  // namespace st
