@@ -3,6 +3,8 @@
 //   sizing_bench --cells MILLIONS         synthetic octree: growth and query times
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -121,17 +123,21 @@ void bench_model(const std::string& path, double lmax_percent) {
   time_octree(t.box(), boxes, limits.far_length);
 }
 
-/// Boxes on a sphere, so many that the octree has about `millions` cells.
+/// Boxes on a sphere as raster_face would place them, face after face, so many that the octree has about `millions` cells.
 void bench_cells(double millions) {
   std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  const double length = 0.0016 / std::sqrt(millions);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const double smallest = 0.0018 / std::sqrt(millions), spacing = 1.3;  // in lengths
   std::vector<RasterBox> boxes;
-  const auto n = static_cast<std::size_t>(2 * 4 * kPi * 0.16 / (length * length));
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 x = 0.4 * normalized(Vec3{normal(random), normal(random), normal(random)});
-    const float own = static_cast<float>(length * (1 + 4 * (x.z + 0.4)));
-    boxes.push_back({x, own, own, pack_cause(CauseKind::kFace, static_cast<std::int32_t>(i % 100))});
+  constexpr int kBands = 64;
+  for (int band = 0; band < kBands; ++band) {
+    const double z0 = -1 + 2.0 * band / kBands, length = smallest * (1 + 2 * (z0 + 1));
+    const auto n = static_cast<int>(4 * kPi * 0.16 / kBands / (spacing * spacing * length * length));
+    for (int i = 0; i < n; ++i) {  // along the band, so that neighbours in the list are neighbours in space
+      const double z = z0 + 2.0 * uniform(random) / kBands, a = 2 * kPi * i / n, r = std::sqrt(std::max(0.0, 1 - z * z));
+      const float own = static_cast<float>(length);
+      boxes.push_back({0.4 * Vec3{r * std::cos(a), r * std::sin(a), z}, own, own, pack_cause(CauseKind::kFace, band)});
+    }
   }
   time_octree({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, boxes, 0.1);
 }
