@@ -32,23 +32,21 @@ gp_Pnt end(const Handle(Geom_Curve) & c) { return c->Value(c->LastParameter()); 
 }  // namespace
 
 gp_Pnt profile_point(const Section& s, double p) {
-  const double c = p == 0.5 ? 0.0 : std::cos(M_PI * p), x = c * c;
+  const double c = 1 - 2 * p, x = c * c;  // smooth at the nose, and no stationary point at the trailing edge
   const double chordwise = s.chord * x, normal = s.chord * (mean_line(s, x) + half_thickness(s, c));
   const double dx = chordwise * std::cos(s.twist) + normal * std::sin(s.twist),
                dn = normal * std::cos(s.twist) - chordwise * std::sin(s.twist);
   return gp_Pnt(s.leading_edge.X() + dx, s.leading_edge.Y() - dn * std::sin(s.roll), s.leading_edge.Z() + dn * std::cos(s.roll));
 }
 
-gp_Pnt lower_point(const Section& section, double chord_fraction) {
-  return profile_point(section, 1 - std::acos(std::sqrt(chord_fraction)) / M_PI);
-}
+gp_Pnt lower_point(const Section& section, double chord_fraction) { return profile_point(section, 0.5 * (1 + std::sqrt(chord_fraction))); }
 
 std::vector<double> profile_parameters() { return linspace(0, 1, 49); }
 
 std::vector<double> profile_splits(const std::vector<double>& chord_fractions) {
   std::vector<double> splits = {0.5};
   for (double f : chord_fractions) {
-    const double p = std::acos(std::sqrt(f)) / M_PI;
+    const double p = 0.5 * (1 - std::sqrt(f));
     splits.insert(splits.begin(), p);
     splits.push_back(1 - p);
   }
