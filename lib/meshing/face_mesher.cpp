@@ -11,6 +11,9 @@ namespace st {
 namespace {
 
 constexpr double kSnap = 1e-3;             // of the requested length: same-id nodes nearer than this are one (KERNEL.md)
+constexpr double kSnapPlane = 0.05;        // likewise in the scaled plane, where the surface is singular and all steps are short
+constexpr double kSmallStep = 2e-3;        // of the range of (u,v): far less than the steps between the nodes of a pole
+constexpr double kSingular = 0.02;         // of its mean: a derivative shorter than this makes no reliable normal
 constexpr int kProbe = 6;                  // grid of the scale of the plane
 constexpr int kAreaProbe = 24;             // grid of the expected number of nodes
 constexpr double kRunaway = 30;            // times the expected number of nodes
@@ -77,6 +80,7 @@ class FaceMesher {
       MeshNode n;
       n.p = {b.uv.x * work_.scale.x, b.uv.y * work_.scale.y};
       work_.evaluate(n);
+      n.normal = reliable_normal(n);
       n.x = b.x;
       n.h = n.request = b.h;
       n.id = b.id;
@@ -86,7 +90,7 @@ class FaceMesher {
       for (std::int32_t t : twins) {
         const MeshNode& o = work_.mesh.nodes[t];
         const Vec2 d = o.p - n.p;
-        if (norm(d.x * n.du + d.y * n.dv) < kSnap * b.h && norm(d) < kSnap * b.h * 10) found = t;
+        if (norm(d.x * n.du + d.y * n.dv) < kSnap * b.h && (norm(d) < kSnapPlane * b.h || is_small_step(d))) found = t;
         if (d.x == 0 && d.y == 0) found = t;
       }
       if (found == kNone) {
@@ -97,6 +101,23 @@ class FaceMesher {
       }
       node_of_[i] = found;
     }
+    for (const auto& [id, twins] : same)  // a degenerate edge of no extent is no pole
+      if (twins.size() == 1) work_.mesh.nodes[twins[0]].is_pole = false;
+  }
+
+  bool is_small_step(Vec2 d) const {
+    return std::abs(d.x) < kSmallStep * work_.scale.x * (surface_.u_max() - surface_.u_min()) &&
+           std::abs(d.y) < kSmallStep * work_.scale.y * (surface_.v_max() - surface_.v_min());
+  }
+
+  /// The normal a little inside where the parametrisation is singular at the boundary.
+  Vec3 reliable_normal(const MeshNode& n) const {
+    if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
+    const Vec2 uv = work_.to_uv(n.p), middle{0.5 * (surface_.u_min() + surface_.u_max()), 0.5 * (surface_.v_min() + surface_.v_max())};
+    MeshNode inside = n;
+    inside.p = n.p + 0.01 * Vec2{(middle.x - uv.x) * work_.scale.x, (middle.y - uv.y) * work_.scale.y};
+    work_.evaluate(inside);
+    return n.is_pole ? Vec3{} : inside.normal;
   }
 
   void add_segments() {
