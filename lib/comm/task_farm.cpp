@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <list>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -18,8 +20,9 @@ namespace {
 
 constexpr int kTagTask = 1, kTagResult = 2, kTagPayload = 3;
 constexpr std::int32_t kStop = -1;
-// A worker whose last task took less than this gets one task ahead.
-constexpr double kShortTaskSeconds = 0.010;
+// Whose tasks are short gets as many ahead as make up this time, so that no answer is waited for.
+constexpr double kAheadSeconds = 0.010;
+constexpr int kMaxAhead = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -71,33 +74,66 @@ Outcome run_task(std::int32_t task, const Compute& compute) {
   return outcome;
 }
 
-void send_outcome(const Outcome& outcome) {
-  const OutcomeMessage message{outcome.task, outcome.code, outcome.seconds, outcome.bytes.size()};
-  require_mpi(MPI_Send(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD), "MPI_Send");
-  for (std::uint64_t start = 0; start < message.n_bytes; start += kMaxMessageBytes) {
-    const int count = static_cast<int>(std::min(kMaxMessageBytes, message.n_bytes - start));
-    require_mpi(MPI_Send(outcome.bytes.data() + start, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD), "MPI_Send");
+/// The bytes of an outcome on their way, in pieces that MPI can count. Neither side waits for the other: a worker goes on computing.
+class Transfer {
+ public:
+  /// Worker: sends what rank 0 has to know, then the bytes.
+  static Transfer send(Outcome&& outcome) {
+    Transfer transfer(std::move(outcome));
+    OutcomeMessage& message = *transfer.message_;
+    MPI_Request request;
+    require_mpi(MPI_Isend(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD, &request), "MPI_Isend");
+    transfer.requests_.push_back(request);
+    transfer.for_each_piece([&](std::byte* piece, int count) { return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request); }, request);
+    return transfer;
   }
-}
 
-/// Receives the outcome that a probe has announced from `rank`.
-Outcome receive_outcome(int rank) {
-  OutcomeMessage message{};
-  require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
-  Outcome outcome{message.task, message.code, message.seconds, Bytes(message.n_bytes)};
-  for (std::uint64_t start = 0; start < message.n_bytes; start += kMaxMessageBytes) {
-    const int count = static_cast<int>(std::min(kMaxMessageBytes, message.n_bytes - start));
-    require_mpi(MPI_Recv(outcome.bytes.data() + start, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+  /// Rank 0: receives the message that a probe has announced from `rank`, and starts to receive the bytes.
+  static Transfer receive(int rank) {
+    OutcomeMessage message{};
+    require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+    Transfer transfer({message.task, message.code, message.seconds, Bytes(message.n_bytes)});
+    MPI_Request request;
+    transfer.for_each_piece([&](std::byte* piece, int count) { return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request); }, request);
+    return transfer;
   }
-  return outcome;
-}
 
-/// Rank of the sender of a waiting outcome, if there is one.
-std::optional<int> probe_outcome() {
-  int is_there = 0;
-  MPI_Status status;
-  require_mpi(MPI_Iprobe(MPI_ANY_SOURCE, kTagResult, MPI_COMM_WORLD, &is_there, &status), "MPI_Iprobe");
-  return is_there ? std::optional<int>(status.MPI_SOURCE) : std::nullopt;
+  bool is_done() {
+    int done = 0;
+    require_mpi(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+    return done != 0;
+  }
+
+  const Outcome& outcome() const { return outcome_; }
+  Outcome take() { return std::move(outcome_); }
+
+ private:
+  explicit Transfer(Outcome&& outcome)
+      : outcome_(std::move(outcome)),
+        message_(std::make_unique<OutcomeMessage>(OutcomeMessage{outcome_.task, outcome_.code, outcome_.seconds, outcome_.bytes.size()})) {}
+
+  template <class Post>
+  void for_each_piece(const Post& post, MPI_Request& request) {
+    const std::uint64_t n = outcome_.bytes.size();
+    for (std::uint64_t start = 0; start < n; start += kMaxMessageBytes) {
+      require_mpi(post(outcome_.bytes.data() + start, static_cast<int>(std::min(kMaxMessageBytes, n - start))), "the transfer of a result");
+      requests_.push_back(request);
+    }
+  }
+
+  Outcome outcome_;
+  std::unique_ptr<OutcomeMessage> message_;   ///< stays where it is while it is sent
+  std::vector<MPI_Request> requests_;
+};
+
+/// Is there a message? The first look may only fetch it, the second one sees it.
+bool probe(int source, int tag, MPI_Status& status) {
+  for (int look = 0; look < 2; ++look) {
+    int is_there = 0;
+    require_mpi(MPI_Iprobe(source, tag, MPI_COMM_WORLD, &is_there, &status), "MPI_Iprobe");
+    if (is_there) return true;
+  }
+  return false;
 }
 
 /// Rank 0's own computing thread. It never calls MPI.
@@ -202,24 +238,47 @@ class Distributor {
     rank == 0 ? local_.give(task) : send_task(rank, task);
   }
 
-  /// Takes note of an outcome and keeps its rank busy. Answers come before collecting: that may take its time.
-  void receive(int rank, Outcome&& outcome) {
-    if (outcome.code != 0) {
-      const auto* text = reinterpret_cast<const char*>(outcome.bytes.data());
-      throw Error(static_cast<ExitCode>(outcome.code), std::string(text, outcome.bytes.size()));
-    }
+  /// One task less is out; keeps the rank busy. Comes before the bytes are there and before collecting: that may take its time.
+  void answer(int rank, double seconds) {
     --n_pending_[rank];
-    const int n_wanted = outcome.seconds < kShortTaskSeconds ? 2 : 1;
+    const int n_wanted = 1 + static_cast<int>(std::min<double>(kMaxAhead, kAheadSeconds / std::max(seconds, 1e-9)));
     while (n_pending_[rank] < n_wanted && n_given_ < order_.size()) give(rank);
-    received_.push_back(std::move(outcome));
+  }
+
+  void accept(Outcome&& outcome) {
+    if (outcome.code == 0) return received_.push_back(std::move(outcome));
+    const auto* text = reinterpret_cast<const char*>(outcome.bytes.data());
+    throw Error(static_cast<ExitCode>(outcome.code), std::string(text, outcome.bytes.size()));
   }
 
   /// True when something came.
   bool receive_all() {
-    const std::size_t n_before = received_.size();
-    while (auto outcome = local_.take()) receive(0, std::move(*outcome));
-    while (const auto rank = probe_outcome()) receive(*rank, receive_outcome(*rank));
-    return received_.size() != n_before;
+    const std::size_t n_before = received_.size() + incoming_.size();
+    while (auto outcome = local_.take()) {
+      answer(0, outcome->seconds);
+      accept(std::move(*outcome));
+    }
+    for (MPI_Status status; probe(MPI_ANY_SOURCE, kTagResult, status);) {
+      incoming_.push_back(Transfer::receive(status.MPI_SOURCE));
+      answer(status.MPI_SOURCE, incoming_.back().outcome().seconds);
+    }
+    const bool has_news = received_.size() + incoming_.size() != n_before;
+    return accept_arrived() || has_news;
+  }
+
+  /// True when the bytes of an outcome are complete.
+  bool accept_arrived() {
+    bool has_news = false;
+    for (auto it = incoming_.begin(); it != incoming_.end();) {
+      if (!it->is_done()) {
+        ++it;
+        continue;
+      }
+      accept(it->take());
+      it = incoming_.erase(it);
+      has_news = true;
+    }
+    return has_news;
   }
 
   /// Collects, but answers whoever reports meanwhile.
@@ -237,20 +296,40 @@ class Distributor {
   const Collect& collect_;
   std::vector<int> n_pending_;   ///< per rank: tasks given, outcome not yet received
   std::size_t n_given_ = 0, n_collected_ = 0;
+  std::list<Transfer> incoming_;
   std::deque<Outcome> received_;
   LocalWorker local_;
 };
 
-std::int32_t receive_task() {
-  for (Backoff backoff;; backoff.sleep()) {
-    int is_there = 0;
-    require_mpi(MPI_Iprobe(0, kTagTask, MPI_COMM_WORLD, &is_there, MPI_STATUS_IGNORE), "MPI_Iprobe");
-    if (is_there) break;
+/// A worker's side: its results on their way, and its next task.
+class Worker {
+ public:
+  explicit Worker(const Compute& compute) : compute_(compute) {}
+
+  void run() {
+    for (std::int32_t task = receive_task(); task != kStop; task = receive_task()) outgoing_.push_back(Transfer::send(run_task(task, compute_)));
+    while (is_sending()) std::this_thread::yield();
   }
-  std::int32_t task = kStop;
-  require_mpi(MPI_Recv(&task, 1, MPI_INT32_T, 0, kTagTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
-  return task;
-}
+
+ private:
+  bool is_sending() {
+    outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
+    return !outgoing_.empty();
+  }
+
+  /// Waits asleep, but not while results need this process to get through.
+  std::int32_t receive_task() {
+    MPI_Status status;
+    for (Backoff backoff; !probe(0, kTagTask, status);) is_sending() ? std::this_thread::yield() : backoff.sleep();
+    is_sending();
+    std::int32_t task = kStop;
+    require_mpi(MPI_Recv(&task, 1, MPI_INT32_T, 0, kTagTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+    return task;
+  }
+
+  const Compute& compute_;
+  std::list<Transfer> outgoing_;
+};
 
 }  // namespace
 
@@ -265,8 +344,6 @@ void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const
   Distributor(n_ranks, order, compute, collect).run();
 }
 
-void work_on_tasks(const Compute& compute) {
-  for (std::int32_t task = receive_task(); task != kStop; task = receive_task()) send_outcome(run_task(task, compute));
-}
+void work_on_tasks(const Compute& compute) { Worker(compute).run(); }
 
 }  // namespace st

@@ -1,8 +1,8 @@
 // The task farm behind Communicator::run_tasks. Internal to comm.
 //
 // Rank 0 hands out tasks and collects results on its main thread, asleep while there is nothing to do, and computes on a second thread; MPI is called from
-// main threads only. Workers get their next task when they send a result. Tasks that take less than a message's latency matters are given
-// one ahead, so nobody waits for them; long ones are not, for a task that waits behind another long one could run elsewhere.
+// main threads only. Workers get their next task when they send a result. Whose tasks are so short that a message's latency matters gets some
+// ahead; long ones are not given ahead, for a task that waits behind another long one could run elsewhere.
 #pragma once
 
 #include <chrono>

@@ -183,7 +183,7 @@ void gives_short_tasks_ahead(const Communicator& comm) {
   const double seconds = wall_seconds([&] { n_done = run_and_check(comm, 5000, [](std::int32_t) { burn(0.0002); }); });
   if (!comm.is_root()) return;
   std::fprintf(stderr, "%d + %d tasks of 0.2 ms in %.2f s\n", n_done[0], n_done[1], seconds);
-  CHECK(n_done[0] >= 500 && n_done[1] >= 500);
+  CHECK(n_done[0] >= 100 && n_done[1] >= 100);
 }
 
 int run(int argc, char** argv) {
