@@ -10,7 +10,7 @@ mkdir -p "$build"
 
 say() { if [ -t 1 ]; then printf '\r\033[K%s' "$1"; fi; }
 fail() {
-  tail -n 60 "$log" >&2
+  { grep -qm1 "^FAILED" "$log" && sed -n "/^FAILED/,\$p" "$log" || tail -n 40 "$log"; } | cut -c1-400 | head -n 60 >&2
   echo "build: error: $1; the whole log is $log" >&2
   exit 1
 }
