@@ -13,7 +13,7 @@ def need_display():
         return
     if not shutil.which("xvfb-run"):
         sys.exit("render: error: no display and no xvfb-run: install the packages xvfb and xauth")
-    os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable] + sys.argv)
+    os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable] + sys.argv)
 
 
 need_display()
@@ -87,7 +87,7 @@ def look(renderer, focus, direction, half_height):
     renderer.ResetCameraClippingRange()
 
 
-def write_png(window, path, n_colours=128):
+def write_png(window, path, n_colours=256):
     """Renders and writes a PNG with a palette: about a third of the size of true colour."""
     window.Render()
     grab = vtk.vtkWindowToImageFilter()

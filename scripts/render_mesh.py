@@ -14,6 +14,7 @@ from render_common import numpy, vtk, vtk_to_numpy
 from vtk.util import numpy_support
 
 SIZE = (1280, 800)
+OUTER_COLOUR = (0.88, 0.89, 0.91)
 OUTER = ("symmetry", "farfield")  # hidden in all views but the one that is named after it
 
 
@@ -35,22 +36,26 @@ class Mesh:
         flags = numpy.array([any(word in n.lower() for word in OUTER) for n in self.names])
         return flags[self.group]
 
-    def box(self, prefix=None):
-        """Corners of the bounding box of the groups whose name starts so; None when there is no such group. Without prefix: the walls."""
+    def nodes(self, prefix=None):
+        """Coordinates of the corners of the groups whose name starts so; None when there is no such group. Without prefix: of the walls."""
         selected = ~self.is_outer()
         if prefix is not None:
             selected = numpy.array([n.startswith(prefix) for n in self.names])[self.group]
-        if not selected.any():
-            return None
-        used = self.points[self.triangles[selected].ravel()]
-        return numpy.array([used.min(axis=0), used.max(axis=0)])
+        return self.points[self.triangles[selected].ravel()] if selected.any() else None
+
+    def box(self, prefix=None):
+        """Corners of the bounding box of nodes(prefix), or None."""
+        nodes = self.nodes(prefix)
+        return None if nodes is None else numpy.array([nodes.min(axis=0), nodes.max(axis=0)])
 
     def surface(self, selected):
         """Selected triangles as poly data in the colours of their groups."""
         poly = vtk.vtkPolyData()
         poly.SetPoints(self.grid.GetPoints())
         poly.SetPolys(cell_list(self.triangles[selected]))
-        colours = (255 * numpy.array(common.PALETTE)[self.group[selected] % len(common.PALETTE)]).astype(numpy.uint8)
+        palette = numpy.array([OUTER_COLOUR if any(word in n.lower() for word in OUTER) else common.PALETTE[i % len(common.PALETTE)]
+                               for i, n in enumerate(self.names)])
+        colours = (255 * palette[self.group[selected]]).astype(numpy.uint8)
         array = numpy_support.numpy_to_vtk(colours, deep=1)
         array.SetName("colour")
         poly.GetCellData().SetScalars(array)
@@ -78,8 +83,14 @@ def cell_list(nodes):
 
 def scene(mesh, selected, edge_width):
     """Surface in the colours of its groups with the triangle edges on it."""
+    normals = vtk.vtkPolyDataNormals()  # of the cells: without them the renderer differentiates coordinates, which shows as stripes
+    normals.SetInputData(mesh.surface(selected))
+    normals.ComputeCellNormalsOn()
+    normals.ComputePointNormalsOff()
+    normals.SplittingOff()
+    normals.ConsistencyOff()
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputData(mesh.surface(selected))
+    mapper.SetInputConnection(normals.GetOutputPort())
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     surface = vtk.vtkActor()
     surface.SetMapper(mapper)
@@ -92,11 +103,6 @@ def scene(mesh, selected, edge_width):
     edges.GetProperty().LightingOff()
     renderer.AddActor(edges)
     return renderer
-
-
-def at(box, where):
-    """Point of a box by fractions."""
-    return box[0] + (box[1] - box[0]) * numpy.array(where)
 
 
 def axes(direction):
@@ -135,19 +141,22 @@ def views(mesh):
     result = {"mesh_whole": (focus, direction, half_height, walls, 0.5)}
 
     def close_up(name, group, where, direction, half_height, edge_width=1.0, selected=walls):
-        box = mesh.box(group)
-        if box is None:
+        """Picture around the node of a group that is nearest to a place in its box, given by fractions."""
+        nodes = mesh.nodes(group)
+        if nodes is None:
             print(f"render: no group '{group}*': view {name} left out", file=sys.stderr)
-        else:
-            result[name] = (at(box, where), direction, half_height * size, selected, edge_width)
+            return
+        low, high = nodes.min(axis=0), nodes.max(axis=0)
+        focus = nodes[numpy.argmin(numpy.linalg.norm(nodes - (low + (high - low) * numpy.array(where)), axis=1))]
+        result[name] = (focus, direction, half_height * size, selected, edge_width)
 
     not_far = numpy.array(["farfield" not in n.lower() for n in mesh.names])[mesh.group]
-    close_up("mesh_symmetry", "fuselage", (0.5, 0, 0.45), (-0.35, 0.9, 0.3), 0.25, 0.5, not_far)
-    close_up("mesh_nose", "fuselage", (0.07, 0.5, 0.3), (-0.75, 0.6, 0.25), 0.05)
-    close_up("mesh_wing_root", "belly_fairing", (0.35, 1, 0.5), (-0.55, 0.75, 0.4), 0.065)
-    close_up("mesh_wing_tip", "wing_tip", (0.3, 0.5, 0), (-0.35, 0.85, 0.45), 0.028)
-    close_up("mesh_trailing_edge", "wing_te", (0.965, 0.985, 0.93), (0.8, -0.5, 0.25), 0.004)
-    close_up("mesh_nacelle", "nacelle_outer", (0.5, 0.5, 0.6), (-0.6, 0.75, 0.3), 0.05)
+    close_up("mesh_symmetry", "fuselage", (0.5, 0, 0.7), (-0.35, 0.9, 0.3), 0.28, 0.5, not_far)
+    close_up("mesh_nose", "fuselage", (0.08, 0.7, 0.5), (-0.75, 0.6, 0.25), 0.05)
+    close_up("mesh_wing_root", "belly_fairing", (0.3, 1, 0.6), (-0.55, 0.75, 0.4), 0.06)
+    close_up("mesh_wing_tip", "wing_lower", (0.945, 0.965, 0.72), (-0.35, 0.85, 0.35), 0.03)
+    close_up("mesh_trailing_edge", "wing_te", (0.6, 0.65, 0.4), (0.9, 0.25, 0.35), 0.003)
+    close_up("mesh_nacelle", "nacelle_outer", (0.5, 0.8, 0.85), (-0.6, 0.75, 0.3), 0.048)
     close_up("mesh_nacelle_lip", "nacelle_outer", (0.03, 0.5, 0.95), (-0.75, 0.45, 0.45), 0.011)
     return result
 
