@@ -13,21 +13,42 @@ constexpr double kGoodQuality = 0.93;      // nodes whose triangles are all bett
 constexpr double kShortEdge = 0.55;        // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;         // of the requested length: no collapse makes such an edge
 constexpr double kSwapGain = 1e-3;
+constexpr double kSwapBelow = 0.9;         // pairs of triangles that are both better are left alone
+constexpr double kRelaxLeast = 0.55;       // no triangle worse than this is made for the sake of the valence
 
 class Enhancer {
  public:
   explicit Enhancer(FaceWork& work) : w_(work), m_(work.mesh) {}
 
   void run(int rounds) {
+    start();
     swap_sweeps();
     for (int round = 0; round < rounds; ++round) {
       if (round < 2) collapse_sweep();
+      if (round < 2) relax_sweep();
       smooth_sweep();
       swap_sweeps();
     }
   }
 
  private:
+  void start() {
+    quality_.resize(m_.triangles.size());
+    degree_.assign(m_.nodes.size(), 0);
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      if (!is_inside(m_.triangles[i])) continue;
+      update(static_cast<std::int32_t>(i));
+      for (std::int32_t v : m_.triangles[i].v) ++degree_[v];
+    }
+  }
+
+  void update(std::int32_t t) {
+    const PlaneTriangle& r = m_.triangles[t];
+    quality_[t] = static_cast<float>(quality(r.v[0], r.v[1], r.v[2]));
+  }
+
+  bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
+
   /// 4 sqrt(3) A / sum l^2 in space, negative where the triangle is turned against the surface.
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
     const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
@@ -55,25 +76,66 @@ class Enhancer {
     }
   }
 
-  bool try_swap(std::int32_t t, int k) {
+  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment, the rim, or the edge's second visit.
+  struct Quad {
+    std::int32_t t, o, a, b, c, d;
+  };
+  bool quad_at(std::int32_t t, int k, Quad& q) const {
     const PlaneTriangle& r = m_.triangles[t];
     const std::int32_t o = r.n[k];
     if (o < t || (r.constrained >> k & 1)) return false;  // each edge once; kNone is negative
     const PlaneTriangle& s = m_.triangles[o];
     const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
-    const std::int32_t a = r.v[k], b = r.v[kNext[k]], c = r.v[kPrev[k]], d = s.v[kPrev[j]];
-    const MeshNode &nc = m_.nodes[c], &nd = m_.nodes[d];
-    if (nc.id != kNone && nc.id == nd.id) return false;  // seam twins
-    if (nc.is_pole && nd.is_pole) return false;
-    const double before = std::min(quality(a, b, c), quality(b, a, d));
-    if (before > 0.9) return false;
-    const double after = std::min(quality(c, a, d), quality(c, d, b));
-    if (after <= before + kSwapGain || !m_.can_swap(t, k)) return false;
-    // a new edge must not run along the surface much further than through the air
-    const double chord = distance(nc.x, nd.x);
-    if (w_.edge_length(c, d) > chord && w_.edge_length(a, b) <= distance(m_.nodes[a].x, m_.nodes[b].x)) return false;
-    m_.swap(t, k);
+    q = {t, o, r.v[k], r.v[kNext[k]], r.v[kPrev[k]], s.v[kPrev[j]]};
     return true;
+  }
+
+  /// May c-d replace a-b? Not between seam twins or nodes of a pole, nor along the surface much further than through the air.
+  bool may_swap(const Quad& q, int k) const {
+    const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
+    if ((nc.id != kNone && nc.id == nd.id) || (nc.is_pole && nd.is_pole) || !m_.can_swap(q.t, k)) return false;
+    const double chord = distance(nc.x, nd.x);
+    return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > distance(m_.nodes[q.a].x, m_.nodes[q.b].x);
+  }
+
+  void swap(const Quad& q, int k) {
+    m_.swap(q.t, k);
+    update(q.t);
+    update(q.o);
+    --degree_[q.a];
+    --degree_[q.b];
+    ++degree_[q.c];
+    ++degree_[q.d];
+  }
+
+  bool try_swap(std::int32_t t, int k) {
+    Quad q;
+    if (!quad_at(t, k, q)) return false;
+    const double before = std::min(quality_[q.t], quality_[q.o]);
+    if (before > kSwapBelow) return false;
+    const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
+    if (after <= before + kSwapGain || !may_swap(q, k)) return false;
+    swap(q, k);
+    return true;
+  }
+
+  /// Swaps towards six triangles about every inner node, where that costs little quality; smoothing earns it back (Frey and Field 1991).
+  void relax_sweep() {
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      if (!is_inside(m_.triangles[i])) continue;
+      for (int k = 0; k < 3; ++k) try_relax(static_cast<std::int32_t>(i), k);
+    }
+  }
+
+  void try_relax(std::int32_t t, int k) {
+    Quad q;
+    if (!quad_at(t, k, q)) return;
+    if (!is_inner(q.a) || !is_inner(q.b) || !is_inner(q.c) || !is_inner(q.d)) return;
+    if (degree_[q.a] + degree_[q.b] - degree_[q.c] - degree_[q.d] < 3) return;
+    if (degree_[q.a] <= 5 || degree_[q.b] <= 5) return;
+    const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
+    if (after < kRelaxLeast || !may_swap(q, k)) return;
+    swap(q, k);
   }
 
   void smooth_sweep() {
@@ -97,8 +159,11 @@ class Enhancer {
   void smooth(std::int32_t i) {
     if (!m_.ring_of(i, around_, tris_)) return;
     const MeshNode& old = m_.nodes[i];
-    double mean_before;
-    const double before = ring_quality(old, mean_before);
+    double before = 2, mean_before = 0;
+    for (std::int32_t t : tris_) {
+      before = std::min<double>(before, quality_[t]);
+      mean_before += quality_[t] / static_cast<double>(tris_.size());
+    }
     if (before > kGoodQuality) return;
     // mean of the ring, each neighbour pulled to its requested distance
     Vec3 target{};
@@ -126,6 +191,7 @@ class Enhancer {
       const double after = ring_quality(moved, mean_after);
       if (after > before + 1e-4 || (after > 0.6 && after > before - 0.05 && mean_after > mean_before + 1e-4)) {
         m_.nodes[i] = moved;
+        for (std::int32_t t : tris_) update(t);
         return;
       }
     }
@@ -151,8 +217,8 @@ class Enhancer {
     double shortest = 1e300;
     for (std::int32_t j : around_) shortest = std::min(shortest, distance(node.x, m_.nodes[j].x) / (0.5 * (node.h + m_.nodes[j].h)));
     if (shortest > kShortEdge && n > 4) return;
-    double mean;
-    const double before = ring_quality(node, mean);
+    double before = 2;
+    for (std::int32_t t : tris_) before = std::min<double>(before, quality_[t]);
     int best = -1;
     double best_quality = n <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;
     for (int c = 0; c < n; ++c) {
@@ -162,7 +228,13 @@ class Enhancer {
         best = c;
       }
     }
-    if (best >= 0) m_.collapse(i, best, around_, tris_);
+    if (best < 0) return;
+    --degree_[around_[(best + 1) % n]];
+    --degree_[around_[(best + n - 1) % n]];
+    degree_[around_[best]] += n - 4;
+    m_.collapse(i, best, around_, tris_);
+    for (std::int32_t t : tris_)
+      if (m_.triangles[t].state != kDead) update(t);
   }
 
   /// Worst quality after moving the node onto ring node c; -2 when invalid.
@@ -189,6 +261,8 @@ class Enhancer {
 
   FaceWork& w_;
   Triangulation& m_;
+  std::vector<float> quality_;           // of each inside triangle, kept up to date
+  std::vector<std::int32_t> degree_;     // triangles at each node
   std::vector<std::int32_t> around_, tris_;
 };
 
