@@ -136,10 +136,11 @@ void make(const std::string& path) {
 }  // namespace aircraft
 
 int main(int argc, char** argv) {
-  if (argc != 2 || argv[1][0] == '-') {
-    std::fprintf(stderr,
+  const bool wants_help = argc == 2 && std::string(argv[1]) == "--help";
+  if (wants_help || argc != 2 || argv[1][0] == '-') {
+    std::fprintf(wants_help ? stdout : stderr,
                  "usage: make_aircraft OUT.step\nWrites a generic transport aircraft (half configuration, metres) in a half box of air.\n");
-    return 2;
+    return wants_help ? 0 : 2;
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();  // no chatter of the STEP translator
   try {
