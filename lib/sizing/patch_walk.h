@@ -131,10 +131,24 @@ class PatchWalk {
       return true;
     }
     for (std::size_t k = 0; k < 9; ++k) {
-      patch.is_inside[k] = loops_.contains(patch.uv(k));
+      patch.is_inside[k] = loops_.contains(patch.uv(k)) || is_on_loop(patch, patch.uv(k));
       patch.n_inside += patch.is_inside[k];
     }
     return true;
+  }
+
+  /// Probes on a loop count as inside: faces often end where they are bent most (a leading edge), and exactly on an iso-line.
+  bool is_on_loop(const Patch<Probe>& patch, Vec2 uv) const {
+    constexpr double kOnLoop = 0.02;  // distance from a side, patch widths
+    const Vec2 scale{1 / (patch.u[2] - patch.u[0]), 1 / (patch.v[2] - patch.v[0])};
+    for (const std::int32_t i : patch.sides) {
+      const LoopSide& s = loops_.sides()[i];
+      const Vec2 d{(s.b.x - s.a.x) * scale.x, (s.b.y - s.a.y) * scale.y}, r{(uv.x - s.a.x) * scale.x, (uv.y - s.a.y) * scale.y};
+      const double d2 = dot(d, d), t = d2 > 0 ? std::clamp(dot(r, d) / d2, 0.0, 1.0) : 0;
+      const Vec2 off = r - t * d;
+      if (dot(off, off) < kOnLoop * kOnLoop) return true;
+    }
+    return false;
   }
 
   static bool meets(const Patch<Probe>& patch, const LoopSide& s) {
