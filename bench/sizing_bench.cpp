@@ -108,7 +108,7 @@ void bench_model(const std::string& path, double lmax_percent) {
     if (!own) continue;
     const Timer face_seconds;
     const auto surface = model.surface(f);
-    const LoopPolygons loops = loop_polygons(model, f, *own);
+    const LoopPolygons loops = loop_polygons(model, f, limits);
     loop_seconds += face_seconds.seconds();
     const FaceRasterReport r = raster_face(*surface, loops, *own, pack_cause(CauseKind::kFace, f), boxes);
     n_evaluations += r.n_evaluations;

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxBins = 4096;
 /// Turns the trimming curves of one face into sides.
 class LoopTracer {
  public:
-  LoopTracer(const Model& model, FaceId face, const SamplingLimits& limits) : model_(model), face_(face), limits_(limits) {
+  LoopTracer(const Model& model, FaceId face, const ModelLimits& limits) : model_(model), face_(face), limits_(limits) {
     const double* bounds = &model.tables().face_uv_bounds[4 * static_cast<std::size_t>(face)];
     scale_ = {1 / std::max(bounds[1] - bounds[0], 1e-300), 1 / std::max(bounds[3] - bounds[2], 1e-300)};
   }
@@ -53,7 +53,7 @@ class LoopTracer {
 
   std::vector<double> edge_parameters(EdgeId edge) const {
     const ModelTables& t = model_.tables();
-    if (!t.edge_is_degenerate[edge]) return measure_curve(*model_.curve(edge), limits_).t;
+    if (!t.edge_is_degenerate[edge]) return measure_curve(*model_.curve(edge), limits_.trace(edge)).t;
     const double t0 = t.edge_range[2 * static_cast<std::size_t>(edge)], t1 = t.edge_range[2 * static_cast<std::size_t>(edge) + 1];
     std::vector<double> parameters;
     for (int i = 0; i <= kFirstSides; ++i) parameters.push_back(t0 + (t1 - t0) * i / kFirstSides);
@@ -73,7 +73,7 @@ class LoopTracer {
 
   const Model& model_;
   FaceId face_;
-  const SamplingLimits& limits_;
+  const ModelLimits& limits_;
   Vec2 scale_;
   std::vector<Vec2> points_;
   std::vector<LoopSide> sides_;
@@ -118,7 +118,7 @@ bool LoopPolygons::contains(Vec2 uv) const {
   return is_inside;
 }
 
-LoopPolygons loop_polygons(const Model& model, FaceId face, const SamplingLimits& limits) {
+LoopPolygons loop_polygons(const Model& model, FaceId face, const ModelLimits& limits) {
   return LoopPolygons(LoopTracer(model, face, limits).run());
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/model.h"
-#include "sizing/size_limits.h"
+#include "sizing/model_limits.h"
 
 namespace st {
 
@@ -31,6 +31,6 @@ class LoopPolygons {
 
 /// Polygons of the face's loops: each coedge at the parameters of its measured curve, refined until the polygon follows the trimming curve
 /// within 0.1 % of the face's (u,v) range.
-LoopPolygons loop_polygons(const Model& model, FaceId face, const SamplingLimits& limits);
+LoopPolygons loop_polygons(const Model& model, FaceId face, const ModelLimits& limits);
 
 }  // namespace st

@@ -39,6 +39,8 @@ ModelLimits model_limits(const ModelTables& t, const SamplingLimits& wall) {
     if (own) limits.far_length = std::max(limits.far_length, own->max_length);
     limits.face.push_back(own);
   }
+  limits.far = wall;
+  limits.far.max_length = limits.far_length;
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> faces;
   t.edge_faces(offsets, faces);

@@ -17,7 +17,11 @@ namespace st {
 struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
   std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
+  SamplingLimits far;                               ///< the walls' limits with max_length = far_length: for what is not sampled but traced
   double far_length = 0;                            ///< largest max_length of all: the length where nothing asks for less
+
+  /// Limits at which an edge is traced as part of a loop.
+  const SamplingLimits& trace(EdgeId e) const { return edge[e] ? *edge[e] : far; }
 };
 
 /// Longest side of a far-field triangle over the diagonal of its face's box.

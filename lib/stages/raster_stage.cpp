@@ -109,7 +109,7 @@ class RasterTasks {
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
-    if (limits) raster_face(*model_.surface(f), loop_polygons(model_, f, *limits), *limits, pack_cause(CauseKind::kFace, f), boxes);
+    if (limits) raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
   const Model& model_;
@@ -202,7 +202,7 @@ void share_shape(OctreeShape& shape, const Communicator& comm) {
 }
 
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
-FaceCells locate_faces(const Model& model, const OctreeShape& shape, const SamplingLimits& limits, const Communicator& comm) {
+FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const Communicator& comm) {
   const ModelTables& t = model.tables();
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
   comm.run_tasks(
@@ -267,7 +267,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     }
   }
   share_shape(artifact.octree.shape, comm);
-  artifact.faces = locate_faces(model, artifact.octree.shape, wall, comm);
+  artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   if (!comm.is_root()) return {};
 
   artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length};

@@ -32,6 +32,7 @@ TEST(ModelLimits, follow_the_roles_of_groups) {
   EXPECT_DOUBLE_EQ(limits.face[2]->max_length, 5);  // 1/20 of a diagonal of 100
   EXPECT_EQ(limits.face[2]->min_length, kWall.min_length);
   EXPECT_DOUBLE_EQ(limits.far_length, 5);
+  EXPECT_DOUBLE_EQ(limits.trace(2).max_length, 5) << "an edge that is not sampled is traced coarsely";
 }
 
 TEST(ModelLimits, of_an_edge_are_the_smallest_of_its_faces) {
