@@ -66,7 +66,8 @@ Communicator::Communicator() : impl_(std::make_unique<Impl>()) {
   MPI_Comm_rank(MPI_COMM_WORLD, &impl_->rank);
   MPI_Comm_size(MPI_COMM_WORLD, &impl_->size);
   if (launched > 1 && impl_->size == 1)
-    throw Error(ExitCode::kUsage, "the launcher started " + std::to_string(launched) + " processes, but MPI does not connect them; start with Open MPI's mpirun, " +
+    throw Error(ExitCode::kUsage, "the launcher started " + std::to_string(launched) +
+                                      " processes, but MPI does not connect them; start with Open MPI's mpirun, " +
                                       "with srun --mpi=pmix, or with --np N and no launcher");
 }
 
@@ -111,8 +112,10 @@ void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_
                              const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
   std::vector<char> is_listed(std::max(n_tasks, 0), 0);
   for (const std::int32_t task : order)
-    if (task < 0 || task >= n_tasks || is_listed[task]++) throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
-  if (n_tasks < 0 || order.size() != is_listed.size()) throw Error(ExitCode::kInternal, "run_tasks: the order does not list every task once");
+    if (task < 0 || task >= n_tasks || is_listed[task]++)
+      throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
+  if (n_tasks < 0 || order.size() != is_listed.size())
+    throw Error(ExitCode::kInternal, "run_tasks: the order does not list every task once");
   if (impl_->size == 1) {
     for (const std::int32_t task : order) collect(task, compute(task));
   } else if (impl_->rank == 0) {
@@ -126,16 +129,15 @@ void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_with
   if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is no number of ranks; give 1 or more");
   if (n == 1 || launched_ranks() != 0) return;
   // Settings of the user win (no overwriting).
-  const std::pair<const char*, const char*> settings[] = {
-      {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
-      {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-      {"OMPI_MCA_mpi_yield_when_idle", "1"},
-      {"OMPI_MCA_hwloc_base_binding_policy", "none"},
-      {"OMPI_MCA_orte_execute_quiet", "1"},
-      {"PMIX_MCA_gds", "hash"},                              // the default warns where it may not share memory
-      {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
-      {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
+  const std::pair<const char*, const char*> settings[] = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                                          {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                                          {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                                                          {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                                          {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+                                                          {"OMPI_MCA_orte_execute_quiet", "1"},
+                                                          {"PMIX_MCA_gds", "hash"},  // the default warns where it may not share memory
+                                                          {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
+                                                          {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
   for (const auto& [name, value] : settings) setenv(name, value, 0);
   if (!may_read_other_processes()) setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   char self[4096];
@@ -147,7 +149,8 @@ void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_with
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   execvp("mpirun", argv.data());
-  throw Error(ExitCode::kInternal, std::string("mpirun cannot be started (") + std::strerror(errno) + "); install Open MPI (openmpi-bin) or leave --np out");
+  throw Error(ExitCode::kInternal,
+              std::string("mpirun cannot be started (") + std::strerror(errno) + "); install Open MPI (openmpi-bin) or leave --np out");
 }
 
 }  // namespace st

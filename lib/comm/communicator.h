@@ -37,10 +37,10 @@ class Communicator {
   /// arrival order (a collector that must not depend on it stores by task id). `order`: the sequence in which tasks are handed out
   /// (heaviest first), a permutation of [0, n_tasks), same on every rank. Rank 0 computes, too: `compute` runs there on a thread of its
   /// own, so it must not call MPI nor share unguarded state with `collect`, which runs on the main thread; both cores of a two-rank run are
-  /// busy. At one rank everything runs on the main thread. An exception out of `compute` on any rank is thrown on rank 0 as an Error with its
-  /// text and exit code (once: the first that arrives); the other ranks stay in the call, so the job can then only be ended with abort().
-  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
-                 const std::function<Bytes(std::int32_t task)>& compute,
+  /// busy. At one rank everything runs on the main thread. An exception out of `compute` on any rank is thrown on rank 0 as an Error with
+  /// its text and exit code (once: the first that arrives); the other ranks stay in the call, so the job can then only be ended with
+  /// abort().
+  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order, const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const;
 
  private:
@@ -49,8 +49,8 @@ class Communicator {
 };
 
 /// Replaces this process by `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than
-/// cores, idle ranks that yield, no binding, quiet). Returns only when n == 1 or a launcher already started us. Throws Error(kUsage) when n < 1 and
-/// Error(kInternal) when mpirun is missing.
+/// cores, idle ranks that yield, no binding, quiet). Returns only when n == 1 or a launcher already started us. Throws Error(kUsage) when n
+/// < 1 and Error(kInternal) when mpirun is missing.
 void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_without_np);
 
 }  // namespace st

@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 /// A result, or the failure, of one task.
 struct Outcome {
   std::int32_t task = kStop;
-  std::int32_t code = 0;       ///< 0, or the ExitCode of the failure whose text is in `bytes`
-  double seconds = 0;          ///< time of the computation
+  std::int32_t code = 0;  ///< 0, or the ExitCode of the failure whose text is in `bytes`
+  double seconds = 0;     ///< time of the computation
   Bytes bytes;
 };
 
@@ -84,7 +84,8 @@ class Transfer {
     MPI_Request request;
     require_mpi(MPI_Isend(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD, &request), "MPI_Isend");
     transfer.requests_.push_back(request);
-    transfer.for_each_piece([&](std::byte* piece, int count) { return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request); }, request);
+    transfer.for_each_piece(
+        [&](std::byte* piece, int count) { return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request); }, request);
     return transfer;
   }
 
@@ -94,7 +95,9 @@ class Transfer {
     require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
     Transfer transfer({message.task, message.code, message.seconds, Bytes(message.n_bytes)});
     MPI_Request request;
-    transfer.for_each_piece([&](std::byte* piece, int count) { return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request); }, request);
+    transfer.for_each_piece(
+        [&](std::byte* piece, int count) { return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request); },
+        request);
     return transfer;
   }
 
@@ -122,7 +125,7 @@ class Transfer {
   }
 
   Outcome outcome_;
-  std::unique_ptr<OutcomeMessage> message_;   ///< stays where it is while it is sent
+  std::unique_ptr<OutcomeMessage> message_;  ///< stays where it is while it is sent
   std::vector<MPI_Request> requests_;
 };
 
@@ -226,9 +229,7 @@ class Distributor {
   }
 
  private:
-  void send_task(int rank, std::int32_t task) {
-    require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send");
-  }
+  void send_task(int rank, std::int32_t task) { require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send"); }
 
   /// The next task to a rank, if there is one.
   void give(int rank) {
@@ -294,7 +295,7 @@ class Distributor {
 
   const std::vector<std::int32_t>& order_;
   const Collect& collect_;
-  std::vector<int> n_pending_;   ///< per rank: tasks given, outcome not yet received
+  std::vector<int> n_pending_;  ///< per rank: tasks given, outcome not yet received
   std::size_t n_given_ = 0, n_collected_ = 0;
   std::list<Transfer> incoming_;
   std::deque<Outcome> received_;
@@ -307,7 +308,8 @@ class Worker {
   explicit Worker(const Compute& compute) : compute_(compute) {}
 
   void run() {
-    for (std::int32_t task = receive_task(); task != kStop; task = receive_task()) outgoing_.push_back(Transfer::send(run_task(task, compute_)));
+    for (std::int32_t task = receive_task(); task != kStop; task = receive_task())
+      outgoing_.push_back(Transfer::send(run_task(task, compute_)));
     while (is_sending()) std::this_thread::yield();
   }
 

@@ -17,21 +17,21 @@ inline constexpr int kGeometryVersion = 1, kPatchesVersion = 1, kMeshVersion = 1
 
 /// An input that an artifact was made from.
 struct InputRef {
-  std::string role;        ///< "cad", "geometry", "raster", "sizing", "patches", "mesh"
-  std::string name;        ///< file name without directory
-  std::string hash;        ///< content hash of the artifact (or of the bytes of a CAD file)
+  std::string role;  ///< "cad", "geometry", "raster", "sizing", "patches", "mesh"
+  std::string name;  ///< file name without directory
+  std::string hash;  ///< content hash of the artifact (or of the bytes of a CAD file)
 };
 
 /// What every artifact says of itself.
 struct ArtifactHeader {
-  std::string schema;              ///< "geometry", "raster", "sizing", "patches", "mesh"
+  std::string schema;  ///< "geometry", "raster", "sizing", "patches", "mesh"
   int schema_version = 1;
   std::string tool, tool_version;
-  std::string options_json;        ///< resolved options of the stage, one JSON object
-  std::string unit;                ///< empty: the model has none
+  std::string options_json;  ///< resolved options of the stage, one JSON object
+  std::string unit;          ///< empty: the model has none
   std::optional<double> unit_in_m;
-  std::string content_hash;        ///< set by write_*, checked by read_*; covers content, not provenance
-  std::string geometry_hash;       ///< content hash of the geometry everything goes back to (empty in geometry itself)
+  std::string content_hash;   ///< set by write_*, checked by read_*; covers content, not provenance
+  std::string geometry_hash;  ///< content hash of the geometry everything goes back to (empty in geometry itself)
   std::vector<InputRef> inputs;
 };
 
@@ -49,14 +49,14 @@ struct PatchesArtifact {
   ArtifactHeader header;
   EdgeMesh edges;
   std::vector<Vec3> vertex_xyz;
-  std::vector<VertexId> edge_vertices;         ///< [2*n_edges]
-  std::vector<FacePatch> patches;              ///< by face id
+  std::vector<VertexId> edge_vertices;  ///< [2*n_edges]
+  std::vector<FacePatch> patches;       ///< by face id
   std::vector<FaceFailure> failures;
   std::vector<std::string> face_name, group_name;
   std::vector<std::int32_t> face_group;
   std::vector<std::int32_t> face_shell;
-  std::vector<double> face_area;               ///< CAD area, for the check of the merged mesh
-  bool is_complete = true;                     ///< every face meshed
+  std::vector<double> face_area;  ///< CAD area, for the check of the merged mesh
+  bool is_complete = true;        ///< every face meshed
 };
 
 /// mesh.hdf
@@ -66,12 +66,14 @@ struct MeshArtifact {
   bool is_complete = true;
 };
 
-/// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no artifact, a truncated one.
+/// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no artifact, a truncated
+/// one.
 ArtifactHeader read_header(const std::string& path);
 
 /// All write_* functions: written to a temporary name in the same directory, synced, renamed; nothing is left behind on failure, nor on
 /// SIGINT/SIGTERM (remove_temporaries). Equal content gives equal bytes. Return the content hash. Throw Error(kOutput).
-/// All read_* functions: throw Error(kInput) naming file, dataset and remedy for a wrong kind, a wrong version, truncation or a checksum that does not fit.
+/// All read_* functions: throw Error(kInput) naming file, dataset and remedy for a wrong kind, a wrong version, truncation or a checksum
+/// that does not fit.
 std::string write_geometry(const std::string& path, const GeometryArtifact& geometry);
 GeometryArtifact read_geometry(const std::string& path);
 std::string write_patches(const std::string& path, const PatchesArtifact& patches);
@@ -91,7 +93,8 @@ void require_writable(const std::string& path);
 /// Throws Error(kUsage) unless the suffix is one that export_mesh knows.
 void require_export_suffix(const std::string& path);
 
-/// Exports by suffix: .stl (binary, one solid), .vtu (with face, group, size), .obj, .ply. Throws Error(kUsage) for an unknown suffix, Error(kOutput).
+/// Exports by suffix: .stl (binary, one solid), .vtu (with face, group, size), .obj, .ply. Throws Error(kUsage) for an unknown suffix,
+/// Error(kOutput).
 void export_mesh(const std::string& path, const SurfaceMesh& mesh);
 
 }  // namespace st

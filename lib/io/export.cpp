@@ -52,7 +52,8 @@ class Output {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(ExitCode::kOutput, temporary_.path() + ": cannot be written (" + std::strerror(errno) + "); free some space or choose another directory");
+    throw Error(ExitCode::kOutput,
+                temporary_.path() + ": cannot be written (" + std::strerror(errno) + "); free some space or choose another directory");
   }
   TemporaryFile temporary_;
   std::FILE* file_ = nullptr;
@@ -93,7 +94,8 @@ std::string one_word(const std::string& prefix, FaceId id, const std::vector<std
   if (id < 0 || static_cast<std::size_t>(id) >= names.size() || names[id].empty()) return word;
   word += '_';
   word += names[id];
-  std::replace_if(word.begin(), word.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
   return word;
 }
 
@@ -123,7 +125,8 @@ void export_obj(Output& out, const SurfaceMesh& m) {
 /// Binary PLY with the CAD face and the group of each triangle and the requested length of each node.
 void export_ply(Output& out, const SurfaceMesh& m) {
   out.text("ply\nformat binary_little_endian 1.0\ncomment surface mesh\nelement vertex " + std::to_string(m.n_nodes()) +
-           "\nproperty double x\nproperty double y\nproperty double z\nproperty double size\nelement face " + std::to_string(m.n_triangles()) +
+           "\nproperty double x\nproperty double y\nproperty double z\nproperty double size\nelement face " +
+           std::to_string(m.n_triangles()) +
            "\nproperty list uchar int vertex_indices\nproperty int face\nproperty int group\nend_header\n");
   for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
     out.value(m.node_xyz[i]);
@@ -143,8 +146,8 @@ class VtuArrays {
   /// The DataArray element for `values`, which must outlive this object.
   template <class T>
   std::string add(const char* type, const char* name, int n_components, const std::vector<T>& values) {
-    const std::string element = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" + std::to_string(n_components) +
-                                "\" format=\"appended\" offset=\"" + std::to_string(n_bytes_) + "\"/>\n";
+    const std::string element = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                                std::to_string(n_components) + "\" format=\"appended\" offset=\"" + std::to_string(n_bytes_) + "\"/>\n";
     blocks_.emplace_back(values.data(), values.size() * sizeof(T));
     n_bytes_ += sizeof(std::uint64_t) + blocks_.back().second;
     return element;
@@ -179,12 +182,16 @@ void export_vtu(Output& out, const SurfaceMesh& m) {
   const std::vector<std::uint8_t> types(m.triangles.size(), 5);
   const std::vector<std::int32_t> face = one_based(m.triangle_face), group = one_based(m.triangle_group), entity = one_based(m.node_entity);
   VtuArrays arrays;
-  out.text("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+  out.text(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n");
   out.text("<Piece NumberOfPoints=\"" + std::to_string(m.n_nodes()) + "\" NumberOfCells=\"" + std::to_string(m.n_triangles()) + "\">\n");
   out.text("<Points>\n" + arrays.add("Float64", "Points", 3, m.node_xyz) + "</Points>\n");
-  out.text("<Cells>\n" + arrays.add("Int32", "connectivity", 1, connectivity) + arrays.add("Int64", "offsets", 1, offsets) + arrays.add("UInt8", "types", 1, types) + "</Cells>\n");
+  out.text("<Cells>\n" + arrays.add("Int32", "connectivity", 1, connectivity) + arrays.add("Int64", "offsets", 1, offsets) +
+           arrays.add("UInt8", "types", 1, types) + "</Cells>\n");
   out.text("<CellData>\n" + arrays.add("Int32", "face", 1, face) + arrays.add("Int32", "group", 1, group) + "</CellData>\n");
-  out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) + arrays.add("Int32", "entity_id", 1, entity) + arrays.add("Float64", "size", 1, m.node_size) + "</PointData>\n");
+  out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) + arrays.add("Int32", "entity_id", 1, entity) +
+           arrays.add("Float64", "size", 1, m.node_size) + "</PointData>\n");
   out.text("</Piece>\n</UnstructuredGrid>\n");
   arrays.write(out);
   out.text("</VTKFile>\n");
@@ -193,12 +200,14 @@ void export_vtu(Output& out, const SurfaceMesh& m) {
 using Exporter = void (*)(Output&, const SurfaceMesh&);
 
 Exporter exporter_of(const std::string& path) {
-  static const std::map<std::string, Exporter> exporters = {{".stl", export_stl}, {".vtu", export_vtu}, {".obj", export_obj}, {".ply", export_ply}};
+  static const std::map<std::string, Exporter> exporters = {
+      {".stl", export_stl}, {".vtu", export_vtu}, {".obj", export_obj}, {".ply", export_ply}};
   const std::size_t dot = path.rfind('.');
   std::string suffix = dot == std::string::npos || path.find('/', dot) != std::string::npos ? "" : path.substr(dot);
   std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto it = exporters.find(suffix);
-  if (it == exporters.end()) throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "' for an export; use .stl, .vtu, .obj or .ply");
+  if (it == exporters.end())
+    throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "' for an export; use .stl, .vtu, .obj or .ply");
   return it->second;
 }
 

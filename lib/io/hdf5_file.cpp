@@ -61,13 +61,20 @@ void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 hid_t native_type(ElementType type) {
   switch (type) {
-    case ElementType::kFloat64: return H5T_NATIVE_DOUBLE;
-    case ElementType::kFloat32: return H5T_NATIVE_FLOAT;
-    case ElementType::kInt32: return H5T_NATIVE_INT32;
-    case ElementType::kInt64: return H5T_NATIVE_INT64;
-    case ElementType::kUint8: return H5T_NATIVE_UINT8;
-    case ElementType::kUint64: return H5T_NATIVE_UINT64;
-    case ElementType::kString: break;
+    case ElementType::kFloat64:
+      return H5T_NATIVE_DOUBLE;
+    case ElementType::kFloat32:
+      return H5T_NATIVE_FLOAT;
+    case ElementType::kInt32:
+      return H5T_NATIVE_INT32;
+    case ElementType::kInt64:
+      return H5T_NATIVE_INT64;
+    case ElementType::kUint8:
+      return H5T_NATIVE_UINT8;
+    case ElementType::kUint64:
+      return H5T_NATIVE_UINT64;
+    case ElementType::kString:
+      break;
   }
   throw Error(ExitCode::kInternal, "no HDF5 type for strings here");
 }
@@ -144,13 +151,20 @@ std::string tool_of(const std::string& schema) {
 
 const char* element_type_name(ElementType type) {
   switch (type) {
-    case ElementType::kFloat64: return "float64";
-    case ElementType::kFloat32: return "float32";
-    case ElementType::kInt32: return "int32";
-    case ElementType::kInt64: return "int64";
-    case ElementType::kUint8: return "uint8";
-    case ElementType::kUint64: return "uint64";
-    case ElementType::kString: return "string";
+    case ElementType::kFloat64:
+      return "float64";
+    case ElementType::kFloat32:
+      return "float32";
+    case ElementType::kInt32:
+      return "int32";
+    case ElementType::kInt64:
+      return "int64";
+    case ElementType::kUint8:
+      return "uint8";
+    case ElementType::kUint64:
+      return "uint64";
+    case ElementType::kString:
+      return "string";
   }
   return "?";
 }
@@ -159,11 +173,15 @@ std::size_t element_size(ElementType type) {
   switch (type) {
     case ElementType::kFloat64:
     case ElementType::kInt64:
-    case ElementType::kUint64: return 8;
+    case ElementType::kUint64:
+      return 8;
     case ElementType::kFloat32:
-    case ElementType::kInt32: return 4;
-    case ElementType::kUint8: return 1;
-    case ElementType::kString: return 0;
+    case ElementType::kInt32:
+      return 4;
+    case ElementType::kUint8:
+      return 1;
+    case ElementType::kString:
+      return 0;
   }
   return 0;
 }
@@ -359,13 +377,14 @@ void require_hdf5_file(const std::string& path) {
   char start[8] = {};
   const ssize_t n = read(fd, start, sizeof start);
   close(fd);
-  if (n != 8 || std::memcmp(start, "\211HDF\r\n\032\n", 8) != 0) fail("is not an artifact (no HDF5 file); give a .hdf file that an st tool wrote");
+  if (n != 8 || std::memcmp(start, "\211HDF\r\n\032\n", 8) != 0)
+    fail("is not an artifact (no HDF5 file); give a .hdf file that an st tool wrote");
 }
 
 std::optional<ElementType> element_type_of(hid_t type) {
   if (H5Tget_class(type) == H5T_STRING) return ElementType::kString;
-  for (const ElementType t : {ElementType::kFloat64, ElementType::kFloat32, ElementType::kInt32, ElementType::kInt64, ElementType::kUint8,
-                              ElementType::kUint64})
+  for (const ElementType t :
+       {ElementType::kFloat64, ElementType::kFloat32, ElementType::kInt32, ElementType::kInt64, ElementType::kUint8, ElementType::kUint64})
     if (H5Tequal(type, native_type(t)) > 0) return t;
   return std::nullopt;
 }
@@ -437,8 +456,8 @@ void Hdf5Reader::Impl::open() {
 void Hdf5Reader::Impl::require_schema(const std::string& schema, int newest_version) const {
   const std::string version = std::to_string(header.schema_version), newest = std::to_string(newest_version);
   if (header.schema != schema)
-    throw Error(ExitCode::kInput, path + ": is a " + header.schema + " artifact, but a " + schema + " artifact is needed; give the file that " +
-                                      tool_of(schema) + " wrote");
+    throw Error(ExitCode::kInput, path + ": is a " + header.schema + " artifact, but a " + schema +
+                                      " artifact is needed; give the file that " + tool_of(schema) + " wrote");
   if (header.schema_version > newest_version)
     throw Error(ExitCode::kInput, path + ": " + schema + " schema version " + version + " is newer than this tool knows (" + newest +
                                       "); use the version of st that wrote it (" + header.tool_version + ") or a newer one");
@@ -495,7 +514,8 @@ void Hdf5Reader::Impl::read_dataset_info(const std::string& name) {
   hsize_t dims[2] = {};
   const int rank = H5Sget_simple_extent_ndims(space);
   const auto element_type = element_type_of(type);
-  if (!element_type || rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, dims, nullptr) < 0) damaged("dataset " + name + " cannot be read");
+  if (!element_type || rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, dims, nullptr) < 0)
+    damaged("dataset " + name + " cannot be read");
   DatasetInfo info{name, *element_type, {dims, dims + rank}, "", false};
   const std::size_t bytes_each = std::max<std::size_t>(1, element_size(*element_type));
   if (dims[0] > file_bytes || (rank == 2 && dims[1] > file_bytes) || dims[0] * (rank == 2 ? dims[1] : 1) > file_bytes / bytes_each)
@@ -526,7 +546,8 @@ void Hdf5Reader::Impl::read_header() {
   header.options_json = text("options", false);
   header.unit = text("unit", false);
   const auto unit = attributes.find({kRoot, "unit_in_m"});
-  if (unit != attributes.end() && unit->second.kind == 'd') std::memcpy(&header.unit_in_m.emplace(), unit->second.bytes.data(), sizeof(double));
+  if (unit != attributes.end() && unit->second.kind == 'd')
+    std::memcpy(&header.unit_in_m.emplace(), unit->second.bytes.data(), sizeof(double));
   header.content_hash = text("content_hash");
   header.geometry_hash = text("geometry_hash", false);
   const auto inputs = nlohmann::json::parse(text("inputs", false), nullptr, false);
@@ -536,7 +557,8 @@ void Hdf5Reader::Impl::read_header() {
 }
 
 const DatasetInfo* Hdf5Reader::Impl::find(const std::string& name) const {
-  const auto it = std::lower_bound(datasets.begin(), datasets.end(), name, [](const DatasetInfo& d, const std::string& n) { return d.name < n; });
+  const auto it =
+      std::lower_bound(datasets.begin(), datasets.end(), name, [](const DatasetInfo& d, const std::string& n) { return d.name < n; });
   return it != datasets.end() && it->name == name ? &*it : nullptr;
 }
 
@@ -588,7 +610,8 @@ void Hdf5Reader::read_raw(const std::string& name, void* values) const {
   for (const std::uint64_t extent : d.shape) n *= extent;
   if (n) {
     const Dataset dataset(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT));
-    if (!dataset.is_valid() || H5Dread(dataset, native_type(d.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail(name, "cannot be read");
+    if (!dataset.is_valid() || H5Dread(dataset, native_type(d.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+      fail(name, "cannot be read");
   }
   if (hash_hex(values, n * element_size(d.type)) != d.checksum) fail(name, "does not fit its checksum");
 }
@@ -634,7 +657,8 @@ namespace {
 template <class T>
 T number_attribute(const Hdf5Reader& reader, const std::map<AttributeKey, AttributeValue>& attributes, const AttributeKey& key, char kind) {
   const auto it = attributes.find(key);
-  if (it == attributes.end() || it->second.kind != kind || it->second.bytes.size() != sizeof(T)) reader.fail(key.first + "@" + key.second, "is missing");
+  if (it == attributes.end() || it->second.kind != kind || it->second.bytes.size() != sizeof(T))
+    reader.fail(key.first + "@" + key.second, "is missing");
   T value;
   std::memcpy(&value, it->second.bytes.data(), sizeof value);
   return value;

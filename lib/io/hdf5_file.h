@@ -96,8 +96,8 @@ class Hdf5Writer {
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-  /// Writes an array as dataset `name` (an absolute path; groups are made as needed), shape (n) or (n, columns). `columns` counts elements of the basic
-  /// type; values.size() must be a multiple of it. Each name once.
+  /// Writes an array as dataset `name` (an absolute path; groups are made as needed), shape (n) or (n, columns). `columns` counts elements
+  /// of the basic type; values.size() must be a multiple of it. Each name once.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = Element<T>::count) {
     static_assert(sizeof(T) == Element<T>::count * sizeof_element<T>(), "no padding inside");
@@ -109,8 +109,8 @@ class Hdf5Writer {
   }
   /// UTF-8 strings, fixed-length and padded with NUL (a NUL inside a string ends it), shape (n).
   void write_strings(const std::string& name, const std::vector<std::string>& values);
-  /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for HDF5 1.10 overruns its buffers
-  /// on damaged ones; write_strings() has to store the same strings elsewhere.
+  /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for HDF5 1.10 overruns its
+  /// buffers on damaged ones; write_strings() has to store the same strings elsewhere.
   void write_vtk_strings(const std::string& name, const std::vector<std::string>& values);
 
   /// Attributes of a group (made as needed), part of the content.
@@ -135,11 +135,11 @@ class Hdf5Writer {
 
 /// What a dataset is, without its values.
 struct DatasetInfo {
-  std::string name;                    ///< absolute path
+  std::string name;  ///< absolute path
   ElementType type = ElementType::kUint8;
   std::vector<std::uint64_t> shape;
-  std::string checksum;                ///< as stored
-  bool is_foreign = false;             ///< strings of variable length, written for VTK and never read by us
+  std::string checksum;     ///< as stored
+  bool is_foreign = false;  ///< strings of variable length, written for VTK and never read by us
 };
 
 /// A read-only array that lives in the page cache: shared by all processes of a machine that map the same file. Keeps the file mapped.

@@ -29,15 +29,19 @@ std::string value_text(const std::string& value) { return "'" + value + "'"; }
 
 template <class T>
 bool are_same(const T& a, const T& b) {
-  if constexpr (std::is_floating_point_v<T>) return std::memcmp(&a, &b, sizeof a) == 0;
-  else return a == b;
+  if constexpr (std::is_floating_point_v<T>)
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  else
+    return a == b;
 }
 
 /// Allowed difference between two floating-point values: relative to them, or to `scale` when it is positive.
 template <class T>
 double allowed(const T& a, const T& b, double tolerance, double scale) {
-  if constexpr (!std::is_floating_point_v<T>) return 0;
-  else return tolerance * (scale > 0 ? scale : std::max(std::abs(static_cast<double>(a)), std::abs(static_cast<double>(b))));
+  if constexpr (!std::is_floating_point_v<T>)
+    return 0;
+  else
+    return tolerance * (scale > 0 ? scale : std::max(std::abs(static_cast<double>(a)), std::abs(static_cast<double>(b))));
 }
 
 template <class T>
@@ -68,7 +72,8 @@ std::string compare_values(const std::vector<T>& a, const std::vector<T>& b, std
     if (n_different++ == 0) first = i;
   }
   if (n_different == 0) return "";
-  std::string text = std::to_string(n_different) + " of " + std::to_string(a.size()) + " values differ, first in row " + std::to_string(first / columns);
+  std::string text =
+      std::to_string(n_different) + " of " + std::to_string(a.size()) + " values differ, first in row " + std::to_string(first / columns);
   if (columns > 1) text += " column " + std::to_string(first % columns);
   text += ": " + value_text(a[first]) + " against " + value_text(b[first]);
   if (largest > 0) text += "; largest difference " + value_text(largest);
@@ -88,13 +93,20 @@ std::string compare_dataset(const Hdf5Reader& a, const Hdf5Reader& b, const Data
   if (in_a.shape != in_b.shape) return "shape " + shape_text(in_a.shape) + " against " + shape_text(in_b.shape);
   if (in_a.is_foreign) return "";  // a copy of another dataset
   switch (in_a.type) {
-    case ElementType::kFloat64: return compare_arrays<double>(a, b, in_a, tolerance);
-    case ElementType::kFloat32: return compare_arrays<float>(a, b, in_a, tolerance);
-    case ElementType::kInt32: return compare_arrays<std::int32_t>(a, b, in_a, tolerance);
-    case ElementType::kInt64: return compare_arrays<std::int64_t>(a, b, in_a, tolerance);
-    case ElementType::kUint8: return compare_arrays<std::uint8_t>(a, b, in_a, tolerance);
-    case ElementType::kUint64: return compare_arrays<std::uint64_t>(a, b, in_a, tolerance);
-    case ElementType::kString: return compare_values(a.read_strings(in_a.name), b.read_strings(in_a.name), 1, 0);
+    case ElementType::kFloat64:
+      return compare_arrays<double>(a, b, in_a, tolerance);
+    case ElementType::kFloat32:
+      return compare_arrays<float>(a, b, in_a, tolerance);
+    case ElementType::kInt32:
+      return compare_arrays<std::int32_t>(a, b, in_a, tolerance);
+    case ElementType::kInt64:
+      return compare_arrays<std::int64_t>(a, b, in_a, tolerance);
+    case ElementType::kUint8:
+      return compare_arrays<std::uint8_t>(a, b, in_a, tolerance);
+    case ElementType::kUint64:
+      return compare_arrays<std::uint64_t>(a, b, in_a, tolerance);
+    case ElementType::kString:
+      return compare_values(a.read_strings(in_a.name), b.read_strings(in_a.name), 1, 0);
   }
   return "";
 }
@@ -113,7 +125,9 @@ std::string compare_attribute(const AttributeMap::mapped_type& a, const Attribut
       [&](const auto& value) {
         using T = std::decay_t<decltype(value)>;
         const T& other = std::get<T>(b);
-        return compare_values(std::vector<T>{value}, std::vector<T>{other}, 1, tolerance).empty() ? std::string() : value_text(value) + " against " + value_text(other);
+        return compare_values(std::vector<T>{value}, std::vector<T>{other}, 1, tolerance).empty()
+                   ? std::string()
+                   : value_text(value) + " against " + value_text(other);
       },
       a);
 }
@@ -159,7 +173,8 @@ ArtifactDescription describe_artifact(const std::string& path) {
 std::vector<std::string> compare_artifacts(const std::string& path_a, const std::string& path_b, double tolerance) {
   const Hdf5Reader a(path_a), b(path_b);
   if (a.header().schema != b.header().schema)
-    throw Error(ExitCode::kMismatch, path_a + " is a " + a.header().schema + " artifact, " + path_b + " a " + b.header().schema + " artifact; compare two of the same kind");
+    throw Error(ExitCode::kMismatch, path_a + " is a " + a.header().schema + " artifact, " + path_b + " a " + b.header().schema +
+                                         " artifact; compare two of the same kind");
   std::vector<std::string> differences;
   compare_attributes(a, b, tolerance, differences);
   for (const DatasetInfo& d : a.datasets()) {

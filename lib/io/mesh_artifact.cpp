@@ -56,10 +56,13 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
   const std::vector<std::uint8_t> types = r.read_rows<std::uint8_t>("/VTKHDF/Types", n);
   std::vector<Triangle> triangles(n);
   for (std::size_t t = 0; t < n; ++t) {
-    if (types[t] != kVtkTriangle || offsets[t] != static_cast<std::int64_t>(3 * t)) r.fail("/VTKHDF/Types", "cell " + std::to_string(t) + " is no triangle");
+    if (types[t] != kVtkTriangle || offsets[t] != static_cast<std::int64_t>(3 * t))
+      r.fail("/VTKHDF/Types", "cell " + std::to_string(t) + " is no triangle");
     for (int k = 0; k < 3; ++k) {
       const std::int64_t node = connectivity[3 * t + k];
-      if (node < 0 || static_cast<std::size_t>(node) >= n_nodes) r.fail("/VTKHDF/Connectivity", "cell " + std::to_string(t) + " names node " + std::to_string(node) + " of " + std::to_string(n_nodes));
+      if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+        r.fail("/VTKHDF/Connectivity",
+               "cell " + std::to_string(t) + " names node " + std::to_string(node) + " of " + std::to_string(n_nodes));
       triangles[t].n[k] = static_cast<NodeId>(node);
     }
   }

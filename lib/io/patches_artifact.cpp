@@ -20,7 +20,7 @@ std::vector<T> slice(const std::vector<T>& all, std::int64_t begin, std::int64_t
 struct FlatPatches {
   std::vector<std::int32_t> face;
   std::vector<std::int64_t> boundary_offsets = {0}, inner_offsets = {0}, triangle_offsets = {0};  ///< [n_patches+1]
-  FacePatch all;                                                                                   ///< arrays of all patches concatenated
+  FacePatch all;                                                                                  ///< arrays of all patches concatenated
 };
 
 FlatPatches flatten(const std::vector<FacePatch>& patches) {
@@ -90,10 +90,13 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
   for (std::int32_t i = 0; i < p.n_boundary; ++i) {
     const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     if (p.boundary_dim[i] == 0) {
-      if (entity < 0 || entity >= static_cast<std::int64_t>(a.vertex_xyz.size())) r.fail("/st/boundary/entity", label + ": no vertex " + std::to_string(entity + 1));
+      if (entity < 0 || entity >= static_cast<std::int64_t>(a.vertex_xyz.size()))
+        r.fail("/st/boundary/entity", label + ": no vertex " + std::to_string(entity + 1));
     } else {
-      if (entity < 0 || entity + 1 >= static_cast<std::int64_t>(a.edges.edge_offsets.size())) r.fail("/st/boundary/entity", label + ": no edge " + std::to_string(entity + 1));
-      if (index < 0 || index >= a.edges.edge_offsets[entity + 1] - a.edges.edge_offsets[entity]) r.fail("/st/boundary/index", label + ": no node " + std::to_string(index) + " on edge " + std::to_string(entity + 1));
+      if (entity < 0 || entity + 1 >= static_cast<std::int64_t>(a.edges.edge_offsets.size()))
+        r.fail("/st/boundary/entity", label + ": no edge " + std::to_string(entity + 1));
+      if (index < 0 || index >= a.edges.edge_offsets[entity + 1] - a.edges.edge_offsets[entity])
+        r.fail("/st/boundary/index", label + ": no node " + std::to_string(index) + " on edge " + std::to_string(entity + 1));
     }
   }
 }
@@ -104,8 +107,8 @@ std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtif
   std::vector<FacePatch> patches(flat.face.size());
   for (std::size_t i = 0; i < patches.size(); ++i) {
     FacePatch& p = patches[i];
-    const std::int64_t b0 = flat.boundary_offsets[i], b1 = flat.boundary_offsets[i + 1], n0 = flat.inner_offsets[i], n1 = flat.inner_offsets[i + 1],
-                       t0 = flat.triangle_offsets[i], t1 = flat.triangle_offsets[i + 1];
+    const std::int64_t b0 = flat.boundary_offsets[i], b1 = flat.boundary_offsets[i + 1], n0 = flat.inner_offsets[i],
+                       n1 = flat.inner_offsets[i + 1], t0 = flat.triangle_offsets[i], t1 = flat.triangle_offsets[i + 1];
     p.face = flat.face[i];
     p.n_boundary = static_cast<std::int32_t>(b1 - b0);
     p.boundary_dim = slice(flat.all.boundary_dim, b0, b1);

@@ -102,7 +102,8 @@ void require_writable(const std::string& path) {
   if (!S_ISDIR(info.st_mode)) fail(path, directory + " is not a directory", "choose another directory");
   const std::string probe = directory + "/.st.probe." + std::to_string(getpid());
   const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (fd < 0) fail(path, std::string("cannot be written (") + std::strerror(errno) + ")", "check permissions and space, or choose another directory");
+  if (fd < 0)
+    fail(path, std::string("cannot be written (") + std::strerror(errno) + ")", "check permissions and space, or choose another directory");
   close(fd);
   unlink(probe.c_str());
 }

@@ -5,8 +5,9 @@
 
 namespace st {
 
-/// A file `.name.tmp.<pid>.<n>` beside `path`, made by whoever opens it for writing. commit() gives it its name; without commit() the destructor
-/// removes it, and so does remove_temporaries() in a signal handler. What a killed process (SIGKILL) left is removed by the next that writes `path`.
+/// A file `.name.tmp.<pid>.<n>` beside `path`, made by whoever opens it for writing. commit() gives it its name; without commit() the
+/// destructor removes it, and so does remove_temporaries() in a signal handler. What a killed process (SIGKILL) left is removed by the next
+/// that writes `path`.
 class TemporaryFile {
  public:
   /// Reserves a name. Throws Error(kOutput) when `path` cannot be written (see require_writable).

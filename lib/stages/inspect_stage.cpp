@@ -31,10 +31,20 @@ struct Count {
 const std::vector<Count>& counts_of(const std::string& schema) {
   static const std::map<std::string, std::vector<Count>> counts = {
       {"geometry",
-       {{"faces", "/st/face/type"}, {"edges", "/st/edge/length"}, {"vertices", "/st/vertex/xyz"}, {"loops", "/st/loop/coedge_offsets", 1}, {"groups", "/st/group/name"}, {"findings", "/st/finding/what"}}},
+       {{"faces", "/st/face/type"},
+        {"edges", "/st/edge/length"},
+        {"vertices", "/st/vertex/xyz"},
+        {"loops", "/st/loop/coedge_offsets", 1},
+        {"groups", "/st/group/name"},
+        {"findings", "/st/finding/what"}}},
       {"raster", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/cell_offset", 1}}},
       {"sizing", {{"cells", "/st/octree/leaf_key"}, {"faces", "/st/face/weight"}}},
-      {"patches", {{"triangles", "/st/triangle/nodes"}, {"faces", "/st/face/group"}, {"patches", "/st/patch/face"}, {"failures", "/st/failure/face"}, {"groups", "/st/group/name"}}},
+      {"patches",
+       {{"triangles", "/st/triangle/nodes"},
+        {"faces", "/st/face/group"},
+        {"patches", "/st/patch/face"},
+        {"failures", "/st/failure/face"},
+        {"groups", "/st/group/name"}}},
       {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/st/face/name"}, {"groups", "/st/group/name"}}}};
   static const std::vector<Count> none;
   const auto it = counts.find(schema);
@@ -46,7 +56,8 @@ std::vector<AttributeSummary> properties_of(const ArtifactDescription& artifact)
   std::vector<AttributeSummary> properties;
   for (const AttributeSummary& a : artifact.attributes) {
     const std::string name = a.name.substr(a.name.find('@') + 1);
-    const bool is_ours = a.name.rfind("/st", 0) == 0, is_header = name == "schema" || name == "schema_version" || name == "unit" || name == "unit_in_m";
+    const bool is_ours = a.name.rfind("/st", 0) == 0,
+               is_header = name == "schema" || name == "schema_version" || name == "unit" || name == "unit_in_m";
     if (is_ours && !is_header) properties.push_back({name, a.value});
   }
   return properties;
@@ -70,7 +81,8 @@ Json parse_or_text(const std::string& text) {
 
 Json info_json(const std::string& path, const ArtifactDescription& artifact) {
   const ArtifactHeader& h = artifact.header;
-  Json json = {{"tool", "st-info"}, {"artifact", path}, {"schema", h.schema}, {"schema_version", h.schema_version}, {"written_by", h.tool}, {"version", h.tool_version}};
+  Json json = {{"tool", "st-info"},    {"artifact", path},         {"schema", h.schema}, {"schema_version", h.schema_version},
+               {"written_by", h.tool}, {"version", h.tool_version}};
   json["unit"] = h.unit.empty() ? Json(nullptr) : Json(h.unit);
   json["unit_in_m"] = h.unit_in_m ? Json(*h.unit_in_m) : Json(nullptr);
   json["counts"] = Json::object();
@@ -87,7 +99,8 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact) {
 
 std::string info_lines(const std::string& path, const ArtifactDescription& artifact) {
   const ArtifactHeader& h = artifact.header;
-  std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
+  std::string text =
+      fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
   const auto row = [&](const std::string& name, const std::string& value) { text += fmt::format("  {:<16} {}\n", name, value); };
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
@@ -117,7 +130,8 @@ void export_artifact(const std::string& artifact, const std::string& output) {
     require_writable(output);
     export_octree(artifact, output);
   } else {
-    throw Error(ExitCode::kInput, fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster or sizing artifact", artifact, schema));
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster or sizing artifact", artifact, schema));
   }
 }
 
@@ -137,10 +151,16 @@ StageSummary run_diff(const DiffStageOptions& o) {
   const std::vector<std::string> differences = compare_artifacts(o.a, o.b, o.tolerance);
   StageSummary summary;
   summary.code = differences.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
-  summary.line = differences.empty() ? fmt::format("{} and {} are equal", o.a, o.b) : fmt::format("{} and {} differ in {} places", o.a, o.b, differences.size());
+  summary.line = differences.empty() ? fmt::format("{} and {} are equal", o.a, o.b)
+                                     : fmt::format("{} and {} differ in {} places", o.a, o.b, differences.size());
   if (differences.empty() && o.tolerance > 0) summary.line += fmt::format(" within {:g}", o.tolerance);
   for (const std::string& difference : differences) summary.line += "\n  " + difference;
-  summary.json = dump({{"tool", "st-diff"}, {"a", o.a}, {"b", o.b}, {"tolerance", o.tolerance}, {"equal", differences.empty()}, {"differences", differences}});
+  summary.json = dump({{"tool", "st-diff"},
+                       {"a", o.a},
+                       {"b", o.b},
+                       {"tolerance", o.tolerance},
+                       {"equal", differences.empty()},
+                       {"differences", differences}});
   return summary;
 }
 

@@ -1,4 +1,5 @@
-// comm_farm SCENARIO [ranks] [--np N]: one scenario of the task farm, checked by the program itself; exit code 0, that of the Error, or 1 for a failed check.
+// comm_farm SCENARIO [ranks] [--np N]: one scenario of the task farm, checked by the program itself; exit code 0, that of the Error, or 1
+// for a failed check.
 #include <unistd.h>
 
 #include <algorithm>
@@ -123,7 +124,8 @@ void rejects_a_wrong_order(const Communicator& comm) {
   for (const auto& order : wrong) {
     bool is_rejected = false;
     try {
-      comm.run_tasks(3, order, [](std::int32_t) { return Bytes(); }, [](std::int32_t, Bytes&&) {});
+      comm.run_tasks(
+          3, order, [](std::int32_t) { return Bytes(); }, [](std::int32_t, Bytes&&) {});
     } catch (const Error& e) {
       is_rejected = e.code() == ExitCode::kInternal;
     }
@@ -144,10 +146,11 @@ void fails_with_foreign_exception(const Communicator& comm) {
 }
 
 void fails_in_collect(const Communicator& comm) {
-  comm.run_tasks(30, descending(30), [](std::int32_t) { return Bytes(10); },
-                 [](std::int32_t task, Bytes&&) {
-                   if (task == 5) throw Error(ExitCode::kOutput, "disk is full");
-                 });
+  comm.run_tasks(
+      30, descending(30), [](std::int32_t) { return Bytes(10); },
+      [](std::int32_t task, Bytes&&) {
+        if (task == 5) throw Error(ExitCode::kOutput, "disk is full");
+      });
 }
 
 void loses_a_rank(const Communicator& comm) {

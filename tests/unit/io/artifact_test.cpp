@@ -1,10 +1,10 @@
 #include "io/artifact.h"
 
-#include <csignal>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <cstring>
 #include <functional>
@@ -30,10 +30,15 @@ struct Kind {
   std::function<std::string(const std::string&)> write;
   std::function<std::string(const std::string& from, const std::string& to)> rewrite;
 };
-const std::map<std::string, Kind> kKinds = {
-    {"geometry", {[](const auto& path) { return write_geometry(path, sample_geometry()); }, [](const auto& from, const auto& to) { return write_geometry(to, read_geometry(from)); }}},
-    {"patches", {[](const auto& path) { return write_patches(path, sample_patches()); }, [](const auto& from, const auto& to) { return write_patches(to, read_patches(from)); }}},
-    {"mesh", {[](const auto& path) { return write_mesh(path, sample_mesh()); }, [](const auto& from, const auto& to) { return write_mesh(to, read_mesh(from)); }}}};
+const std::map<std::string, Kind> kKinds = {{"geometry",
+                                             {[](const auto& path) { return write_geometry(path, sample_geometry()); },
+                                              [](const auto& from, const auto& to) { return write_geometry(to, read_geometry(from)); }}},
+                                            {"patches",
+                                             {[](const auto& path) { return write_patches(path, sample_patches()); },
+                                              [](const auto& from, const auto& to) { return write_patches(to, read_patches(from)); }}},
+                                            {"mesh",
+                                             {[](const auto& path) { return write_mesh(path, sample_mesh()); },
+                                              [](const auto& from, const auto& to) { return write_mesh(to, read_mesh(from)); }}}};
 
 class Artifact : public testing::TestWithParam<std::string> {
  protected:
@@ -108,12 +113,15 @@ TEST_P(Artifact, of_another_kind_is_refused_with_both_names) {
   for (const auto& [name, other] : kKinds) {
     if (name == GetParam()) continue;
     other.write(file("other.hdf"));
-    EXPECT_ERROR(kind().rewrite(file("other.hdf"), file("b.hdf")), kInput, "other.hdf: is a " + name + " artifact, but a " + GetParam() + " artifact is needed");
+    EXPECT_ERROR(kind().rewrite(file("other.hdf"), file("b.hdf")), kInput,
+                 "other.hdf: is a " + name + " artifact, but a " + GetParam() + " artifact is needed");
   }
 }
 
 TEST_P(Artifact, that_is_no_artifact_is_refused_with_its_own_message) {
-  const auto expect_refused = [&](const std::string& path, const std::string& text) { EXPECT_ERROR(kind().rewrite(path, file("b.hdf")), kInput, path + ": " + text); };
+  const auto expect_refused = [&](const std::string& path, const std::string& text) {
+    EXPECT_ERROR(kind().rewrite(path, file("b.hdf")), kInput, path + ": " + text);
+  };
   expect_refused(file("missing.hdf"), "no such file");
   expect_refused(dir_.path(), "is a directory");
   write_bytes(file("empty.hdf"), "");
@@ -168,7 +176,8 @@ TEST_P(Artifact, leaves_nothing_when_the_disk_is_full) {
     try {
       kind().write(file());
     } catch (const Error& e) {
-      const bool is_right = e.code() == ExitCode::kOutput && std::string(e.what()).find(file()) == 0 && std::string(e.what()).find("File too large") != std::string::npos;
+      const bool is_right = e.code() == ExitCode::kOutput && std::string(e.what()).find(file()) == 0 &&
+                            std::string(e.what()).find("File too large") != std::string::npos;
       _exit(is_right ? 42 : 1);
     }
   });

@@ -16,11 +16,11 @@ namespace {
 
 struct DocumentedDataset {
   std::string name, type;
-  std::vector<std::string> shape;   ///< "n_faces+1", "3*n_triangles", "4"
+  std::vector<std::string> shape;  ///< "n_faces+1", "3*n_triangles", "4"
 };
 struct Section {
   std::vector<DocumentedDataset> datasets;
-  std::map<std::string, std::string> attributes;   ///< name, type
+  std::map<std::string, std::string> attributes;  ///< name, type
 };
 
 /// Cells of a row of a Markdown table, code marks and blanks removed.
@@ -100,7 +100,8 @@ SizingArtifact sample_sizing() {
 }
 
 class ArtifactsDocument : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument, testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument, testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh"),
+                         [](const auto& info) { return info.param; });
 
 void write_sample(const std::string& section, const std::string& path) {
   if (section == "Geometry") write_geometry(path, sample_geometry());
@@ -125,7 +126,8 @@ TEST_P(ArtifactsDocument, lists_exactly_the_datasets_of_the_file_with_type_and_s
       EXPECT_EQ(documented.type, d.type) << d.name;
       ASSERT_EQ(documented.shape.size(), d.shape.size()) << d.name;
       for (std::size_t i = 0; i < d.shape.size(); ++i)
-        EXPECT_TRUE(fits(documented.shape[i], static_cast<std::int64_t>(d.shape[i]), known)) << d.name << ": " << documented.shape[i] << " against " << d.shape[i];
+        EXPECT_TRUE(fits(documented.shape[i], static_cast<std::int64_t>(d.shape[i]), known))
+            << d.name << ": " << documented.shape[i] << " against " << d.shape[i];
     }
   }
   EXPECT_EQ(undocumented, std::set<std::string>());
@@ -139,7 +141,8 @@ TEST_P(ArtifactsDocument, lists_exactly_the_attributes_of_the_file_with_type) {
   for (const auto& [name, type] : document["Every artifact"].attributes) documented[name] = type;
   const char* types[] = {"string", "int64", "float64"};
   for (const AttributeSummary& a : describe_artifact(dir / "a.hdf").attributes) found[a.name] = types[a.value.index()];
-  for (const char* provenance : {"content_hash", "geometry_hash", "tool", "tool_version", "options", "inputs"}) found["/st@" + std::string(provenance)] = "string";
+  for (const char* provenance : {"content_hash", "geometry_hash", "tool", "tool_version", "options", "inputs"})
+    found["/st@" + std::string(provenance)] = "string";
   EXPECT_EQ(documented, found);
 }
 

@@ -122,7 +122,8 @@ TEST(Hdf5File, says_what_is_wrong_with_a_request) {
   EXPECT_ERROR(reader.read<Vec2>("/st/points"), kInput, "has 3 columns, not 2");
   EXPECT_ERROR(reader.read_rows<Vec3>("/st/points", 7), kInput, "has 2 rows, not 7");
   EXPECT_ERROR(reader.int_attribute("/st", "slope"), kInput, "/st@slope");
-  EXPECT_ERROR(Hdf5Reader(dir / "a.hdf", "mesh"), kInput, "is a sizing artifact, but a mesh artifact is needed; give the file that st-merge wrote");
+  EXPECT_ERROR(Hdf5Reader(dir / "a.hdf", "mesh"), kInput,
+               "is a sizing artifact, but a mesh artifact is needed; give the file that st-merge wrote");
 }
 
 TEST(Hdf5File, leaves_nothing_without_commit) {
@@ -139,7 +140,8 @@ TEST(Hdf5File, removes_what_a_killed_process_left_of_the_same_file_and_nothing_e
   TemporaryDirectory dir;
   const std::string nobody = "4194999", somebody = std::to_string(getpid());  // above the largest process id of Linux
   const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
-  const std::vector<std::string> kept = {".a.hdf.tmp." + somebody + ".77", ".b.hdf.tmp." + nobody + ".0", ".a.hdf.tmp.", "a.hdf.tmp." + nobody + ".0"};
+  const std::vector<std::string> kept = {".a.hdf.tmp." + somebody + ".77", ".b.hdf.tmp." + nobody + ".0", ".a.hdf.tmp.",
+                                         "a.hdf.tmp." + nobody + ".0"};
   std::vector<std::string> all = kept;
   all.push_back(".a.hdf.tmp." + nobody + ".0");
   for (const std::string& name : all) {

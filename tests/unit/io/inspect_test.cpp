@@ -67,7 +67,8 @@ TEST(Compare, sees_flags_names_units_and_shapes) {
   other.mesh.corner_uv.resize(9);
   std::string all;
   for (const std::string& difference : differences(dir, sample_mesh(), other, 0.5)) all += difference + "\n";
-  for (const char* expected : {"/st@is_complete: 1 against 0", "/st@unit: 'mm' against 'cm'", "/st/face/name: 1 of 4", "/VTKHDF/Types: shape (4) against (3)", "/st/triangle/corner_uv: shape (12, 2) against (9, 2)"})
+  for (const char* expected : {"/st@is_complete: 1 against 0", "/st@unit: 'mm' against 'cm'", "/st/face/name: 1 of 4",
+                               "/VTKHDF/Types: shape (4) against (3)", "/st/triangle/corner_uv: shape (12, 2) against (9, 2)"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
 }
 

@@ -51,13 +51,13 @@ inline void write_bytes(const std::string& path, const std::string& bytes) {
 }
 
 /// The statement throws st::Error with this code and a message that contains `text`.
-#define EXPECT_ERROR(statement, expected_code, text)                                                             \
-  try {                                                                                                          \
-    (void)(statement);                                                                                           \
-    ADD_FAILURE() << "no error";                                                                                 \
-  } catch (const ::st::Error& e) {                                                                               \
-    EXPECT_EQ(e.code(), ::st::ExitCode::expected_code) << e.what();                                              \
-    EXPECT_NE(std::string(e.what()).find(text), std::string::npos) << e.what();                                  \
+#define EXPECT_ERROR(statement, expected_code, text)                            \
+  try {                                                                         \
+    (void)(statement);                                                          \
+    ADD_FAILURE() << "no error";                                                \
+  } catch (const ::st::Error& e) {                                              \
+    EXPECT_EQ(e.code(), ::st::ExitCode::expected_code) << e.what();             \
+    EXPECT_NE(std::string(e.what()).find(text), std::string::npos) << e.what(); \
   }
 
 }  // namespace st

@@ -15,8 +15,10 @@ TEST(InfoStage, counts_what_is_in_each_kind) {
   write_geometry(dir / "g.hdf", sample_geometry());
   write_patches(dir / "p.hdf", sample_patches());
   write_mesh(dir / "m.hdf", sample_mesh());
-  EXPECT_EQ(Json::parse(run_info(dir / "g.hdf").json)["counts"], Json::parse(R"({"faces":2,"edges":4,"vertices":3,"loops":2,"groups":2,"findings":2})"));
-  EXPECT_EQ(Json::parse(run_info(dir / "p.hdf").json)["counts"], Json::parse(R"({"triangles":5,"faces":2,"patches":2,"failures":1,"groups":1})"));
+  EXPECT_EQ(Json::parse(run_info(dir / "g.hdf").json)["counts"],
+            Json::parse(R"({"faces":2,"edges":4,"vertices":3,"loops":2,"groups":2,"findings":2})"));
+  EXPECT_EQ(Json::parse(run_info(dir / "p.hdf").json)["counts"],
+            Json::parse(R"({"triangles":5,"faces":2,"patches":2,"failures":1,"groups":1})"));
   EXPECT_EQ(Json::parse(run_info(dir / "m.hdf").json)["counts"], Json::parse(R"({"triangles":4,"nodes":4,"faces":4,"groups":2})"));
 }
 
@@ -35,7 +37,8 @@ TEST(InfoStage, says_where_an_artifact_comes_from) {
   EXPECT_EQ(json["geometry_hash"], "0123");
   EXPECT_EQ(json["properties"]["is_complete"], false);
   EXPECT_EQ(json["hash"], hash);
-  for (const std::string& text : {std::string("patches (schema version 1)"), std::string("ra ster.hdf 4567"), hash}) EXPECT_NE(summary.line.find(text), std::string::npos) << summary.line;
+  for (const std::string& text : {std::string("patches (schema version 1)"), std::string("ra ster.hdf 4567"), hash})
+    EXPECT_NE(summary.line.find(text), std::string::npos) << summary.line;
   EXPECT_EQ(summary.json.find('\n'), std::string::npos);
 }
 
