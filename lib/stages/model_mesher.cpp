@@ -16,6 +16,9 @@ namespace st {
 namespace {
 
 constexpr std::int32_t kEdgesPerTask = 24;
+constexpr double kLoopFloor = 1.0 / 16;       // of the requested length: refinement of loops, folds and narrow parts ends there
+constexpr double kCrossingFloor = 1.0 / 8;    // likewise for crossing facets
+constexpr double kWorthwhile = 0.8;           // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
   std::vector<std::int32_t> order(weight.size());
@@ -144,16 +147,11 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     times.faces += timer.seconds();
     ++n_rounds;
     const bool may_refine = n_rounds - n_crossing_rounds <= options_.max_rounds;
-    if (!may_refine) wanted.clear();
-    if (wanted.empty()) {
-      timer = Timer();
-      wanted = find_crossings();
-      times.crossing += timer.seconds();
-      if (n_crossing_rounds >= options_.max_crossing_rounds) wanted.clear();
-      ++n_crossing_rounds;
-    }
-    if (wanted.empty()) break;
-    accept(wanted, dirty_edges, dirty_faces);
+    if (may_refine && accept(wanted, kLoopFloor, dirty_edges, dirty_faces)) continue;
+    timer = Timer();
+    wanted = find_crossings();
+    times.crossing += timer.seconds();
+    if (n_crossing_rounds++ >= options_.max_crossing_rounds || !accept(wanted, kCrossingFloor, dirty_edges, dirty_faces)) break;
   }
   if (!comm_.is_root()) return;
   for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
@@ -165,11 +163,18 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
 
 double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
 
-/// New places become part of the field; what they reach is done again.
-void ModelMesher::accept(const std::vector<RefinementPoint>& points, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces) {
+/// New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none changes anything.
+bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges,
+                         std::vector<FaceId>& dirty_faces) {
   const ModelTables& t = model_.tables();
   std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
-  for (const RefinementPoint& p : points) {
+  int n_accepted = 0;
+  for (RefinementPoint p : points) {
+    p.length = std::max(p.length, floor * field_.size(p.x));
+    Box3 at;
+    at.add(p.x);
+    if (p.length > kWorthwhile * RefinedField(field_, points_near(at)).size(p.x)) continue;
+    ++n_accepted;
     points_.push_back(p);
     point_reach_.push_back(reach(p));
     for (EdgeId e = 0; e < t.n_edges(); ++e)
@@ -177,7 +182,8 @@ void ModelMesher::accept(const std::vector<RefinementPoint>& points, std::vector
         edge_dirty[e] = distance(edges.node_xyz[i], p.x) < point_reach_.back() + edges.node_size[i];
     for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], p.x) < point_reach_.back();
   }
-  n_refinements += static_cast<int>(points.size());
+  if (n_accepted == 0) return false;
+  n_refinements += n_accepted;
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l)
       for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
@@ -187,8 +193,9 @@ void ModelMesher::accept(const std::vector<RefinementPoint>& points, std::vector
     if (edge_dirty[e]) dirty_edges.push_back(e);
   for (FaceId f = 0; f < t.n_faces(); ++f)
     if (face_dirty[f]) dirty_faces.push_back(f);
-  log_info("refining at " + std::to_string(points.size()) + " places: " + std::to_string(dirty_edges.size()) + " edges, " +
+  log_info("refining at " + std::to_string(n_accepted) + " places: " + std::to_string(dirty_edges.size()) + " edges, " +
            std::to_string(dirty_faces.size()) + " faces again");
+  return true;
 }
 
 std::vector<RefinementPoint> ModelMesher::points_near(const Box3& box) const {

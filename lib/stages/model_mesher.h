@@ -49,7 +49,7 @@ class ModelMesher {
   void mesh_edges(const std::vector<EdgeId>& dirty);
   std::vector<RefinementPoint> mesh_faces(const std::vector<FaceId>& dirty);
   std::vector<RefinementPoint> find_crossings();
-  void accept(const std::vector<RefinementPoint>& points, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces);
+  bool accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces);
   std::vector<RefinementPoint> points_near(const Box3& box) const;
   double reach(const RefinementPoint& p) const;
   Bytes compute_edges(const std::vector<EdgeId>& batch) const;
