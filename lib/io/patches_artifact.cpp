@@ -1,83 +1,62 @@
 // patches.hdf: docs/artifacts.md
-#include <limits>
-
 #include "io/artifact_checks.h"
 
 namespace st {
 namespace {
 
 template <class T>
-void append(std::vector<T>& all, const std::vector<T>& part) {
-  all.insert(all.end(), part.begin(), part.end());
-}
+using PatchArray = std::vector<T> FacePatch::*;
 
+/// One array of all patches, behind one another.
 template <class T>
-std::vector<T> slice(const std::vector<T>& all, std::int64_t begin, std::int64_t end) {
-  return {all.begin() + begin, all.begin() + end};
+std::vector<T> concatenate(const std::vector<FacePatch>& patches, PatchArray<T> array) {
+  std::size_t n = 0;
+  for (const FacePatch& p : patches) n += (p.*array).size();
+  std::vector<T> all;
+  all.reserve(n);
+  for (const FacePatch& p : patches) all.insert(all.end(), (p.*array).begin(), (p.*array).end());
+  return all;
 }
 
-/// All patches behind one another, with offsets.
-struct FlatPatches {
-  std::vector<std::int32_t> face;
-  std::vector<std::int64_t> boundary_offsets = {0}, inner_offsets = {0}, triangle_offsets = {0};  ///< [n_patches+1]
-  FacePatch all;                                                                                  ///< arrays of all patches concatenated
-};
+/// Where each patch starts in concatenate(), [n_patches+1].
+template <class T>
+std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, PatchArray<T> array) {
+  std::vector<std::int64_t> offsets = {0};
+  for (const FacePatch& p : patches) offsets.push_back(offsets.back() + static_cast<std::int64_t>((p.*array).size()));
+  return offsets;
+}
 
-FlatPatches flatten(const std::vector<FacePatch>& patches) {
-  FlatPatches flat;
-  for (const FacePatch& p : patches) {
-    flat.face.push_back(p.face);
-    append(flat.all.boundary_dim, p.boundary_dim);
-    append(flat.all.boundary_entity, p.boundary_entity);
-    append(flat.all.boundary_index, p.boundary_index);
-    append(flat.all.inner_xyz, p.inner_xyz);
-    append(flat.all.inner_uv, p.inner_uv);
-    append(flat.all.inner_size, p.inner_size);
-    append(flat.all.triangles, p.triangles);
-    append(flat.all.corner_uv, p.corner_uv);
-    flat.boundary_offsets.push_back(static_cast<std::int64_t>(flat.all.boundary_dim.size()));
-    flat.inner_offsets.push_back(static_cast<std::int64_t>(flat.all.inner_xyz.size()));
-    flat.triangle_offsets.push_back(static_cast<std::int64_t>(flat.all.triangles.size()));
-  }
-  return flat;
+/// The inverse of concatenate() for an array with `factor` rows for each step of the offsets.
+template <class T>
+void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets, std::vector<FacePatch>& patches,
+                PatchArray<T> array, std::int64_t factor = 1) {
+  const std::vector<T> all = r.read_rows<T>(name, static_cast<std::size_t>(factor * offsets.back()));
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    (patches[i].*array).assign(all.begin() + factor * offsets[i], all.begin() + factor * offsets[i + 1]);
 }
 
 void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
-  const FlatPatches flat = flatten(patches);
-  w.write("/st/patch/face", flat.face);
-  w.write("/st/patch/boundary_offsets", flat.boundary_offsets);
-  w.write("/st/patch/inner_offsets", flat.inner_offsets);
-  w.write("/st/patch/triangle_offsets", flat.triangle_offsets);
-  w.write("/st/boundary/dim", flat.all.boundary_dim);
-  w.write("/st/boundary/entity", flat.all.boundary_entity);
-  w.write("/st/boundary/index", flat.all.boundary_index);
-  w.write("/st/inner/xyz", flat.all.inner_xyz);
-  w.write("/st/inner/uv", flat.all.inner_uv);
-  w.write("/st/inner/size", flat.all.inner_size);
-  w.write("/st/triangle/nodes", flat.all.triangles);
-  w.write("/st/triangle/corner_uv", flat.all.corner_uv);
+  std::vector<std::int32_t> face;
+  for (const FacePatch& p : patches) face.push_back(p.face);
+  w.write("/st/patch/face", face);
+  w.write("/st/patch/boundary_offsets", offsets_of(patches, &FacePatch::boundary_dim));
+  w.write("/st/patch/inner_offsets", offsets_of(patches, &FacePatch::inner_xyz));
+  w.write("/st/patch/triangle_offsets", offsets_of(patches, &FacePatch::triangles));
+  w.write("/st/boundary/dim", concatenate(patches, &FacePatch::boundary_dim));
+  w.write("/st/boundary/entity", concatenate(patches, &FacePatch::boundary_entity));
+  w.write("/st/boundary/index", concatenate(patches, &FacePatch::boundary_index));
+  w.write("/st/inner/xyz", concatenate(patches, &FacePatch::inner_xyz));
+  w.write("/st/inner/uv", concatenate(patches, &FacePatch::inner_uv));
+  w.write("/st/inner/size", concatenate(patches, &FacePatch::inner_size));
+  w.write("/st/triangle/nodes", concatenate(patches, &FacePatch::triangles));
+  w.write("/st/triangle/corner_uv", concatenate(patches, &FacePatch::corner_uv));
 }
 
-FlatPatches read_flat(const Hdf5Reader& r) {
-  FlatPatches flat;
-  flat.face = r.read<std::int32_t>("/st/patch/face");
-  const std::size_t n = flat.face.size();
-  flat.boundary_offsets = r.read_rows<std::int64_t>("/st/patch/boundary_offsets", n + 1);
-  flat.inner_offsets = r.read_rows<std::int64_t>("/st/patch/inner_offsets", n + 1);
-  flat.triangle_offsets = r.read_rows<std::int64_t>("/st/patch/triangle_offsets", n + 1);
-  FacePatch& all = flat.all;
-  all.boundary_dim = r.read<std::uint8_t>("/st/boundary/dim");
-  all.boundary_entity = r.read_rows<std::int32_t>("/st/boundary/entity", all.boundary_dim.size());
-  all.boundary_index = r.read_rows<std::int32_t>("/st/boundary/index", all.boundary_dim.size());
-  all.inner_xyz = r.read<Vec3>("/st/inner/xyz");
-  all.inner_uv = r.read_rows<Vec2>("/st/inner/uv", all.inner_xyz.size());
-  all.inner_size = r.read_rows<double>("/st/inner/size", all.inner_xyz.size());
-  all.triangles = r.read<Triangle>("/st/triangle/nodes");
-  all.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * all.triangles.size());
-  require_offsets(r, "/st/patch/boundary_offsets", flat.boundary_offsets, all.boundary_dim.size());
-  require_offsets(r, "/st/patch/inner_offsets", flat.inner_offsets, all.inner_xyz.size());
-  require_offsets(r, "/st/patch/triangle_offsets", flat.triangle_offsets, all.triangles.size());
-  return flat;
+/// Offsets of one kind of rows of the patches; `array` is one that they point into.
+std::vector<std::int64_t> read_offsets(const Hdf5Reader& r, const std::string& name, std::size_t n_patches, const std::string& array) {
+  std::vector<std::int64_t> offsets = r.read_rows<std::int64_t>(name, n_patches + 1);
+  require_offsets(r, name, offsets, r.info(array).shape[0]);
+  return offsets;
 }
 
 /// Triangles name nodes of their patch, boundary nodes entities of the model.
@@ -102,24 +81,24 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
 }
 
 std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtifact& a) {
-  const FlatPatches flat = read_flat(r);
-  require_ids(r, "/st/patch/face", flat.face, a.face_group.size());
-  std::vector<FacePatch> patches(flat.face.size());
+  const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/patch/face");
+  require_ids(r, "/st/patch/face", face, a.face_group.size());
+  std::vector<FacePatch> patches(face.size());
+  const auto boundary = read_offsets(r, "/st/patch/boundary_offsets", face.size(), "/st/boundary/dim");
+  distribute(r, "/st/boundary/dim", boundary, patches, &FacePatch::boundary_dim);
+  distribute(r, "/st/boundary/entity", boundary, patches, &FacePatch::boundary_entity);
+  distribute(r, "/st/boundary/index", boundary, patches, &FacePatch::boundary_index);
+  const auto inner = read_offsets(r, "/st/patch/inner_offsets", face.size(), "/st/inner/xyz");
+  distribute(r, "/st/inner/xyz", inner, patches, &FacePatch::inner_xyz);
+  distribute(r, "/st/inner/uv", inner, patches, &FacePatch::inner_uv);
+  distribute(r, "/st/inner/size", inner, patches, &FacePatch::inner_size);
+  const auto triangle = read_offsets(r, "/st/patch/triangle_offsets", face.size(), "/st/triangle/nodes");
+  distribute(r, "/st/triangle/nodes", triangle, patches, &FacePatch::triangles);
+  distribute(r, "/st/triangle/corner_uv", triangle, patches, &FacePatch::corner_uv, 3);
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    FacePatch& p = patches[i];
-    const std::int64_t b0 = flat.boundary_offsets[i], b1 = flat.boundary_offsets[i + 1], n0 = flat.inner_offsets[i],
-                       n1 = flat.inner_offsets[i + 1], t0 = flat.triangle_offsets[i], t1 = flat.triangle_offsets[i + 1];
-    p.face = flat.face[i];
-    p.n_boundary = static_cast<std::int32_t>(b1 - b0);
-    p.boundary_dim = slice(flat.all.boundary_dim, b0, b1);
-    p.boundary_entity = slice(flat.all.boundary_entity, b0, b1);
-    p.boundary_index = slice(flat.all.boundary_index, b0, b1);
-    p.inner_xyz = slice(flat.all.inner_xyz, n0, n1);
-    p.inner_uv = slice(flat.all.inner_uv, n0, n1);
-    p.inner_size = slice(flat.all.inner_size, n0, n1);
-    p.triangles = slice(flat.all.triangles, t0, t1);
-    p.corner_uv = slice(flat.all.corner_uv, 3 * t0, 3 * t1);
-    require_consistent(r, p, a);
+    patches[i].face = face[i];
+    patches[i].n_boundary = static_cast<std::int32_t>(patches[i].boundary_dim.size());
+    require_consistent(r, patches[i], a);
   }
   return patches;
 }
