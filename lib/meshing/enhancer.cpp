@@ -9,9 +9,10 @@ namespace {
 
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
-constexpr double kGoodQuality = 0.93;      // nodes whose triangles are all better stay where they are
+constexpr double kGoodQuality = 0.995;      // nodes whose triangles are all better stay where they are
 constexpr double kShortEdge = 0.55;        // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;         // of the requested length: no collapse makes such an edge
+constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kSwapGain = 1e-3;
 constexpr double kSwapBelow = 0.9;         // pairs of triangles that are both better are left alone
 constexpr double kRelaxLeast = 0.55;       // no triangle worse than this is made for the sake of the valence
@@ -165,18 +166,14 @@ class Enhancer {
       mean_before += quality_[t] / static_cast<double>(tris_.size());
     }
     if (before > kGoodQuality) return;
-    // mean of the ring, each neighbour pulled to its requested distance
+    // mean of the apexes that would make each triangle of the ring equilateral
     Vec3 target{};
-    const double n = static_cast<double>(around_.size());
-    for (std::int32_t j : around_) {
-      const MeshNode& b = m_.nodes[j];
-      const Vec3 d = old.x - b.x;
-      const double l = norm(d), h = 0.5 * (old.h + b.h);
-      target += b.x + (l > 0 ? 0.5 + 0.5 * h / l : 1.0) * d;
+    const std::size_t n = around_.size();
+    for (std::size_t j = 0; j < n; ++j) {
+      const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[(j + 1) % n]].x - b;
+      target += b + 0.5 * e + kHalfSqrt3 * cross(old.normal, e);
     }
-    Vec3 laplace{};
-    for (std::int32_t j : around_) laplace += m_.nodes[j].x;
-    target = 0.5 * (target / n) + 0.5 * (laplace / n);
+    target = target / static_cast<double>(n);
     const Metric m = metric_of(old.du, old.dv);
     const double det = m.e * m.g - m.f * m.f;
     if (!(det > 0)) return;
