@@ -1,11 +1,11 @@
 #!/bin/bash
-# Ties the folder of results to one model: OUT/model.ref holds the model's content hash and path, and changes only with the content. Makes
-# the option files that are missing, with every option at its default.
+# Ties the folder of results to one model and to the tools: OUT/model.ref holds the model's content hash and path, OUT/log/<stage>.tool the
+# hash of the tool; they change only with the content. Makes the option files that are missing, with every option at its default.
 # usage: scripts/workflow_model.sh OUT BIN_DIR MODEL       exit 2 when OUT holds the results of another model
 set -eu -o pipefail
 out=$1 bin=$2 model=$3
 [ -f "$model" ] || { echo "workflow: error: MODEL '$model' is no file" >&2; exit 3; }
-mkdir -p "$out"
+mkdir -p "$out/log"
 path=$(realpath "$model")
 hash=$(sha256sum < "$model" | cut -d' ' -f1)
 if [ -f "$out/model.ref" ]; then
@@ -15,13 +15,15 @@ if [ -f "$out/model.ref" ]; then
     exit 2
   fi
 fi
-if [ "${old_hash-}" != "$hash" ]; then
-  printf '%s\n%s\n' "$hash" "$path" > "$out/model.ref.tmp.$$"
-  mv "$out/model.ref.tmp.$$" "$out/model.ref"
-fi
+
+replace() { cat > "$1.tmp.$$" && mv "$1.tmp.$$" "$1"; }
+
+[ "${old_hash-}" = "$hash" ] || printf '%s\n%s\n' "$hash" "$path" | replace "$out/model.ref"
 for stage in st-import st-raster st-prolong st-mesh st-merge; do
-  file=$out/$stage.toml
-  [ -f "$file" ] && continue
-  "$bin/$stage" --print-options > "$file.tmp.$$"
-  mv "$file.tmp.$$" "$file"
+  tool=$(sha256sum < "$bin/$stage")
+  [ "$tool" = "$(cat "$out/log/$stage.tool" 2> /dev/null)" ] || echo "$tool" | replace "$out/log/$stage.tool"
+  if [ ! -f "$out/$stage.toml" ]; then
+    template=$("$bin/$stage" --print-options)
+    echo "$template" | replace "$out/$stage.toml"
+  fi
 done

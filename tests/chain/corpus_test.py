@@ -1,5 +1,5 @@
-"""The chain with no option but the file name, on real CAD files (ST_CORPUS): a mesh that passes st-check, and, where it is there, the
-independent judge ../tools/meshcheck.sh beside the corpus."""
+"""The chain with no option but the file name, on real CAD files (ST_CORPUS, by default ../shared/corpus beside the repository): a mesh that
+passes st-check and, where it is there, the independent judge ../tools/meshcheck.sh beside the corpus."""
 import json
 import sys
 import unittest
@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import *  # noqa: E402,F403
 
-CORPUS = Path(os.environ["ST_CORPUS"])
+CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 FAST = [
     "aero_onera_m6_sharpte.brep",
     "aero_evtol_bet.brep",

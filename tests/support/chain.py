@@ -1,6 +1,6 @@
 """What the tests of the tools share: run a tool, make artifacts of a model once, look at what is left.
 
-Environment: ST_BIN (folder of the tools), ST_MODELS (folder of make_models), ST_WORK (folder for artifacts), ST_CORPUS (real CAD files).
+Environment: ST_BIN (folder of the tools), ST_MODELS (folder of make_models), ST_WORK (folder for artifacts).
 """
 import json
 import os

@@ -64,6 +64,13 @@ expect "an unknown target fails" "$status" 2
 run MODEL=a.step out/a/mesh.obj
 expect "an export is a target" "$ran" "st-export "
 
+later touch bin/*
+run MODEL=a.step
+expect "tools built again with the same content run nothing" "$ran" ""
+echo '# a new version' >> bin/st-mesh
+run MODEL=a.step
+expect "a changed tool runs its stage and what follows" "$ran" "st-mesh st-merge st-check st-export st-info "
+
 echo model-b > a.step
 run MODEL=a.step
 expect "a changed model runs everything" "$ran" "$all"
