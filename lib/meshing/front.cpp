@@ -16,6 +16,7 @@ constexpr double kFinishedRadius = 0.68;    // circumradius over requested lengt
 constexpr double kNearNode = 0.65;          // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;       // of the side: nor nearer than this to a boundary segment
 constexpr double kGrowth = 1.25;            // size of a new node over its base side
+constexpr double kShortBase = 0.8;          // of the size at its ends: a shorter base does not hold back the growth any more
 constexpr double kTurningFloor = 0.25;      // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
 
@@ -107,7 +108,7 @@ class Front {
       w_.evaluate(p);
       if (step == 0) {  // the side's length is the mean of the sizes at its ends
         p.request = p.h = w_.field->size(p.x, w_.hint);
-        r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base, kGrowth * base);
+        r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base, kGrowth * std::max(base, kShortBase * 0.5 * (a.h + b.h)));
         limit_turning(a, b, p, r);
       }
       const Vec3 ra = p.x - a.x, rb = p.x - b.x;
@@ -144,10 +145,11 @@ class Front {
     const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
     const double base = distance(a.x, b.x);
     if (!(base > 0)) return false;
-    double r = std::max(std::min(0.5 * (a.h + b.h), kGrowth * base), 0.62 * base);
+    const double h = 0.5 * (a.h + b.h);
+    double r = std::max(std::min(h, kGrowth * std::max(base, kShortBase * h)), 0.62 * base);
     MeshNode p;
     if (!ideal_point(a, b, r, p)) return false;
-    return insert(p, t, r, kGrowth * base);
+    return insert(p, t, r, kGrowth * std::max(base, h));
   }
 
   /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
