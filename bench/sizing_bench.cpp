@@ -91,9 +91,10 @@ void bench_model(const std::string& path, double lmax_percent) {
   const ModelTables& t = model.tables();
   report("{}: {} faces, {} edges, import {:.2f} s\n", path, t.n_faces(), t.n_edges(), import_timer.seconds());
   SamplingLimits wall;
-  wall.max_length = lmax_percent / 100 * t.reference_diagonal();
+  const FaceRoles roles = face_roles(t);
+  wall.max_length = lmax_percent / 100 * roles.reference_diagonal;
   wall.min_length = wall.max_length / 64;
-  const ModelLimits limits = model_limits(t, wall);
+  const ModelLimits limits = model_limits(t, roles, wall);
   std::vector<RasterBox> boxes;
   const Timer curve_timer;
   for (EdgeId e = 0; e < t.n_edges(); ++e)

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "geometry/model.h"
+#include "sizing/face_roles.h"
 #include "sizing/size_limits.h"
 
 namespace st {
 
-/// Limits per face and edge, by the role of the face's group.
+/// Limits per face and edge, by the role of the face.
 ///
-/// Walls take the limits as given. A far field takes its own largest length, 1/20 of the diagonal of the face's box (never less than the
+/// Walls take the limits as given. A far field takes its own largest length, 1/30 of the diagonal of the face's box (never less than the
 /// walls'): sizes meant for the body would fill it with triangles. A symmetry plane asks for nothing: its sizes come from what it touches.
-/// An edge takes the smallest limits of its faces. A model without walls is sampled like one wall.
+/// An edge takes the smallest limits of its faces.
 struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
   std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
@@ -24,9 +25,11 @@ struct ModelLimits {
   const SamplingLimits& trace(EdgeId e) const { return edge[e] ? *edge[e] : far; }
 };
 
-/// Longest side of a far-field triangle over the diagonal of its face's box.
-inline constexpr double kFarLengthPerDiagonal = 1.0 / 20;
+/// Longest side of a far-field triangle over the diagonal of its face's box: keeps the volume inside a spherical far field within 0.5 %.
+inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
-ModelLimits model_limits(const ModelTables& tables, const SamplingLimits& wall);
+/// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field there, so that a
+/// domain whose sides all touch it does not fill up with the body's lengths.
+ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall);
 
 }  // namespace st

@@ -32,8 +32,15 @@ void require_valid(const RasterStageOptions& o) {
     throw Error(ExitCode::kUsage, fmt::format("--cell-per-length {}: not in [1, 8]", o.cell_per_length));
 }
 
-SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t) {
-  const double diagonal = t.reference_diagonal();
+std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
+  return fmt::format(
+      "no group is named far field or symmetry: {} faces far larger than the rest, {} the first, are taken as the outer boundary, and "
+      "lengths refer to "
+      "the rest (diagonal {:.4g}); name the groups, or give --lmin and --lmax",
+      roles.guessed.size(), t.face_label(roles.guessed.front()), roles.reference_diagonal);
+}
+
+SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t, double diagonal) {
   if (!(diagonal > 0)) throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
   SamplingLimits limits;
   limits.max_length =
@@ -252,8 +259,10 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
   GeometryArtifact geometry = read_geometry(o.geometry);
-  const SamplingLimits wall = resolve_limits(o, geometry.tables);
-  const ModelLimits limits = model_limits(geometry.tables, wall);
+  const FaceRoles roles = face_roles(geometry.tables);
+  if (!roles.guessed.empty()) log_warning(describe_guess(geometry.tables, roles));
+  const SamplingLimits wall = resolve_limits(o, geometry.tables, roles.reference_diagonal);
+  const ModelLimits limits = model_limits(geometry.tables, roles, wall);
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace st {
 namespace {
 
@@ -23,22 +25,24 @@ ModelTables three_faces(const std::vector<std::string>& roles) {
   return t;
 }
 
+ModelLimits limits_of(const ModelTables& t) { return model_limits(t, face_roles(t), kWall); }
+
 TEST(ModelLimits, follow_the_roles_of_groups) {
-  const ModelLimits limits = model_limits(three_faces({"wall", "symmetry", "farfield"}), kWall);
+  const ModelLimits limits = limits_of(three_faces({"wall", "symmetry", "farfield"}));
   ASSERT_TRUE(limits.face[0]);
   EXPECT_EQ(limits.face[0]->max_length, 0.5);
   EXPECT_FALSE(limits.face[1]);
   ASSERT_TRUE(limits.face[2]);
-  EXPECT_DOUBLE_EQ(limits.face[2]->max_length, 5);  // 1/20 of a diagonal of 100
+  EXPECT_DOUBLE_EQ(limits.face[2]->max_length, kFarLengthPerDiagonal * 100);
   EXPECT_EQ(limits.face[2]->min_length, kWall.min_length);
-  EXPECT_DOUBLE_EQ(limits.far_length, 5);
-  EXPECT_DOUBLE_EQ(limits.trace(2).max_length, 5) << "an edge that is not sampled is traced coarsely";
+  EXPECT_DOUBLE_EQ(limits.far_length, kFarLengthPerDiagonal * 100);
+  EXPECT_DOUBLE_EQ(limits.trace(2).max_length, limits.far_length) << "an edge that is not sampled is traced coarsely";
 }
 
 TEST(ModelLimits, of_an_edge_are_the_smallest_of_its_faces) {
-  const ModelLimits limits = model_limits(three_faces({"wall", "symmetry", "farfield"}), kWall);
+  const ModelLimits limits = limits_of(three_faces({"wall", "symmetry", "farfield"}));
   EXPECT_EQ(limits.edge[0]->max_length, 0.5);
-  EXPECT_DOUBLE_EQ(limits.edge[1]->max_length, 5);
+  EXPECT_DOUBLE_EQ(limits.edge[1]->max_length, kFarLengthPerDiagonal * 100);
   EXPECT_FALSE(limits.edge[2]) << "between symmetry planes only";
   EXPECT_EQ(limits.edge[3]->max_length, 0.5) << "an edge of no face";
   EXPECT_FALSE(limits.edge[4]) << "degenerate";
@@ -47,13 +51,52 @@ TEST(ModelLimits, of_an_edge_are_the_smallest_of_its_faces) {
 TEST(ModelLimits, never_make_a_far_field_finer_than_walls) {
   ModelTables t = three_faces({"wall", "symmetry", "farfield"});
   t.face_box[2] = {{0, 0, 0}, {0.1, 0, 0}};
-  EXPECT_EQ(model_limits(t, kWall).face[2]->max_length, kWall.max_length);
+  EXPECT_EQ(limits_of(t).face[2]->max_length, kWall.max_length);
 }
 
 TEST(ModelLimits, treat_a_model_without_walls_as_one_wall) {
-  const ModelLimits limits = model_limits(three_faces({"farfield", "symmetry", "farfield"}), kWall);
+  const ModelLimits limits = limits_of(three_faces({"farfield", "symmetry", "farfield"}));
   for (const auto& face : limits.face) EXPECT_EQ(face->max_length, kWall.max_length);
   EXPECT_EQ(limits.far_length, kWall.max_length);
+}
+
+/// A body (faces 0, 1) in a domain: face 2 shares an edge with the body, face 3 does not. No names.
+ModelTables body_in_domain(double body) {
+  ModelTables t;
+  t.group_role = {"wall"};
+  t.face_group = {0, 0, 0, 0};
+  t.face_is_reversed = {0, 0, 0, 0};
+  t.face_box = {{{0, 0, 0}, {body, 0, 0}}, {{0, 0, 0}, {0, body / 2, 0}}, {{-50, -50, 0}, {50, 50, 0}}, {{-50, -50, 0}, {-50, 50, 100}}};
+  t.edge_length = {1, 1, 1};
+  t.edge_is_degenerate = {0, 0, 0};
+  t.face_loop_offsets = {0, 1, 2, 3, 4};
+  t.loop_coedge_offsets = {0, 2, 3, 5, 6};
+  t.coedge_edge = {0, 1, 0, 1, 2, 2};
+  return t;
+}
+
+TEST(FaceRoles, find_a_small_body_in_an_unnamed_domain) {
+  const FaceRoles roles = face_roles(body_in_domain(2));
+  EXPECT_EQ(roles.guessed, (std::vector<FaceId>{2, 3}));
+  EXPECT_EQ(roles.role, (std::vector<FaceRole>{FaceRole::kWall, FaceRole::kWall, FaceRole::kSymmetry, FaceRole::kFarfield}));
+  EXPECT_DOUBLE_EQ(roles.reference_diagonal, std::hypot(2, 1));
+}
+
+TEST(FaceRoles, do_not_guess_when_the_rest_is_not_small_or_a_name_speaks) {
+  EXPECT_TRUE(face_roles(body_in_domain(20)).guessed.empty());
+  ModelTables named = body_in_domain(2);
+  named.group_role = {"wall", "farfield"};
+  named.face_group[3] = 1;
+  const FaceRoles roles = face_roles(named);
+  EXPECT_TRUE(roles.guessed.empty());
+  EXPECT_EQ(roles.role[2], FaceRole::kWall);
+}
+
+TEST(FaceRoles, give_a_domain_that_touches_the_body_everywhere_a_far_length_still) {
+  ModelTables t = body_in_domain(2);
+  t.coedge_edge = {0, 1, 0, 1, 2, 0};
+  EXPECT_EQ(face_roles(t).role[3], FaceRole::kSymmetry);
+  EXPECT_GT(limits_of(t).far_length, 4);
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+#include "sizing/face_roles.h"
+
+#include <algorithm>
+#include <string>
+
+namespace st {
+namespace {
+
+constexpr double kOuterExtent = 0.25;  // smallest diagonal of an outer face's box over the model's
+constexpr double kBodyExtent = 0.05;   // largest diagonal of the body's box over the model's
+
+FaceRole named_role(const ModelTables& t, std::size_t f) {
+  const std::int32_t group = f < t.face_group.size() ? t.face_group[f] : kNone;
+  if (group < 0) return FaceRole::kWall;
+  const std::string& role = t.group_role[group];
+  return role == "farfield" ? FaceRole::kFarfield : role == "symmetry" ? FaceRole::kSymmetry : FaceRole::kWall;
+}
+
+/// Large faces around a small rest; empty when the model is not of that kind.
+std::vector<FaceId> guess_outer_faces(const ModelTables& t) {
+  Box3 all, body;
+  for (const Box3& box : t.face_box) all.add(box);
+  std::vector<FaceId> outer;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    if (t.face_box[f].diagonal() >= kOuterExtent * all.diagonal())
+      outer.push_back(f);
+    else
+      body.add(t.face_box[f]);
+  }
+  const bool is_body_in_domain =
+      !outer.empty() && !body.is_empty() && body.diagonal() > 0 && body.diagonal() <= kBodyExtent * all.diagonal();
+  return is_body_in_domain ? outer : std::vector<FaceId>();
+}
+
+/// Outer faces that share an edge with a wall are symmetry planes, the others far field.
+void set_outer_roles(const ModelTables& t, FaceRoles& roles) {
+  for (const FaceId f : roles.guessed) roles.role[f] = FaceRole::kFarfield;
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    const auto begin = faces.begin() + offsets[e], end = faces.begin() + offsets[e + 1];
+    if (std::none_of(begin, end, [&](FaceId f) { return roles.role[f] == FaceRole::kWall; })) continue;
+    for (auto f = begin; f != end; ++f)
+      if (roles.role[*f] == FaceRole::kFarfield) roles.role[*f] = FaceRole::kSymmetry;
+  }
+}
+
+}  // namespace
+
+FaceRoles face_roles(const ModelTables& t) {
+  FaceRoles roles;
+  for (std::size_t f = 0; f < static_cast<std::size_t>(t.n_faces()); ++f) roles.role.push_back(named_role(t, f));
+  const auto is_wall = [](FaceRole r) { return r == FaceRole::kWall; };
+  if (std::none_of(roles.role.begin(), roles.role.end(), is_wall)) {
+    std::fill(roles.role.begin(), roles.role.end(), FaceRole::kWall);
+  } else if (std::all_of(roles.role.begin(), roles.role.end(), is_wall)) {
+    roles.guessed = guess_outer_faces(t);
+    set_outer_roles(t, roles);
+  }
+  Box3 walls;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (is_wall(roles.role[f])) walls.add(t.face_box[f]);
+  roles.reference_diagonal = walls.diagonal();
+  return roles;
+}
+
+}  // namespace st
