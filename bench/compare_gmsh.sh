@@ -1,0 +1,47 @@
+#!/bin/bash
+# ST beside Debian's gmsh on one model, one rank, same smallest and largest length, 10 degrees: time, triangles, quality, checks.
+# usage: bench/compare_gmsh.sh MODEL [BIN_DIR] [OUT_DIR]     run it on a quiet machine; needs gmsh and the independent judge beside the corpus (ST_CORPUS)
+set -eu
+here=$(cd "$(dirname "$0")/.." && pwd)
+model=$1
+bin=${2:-$here/build/release/bin}
+out=${3:-$(mktemp -d)}
+judge=$(cd "${ST_CORPUS:-$here/../shared/corpus}/.." && pwd)/tools/meshcheck.sh
+mkdir -p "$out"
+seconds() { # label command...: wall time, command's last line kept
+  local label=$1 start end
+  shift
+  start=$(date +%s.%N)
+  "$@" > "$out/$label.log" 2>&1 || { cat "$out/$label.log" >&2; return 1; }
+  end=$(date +%s.%N)
+  awk -v a="$start" -v b="$end" 'BEGIN { printf "%.2f", b - a }'
+}
+value() { sed -n "s/.*\"$2\":\([-0-9.e+]*\).*/\1/p" "$out/$1.log" | tail -1; }
+
+t_import=$(seconds import "$bin/st-import" "$model" -o "$out/geometry.hdf" --json)
+t_raster=$(seconds raster "$bin/st-raster" "$out/geometry.hdf" -o "$out/raster.hdf" --json ${ST_SIZES:-})
+t_prolong=$(seconds prolong "$bin/st-prolong" "$out/raster.hdf" -o "$out/sizing.hdf")
+t_mesh=$(seconds mesh "$bin/st-mesh" "$out/geometry.hdf" "$out/sizing.hdf" -o "$out/patches.hdf" --json)
+t_merge=$(seconds merge "$bin/st-merge" "$out/patches.hdf" -o "$out/mesh.hdf")
+t_check=$(seconds check "$bin/st-check" "$out/mesh.hdf") || true
+lmin=$(value raster lmin)
+lmax=$(value raster lmax)
+t_gmsh=$(seconds gmsh gmsh "$model" -2 -algo front2d -nt 1 -clcurv 36 -clmin "$lmin" -clmax "$lmax" -format msh22 -o "$out/gmsh.msh" -v 5)
+t_gmsh2d=$(sed -n 's/.*Done meshing 2D (Wall \([0-9.]*\)s.*/\1/p' "$out/gmsh.log" | tail -1)
+"$judge" "$out/mesh.hdf" > "$out/judge_st.json" || true
+"$judge" "$out/gmsh.msh" > "$out/judge_gmsh.json" || true
+python3 - "$out" "$model" "$t_import" "$t_raster" "$t_prolong" "$t_mesh" "$t_merge" "$t_check" "$t_gmsh" "${t_gmsh2d:-0}" <<'P'
+import json, sys
+out, model = sys.argv[1:3]
+imp, ras, pro, mesh, merge, check, gmsh, gmsh2d = map(float, sys.argv[3:11])
+st, gm = (json.load(open(f"{out}/judge_{k}.json")) for k in ("st", "gmsh"))
+chain = imp + ras + pro + mesh + merge + check
+print(model)
+print(f"  ST    {st['triangles']:9d} triangles  st-mesh {mesh:6.2f} s ({st['triangles']/mesh:9.0f}/s)  chain {chain:6.2f} s "
+      f"(import {imp} raster {ras} prolong {pro} merge {merge} check {check})")
+print(f"  gmsh  {gm['triangles']:9d} triangles  2-D     {gmsh2d:6.2f} s ({gm['triangles']/max(gmsh2d,1e-9):9.0f}/s)  whole {gmsh:6.2f} s")
+print(f"  per triangle: st-mesh {gmsh2d/gm['triangles']/(mesh/st['triangles']):.1f} x gmsh's 2-D stage, chain {gmsh/gm['triangles']/(chain/st['triangles']):.1f} x gmsh from file to mesh")
+for name, j in (("ST", st), ("gmsh", gm)):
+    print(f"  {name:5s} quality mean {j['mean_q']:.4f} 1st percentile {j['p1_q']:.4f} least angle {j['min_angle']:.2f} below 10 deg {j['below_10deg']} "
+          f"jump 99.9 % {j['jump_p999']}  open {j['boundary_edges']} non-manifold {j['nonmanifold_edges']} folds {j['folds']} crossing {j['self_intersections']}")
+P
