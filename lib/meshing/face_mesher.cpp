@@ -14,6 +14,7 @@ constexpr double kSnap = 1e-3;             // of the requested length: same-id n
 constexpr double kSnapPlane = 0.05;        // likewise in the scaled plane, where the surface is singular and all steps are short
 constexpr double kSmallStep = 2e-3;        // of the range of (u,v): far less than the steps between the nodes of a pole
 constexpr double kSingular = 0.02;         // of its mean: a derivative shorter than this makes no reliable normal
+constexpr double kFoldCosine = -0.8;        // between the normals of neighbours: folded onto each other
 constexpr int kProbe = 6;                  // grid of the scale of the plane
 constexpr int kAreaProbe = 24;             // grid of the expected number of nodes
 constexpr double kRunaway = 30;            // times the expected number of nodes
@@ -248,16 +249,30 @@ class FaceMesher {
     }
   }
 
+  /// Triangles turned against the surface, and neighbours folded onto each other.
   void check_folds(FaceMesh& r) const {
-    for (const PlaneTriangle& t : work_.mesh.triangles) {
+    const auto& triangles = work_.mesh.triangles;
+    std::vector<Vec3> normal(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const PlaneTriangle& t = triangles[i];
       if (t.state == kOutside || t.state == kDead || same_pole(t)) continue;
       const MeshNode &a = work_.mesh.nodes[t.v[0]], &b = work_.mesh.nodes[t.v[1]], &c = work_.mesh.nodes[t.v[2]];
-      const Vec3 n = cross(b.x - a.x, c.x - a.x);
-      if (dot(n, a.normal + b.normal + c.normal) >= 0) continue;
-      ++r.n_folds;
-      const double size = std::sqrt(std::max({norm2(b.x - a.x), norm2(c.x - a.x), norm2(c.x - b.x)}));
-      if (r.refinement.size() < 64) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});
+      normal[i] = normalized(cross(b.x - a.x, c.x - a.x));
+      if (dot(normal[i], a.normal + b.normal + c.normal) < 0) report_fold(r, t);
     }
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t o = triangles[i].n[k];
+        if (o <= static_cast<std::int32_t>(i) || (triangles[i].constrained >> k & 1) || dot(normal[i], normal[o]) > kFoldCosine) continue;
+        report_fold(r, triangles[i]);
+      }
+  }
+
+  void report_fold(FaceMesh& r, const PlaneTriangle& t) const {
+    const MeshNode &a = work_.mesh.nodes[t.v[0]], &b = work_.mesh.nodes[t.v[1]], &c = work_.mesh.nodes[t.v[2]];
+    ++r.n_folds;
+    const double size = std::sqrt(std::max({norm2(b.x - a.x), norm2(c.x - a.x), norm2(c.x - b.x)}));
+    if (r.refinement.size() < 64) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});
   }
 
   const Surface& surface_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::int32_t kEdgesPerTask = 24;
 constexpr double kLoopFloor = 1.0 / 16;       // of the requested length: refinement of loops, folds and narrow parts ends there
 constexpr double kCrossingFloor = 1.0 / 8;    // likewise for crossing facets
-constexpr double kWorthwhile = 0.8;           // of the present length: a refinement that asks for more than this is no change
+constexpr double kWorthwhile = 0.95;           // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
   std::vector<std::int32_t> order(weight.size());
