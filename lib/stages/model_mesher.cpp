@@ -107,6 +107,15 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
   face_cause_xyz_.resize(t.n_faces());
   face_fold_places_.resize(t.n_faces());
   edges.edge_offsets.assign(t.n_edges() + 1, 0);
+  edge_in_scope_.assign(t.n_edges(), 1);
+  face_in_scope_.assign(t.n_faces(), 1);
+}
+
+void ModelMesher::limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in) {
+  std::fill(edge_in_scope_.begin(), edge_in_scope_.end(), 0);
+  std::fill(face_in_scope_.begin(), face_in_scope_.end(), 0);
+  for (EdgeId e : edges_in) edge_in_scope_[e] = 1;
+  for (FaceId f : faces_in) face_in_scope_[f] = 1;
 }
 
 void ModelMesher::run() {
@@ -116,6 +125,20 @@ void ModelMesher::run() {
   std::vector<FaceId> all_faces(model_.tables().n_faces());
   std::iota(all_faces.begin(), all_faces.end(), 0);
   rounds(std::move(all_edges), std::move(all_faces));
+}
+
+void ModelMesher::run_part(const std::vector<FaceId>& faces, EdgeMesh fixed) {
+  const ModelTables& t = model_.tables();
+  if (!fixed.edge_offsets.empty()) edges = std::move(fixed);
+  std::vector<char> used(t.n_edges(), 0);
+  for (FaceId f : faces)
+    for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
+      used[t.coedge_edge[c]] = 1;
+  std::vector<EdgeId> dirty;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (used[e] && !t.edge_is_degenerate[e] && edges.edge_offsets[e] == edges.edge_offsets[e + 1]) dirty.push_back(e);
+  limit_scope(dirty, faces);
+  rounds(std::move(dirty), faces);
 }
 
 void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patches, const std::vector<FaceId>& faces_to_redo) {
@@ -133,6 +156,7 @@ void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patche
     for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && redo[faces[i]];
     if (all) dirty.push_back(e);
   }
+  limit_scope(dirty, faces_to_redo);
   rounds(std::move(dirty), faces_to_redo);
 }
 
@@ -190,9 +214,9 @@ bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floo
   dirty_edges.clear();
   dirty_faces.clear();
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (edge_dirty[e]) dirty_edges.push_back(e);
+    if (edge_dirty[e] && edge_in_scope_[e]) dirty_edges.push_back(e);
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    if (face_dirty[f]) dirty_faces.push_back(f);
+    if (face_dirty[f] && face_in_scope_[f]) dirty_faces.push_back(f);
   log_info("refining at " + std::to_string(n_accepted) + " places: " + std::to_string(dirty_edges.size()) + " edges, " +
            std::to_string(dirty_faces.size()) + " faces again");
   return true;

@@ -31,6 +31,8 @@ class ModelMesher {
 
   /// Collective. Meshes everything.
   void run();
+  /// Collective. Meshes `faces` only (ascending), on the given nodes where `fixed` has nodes of an edge (it may be empty): parts meshed apart fit.
+  void run_part(const std::vector<FaceId>& faces, EdgeMesh fixed);
   /// Collective. Keeps the given nodes of every edge and the patches of faces not in `faces_to_redo` (on rank 0); edges of which all faces are redone
   /// get new nodes.
   void run_from(EdgeMesh edges, std::vector<FacePatch> patches, const std::vector<FaceId>& faces_to_redo);
@@ -46,6 +48,7 @@ class ModelMesher {
  private:
   struct FaceOutcome;
   void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
+  void limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in);
   void mesh_edges(const std::vector<EdgeId>& dirty);
   std::vector<RefinementPoint> mesh_faces(const std::vector<FaceId>& dirty);
   std::vector<RefinementPoint> find_crossings();
@@ -62,6 +65,7 @@ class ModelMesher {
   ModelMesherOptions options_;
   const Communicator& comm_;
   std::vector<int> min_segments_;
+  std::vector<char> edge_in_scope_, face_in_scope_;   // what may be meshed (again)
   std::vector<RefinementPoint> points_;      // all refinements so far
   std::vector<double> point_reach_;
   std::vector<int> face_folds_;

@@ -32,7 +32,8 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.face_group = t.face_group;
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;
-  out.is_complete = m.failures.empty();
+  std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  out.is_complete = static_cast<std::int32_t>(out.patches.size()) == t.n_faces();
   std::size_t n_triangles = 0, n_nodes = 0;
   for (const FacePatch& p : out.patches) {
     n_triangles += p.triangles.size();
@@ -52,15 +53,16 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
 
   StageSummary s;
-  s.code = out.is_complete ? ExitCode::kOk : ExitCode::kIncomplete;
+  s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path, n_triangles,
-                       t.n_faces() - static_cast<int>(m.failures.size()), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
+                       out.patches.size(), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
                        seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);
   s.json = nlohmann::json{{"tool", header.tool},
                           {"output", path},
                           {"triangles", n_triangles},
                           {"inner_nodes", n_nodes},
                           {"faces", t.n_faces()},
+                          {"faces_meshed", out.patches.size()},
                           {"faces_failed", m.failures.size()},
                           {"failures", failures},
                           {"folds", folds},

@@ -144,6 +144,10 @@ void ToolMain::unit(const std::string& flag, std::string& value, const std::stri
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("UNIT")->check(CLI::Validator(check, "")));
 }
 
+void ToolMain::text(const std::string& flag, std::string& value, const std::string& type, const std::string& help) {
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name(type));
+}
+
 void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
 }

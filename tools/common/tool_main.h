@@ -42,6 +42,8 @@ class ToolMain {
   void length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help);
   /// A unit of length such as mm or inch.
   void unit(const std::string& flag, std::string& value, const std::string& help);
+  /// Free text, shown as `type` in --help.
+  void text(const std::string& flag, std::string& value, const std::string& type, const std::string& help);
   /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
   void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
   void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);

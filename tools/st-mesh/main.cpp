@@ -8,6 +8,9 @@ int main(int argc, char** argv) {
   tool.input("geometry", o.geometry, "geometry artifact");
   tool.input("sizing", o.sizing, "sizing artifact");
   tool.output(o.output);
+  tool.text("--faces", o.faces, "LIST", "mesh these faces only: 1-based ids and ranges, 12,17,30-40");
+  tool.text("--group", o.group, "NAME", "mesh the faces of this group only");
+  tool.optional_input("--edges", o.edges, "patches of an earlier part: its nodes on CAD edges are taken over, so that the parts fit");
   tool.number("--enhance-rounds", o.enhance_rounds, "[0, 10]", "rounds of the enhancer");
   tool.number("--max-turning", o.max_turning_deg, "(0, 60]", "largest turning of a CAD edge along one segment, degrees");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
