@@ -1,6 +1,7 @@
 // Small fixed-size vectors: the inner loops' value types.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace st {
@@ -57,8 +58,8 @@ inline constexpr double degrees(double rad) { return rad * (180.0 / kPi); }
 struct Box3 {
   Vec3 lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
   void add(Vec3 p) {
-    lo = {std::fmin(lo.x, p.x), std::fmin(lo.y, p.y), std::fmin(lo.z, p.z)};
-    hi = {std::fmax(hi.x, p.x), std::fmax(hi.y, p.y), std::fmax(hi.z, p.z)};
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
   }
   void add(const Box3& b) {
     if (b.is_empty()) return;
