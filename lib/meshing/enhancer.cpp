@@ -13,6 +13,7 @@ constexpr double kGoodQuality = 0.995;      // nodes whose triangles are all bet
 constexpr double kShortEdge = 0.55;        // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;         // of the requested length: no collapse makes such an edge
 constexpr double kHalfSqrt3 = 0.8660254037844386;
+constexpr double kWeightBase = 1.3;           // minus a triangle's quality: its weight in the smoothing
 constexpr double kSwapGain = 1e-3;
 constexpr double kSwapBelow = 0.9;         // pairs of triangles that are both better are left alone
 constexpr double kRelaxLeast = 0.55;       // no triangle worse than this is made for the sake of the valence
@@ -168,12 +169,15 @@ class Enhancer {
     if (before > kGoodQuality) return;
     // mean of the apexes that would make each triangle of the ring equilateral
     Vec3 target{};
+    double weights = 0;
     const std::size_t n = around_.size();
     for (std::size_t j = 0; j < n; ++j) {
       const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[(j + 1) % n]].x - b;
-      target += b + 0.5 * e + kHalfSqrt3 * cross(old.normal, e);
+      const double weight = kWeightBase - quality_[tris_[j]];
+      target += weight * (b + 0.5 * e + kHalfSqrt3 * cross(old.normal, e));
+      weights += weight;
     }
-    target = target / static_cast<double>(n);
+    target = target / weights;
     const Metric m = metric_of(old.du, old.dv);
     const double det = m.e * m.g - m.f * m.f;
     if (!(det > 0)) return;
