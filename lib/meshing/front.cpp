@@ -16,6 +16,8 @@ constexpr double kFinishedRadius = 0.68;    // circumradius over requested lengt
 constexpr double kNearNode = 0.65;          // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;       // of the side: nor nearer than this to a boundary segment
 constexpr double kGrowth = 1.25;            // size of a new node over its base side
+constexpr double kVeryLong = 1.7;           // times the size: an edge so long is split even closer to other nodes
+constexpr double kCloseSplit = 0.55;        // the distances kept then
 constexpr double kShortBase = 0.8;          // of the size at its ends: a shorter base does not hold back the growth any more
 constexpr double kTurningFloor = 0.25;      // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
@@ -226,13 +228,16 @@ class Front {
     const bool boundary = t.constrained >> longest & 1;
     const Vec2 middle = 0.5 * (m_.nodes[t.v[longest]].p + m_.nodes[t.v[kNext[longest]]].p);
     const Vec2 centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-    for (int attempt = boundary ? 1 : 0; attempt < 2; ++attempt) {
-      MeshNode p;
-      p.p = attempt == 0 ? middle : centre;
-      w_.evaluate(p);
-      p.request = p.h = w_.field->size(p.x, w_.hint);
-      if (insert(p, i, std::min(h, length / 2 / kNearNode * 0.99), h * 1.25)) return true;
-    }
+    const double r = std::min(h, length / 2 / kNearNode * 0.99);
+    for (double closeness : {1.0, kCloseSplit})
+      for (int attempt = boundary ? 1 : 0; attempt < 2; ++attempt) {
+        if (closeness < 1 && length < kVeryLong * h) continue;
+        MeshNode p;
+        p.p = attempt == 0 ? middle : centre;
+        w_.evaluate(p);
+        p.request = p.h = w_.field->size(p.x, w_.hint);
+        if (insert(p, i, closeness * r, h * 1.25)) return true;
+      }
     return false;
   }
 
