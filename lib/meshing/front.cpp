@@ -84,6 +84,7 @@ class Front {
       if (m_.nodes[e.a].is_pole && m_.nodes[e.b].is_pole) continue;
       if (!place(e.t, e.a, e.b)) retire(e.t);
     }
+    queue_.clear();
   }
 
   void retire(std::int32_t t) {
@@ -156,7 +157,7 @@ class Front {
 
   /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
   bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
-    if (m_.nodes.size() >= w_.max_nodes) return false;
+    if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside) return false;
     const Metric metric = metric_of(p.du, p.dv);
