@@ -188,6 +188,14 @@ class Mismatch(ToolTest):
         self.expect_error(MISMATCH, "st-merge", self.a / "patches.hdf", self.b / "patches.hdf", *output("st-merge", self.folder), says="patches.hdf")
         self.expect_nothing_left(self.folder)
 
+    def test_edges_of_another_geometry(self):
+        inputs = [self.a / "geometry.hdf", self.a / "sizing.hdf"]
+        out = output("st-mesh", self.folder)
+        self.expect_error(MISMATCH, "st-mesh", *inputs, "--edges", self.b / "patches.hdf", *out, says=str(self.b / "patches.hdf"))
+        self.expect_error(INPUT, "st-mesh", *inputs, "--edges", self.a / "mesh.hdf", *out, says="mesh.hdf")
+        self.expect_error(INPUT, "st-mesh", *inputs, "--edges", self.folder / "none.hdf", *out, says="none.hdf")
+        self.expect_nothing_left(self.folder)
+
     def test_artifacts_of_different_kinds_cannot_be_compared(self):
         run = Run("st-diff", self.a / "mesh.hdf", self.a / "patches.hdf")
         self.assertIn(run.code, (INPUT, MISMATCH), run)

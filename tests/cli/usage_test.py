@@ -12,7 +12,7 @@ OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--check": "", "--require-closed": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1"},
-    "st-mesh": {"--output": "patches.hdf", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
+    "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--too-long": "1.5", "--too-short": "0.5", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
     "st-check": {"--geometry": "", "--sizing": "", "--area-tolerance": "0.01"},
