@@ -137,8 +137,9 @@ std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve)& original, 
   const double period = c->IsPeriodic() ? c->Period() : 0;
   if (c->IsPeriodic()) c->SetNotPeriodic();
   std::vector<Pole> poles;
-  for (int i = 1; i <= c->NbPoles(); ++i) poles.push_back(pole(c->Pole(i), c->Weight(i)));
-  return std::make_unique<BsplineCurve>(KnotSpans(c->Degree(), flat(c->KnotSequence()), period), poles, c->IsRational(), t_min, t_max);
+  const bool is_rational = c->IsRational();
+  for (int i = 1; i <= c->NbPoles(); ++i) poles.push_back(pole(c->Pole(i), is_rational ? c->Weight(i) : 1.0));
+  return std::make_unique<BsplineCurve>(KnotSpans(c->Degree(), flat(c->KnotSequence()), period), poles, is_rational, t_min, t_max);
 }
 
 std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface)& original, const UvBounds& b) {
@@ -146,13 +147,15 @@ std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface)& orig
   const double u_period = s->IsUPeriodic() ? s->UPeriod() : 0, v_period = s->IsVPeriodic() ? s->VPeriod() : 0;
   if (s->IsUPeriodic()) s->SetUNotPeriodic();
   if (s->IsVPeriodic()) s->SetVNotPeriodic();
+  // SetUNotPeriodic leaves a surface without weights with weights that are all zero (OpenCASCADE 7.6)
+  const bool is_rational = original->IsURational() || original->IsVRational();
   std::vector<Pole> poles;
   poles.reserve(static_cast<std::size_t>(s->NbUPoles()) * s->NbVPoles());
   for (int i = 1; i <= s->NbUPoles(); ++i)
-    for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(s->Pole(i, j), s->Weight(i, j)));
+    for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(s->Pole(i, j), is_rational ? s->Weight(i, j) : 1.0));
   return std::make_unique<BsplineSurface>(KnotSpans(s->UDegree(), flat(s->UKnotSequence()), u_period),
                                           KnotSpans(s->VDegree(), flat(s->VKnotSequence()), v_period), std::move(poles), s->NbVPoles(),
-                                          s->IsURational() || s->IsVRational(),
+                                          is_rational,
                                           BsplineSurface::Bounds{b.u_min, b.u_max, b.v_min, b.v_max});
 }
 
