@@ -280,12 +280,17 @@ CadFile read_brep(const std::string& path) {
   in.read(head.data(), 64);
   in.clear();
   in.seekg(0);
+  in.exceptions(std::ios::failbit | std::ios::badbit);  // OpenCASCADE looks for its keywords for ever where the file is cut off
   const bool is_binary = head.find("Open CASCADE Topology V") != std::string::npos && head.find("DBRep") == std::string::npos;
-  if (is_binary) {
-    BinTools::Read(part.shape, in);
-  } else {
-    BRep_Builder builder;
-    BRepTools::Read(part.shape, in, builder);
+  try {
+    if (is_binary) {
+      BinTools::Read(part.shape, in);
+    } else {
+      BRep_Builder builder;
+      BRepTools::Read(part.shape, in, builder);
+    }
+  } catch (const std::ios_base::failure&) {
+    fail(path, "the BREP file is cut off or damaged; export the model again");
   }
   if (part.shape.IsNull()) fail(path, "the BREP file cannot be parsed; export the model again");
   TopTools_IndexedMapOfShape faces;
