@@ -218,7 +218,7 @@ class Importer {
         first = std::min(first, first_original[faces.FindIndex(members(i)) - 1]);
         in_shell.Add(members(i));
       }
-      TopoDS_Shape piece = e.Current();
+      TopoDS_Shape piece = in_original_order(e.Current(), [&](const TopoDS_Shape& f) { return first_original[faces.FindIndex(f) - 1]; });
       if (count_free_edges(piece) == 0) piece = outward_solid(TopoDS::Shell(piece));
       pieces.push_back({first, piece});
     }
@@ -232,6 +232,20 @@ class Importer {
     face_data_.assign(faces_.Extent(), {});
     for (int i = 1; i <= faces.Extent(); ++i)
       if (const int k = faces_.FindIndex(faces(i)); k > 0) face_data_[k - 1] = data[i - 1];
+  }
+
+  /// The shell with its faces in ascending order of `rank(face)`.
+  template <class Rank>
+  static TopoDS_Shape in_original_order(const TopoDS_Shape& shell, const Rank& rank) {
+    std::vector<std::pair<int, TopoDS_Shape>> members;
+    for (TopoDS_Iterator f(shell, false, false); f.More(); f.Next())
+      members.emplace_back(rank(f.Value().Located(shell.Location() * f.Value().Location())), f.Value());
+    std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    TopoDS_Shape ordered = shell.EmptyCopied();
+    BRep_Builder builder;
+    for (const auto& [first, face] : members) builder.Add(ordered, face);
+    ordered.Closed(shell.Closed());
+    return ordered;
   }
 
   static TopoDS_Shape outward_solid(const TopoDS_Shell& shell) {
