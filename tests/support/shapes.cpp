@@ -1,0 +1,445 @@
+#include "support/shapes.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomConvert.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <Geom_Plane.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFApp_Application.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace st::test {
+namespace {
+
+const gp_Ax2 kZ(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+
+void require(bool ok, const std::string& what) {
+  if (!ok) throw std::runtime_error("test shapes: " + what);
+}
+
+TopoDS_Shape box(double x, double y, double z) { return BRepPrimAPI_MakeBox(x, y, z).Shape(); }
+
+TopoDS_Shape moved(const TopoDS_Shape& shape, double x, double y, double z) {
+  gp_Trsf shift;
+  shift.SetTranslation(gp_Vec(x, y, z));
+  return shape.Moved(TopLoc_Location(shift));
+}
+
+TopoDS_Shape compound(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Compound c;
+  BRep_Builder builder;
+  builder.MakeCompound(c);
+  for (const TopoDS_Shape& s : shapes) builder.Add(c, s);
+  return c;
+}
+
+TopoDS_Wire circle(double radius, bool reversed) {
+  const TopoDS_Wire w = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(kZ, radius)).Edge()).Wire();
+  return reversed ? TopoDS::Wire(w.Reversed()) : w;
+}
+
+TopoDS_Shape rectangle(double x, double y) { return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), 0, x, 0, y).Shape(); }
+
+TopoDS_Shape disc() { return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), circle(10, false), true).Shape(); }
+
+TopoDS_Shape annulus() {
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp::XOY()), circle(10, false), true);
+  face.Add(circle(4, true));
+  return face.Shape();
+}
+
+TopoDS_Shape face_of(const Handle(Geom_Surface) & s) { return BRepBuilderAPI_MakeFace(s, 1e-7).Shape(); }
+
+TopoDS_Shape face_of(const Handle(Geom_Surface) & s, double u0, double u1, double v0, double v1) {
+  return BRepBuilderAPI_MakeFace(s, u0, u1, v0, v1, 1e-7).Shape();
+}
+
+/// The i-th face of a shape.
+TopoDS_Shape nth_face(const TopoDS_Shape& s, int i) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(s, TopAbs_FACE, faces);
+  return faces(i).Oriented(TopAbs_FORWARD);
+}
+
+/// Smooth heights that no formula of ours repeats.
+double height(int i, int j) { return 1.5 * std::sin(0.9 * i + 0.3 * j) + std::cos(1.7 * j - 0.4 * i * i); }
+
+TColgp_Array2OfPnt wave_poles(int nu, int nv, double x, double y) {
+  TColgp_Array2OfPnt poles(1, nu, 1, nv);
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) poles(i + 1, j + 1) = gp_Pnt(x * i / (nu - 1), y * j / (nv - 1), height(i, j));
+  return poles;
+}
+
+TColStd_Array2OfReal wave_weights(int nu, int nv) {
+  TColStd_Array2OfReal w(1, nu, 1, nv);
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nv; ++j) w(i + 1, j + 1) = 1.0 + 0.5 * std::sin(2.1 * i + 1.3 * j);
+  return w;
+}
+
+struct Knots {
+  TColStd_Array1OfReal knots;
+  TColStd_Array1OfInteger multiplicities;
+};
+
+/// Clamped knots at uneven places; `inner_multiplicity` of every inner one.
+Knots clamped(int n_poles, int degree, double length, int inner_multiplicity = 1) {
+  const int n_inner = (n_poles - degree - 1) / inner_multiplicity;
+  Knots k{TColStd_Array1OfReal(1, n_inner + 2), TColStd_Array1OfInteger(1, n_inner + 2)};
+  for (int i = 0; i <= n_inner + 1; ++i) {
+    const double s = static_cast<double>(i) / (n_inner + 1);
+    k.knots(i + 1) = length * (s + 0.3 * s * (1 - s));
+    k.multiplicities(i + 1) = i == 0 || i == n_inner + 1 ? degree + 1 : inner_multiplicity;
+  }
+  return k;
+}
+
+/// Periodic knots, simple and uneven, starting at `first`.
+Knots periodic(int n_poles, double first) {
+  Knots k{TColStd_Array1OfReal(1, n_poles + 1), TColStd_Array1OfInteger(1, n_poles + 1)};
+  for (int i = 0; i <= n_poles; ++i) {
+    k.knots(i + 1) = first + i + (i > 0 && i < n_poles ? 0.25 * std::sin(i) : 0.0);
+    k.multiplicities(i + 1) = 1;
+  }
+  return k;
+}
+
+Handle(Geom_BSplineSurface) wave(int nu, int nv, int degree_u, int degree_v, bool rational, int inner_multiplicity = 1) {
+  const Knots u = clamped(nu, degree_u, 3, inner_multiplicity), v = clamped(nv, degree_v, 2);
+  const TColgp_Array2OfPnt poles = wave_poles(nu, nv, 30, 20);
+  if (rational)
+    return new Geom_BSplineSurface(poles, wave_weights(nu, nv), u.knots, v.knots, u.multiplicities, v.multiplicities, degree_u, degree_v);
+  return new Geom_BSplineSurface(poles, u.knots, v.knots, u.multiplicities, v.multiplicities, degree_u, degree_v);
+}
+
+/// A wavy tube about z, periodic along u.
+Handle(Geom_BSplineSurface) periodic_tube() {
+  constexpr int n = 9, m = 6;
+  TColgp_Array2OfPnt poles(1, n, 1, m);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      const double a = 2 * M_PI * i / n, r = 8 + 0.8 * std::sin(2 * a + j);
+      poles(i + 1, j + 1) = gp_Pnt(r * std::cos(a), r * std::sin(a), 6.0 * j);
+    }
+  const Knots u = periodic(n, 0.7), v = clamped(m, 3, 2);
+  return new Geom_BSplineSurface(poles, u.knots, v.knots, u.multiplicities, v.multiplicities, 3, 3, true, false);
+}
+
+/// The same tube with clamped knots: closed by its shape alone.
+Handle(Geom_BSplineSurface) closed_tube() {
+  const Handle(Geom_BSplineSurface) s = periodic_tube();
+  s->SetUNotPeriodic();
+  return s;
+}
+
+/// A plane sheet whose iso-lines along u lie a thousand times closer at one end.
+Handle(Geom_BSplineSurface) stretched() {
+  TColgp_Array2OfPnt poles(1, 5, 1, 4);
+  const double x[] = {0, 0.02, 0.05, 5, 20};
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 4; ++j) poles(i + 1, j + 1) = gp_Pnt(x[i], 10.0 * j / 3, 0.05 * x[i] * std::sin(2.0 * j));
+  const Knots u = clamped(5, 3, 1), v = clamped(4, 3, 1);
+  return new Geom_BSplineSurface(poles, u.knots, v.knots, u.multiplicities, v.multiplicities, 3, 3);
+}
+
+Handle(Geom_BSplineCurve) wavy_curve() {
+  TColgp_Array1OfPnt poles(1, 6);
+  for (int i = 0; i < 6; ++i) poles(i + 1) = gp_Pnt(10 + 2 * std::sin(1.3 * i), 0, 5.0 * i);
+  const Knots k = clamped(6, 3, 1);
+  return new Geom_BSplineCurve(poles, k.knots, k.multiplicities, 3);
+}
+
+TopoDS_Shape drilled_cylinder() {
+  const gp_Ax2 across(gp_Pnt(0, 0, 15), gp_Dir(1, 0, 0));
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 30).Shape(), BRepPrimAPI_MakeCylinder(across, 3, 20).Shape()).Shape();
+}
+
+TopoDS_Shape mirrored(const TopoDS_Shape& s) {
+  gp_Trsf mirror;
+  mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)));
+  return BRepBuilderAPI_Transform(s, mirror, true).Shape();
+}
+
+/// A copy of each face with edges of its own.
+std::vector<TopoDS_Shape> loose_faces() {
+  const double x = 60, y = 40, z = 20;
+  const auto side = [](gp_Pnt o, gp_Dir n, gp_Dir along, double a, double b) -> TopoDS_Shape {
+    return BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(o, n, along)), 0, a, 0, b).Shape();
+  };
+  const gp_Dir px(1, 0, 0), py(0, 1, 0), pz(0, 0, 1);
+  return {side({0, 0, 0}, px, py, y, z), side({x, 0, 0}, px, py, y, z), side({0, 0, 0}, py, pz, z, x),
+          side({0, y, 0}, py, pz, z, x), side({0, 0, 0}, pz, px, x, y), side({0, 0, z}, pz, px, x, y)};
+}
+
+/// Three faces on one edge.
+TopoDS_Shape t_junction() {
+  BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, true);
+  const gp_Dir z(0, 0, 1);
+  for (double a : {0.0, 2.0, 4.0}) {
+    const gp_Dir n(std::cos(a), std::sin(a), 0);
+    sewing.Add(BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(gp_Pnt(0, 0, 0), n, z)), 0, 10, 0, 5).Shape());
+  }
+  sewing.Perform();
+  return sewing.SewedShape();
+}
+
+using Factory = std::function<TopoDS_Shape()>;
+
+const std::map<std::string, Factory>& factories() {
+  static const std::map<std::string, Factory> all{
+      {"box", [] { return box(60, 40, 20); }},
+      {"sphere", [] { return BRepPrimAPI_MakeSphere(10).Shape(); }},
+      {"cylinder", [] { return BRepPrimAPI_MakeCylinder(10, 30).Shape(); }},
+      {"cone", [] { return BRepPrimAPI_MakeCone(kZ, 10, 0, 20).Shape(); }},
+      {"torus", [] { return BRepPrimAPI_MakeTorus(20, 6).Shape(); }},
+      {"drilled_cylinder", drilled_cylinder},
+      {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
+      {"two_boxes",
+       [] {
+         return compound({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});
+       }},
+      {"square", [] { return rectangle(10, 10); }},
+      {"disc", disc},
+      {"annulus", annulus},
+      {"strip", [] { return rectangle(100, 0.2); }},
+      {"plate_with_hole",
+       [] { return BRepAlgoAPI_Cut(rectangle(60, 40), moved(BRepPrimAPI_MakeCylinder(8, 10).Shape(), 30, 20, -5)).Shape(); }},
+      {"cone_side", [] { return nth_face(BRepPrimAPI_MakeCone(kZ, 10, 0, 20).Shape(), 1); }},
+      {"sphere_octant", [] { return nth_face(BRepPrimAPI_MakeSphere(kZ, 10, 0, M_PI / 2, M_PI / 2).Shape(), 1); }},
+      {"wave", [] { return face_of(wave(10, 8, 3, 3, false)); }},
+      {"rational_wave", [] { return face_of(wave(9, 7, 3, 2, true)); }},
+      {"high_degree_wave", [] { return face_of(wave(13, 11, 9, 7, true)); }},
+      {"kinked", [] { return face_of(wave(10, 6, 3, 2, false, 3)); }},
+      {"bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(5, 4, 30, 20))); }},
+      {"rational_bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(4, 5, 30, 20), wave_weights(4, 5))); }},
+      {"stretched", [] { return face_of(stretched()); }},
+      {"periodic_tube", [] { return face_of(periodic_tube()); }},
+      {"closed_tube", [] { return face_of(closed_tube()); }},
+      {"tube_window", [] { return face_of(periodic_tube(), 7.1, 12.3, 0.2, 1.9); }},
+      {"rational_torus", [] { return face_of(GeomConvert::SurfaceToBSplineSurface(new Geom_ToroidalSurface(gp_Ax3(kZ), 20, 6))); }},
+      {"thin_tube", [] { return nth_face(BRepPrimAPI_MakeCylinder(0.05, 30).Shape(), 1); }},
+      {"revolution", [] { return face_of(new Geom_SurfaceOfRevolution(wavy_curve(), gp::OZ()), 0, 2.5, 0, 1); }},
+      {"extrusion", [] { return face_of(new Geom_SurfaceOfLinearExtrusion(wavy_curve(), gp_Dir(0.2, 1, 0)), 0, 1, -2, 7); }},
+      {"offset", [] { return face_of(new Geom_OffsetSurface(wave(6, 6, 3, 3, false), 0.25), 0.1, 2.9, 0.1, 1.9); }},
+      {"loose_box", [] { return compound(loose_faces()); }},
+      {"wire", [] { return circle(10, false); }},
+      {"t_junction", t_junction},
+  };
+  return all;
+}
+
+TopoDS_Shape make_shape(const std::string& name) {
+  const auto it = factories().find(name);
+  require(it != factories().end(), "no shape '" + name + "'");
+  return it->second();
+}
+
+/// A temporary file name that is gone with the object.
+struct TemporaryFile {
+  std::string path;
+  explicit TemporaryFile(const std::string& suffix) {
+    std::string name = (std::filesystem::temp_directory_path() / "st_shape_XXXXXX").string() + suffix;
+    const int file = mkstemps(name.data(), static_cast<int>(suffix.size()));
+    require(file >= 0, "no temporary file");
+    ::close(file);
+    path = name;
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+void be_quiet() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
+
+void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
+
+/// An XCAF document that is written and closed.
+struct Document {
+  Handle(TDocStd_Document) document;
+  Handle(XCAFDoc_ShapeTool) shapes;
+  Handle(XCAFDoc_ColorTool) colors;
+  Handle(XCAFDoc_LayerTool) layers;
+
+  Document() {
+    be_quiet();
+    STEPCAFControl_Controller::Init();
+    XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
+    shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+    colors = XCAFDoc_DocumentTool::ColorTool(document->Main());
+    layers = XCAFDoc_DocumentTool::LayerTool(document->Main());
+  }
+  ~Document() { XCAFApp_Application::GetApplication()->Close(document); }
+
+  void write(const std::string& path) {
+    shapes->UpdateAssemblies();
+    Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+    STEPCAFControl_Writer writer;
+    writer.SetNameMode(true);
+    writer.SetColorMode(true);
+    writer.SetLayerMode(true);
+    require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone, "cannot write " + path);
+  }
+};
+
+template <class T>
+Vec3 vec(const T& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+}  // namespace
+
+std::vector<std::string> all_shapes() {
+  std::vector<std::string> names;
+  for (const auto& [name, factory] : factories()) names.push_back(name);
+  return names;
+}
+
+void write_brep(const std::string& shape, const std::string& path) { require(BRepTools::Write(make_shape(shape), path.c_str()), path); }
+
+void write_binary_brep(const std::string& shape, const std::string& path) {
+  require(BinTools::Write(make_shape(shape), path.c_str()), path);
+}
+
+void write_step(const std::string& shape, const std::string& path, const std::string& unit) {
+  be_quiet();
+  STEPControl_Controller::Init();
+  require(Interface_Static::SetCVal("write.step.unit", unit.c_str()), "unit " + unit);
+  STEPControl_Writer writer;
+  const bool ok =
+      writer.Transfer(make_shape(shape), STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone;
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  require(ok, "cannot write " + path);
+}
+
+void write_named_loose_box(const std::string& path) {
+  Document d;
+  const char* names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+  const std::vector<TopoDS_Shape> faces = loose_faces();
+  for (int i = 0; i < 6; ++i) name(d.shapes->AddShape(faces[i], false), names[i]);
+  d.write(path);
+}
+
+void write_named_assembly(const std::string& path) {
+  Document d;
+  const TopoDS_Shape block = box(60, 40, 20), pin = BRepPrimAPI_MakeCylinder(4, 15).Shape();
+  const TDF_Label assembly = d.shapes->NewShape(), block_label = d.shapes->AddShape(block, false),
+                  pin_label = d.shapes->AddShape(pin, false);
+  name(assembly, "assembly");
+  name(block_label, "block");
+  name(pin_label, "pin");
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(block, TopAbs_FACE, faces);
+  const char* names[] = {"wing", "symmetry", "Far Field"};
+  for (int i = 0; i < 3; ++i) name(d.shapes->AddSubShape(block_label, faces(i + 1)), names[i]);
+  TDF_Label first;
+  require(d.shapes->FindSubShape(block_label, faces(1), first), "no label");
+  d.colors->SetColor(first, Quantity_Color(1, 0, 0, Quantity_TOC_RGB), XCAFDoc_ColorSurf);
+  d.layers->SetLayer(first, "skin");
+  d.shapes->AddComponent(assembly, block_label, TopLoc_Location());
+  for (const double x : {100.0, 150.0}) {
+    gp_Trsf place;
+    place.SetTranslation(gp_Vec(x, 0, 0));
+    d.shapes->AddComponent(assembly, pin_label, TopLoc_Location(place));
+  }
+  d.write(path);
+}
+
+ImportResult import_shape(const std::string& shape) {
+  const TemporaryFile file(".brep");
+  write_brep(shape, file.path);
+  return import_model(file.path, {});
+}
+
+Model make_model(const std::string& shape) {
+  ImportResult r = import_shape(shape);
+  return Model(std::move(r.tables), std::move(r.brep));
+}
+
+struct Oracle::Impl {
+  TopTools_IndexedMapOfShape faces, edges;
+};
+
+Oracle::Oracle(const std::vector<std::byte>& brep) : impl_(std::make_unique<Impl>()) {
+  std::istringstream stream(std::string(reinterpret_cast<const char*>(brep.data()), brep.size()), std::ios::binary);
+  TopoDS_Shape shape;
+  BinTools::Read(shape, stream);
+  TopExp::MapShapes(shape, TopAbs_FACE, impl_->faces);
+  TopExp::MapShapes(shape, TopAbs_EDGE, impl_->edges);
+}
+
+Oracle::~Oracle() = default;
+
+CurvePoint Oracle::curve(EdgeId e, double t) const {
+  double t0, t1;
+  gp_Pnt p;
+  gp_Vec d1, d2;
+  BRep_Tool::Curve(TopoDS::Edge(impl_->edges(e + 1)), t0, t1)->D2(t, p, d1, d2);
+  return {vec(p), vec(d1), vec(d2)};
+}
+
+SurfacePoint2 Oracle::surface(FaceId f, Vec2 uv) const {
+  gp_Pnt p;
+  gp_Vec u, v, uu, vv, mixed;
+  BRep_Tool::Surface(TopoDS::Face(impl_->faces(f + 1)))->D2(uv.x, uv.y, p, u, v, uu, vv, mixed);
+  return {vec(p), vec(u), vec(v), vec(uu), vec(mixed), vec(vv)};
+}
+
+double Oracle::edge_length(EdgeId e) const {
+  return GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(TopoDS::Edge(impl_->edges(e + 1))), 1e-10);
+}
+
+}  // namespace st::test

@@ -1,0 +1,49 @@
+// Small B-Reps for the unit tests, made by OpenCASCADE and read back through import_model(). No OpenCASCADE type is visible.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/model.h"
+
+namespace st::test {
+
+/// Shapes of one or more faces, by name. make_shape() knows them all; an unknown name throws std::runtime_error.
+///   solids   box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes
+///   faces    square disc annulus strip plate_with_hole cone_side sphere_octant
+///   sheets   wave rational_wave high_degree_wave bezier rational_bezier stretched kinked
+///   tubes    periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)
+///   others   revolution extrusion offset loose_box (six faces that share nothing) wire (no face) t_junction (an edge of three faces)
+std::vector<std::string> all_shapes();
+
+void write_brep(const std::string& shape, const std::string& path);
+void write_binary_brep(const std::string& shape, const std::string& path);
+/// `unit` as OpenCASCADE spells it: "MM", "INCH", "M". The shape's numbers are millimetres.
+void write_step(const std::string& shape, const std::string& path, const std::string& unit);
+/// loose_box as STEP: each face a part of its own, named after the side it is ("x_min" ... "z_max").
+void write_named_loose_box(const std::string& path);
+/// A box with names on its faces ("wing", "symmetry", "Far Field"), a red one, a layer; and two instances of a part "pin" at x = 100 and
+/// 150.
+void write_named_assembly(const std::string& path);
+
+/// The shape through a BREP file and import_model().
+ImportResult import_shape(const std::string& shape);
+Model make_model(const std::string& shape);
+
+/// The same B-Rep evaluated by OpenCASCADE itself, without caches.
+class Oracle {
+ public:
+  explicit Oracle(const std::vector<std::byte>& brep);
+  ~Oracle();
+  CurvePoint curve(EdgeId e, double t) const;
+  SurfacePoint2 surface(FaceId f, Vec2 uv) const;
+  double edge_length(EdgeId e) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace st::test

@@ -1,0 +1,130 @@
+#include "geometry/bspline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace st {
+namespace {
+
+/// Sum over the acting functions of the basis' power coefficients, evaluated at s.
+double basis_sum(const KnotSpans& k, int span, double s) {
+  const int order = k.degree() + 1;
+  double sum = 0;
+  for (int j = 0; j < order; ++j) {
+    double value = 0;
+    for (int c = order - 1; c >= 0; --c) value = value * s + k.basis(span)[j * order + c];
+    sum += value;
+  }
+  return sum;
+}
+
+std::vector<double> clamped_knots(int degree, std::vector<double> inner, double end) {
+  std::vector<double> knots(degree + 1, 0.0);
+  knots.insert(knots.end(), inner.begin(), inner.end());
+  knots.insert(knots.end(), degree + 1, end);
+  return knots;
+}
+
+TEST(KnotSpans, basis_functions_sum_to_one) {
+  for (int degree : {1, 2, 3, 5, 9, 15, 25}) {
+    const KnotSpans k(degree, clamped_knots(degree, {0.1, 0.5, 0.5, 2}, 3), 0);
+    ASSERT_EQ(k.n_spans(), 4);
+    for (int span = 0; span < k.n_spans(); ++span)
+      for (double s : {-1.0, -0.3, 0.0, 0.8, 1.0}) EXPECT_NEAR(basis_sum(k, span, s), 1, 1e-13 * std::pow(2.5, degree)) << degree;
+  }
+}
+
+TEST(KnotSpans, finds_the_span_whatever_it_was_before) {
+  const KnotSpans k(2, clamped_knots(2, {1, 1.5, 4}, 6), 0);
+  const std::pair<double, int> expected[] = {{0, 0}, {0.99, 0}, {1, 1}, {1.5, 2}, {3.9, 2}, {4, 3}, {6, 3}, {7, 3}, {-1, 0}};
+  for (int before = 0; before < 4; ++before)
+    for (const auto& [t, span] : expected) {
+      int last = before;
+      double s;
+      EXPECT_EQ(k.locate(t, last, s), span) << t;
+      EXPECT_EQ(last, span);
+      if (t >= 0 && t <= 6) {
+        EXPECT_LE(std::abs(s), 1);
+      }
+    }
+}
+
+TEST(KnotSpans, local_parameter_runs_from_minus_one_to_one) {
+  const KnotSpans k(3, clamped_knots(3, {2}, 5), 0);
+  int last = 0;
+  double s;
+  k.locate(2, last, s);
+  EXPECT_DOUBLE_EQ(s, -1);
+  k.locate(5, last, s);
+  EXPECT_DOUBLE_EQ(s, 1);
+  EXPECT_DOUBLE_EQ(k.rate(1), 2.0 / 3);
+}
+
+TEST(KnotSpans, wraps_by_the_period) {
+  const KnotSpans k(2, clamped_knots(2, {1, 3}, 4), 4);
+  int last = 0;
+  double s, t;
+  for (double x : {0.5, 2.0, 3.5})
+    for (double turns : {-3.0, -1.0, 1.0, 2.0}) {
+      const int span = k.locate(x, last, s);
+      EXPECT_EQ(k.locate(x + 4 * turns, last, t), span);
+      EXPECT_NEAR(s, t, 1e-14);
+    }
+}
+
+TEST(KnotSpans, knows_its_kinks) {
+  EXPECT_EQ(KnotSpans(3, clamped_knots(3, {1, 2, 2, 2, 3, 3}, 4), 0).c0_knots(), std::vector<double>{2});
+  EXPECT_TRUE(KnotSpans(3, clamped_knots(3, {1, 2, 2}, 4), 0).c0_knots().empty());
+  EXPECT_EQ(KnotSpans(1, clamped_knots(1, {1, 2}, 4), 0).c0_knots(), (std::vector<double>{1, 2}));
+}
+
+Pole pole(Vec3 x, double w = 1) { return {{w * x.x, w * x.y, w * x.z, w}}; }
+
+TEST(BsplineCurve, of_equally_spaced_poles_is_a_line_of_constant_speed) {
+  // Greville abscissae of the knots as x: the identity map, whatever the degree
+  for (int degree : {1, 2, 3, 7}) {
+    const std::vector<double> knots = clamped_knots(degree, {1, 1.5, 4}, 6);
+    std::vector<Pole> poles;
+    for (std::size_t i = 0; i + degree + 1 < knots.size(); ++i) {
+      double x = 0;
+      for (int j = 1; j <= degree; ++j) x += knots[i + j] / degree;
+      poles.push_back(pole({x, 2 * x, -x}));
+    }
+    const BsplineCurve c(KnotSpans(degree, knots, 0), poles, false, 0, 6);
+    for (double t = 0; t <= 6; t += 0.37) {
+      const CurvePoint p = c.evaluate(t);
+      EXPECT_LE(distance(p.x, {t, 2 * t, -t}), 1e-13);
+      EXPECT_LE(distance(p.d1, {1, 2, -1}), 1e-11);
+      EXPECT_LE(norm(p.d2), 1e-9);
+    }
+  }
+}
+
+TEST(BsplineCurve, of_rational_quarter_is_a_circle) {
+  const double w = std::sqrt(0.5);
+  const BsplineCurve c(KnotSpans(2, clamped_knots(2, {}, 1), 0), {pole({5, 0, 0}), pole({5, 5, 0}, w), pole({0, 5, 0})}, true, 0, 1);
+  for (double t = 0; t <= 1; t += 0.05) {
+    const CurvePoint p = c.evaluate(t);
+    EXPECT_NEAR(norm(p.x), 5, 1e-14);
+    EXPECT_NEAR(dot(p.x, p.d1), 0, 1e-12);
+    EXPECT_NEAR(norm2(p.d1) + dot(p.x, p.d2), 0, 1e-11);  // second derivative of |x|^2 = const
+    EXPECT_TRUE(p.x == c.point(t));
+  }
+}
+
+TEST(BsplineSurface, bilinear_patch_is_the_mean_of_its_corners) {
+  const std::vector<double> knots = clamped_knots(1, {}, 1);
+  const BsplineSurface s(KnotSpans(1, knots, 0), KnotSpans(1, knots, 0),
+                         {pole({0, 0, 0}), pole({0, 1, 2}), pole({1, 0, 4}), pole({1, 1, 8})}, 2, false, {0, 1, 0, 1});
+  const SurfacePoint2 p = s.evaluate2({0.5, 0.5});
+  EXPECT_TRUE(p.x == (Vec3{0.5, 0.5, 3.5}));
+  EXPECT_TRUE(p.du == (Vec3{1, 0, 5}));
+  EXPECT_TRUE(p.dv == (Vec3{0, 1, 3}));
+  EXPECT_TRUE(p.duv == (Vec3{0, 0, 2}));
+  EXPECT_TRUE(s.point({0, 1}) == (Vec3{0, 1, 2}));  // v fastest
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,124 @@
+#include "geometry/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/analytic.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+const Frame kFrame{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const AxialSurface kSphere(SurfaceType::kSphere, kFrame, 5, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+const AxialSurface kCylinder(SurfaceType::kCylinder, kFrame, 5, 0, 0, 2 * kPi, 0, 20);
+const AxialSurface kTorus(SurfaceType::kTorus, kFrame, 5, 2, 0, 2 * kPi, 0, 2 * kPi);
+
+TEST(SurfaceNormal, is_radial_on_a_sphere) {
+  for (double u = 0; u < 6; u += 0.5)
+    for (double v = -1.5; v < 1.6; v += 0.25)
+      EXPECT_LE(distance(surface_normal(kSphere, {u, v}), (kSphere.point({u, v}) - kFrame.origin) / 5), 1e-12);
+}
+
+TEST(SurfaceNormal, is_the_axis_at_the_poles) {
+  for (double u = 0; u < 6; u += 0.5) {
+    EXPECT_LE(distance(surface_normal(kSphere, {u, kPi / 2}), {0, 0, 1}), 1e-4);
+    EXPECT_LE(distance(surface_normal(kSphere, {u, -kPi / 2}), {0, 0, -1}), 1e-4);
+  }
+}
+
+TEST(SurfaceNormal, at_an_apex_is_that_of_its_ruling) {
+  const double half = 0.4, apex = 5 / std::sin(half);
+  const AxialSurface cone(SurfaceType::kCone, kFrame, 5, -half, 0, 2 * kPi, 0, apex);
+  const Vec3 n = surface_normal(cone, {1, apex});
+  EXPECT_NEAR(norm(n), 1, 1e-12);
+  EXPECT_LE(distance(n, surface_normal(cone, {1, 0.5 * apex})), 1e-3);
+}
+
+TEST(SurfaceNormal, of_a_surface_without_extent_is_zero) {
+  const AxialSurface needle(SurfaceType::kCylinder, kFrame, 0, 0, 0, 6, 0, 1);
+  EXPECT_EQ(norm(surface_normal(needle, {1, 0.5})), 0);
+}
+
+TEST(PrincipalCurvature, of_a_sphere_is_one_over_r_both_ways) {
+  const Curvature c = principal_curvature(kSphere.evaluate2({1, 0.3}));
+  EXPECT_NEAR(c.k1, -0.2, 1e-9);
+  EXPECT_NEAR(c.k2, -0.2, 1e-9);
+}
+
+TEST(PrincipalCurvature, of_a_cylinder_is_one_over_r_and_none) {
+  const Curvature c = principal_curvature(kCylinder.evaluate2({1, 0.3}));
+  EXPECT_NEAR(std::abs(c.k1), 0.2, 1e-12);
+  EXPECT_NEAR(c.k2, 0, 1e-12);
+}
+
+TEST(PrincipalCurvature, of_a_torus_changes_sign_inside) {
+  const Curvature out = principal_curvature(kTorus.evaluate2({2, 0})), in = principal_curvature(kTorus.evaluate2({2, kPi}));
+  EXPECT_NEAR(std::abs(out.k1), 1.0 / 2, 1e-12);
+  EXPECT_NEAR(std::abs(out.k2), 1.0 / 7, 1e-12);
+  EXPECT_GT(out.k1 * out.k2, 0);
+  EXPECT_NEAR(std::abs(in.k1), 1.0 / 2, 1e-12);
+  EXPECT_NEAR(std::abs(in.k2), 1.0 / 3, 1e-12);
+  EXPECT_LT(in.k1 * in.k2, 0);
+}
+
+TEST(PrincipalCurvature, does_not_depend_on_the_parametrisation) {
+  SurfacePoint2 p = kTorus.evaluate2({2, 1});
+  const Curvature before = principal_curvature(p);
+  // u' = u/1000, v' = v + 3u
+  const SurfacePoint2 q{p.x, 1000 * (p.du - 3 * p.dv), p.dv, 1e6 * (p.duu - 6 * p.duv + 9 * p.dvv), 1000 * (p.duv - 3 * p.dvv), p.dvv};
+  const Curvature after = principal_curvature(q);
+  EXPECT_NEAR(before.k1, after.k1, 1e-10);
+  EXPECT_NEAR(before.k2, after.k2, 1e-10);
+}
+
+TEST(PrincipalCurvature, is_zero_where_the_surface_is_singular) {
+  const SurfacePoint2 p = kSphere.evaluate2({1, 0});
+  const Curvature c = principal_curvature({p.x, {}, p.dv, p.duu, p.duv, p.dvv});
+  EXPECT_EQ(c.k1, 0);
+  EXPECT_EQ(c.k2, 0);
+}
+
+TEST(ProjectNear, finds_the_foot_of_a_point_off_the_surface) {
+  for (const AxialSurface* s : {&kSphere, &kCylinder, &kTorus})
+    for (double off : {-0.5, 0.0, 0.5, 2.0}) {
+      const Vec2 foot{2.5, 0.7};
+      const Vec3 target = s->point(foot) + off * surface_normal(*s, foot);
+      const auto found = project_near(*s, target, {2.8, 0.5});
+      ASSERT_TRUE(found);
+      EXPECT_LE(distance(s->point(*found), s->point(foot)), 1e-9);
+    }
+}
+
+TEST(ProjectNear, works_on_free_form_surfaces) {
+  for (const char* shape : {"wave", "rational_wave", "high_degree_wave", "stretched", "revolution", "offset"}) {
+    const Model model = test::make_model(shape);
+    const auto s = model.surface(0);
+    const double ru = s->u_max() - s->u_min(), rv = s->v_max() - s->v_min();
+    for (double a : {0.2, 0.45, 0.8})
+      for (double b : {0.15, 0.5, 0.85}) {
+        const Vec2 foot{s->u_min() + a * ru, s->v_min() + b * rv};
+        const auto found = project_near(*s, s->point(foot) + 0.01 * surface_normal(*s, foot), {foot.x + 0.004 * ru, foot.y - 0.004 * rv});
+        ASSERT_TRUE(found) << shape;
+        EXPECT_LE(distance(s->point(*found), s->point(foot)), 1e-8) << shape;
+      }
+  }
+}
+
+TEST(ProjectNear, stays_near_the_bounds) {
+  const PlaneSurface plane(kFrame, 0, 10, 0, 4);
+  const auto found = project_near(plane, {100, 100, 3}, {5, 2});
+  ASSERT_TRUE(found);
+  EXPECT_LE(found->x, 10.1 + 1e-12);
+  EXPECT_LE(found->y, 4.04 + 1e-12);
+  EXPECT_GE(found->x, 10);
+}
+
+TEST(ProjectNear, gives_up_where_the_surface_has_no_tangent_plane) {
+  const AxialSurface needle(SurfaceType::kCylinder, kFrame, 0, 0, 0, 6, 0, 1);
+  EXPECT_FALSE(project_near(needle, {2, 2, 3}, {1, 0.5}));
+}
+
+}  // namespace
+}  // namespace st
