@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
+#include <tuple>
 
 #include "mesh/adjacency.h"
 
@@ -16,11 +18,20 @@ double area_of(const SurfaceMesh& mesh, TriangleId t) {
   return 0.5 * norm(cross(mesh.node_xyz[n[1]] - mesh.node_xyz[n[0]], mesh.node_xyz[n[2]] - mesh.node_xyz[n[0]]));
 }
 
-/// Smallest and largest angle of a triangle, degrees.
-void angles(Vec3 a, Vec3 b, Vec3 c, double& smallest, double& largest) {
-  const double alpha = angle_between(b - a, c - a), beta = angle_between(c - b, a - b), gamma = angle_between(a - c, b - c);
-  smallest = degrees(std::min({alpha, beta, gamma}));
-  largest = degrees(std::max({alpha, beta, gamma}));
+/// The bin of a value among bins of one width from `first`, the last without end.
+template <std::size_t n>
+std::int64_t& bin_of(std::array<std::int64_t, n>& histogram, double value, double first, double width) {
+  return histogram[static_cast<std::size_t>(std::clamp((value - first) / width, 0.0, static_cast<double>(n - 1)))];
+}
+
+void add_angles(const std::array<double, 3>& angle_deg, QualityStats& s) {
+  const auto [smallest, largest] = std::minmax({angle_deg[0], angle_deg[1], angle_deg[2]});
+  s.min_angle_deg = std::min(s.min_angle_deg, smallest);
+  s.max_angle_deg = std::max(s.max_angle_deg, largest);
+  s.n_below_20_deg += smallest < 20;
+  s.n_below_10_deg += smallest < 10;
+  s.n_below_5_deg += smallest < 5;
+  for (const double angle : angle_deg) ++bin_of(s.angle_histogram, angle, 0, 10);
 }
 
 /// The k-th smallest value. Reorders `values`.
@@ -50,12 +61,7 @@ QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> trian
     ++s.histogram[std::clamp(static_cast<int>(10 * q), 0, 9)];
     if (q < s.min) s.min = q, s.worst = t;
     const auto& n = mesh.triangles[t].n;
-    double smallest, largest;
-    angles(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]], smallest, largest);
-    s.min_angle_deg = std::min(s.min_angle_deg, smallest);
-    s.max_angle_deg = std::max(s.max_angle_deg, largest);
-    s.n_below_20_deg += smallest < 20;
-    s.n_below_5_deg += smallest < 5;
+    add_angles(triangle_angles_deg(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]), s);
   }
   s.mean /= static_cast<double>(triangles.size());
   s.p1 = nth_smallest(sorted, sorted.size() / 100);
@@ -80,18 +86,34 @@ std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const 
 
 void measure_jumps(const SurfaceMesh& mesh, QualityReport& report) {
   std::vector<double> jumps;
+  report.group_jumps.resize(report.groups.size());
+  report.face_jumps.resize(report.faces.size());
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
-      const auto [low, high] = std::minmax({area_of(mesh, sides[0] / 3), area_of(mesh, sides[i] / 3)});
-      if (low > 0) jumps.push_back(std::sqrt(high / low));
+      const TriangleId t = sides[0] / 3;
+      const auto [low, high] = std::minmax({area_of(mesh, t), area_of(mesh, sides[i] / 3)});
+      if (!(low > 0)) continue;
+      jumps.push_back(std::sqrt(high / low));
+      for (JumpStats* stats : {&report.jumps, &report.group_jumps[mesh.triangle_group[t]], &report.face_jumps[mesh.triangle_face[t]]})
+        stats->add(jumps.back());
     }
   });
   if (jumps.empty()) return;
   report.jump_p999 = percentile(jumps, 0.999);
-  report.jump_max = *std::max_element(jumps.begin(), jumps.end());
+  report.jump_max = report.jumps.max;
 }
 
 }  // namespace
+
+std::array<double, 3> triangle_angles_deg(Vec3 a, Vec3 b, Vec3 c) {
+  return {degrees(angle_between(b - a, c - a)), degrees(angle_between(c - b, a - b)), degrees(angle_between(a - c, b - c))};
+}
+
+void JumpStats::add(double ratio) {
+  ++n_pairs;
+  max = std::max(max, ratio);
+  ++bin_of(histogram, ratio, 1, kBinWidth);
+}
 
 double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
   const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
@@ -119,13 +141,73 @@ void ConformityStats::add(double ratio) {
   ++n_edges;
   n_within += ratio >= kConformityMin && ratio <= kConformityMax;
   sum += ratio;
+  ++bin_of(histogram, ratio, 0, kBinWidth);
 }
+
+namespace {
+
+/// Tells which short edges the CAD forces, and gathers them by place.
+class ForcedEdges {
+ public:
+  explicit ForcedEdges(const SurfaceMesh& mesh) : mesh_(mesh) {
+    for (std::int64_t n = 0; n < mesh.n_nodes(); ++n)
+      if (dim(n) == EntityDim::kEdge) ++n_inside_[mesh.node_entity[n]];
+  }
+
+  /// Takes the edge (a, b) when it is forced. `sides`: its triangles.
+  bool take(NodeId a, NodeId b, std::span<const SideId> sides, double ratio) {
+    if (ratio >= kConformityMin || dim(a) == EntityDim::kFace || dim(b) == EntityDim::kFace) return false;
+    ForcedPlace place{ForcedPlace::Kind::kShortEdge, kNone, 0, ratio, 0.5 * (mesh_.node_xyz[a] + mesh_.node_xyz[b])};
+    Key key{place.kind, kNone, a, b};
+    if (is_across(a, b, sides)) {
+      place.kind = ForcedPlace::Kind::kStrip;
+      place.entity = mesh_.triangle_face[sides[0] / 3];
+      key = {place.kind, place.entity, kNone, kNone};
+    } else if (dim(a) == EntityDim::kEdge || dim(b) == EntityDim::kEdge) {
+      place.entity = mesh_.node_entity[dim(a) == EntityDim::kEdge ? a : b];
+      if (n_inside_.at(place.entity) >= kMostSegments) return false;
+      key = {place.kind, place.entity, kNone, kNone};
+    }
+    ForcedPlace& known = places_.try_emplace(key, place).first->second;
+    if (ratio < known.min_ratio) known.min_ratio = ratio, known.xyz = place.xyz;
+    ++known.n_edges;
+    return true;
+  }
+
+  std::vector<ForcedPlace> places() const {
+    std::vector<ForcedPlace> list;
+    for (const auto& entry : places_) list.push_back(entry.second);
+    return list;
+  }
+
+ private:
+  using Key = std::tuple<ForcedPlace::Kind, std::int32_t, NodeId, NodeId>;
+  static constexpr int kMostSegments = 3;  ///< what a loop of one edge needs
+
+  EntityDim dim(NodeId n) const { return static_cast<EntityDim>(mesh_.node_entity_dim[n]); }
+  Vec2 uv_at(SideId side, NodeId n) const {
+    const SideId next = side / 3 * 3 + (side % 3 + 1) % 3;
+    return mesh_.corner_uv[mesh_.triangles[side / 3].n[side % 3] == n ? side : next];
+  }
+  /// Inside one face, not along its boundary: a seam's two sides have different (u,v).
+  bool is_across(NodeId a, NodeId b, std::span<const SideId> sides) const {
+    if (sides.size() != 2 || mesh_.triangle_face[sides[0] / 3] != mesh_.triangle_face[sides[1] / 3]) return false;
+    return uv_at(sides[0], a) == uv_at(sides[1], a) && uv_at(sides[0], b) == uv_at(sides[1], b);
+  }
+
+  const SurfaceMesh& mesh_;
+  std::map<EdgeId, std::int64_t> n_inside_;  ///< nodes inside each CAD edge
+  std::map<Key, ForcedPlace> places_;
+};
+
+}  // namespace
 
 ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length) {
   ConformityReport report;
   report.groups.resize(mesh.group_name.size());
   report.faces.resize(mesh.face_name.size());
   std::vector<double> inverse(mesh.n_nodes()), ratios;
+  ForcedEdges forced(mesh);
   for (std::int64_t n = 0; n < mesh.n_nodes(); ++n) inverse[n] = 1 / requested_length(mesh.node_xyz[n]);
   const auto at = [](std::vector<ConformityStats>& stats, std::int32_t i) -> ConformityStats& {
     if (static_cast<std::size_t>(i) >= stats.size()) stats.resize(i + 1);
@@ -136,11 +218,13 @@ ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function
     const double ratio = distance(p, q) * (inverse[a] + 4 / requested_length(0.5 * (p + q)) + inverse[b]) / 6;
     ratios.push_back(ratio);
     report.model.add(ratio);
+    if (!forced.take(a, b, sides, ratio)) report.free.add(ratio);
     const auto face_dim = static_cast<std::uint8_t>(EntityDim::kFace);
     if (mesh.node_entity_dim[a] == face_dim || mesh.node_entity_dim[b] == face_dim) report.inner.add(ratio);
     at(report.groups, mesh.triangle_group[sides[0] / 3]).add(ratio);
     at(report.faces, mesh.triangle_face[sides[0] / 3]).add(ratio);
   });
+  report.forced = forced.places();
   if (ratios.empty()) return report;
   report.p1 = percentile(ratios, 0.01);
   report.p99 = percentile(ratios, 0.99);

@@ -13,6 +13,9 @@ namespace st {
 /// Quality 4 sqrt(3) A / (l1^2 + l2^2 + l3^2) of a triangle: 1 equilateral, 0 without area.
 double triangle_quality(Vec3 a, Vec3 b, Vec3 c);
 
+/// Angles at the three corners, degrees.
+std::array<double, 3> triangle_angles_deg(Vec3 a, Vec3 b, Vec3 c);
+
 /// Shapes of a set of triangles. All zero for an empty set.
 struct QualityStats {
   std::int64_t n_triangles = 0;
@@ -20,8 +23,18 @@ struct QualityStats {
   std::int64_t n_below_03 = 0;               ///< triangles with quality below 0.3
   std::array<std::int64_t, 10> histogram{};  ///< triangles by quality in [k/10, (k+1)/10)
   double min_angle_deg = 0, max_angle_deg = 0;
-  std::int64_t n_below_20_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
-  TriangleId worst = kNone;                            ///< the (first) triangle of least quality
+  std::int64_t n_below_20_deg = 0, n_below_10_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
+  std::array<std::int64_t, 18> angle_histogram{};                          ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
+  TriangleId worst = kNone;                                                ///< the (first) triangle of least quality
+};
+
+/// Growth between neighbours: square root of the ratio of their areas, at least 1.
+struct JumpStats {
+  static constexpr double kBinWidth = 0.1;
+  std::int64_t n_pairs = 0;  ///< pairs of triangles with a common edge, both with an area
+  double max = 1;
+  std::array<std::int64_t, 20> histogram{};  ///< pairs by ratio in [1 + 0.1 k, 1.1 + 0.1 k), the last without end
+  void add(double ratio);
 };
 
 struct QualityReport {
@@ -29,6 +42,8 @@ struct QualityReport {
   std::vector<QualityStats> groups;    ///< [n_groups]
   std::vector<QualityStats> faces;     ///< [n_faces]
   double jump_p999 = 1, jump_max = 1;  ///< sqrt of the area ratio of neighbours, 99.9th percentile and largest
+  JumpStats jumps;
+  std::vector<JumpStats> group_jumps, face_jumps;  ///< [n_groups], [n_faces]; a pair counts for the face of its first triangle
 };
 
 /// Local, linear. Needs 24 bytes per triangle.
@@ -36,8 +51,10 @@ QualityReport measure_quality(const SurfaceMesh& mesh);
 
 /// Lengths of mesh edges over the requested lengths.
 struct ConformityStats {
-  std::int64_t n_edges = 0, n_within = 0;  ///< within [kConformityMin, kConformityMax]
-  double min = 0, max = 0, sum = 0;        ///< of the ratio
+  static constexpr double kBinWidth = 0.1;
+  std::int64_t n_edges = 0, n_within = 0;    ///< within [kConformityMin, kConformityMax]
+  double min = 0, max = 0, sum = 0;          ///< of the ratio
+  std::array<std::int64_t, 21> histogram{};  ///< edges by ratio in [0.1 k, 0.1 k + 0.1), the last without end
   double share() const { return n_edges ? static_cast<double>(n_within) / static_cast<double>(n_edges) : 1.0; }
   double mean() const { return n_edges ? sum / static_cast<double>(n_edges) : 1.0; }
   void add(double ratio);
@@ -45,15 +62,31 @@ struct ConformityStats {
 
 inline constexpr double kConformityMin = 0.7, kConformityMax = 1.4;
 
+/// Mesh edges shorter than kConformityMin because the CAD leaves no choice.
+struct ForcedPlace {
+  enum class Kind : std::uint8_t {
+    kShortEdge,  ///< along a CAD edge of at most three segments: it is shorter than its sizes, or a loop that needs its three sides
+    kStrip       ///< across a face, from boundary to boundary: a strip or corner thinner than its sizes
+  };
+  Kind kind = Kind::kShortEdge;
+  std::int32_t entity = kNone;  ///< CAD edge (kNone: between two vertices) or, for a strip, CAD face
+  std::int64_t n_edges = 0;     ///< mesh edges there
+  double min_ratio = 0;         ///< the shortest of them over its requested length
+  Vec3 xyz;                     ///< the middle of that one, model unit
+};
+
 struct ConformityReport {
   ConformityStats model;
+  ConformityStats free;                        ///< all edges but those of `forced`
+  std::vector<ForcedPlace> forced;             ///< by kind and entity; between two vertices: one each
   ConformityStats inner;                       ///< edges with a node inside a face: nothing of the CAD forces their length
   std::vector<ConformityStats> groups, faces;  ///< an edge counts for the face of its first triangle
   double p1 = 1, p99 = 1;                      ///< percentiles of the ratio
 };
 
 /// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
-/// `requested_length(xyz) > 0` in model units. Local, linear.
+/// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of faces that lies on
+/// a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
 ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length);
 
 }  // namespace st

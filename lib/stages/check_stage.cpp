@@ -5,35 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "base/length.h"
 #include "base/log.h"
-#include "geometry/model.h"
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
-#include "mesh/checks.h"
-#include "mesh/quality.h"
-#include "stages/chord_error.h"
+#include "io/text_file.h"
+#include "stages/check_report.h"
 
 namespace st {
 
 namespace {
-
-using nlohmann::json;
-
-/// One line of the report: what was looked for, what was found.
-struct Check {
-  std::string name;  ///< "closed", "folds" ...
-  std::string what;  ///< what is counted: "open edges"
-  Defects defects;
-  bool decides = true;  ///< the mesh fails when something was found
-  std::string note;     ///< added to the line, found or not
-
-  bool fails() const { return decides && defects.count > 0; }
-};
 
 /// The geometry with what the checks need of it.
 struct CadSide {
@@ -51,34 +37,6 @@ struct CadSide {
   }
   CadEdges edges() const { return {model.tables().edge_vertices, may_be_open, may_be_nonmanifold}; }
 };
-
-/// Everything that was measured.
-struct Findings {
-  TopologyReport topology;
-  ShapeReport shape;
-  CrossingReport crossings;
-  MeshMeasure measure;
-  QualityReport quality;
-  std::optional<ConformityReport> conformity;
-  std::optional<ChordError> chords;
-  std::vector<Check> checks;
-
-  bool passes() const {
-    return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.fails(); });
-  }
-};
-
-std::string face_label(const SurfaceMesh& mesh, FaceId f) {
-  const bool has_name = static_cast<std::size_t>(f) < mesh.face_name.size() && !mesh.face_name[f].empty();
-  return has_name ? fmt::format("face {} \"{}\"", f + 1, mesh.face_name[f]) : fmt::format("face {}", f + 1);
-}
-
-std::string place_text(const SurfaceMesh& mesh, const DefectPlace& p) {
-  std::string text = fmt::format("({:.6g} {:.6g} {:.6g})", p.xyz.x, p.xyz.y, p.xyz.z);
-  if (p.face_a != kNone) text += ", " + face_label(mesh, p.face_a);
-  if (p.face_b != kNone && p.face_b != p.face_a) text += " and " + face_label(mesh, p.face_b);
-  return text;
-}
 
 /// Middle of the first triangle of each face.
 std::vector<Vec3> face_places(const SurfaceMesh& mesh, std::size_t n_faces) {
@@ -164,7 +122,7 @@ Check check_volume(const TopologyReport& topology, const MeshMeasure& measure) {
   return c;
 }
 
-void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, Findings& f) {
+void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const CheckThresholds& allow, Findings& f) {
   const SurfaceMesh& mesh = artifact.mesh;
   f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
   f.shape = check_shape(mesh);
@@ -183,9 +141,10 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, Findings&
               {"zero-area", "triangles without area", f.shape.zero_area, true, ""},
               {"duplicate-triangles", "triangles present twice", f.topology.duplicate_triangles, true, ""},
               {"duplicate-nodes", "nodes at the place of another", f.shape.duplicate_nodes, true, ""},
-              {"folds", "folds", f.shape.folds, true, ""},
-              {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, ""},
-              {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, ""},
+              {"folds", "folds", f.shape.folds, true, "", allow.max_folds},
+              {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, "", allow.max_crossings},
+              {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, "",
+               std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
               {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
               {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
               check_volume(f.topology, f.measure)};
@@ -193,158 +152,84 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, Findings&
 
 void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tolerance, Findings& f) {
   f.measure.face_area.resize(cad.model.tables().n_faces(), 0);
+  f.cad_area = cad.model.tables().face_area;
+  f.face_group = cad.model.tables().face_group;
   f.chords = estimate_chord_error(cad.model, mesh);
+  f.deviation = measure_deviation(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
   f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords));
 }
 
-// --- report ----------------------------------------------------------------------------------------------------------------------------
+// --- thresholds --------------------------------------------------------------------------------------------------------------------------
 
-std::string check_line(const SurfaceMesh& mesh, const Check& c) {
-  const std::string note = c.note.empty() ? "" : "  " + c.note;
-  if (c.defects.count == 0) return fmt::format("  {:<20} ok{}\n", c.name, note);
-  const std::string where = c.defects.first[0].face_a == kNone ? "" : ", first at " + place_text(mesh, c.defects.first[0]);
-  return fmt::format("  {:<20} {} {} {}{}{}\n", c.name, c.fails() ? "FAILS" : "note:", c.defects.count, c.what, where, note);
+/// One value of the whole mesh against its bound: one defect without a place, or none.
+Check check_value(const std::string& name, const std::string& what, bool is_good, const std::string& note) {
+  Check c{name, what, {}, true, note};
+  if (!is_good) c.defects.add({});
+  return c;
 }
 
-std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
-  const std::string worst = q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
-  return fmt::format(
-      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth {:.2f} (99.9 %)\n",
-      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg,
-      q.jump_p999);
-}
-
-std::string conformity_line(const ConformityReport& c) {
-  return fmt::format(
-      "  {:<20} {:.1f} % of all edges within {} to {} of the requested length, {:.1f} % of those inside faces; mean {:.3f}, 1 % to 99 %: "
-      "{:.2f} to {:.2f}\n",
-      "sizes", 100 * c.model.share(), kConformityMin, kConformityMax, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
-}
-
-/// Handles of all parts together, where the number means something.
-std::optional<std::int64_t> genus_of(const TopologyReport& t) {
-  const bool is_manifold = t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
-  return is_manifold ? std::optional(t.genus) : std::nullopt;
-}
-
-std::string verdict_line(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
-  std::string failed;
-  for (const Check& c : f.checks) {
-    if (!c.fails()) continue;
-    const bool has_place = c.defects.first[0].face_a != kNone;
-    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
-                          has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
+/// Triangles for which `is_bad(corner, corner, corner)`.
+template <class IsBad>
+Check check_triangles(const SurfaceMesh& mesh, const std::string& name, const std::string& what, const IsBad& is_bad) {
+  Check c{name, what, {}, true, ""};
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& n = mesh.triangles[t].n;
+    const Vec3 p = mesh.node_xyz[n[0]], q = mesh.node_xyz[n[1]], r = mesh.node_xyz[n[2]];
+    if (is_bad(p, q, r)) c.defects.add({(p + q + r) / 3, mesh.triangle_face[t], kNone});
   }
-  const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
-  const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
-  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", options.mesh, verdict, mesh.n_triangles(),
-                     f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
+  return c;
 }
 
-std::string report_text(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
-  std::string text;
-  for (const Check& c : f.checks) text += check_line(mesh, c);
-  text += quality_lines(mesh, f.quality);
-  if (f.conformity) text += conformity_line(*f.conformity);
-  return text + verdict_line(options, mesh, f, seconds);
+void check_quality(const SurfaceMesh& mesh, const CheckThresholds& asked, Findings& f) {
+  const QualityReport& q = f.quality;
+  if (asked.min_quality)
+    f.checks.push_back(check_triangles(mesh, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
+                                       [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
+  if (asked.min_angle_deg)
+    f.checks.push_back(check_triangles(mesh, "min-angle", fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
+                                       [&](Vec3 a, Vec3 b, Vec3 c) {
+                                         const auto angles = triangle_angles_deg(a, b, c);
+                                         return *std::min_element(angles.begin(), angles.end()) < *asked.min_angle_deg;
+                                       }));
+  if (asked.min_mean_quality)
+    f.checks.push_back(check_value("min-mean-quality", fmt::format("mean quality below {}", *asked.min_mean_quality),
+                                   q.model.mean >= *asked.min_mean_quality, fmt::format("{:.4f}", q.model.mean)));
+  if (asked.min_p1_quality)
+    f.checks.push_back(check_value("min-p1-quality", fmt::format("first percentile of quality below {}", *asked.min_p1_quality),
+                                   q.model.p1 >= *asked.min_p1_quality, fmt::format("{:.4f}", q.model.p1)));
+  if (asked.max_jump)
+    f.checks.push_back(check_value("max-jump", fmt::format("growth (99.9 %) above {}", *asked.max_jump), q.jump_p999 <= *asked.max_jump,
+                                   fmt::format("{:.3f}", q.jump_p999)));
 }
 
-json check_json(const Check& c) {
-  json places = json::array();
-  for (const DefectPlace& p : c.defects.first) {
-    json faces = json::array();
-    for (const FaceId f : {p.face_a, p.face_b})
-      if (f != kNone) faces.push_back(f + 1);
-    places.push_back({{"xyz", {p.xyz.x, p.xyz.y, p.xyz.z}}, {"faces", faces}});
+void check_sizes(const CheckThresholds& asked, Findings& f) {
+  if (!asked.min_size_share || !f.conformity) return;
+  const double share = f.conformity->free.share();
+  f.checks.push_back(check_value("min-size-share", fmt::format("share of edges of the requested length below {}", *asked.min_size_share),
+                                 share >= *asked.min_size_share, fmt::format("{:.4f}", share)));
+}
+
+void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Findings& f) {
+  const std::vector<DeviationStats>& faces = f.deviation->faces;
+  if (!asked.max_deviation.empty()) {
+    const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"), tables.reference_diagonal(), tables.unit_in_m,
+                                        "--max-deviation");
+    Check c{"max-deviation", fmt::format("faces with a triangle's middle off the surface by more than {:.6g}", bound), {}, true, ""};
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      if (faces[i].max_distance > bound) c.defects.add({faces[i].distance_place, static_cast<FaceId>(i), kNone});
+    f.checks.push_back(c);
   }
-  return {{"count", c.defects.count}, {"passes", !c.fails()}, {"first", places}};
-}
-
-json quality_json(const QualityStats& q) {
-  return {{"triangles", q.n_triangles},
-          {"mean", q.mean},
-          {"p1", q.p1},
-          {"min", q.min},
-          {"below_0.3", q.n_below_03},
-          {"histogram", q.histogram},
-          {"min_angle_deg", q.min_angle_deg},
-          {"max_angle_deg", q.max_angle_deg},
-          {"below_20_deg", q.n_below_20_deg},
-          {"below_5_deg", q.n_below_5_deg}};
-}
-
-json conformity_json(const ConformityStats& c) {
-  return {{"edges", c.n_edges}, {"share", c.share()}, {"mean", c.mean()}, {"min", c.min}, {"max", c.max}};
-}
-
-json groups_json(const SurfaceMesh& mesh, const Findings& f) {
-  json groups = json::array();
-  for (std::size_t g = 0; g < f.quality.groups.size(); ++g) {
-    json entry{{"name", g < mesh.group_name.size() ? mesh.group_name[g] : ""}, {"quality", quality_json(f.quality.groups[g])}};
-    if (f.conformity && g < f.conformity->groups.size()) entry["sizes"] = conformity_json(f.conformity->groups[g]);
-    groups.push_back(entry);
-  }
-  return groups;
-}
-
-json faces_json(const SurfaceMesh& mesh, const Findings& f) {
-  json faces = json::array();
-  for (std::size_t i = 0; i < f.quality.faces.size(); ++i) {
-    const QualityStats& q = f.quality.faces[i];
-    json entry{{"face", i + 1},
-               {"name", i < mesh.face_name.size() ? mesh.face_name[i] : ""},
-               {"triangles", q.n_triangles},
-               {"area", f.measure.face_area[i]},
-               {"mean", q.mean},
-               {"min", q.min}};
-    if (f.chords && i < f.chords->distance.size()) entry["chord_distance"] = f.chords->distance[i];
-    if (f.conformity && i < f.conformity->faces.size()) entry["size_share"] = f.conformity->faces[i].share();
-    faces.push_back(entry);
-  }
-  return faces;
-}
-
-json report_json(const CheckStageOptions& options, const SurfaceMesh& mesh, const Findings& f, double seconds) {
-  json checks = json::object(), failed = json::array();
-  for (const Check& c : f.checks) {
-    checks[c.name] = check_json(c);
-    if (c.fails()) failed.push_back(c.name);
-  }
-  json j{{"mesh", options.mesh},
-         {"passes", f.passes()},
-         {"failed", failed},
-         {"triangles", mesh.n_triangles()},
-         {"nodes", f.topology.n_used_nodes},
-         {"edges", f.topology.n_edges},
-         {"components", f.topology.n_components},
-         {"euler", f.topology.euler},
-         {"genus", genus_of(f.topology) ? json(*genus_of(f.topology)) : json()},
-         {"closed", f.topology.is_closed()},
-         {"boundary_edges", f.topology.boundary_edges.count},
-         {"cad_boundary_edges", f.topology.n_cad_boundary_edges},
-         {"nonmanifold_edges", f.topology.nonmanifold_edges.count},
-         {"cad_nonmanifold_edges", f.topology.n_cad_nonmanifold_edges},
-         {"misoriented_edges", f.topology.misoriented_edges.count},
-         {"duplicate_nodes", f.shape.duplicate_nodes.count},
-         {"folds", f.shape.folds.count},
-         {"crossings", f.crossings.crossings.count},
-         {"area", f.measure.area},
-         {"volume", f.measure.volume},
-         {"checks", checks},
-         {"quality", quality_json(f.quality.model)},
-         {"jump_p999", f.quality.jump_p999},
-         {"jump_max", f.quality.jump_max},
-         {"groups", groups_json(mesh, f)},
-         {"faces", faces_json(mesh, f)},
-         {"seconds", seconds}};
-  if (f.conformity)
-    j["sizes"] = {{"all", conformity_json(f.conformity->model)},
-                  {"inner", conformity_json(f.conformity->inner)},
-                  {"p1", f.conformity->p1},
-                  {"p99", f.conformity->p99}};
-  return j;
+  if (!asked.max_normal_deviation_deg) return;
+  Check c{"max-normal-deviation",
+          fmt::format("faces with a triangle turned from the surface by more than {} deg", *asked.max_normal_deviation_deg),
+          {},
+          true,
+          ""};
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i].max_angle_deg > *asked.max_normal_deviation_deg) c.defects.add({faces[i].angle_place, static_cast<FaceId>(i), kNone});
+  f.checks.push_back(c);
 }
 
 std::unique_ptr<CadSide> read_cad(const CheckStageOptions& options, const ArtifactHeader& mesh_header) {
@@ -364,19 +249,37 @@ std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const Ar
 
 }  // namespace
 
+void CheckStageOptions::validate() const {
+  const auto needs = [](bool is_asked, const std::string& given, const char* option, const char* input) {
+    if (is_asked && given.empty())
+      throw Error(ExitCode::kUsage, fmt::format("{}: needs {} FILE; give it, or leave the option out", option, input));
+  };
+  needs(thresholds.min_size_share.has_value(), sizing, "--min-size-share", "--sizing");
+  needs(!thresholds.max_deviation.empty(), geometry, "--max-deviation", "--geometry");
+  needs(thresholds.max_normal_deviation_deg.has_value(), geometry, "--max-normal-deviation", "--geometry");
+}
+
 StageSummary run_check(const CheckStageOptions& options) {
+  options.validate();
   const Timer timer;
   const MeshArtifact artifact = read_mesh(options.mesh);
   const std::unique_ptr<CadSide> cad = read_cad(options, artifact.header);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
 
   Findings f;
-  run_mesh_checks(artifact, cad.get(), f);
+  run_mesh_checks(artifact, cad.get(), options.thresholds, f);
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
   if (field) f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
 
+  check_quality(artifact.mesh, options.thresholds, f);
+  check_sizes(options.thresholds, f);
+  if (cad) check_deviation(options.thresholds, cad->model.tables(), f);
+
   const double seconds = timer.seconds();
-  return {report_text(options, artifact.mesh, f, seconds), report_json(options, artifact.mesh, f, seconds).dump(),
+  for (const std::string& path : options.reports)
+    write_text_file(path, check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n");
+  return {check_report_text(options.mesh, artifact.mesh, f, seconds),
+          check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
           f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
 }
 

@@ -15,7 +15,11 @@ OPTIONS = {
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--too-long": "1.5", "--too-short": "0.5", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
-    "st-check": {"--geometry": "", "--sizing": "", "--area-tolerance": "0.01"},
+    "st-check": {
+        "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
+        "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
+        "--max-normal-deviation": "",
+    },
     "st-info": {"--hash": ""},
     "st-diff": {"--tolerance": "0"},
     "st-export": {"--output": ""},
@@ -33,7 +37,19 @@ REFUSED = {
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--max-turning": ["0", "61"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
-    "st-check": {"--area-tolerance": ["0", "1.1"]},
+    "st-check": {
+        "--area-tolerance": ["0", "1.1"],
+        "--max-folds": ["-1", "1.5"],
+        "--max-crossings": ["-1", "x"],
+        "--min-quality": ["-0.1", "1.1", "x"],
+        "--min-mean-quality": ["-0.1", "1.1"],
+        "--min-p1-quality": ["-0.1", "1.1"],
+        "--min-angle": ["0", "61"],
+        "--max-jump": ["0.9"],
+        "--min-size-share": ["-0.1", "1.1"],
+        "--max-deviation": ["0", "-1", "x"],
+        "--max-normal-deviation": ["0", "181"],
+    },
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
 }
 

@@ -156,6 +156,10 @@ void ToolMain::number(const std::string& flag, int& value, const std::string& in
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval)));
 }
 
+void ToolMain::number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help) {
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->check(in_interval(interval)));
+}
+
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
   file_options_.push_back(app_.add_flag(flag, value, help));
 }

@@ -47,6 +47,8 @@ class ToolMain {
   /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
   void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
   void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);
+  /// The same for what is off unless it is given.
+  void number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help);
   void flag(const std::string& flag, bool& value, const std::string& help);
 
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
 
 #include "unit/mesh/shapes.h"
@@ -44,6 +45,44 @@ TEST(Quality, of_faces_adds_up_to_the_model) {
   EXPECT_EQ(triangle_quality(m.node_xyz[t[0]], m.node_xyz[t[1]], m.node_xyz[t[2]]), r.model.min);
 }
 
+TEST(Quality, histograms_hold_every_angle_triangle_pair_and_edge_once) {
+  const SurfaceMesh m = shapes::sphere(6);
+  const QualityReport q = measure_quality(m);
+  const auto sum = [](const auto& histogram) { return std::accumulate(histogram.begin(), histogram.end(), std::int64_t{0}); };
+  EXPECT_EQ(sum(q.model.angle_histogram), 3 * m.n_triangles());
+  EXPECT_EQ(sum(q.jumps.histogram), m.n_triangles() * 3 / 2);
+  EXPECT_EQ(sum(measure_conformity(m, [](Vec3) { return 0.3; }).model.histogram), m.n_triangles() * 3 / 2);
+}
+
+TEST(Quality, histogram_of_angles_of_half_squares_has_two_bins) {
+  const QualityReport r = measure_quality(shapes::cube(5));  // two angles of 45 and one of 90 degrees each
+  EXPECT_EQ(r.model.angle_histogram[4], 600);
+  EXPECT_EQ(r.model.angle_histogram[8] + r.model.angle_histogram[9], 300);
+}
+
+TEST(Quality, counts_triangles_by_their_smallest_angle) {
+  const auto flat = [](double height) { return shapes::from({{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}}, {{{0, 1, 2}}}); };
+  const auto below = [&](double angle_deg) {
+    const QualityStats s = measure_quality(flat(0.5 * std::tan(radians(angle_deg)))).model;
+    return std::array<std::int64_t, 3>{s.n_below_20_deg, s.n_below_10_deg, s.n_below_5_deg};
+  };
+  EXPECT_EQ(below(21), (std::array<std::int64_t, 3>{0, 0, 0}));
+  EXPECT_EQ(below(19), (std::array<std::int64_t, 3>{1, 0, 0}));
+  EXPECT_EQ(below(9), (std::array<std::int64_t, 3>{1, 1, 0}));
+  EXPECT_EQ(below(4), (std::array<std::int64_t, 3>{1, 1, 1}));
+}
+
+TEST(Quality, jumps_of_faces_add_up_to_the_model) {
+  SurfaceMesh m = shapes::cube(6);
+  m.node_xyz[10] += {0.05, 0.04, 0.03};
+  const QualityReport r = measure_quality(m);
+  std::int64_t n = 0;
+  double largest = 1;
+  for (const JumpStats& f : r.face_jumps) n += f.n_pairs, largest = std::max(largest, f.max);
+  EXPECT_EQ(n, r.jumps.n_pairs);
+  EXPECT_EQ(largest, r.jump_max);
+}
+
 TEST(Quality, sees_a_jump_between_neighbours) {
   const SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -9, 0}}, {{{0, 1, 2}}, {{1, 0, 3}}});
   EXPECT_NEAR(measure_quality(m).jump_max, 3, 1e-12);
@@ -72,6 +111,60 @@ TEST(Conformity, tells_edges_inside_faces_from_those_the_cad_forces) {
   const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
   EXPECT_EQ(r.model.n_edges, 6);
   EXPECT_EQ(r.inner.n_edges, 3);
+}
+
+/// A strip 10 x 0.2 of one face in 20 steps of 0.5: vertices at its corners, CAD edges 0 (lower), 1 (right), 2 (upper), 3 (left).
+SurfaceMesh strip() {
+  constexpr int kSteps = 20;
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i <= kSteps; ++i) points.push_back({0.5 * i, 0, 0}), points.push_back({0.5 * i, 0.2, 0});
+  for (NodeId i = 0; i < 2 * kSteps; i += 2) triangles.push_back({{i, i + 2, i + 3}}), triangles.push_back({{i, i + 3, i + 1}});
+  SurfaceMesh m = shapes::from(points, triangles);
+  for (NodeId n = 0; n < m.n_nodes(); ++n) {
+    const bool is_corner = n < 2 || n >= 2 * kSteps;
+    m.node_entity_dim[n] = is_corner ? 0 : 1;
+    m.node_entity[n] = is_corner ? n % 4 : n % 2 ? 2 : 0;
+  }
+  for (std::size_t t = 0; t < m.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) m.corner_uv[3 * t + k] = {m.node_xyz[m.triangles[t].n[k]].x, m.node_xyz[m.triangles[t].n[k]].y};
+  return m;
+}
+
+TEST(Conformity, lists_what_the_cad_forces_apart) {
+  const ConformityReport r = measure_conformity(strip(), [](Vec3) { return 0.5; });
+  EXPECT_EQ(r.model.n_edges, 81);
+  EXPECT_EQ(r.model.n_within, 60) << "20 edges below, 20 above, 20 diagonals; not the 21 across";
+  EXPECT_EQ(r.free.n_edges, 60);
+  EXPECT_EQ(r.free.share(), 1);
+  ASSERT_EQ(r.forced.size(), 3u) << "both short ends and the strip";
+  for (int i : {0, 1}) {
+    EXPECT_EQ(r.forced[i].kind, ForcedPlace::Kind::kShortEdge);
+    EXPECT_EQ(r.forced[i].n_edges, 1);
+  }
+  EXPECT_EQ(r.forced[2].kind, ForcedPlace::Kind::kStrip);
+  EXPECT_EQ(r.forced[2].entity, 0);
+  EXPECT_EQ(r.forced[2].n_edges, 19);
+  EXPECT_NEAR(r.forced[2].min_ratio, 0.4, 1e-12);
+}
+
+TEST(Conformity, excuses_no_edge_of_a_curve_that_has_room) {
+  const ConformityReport r = measure_conformity(strip(), [](Vec3) { return 1.0; });
+  EXPECT_EQ(r.free.n_edges, 40) << "along both long edges";
+  EXPECT_EQ(r.free.n_within, 0);
+}
+
+TEST(Conformity, excuses_no_short_edge_inside_a_face) {
+  const ConformityReport r = measure_conformity(shapes::cube(4), [](Vec3) { return 1.0; });
+  EXPECT_TRUE(r.forced.empty());
+  EXPECT_EQ(r.free.n_edges, r.model.n_edges);
+}
+
+TEST(Conformity, takes_a_seam_for_a_boundary) {
+  SurfaceMesh m = strip();
+  for (std::size_t c = 0; c < m.corner_uv.size(); c += 6)
+    for (int k = 0; k < 3; ++k) m.corner_uv[c + k].x += 100;  // no two triangles have a common (u,v)
+  for (const ForcedPlace& p : measure_conformity(m, [](Vec3) { return 0.5; }).forced) EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "io/artifact.h"
 #include "stages/check_stage.h"
 #include "stages/chord_error.h"
+#include "stages/surface_deviation.h"
 
 namespace st {
 namespace {
@@ -203,7 +204,7 @@ class CheckCad : public testing::Test {
   }
   StageSummary check(const MeshArtifact& mesh) const {
     write_mesh(path("mesh.hdf"), mesh);
-    return run_check({path("mesh.hdf"), path("geometry.hdf"), "", 0.01});
+    return run_check({path("mesh.hdf"), path("geometry.hdf"), "", 0.01, {}, {}});
   }
   static bool says(const StageSummary& s, const std::string& text) { return s.json.find(text) != std::string::npos; }
 
@@ -235,6 +236,52 @@ TEST_F(CheckCad, finds_a_face_whose_area_is_wrong) {
   EXPECT_EQ(s.code, ExitCode::kIncomplete);
   EXPECT_TRUE(says(s, "\"failed\":[\"areas\"]")) << s.json;
   EXPECT_NE(s.line.find("note: 2 faces with nodes off the surface"), std::string::npos) << s.line;
+}
+
+TEST_F(CheckCad, measures_how_far_midpoints_and_normals_are_off_the_surface) {
+  const Model model(geometry_.tables, geometry_.brep);
+  const FaceId side = face(SurfaceType::kCylinder), top = face(SurfaceType::kPlane, kHeight);
+  for (const int n : {8, 40}) {
+    const SurfaceDeviation d = measure_deviation(model, make_mesh(n).mesh);
+    const double turn = 2 * kPi / n;  // a midpoint lies at a third of the chord
+    const double radius = kRadius * std::sqrt(1 - 8.0 / 9 * std::pow(std::sin(turn / 2), 2));
+    EXPECT_NEAR(d.faces[side].max_distance, kRadius - radius, 1e-6);
+    EXPECT_NEAR(d.faces[side].mean_distance(), kRadius - radius, 1e-6);
+    EXPECT_NEAR(d.faces[side].max_angle_deg, degrees(std::atan(std::tan(turn / 2) / 3)), 1e-4);
+    EXPECT_NEAR(d.faces[top].max_distance, 0, 1e-9);
+    EXPECT_NEAR(d.faces[top].max_angle_deg, 0, 1e-6);
+    EXPECT_EQ(d.worst_distance, side);
+    EXPECT_EQ(d.model.n_triangles, 2 * n + 2 * (n - 2));
+  }
+}
+
+TEST_F(CheckCad, does_not_mind_a_mesh_turned_as_a_whole) {
+  const Model model(geometry_.tables, geometry_.brep);
+  MeshArtifact a = make_mesh(12);
+  for (std::size_t t = 0; t < a.mesh.triangles.size(); ++t) {
+    std::swap(a.mesh.triangles[t].n[1], a.mesh.triangles[t].n[2]);
+    std::swap(a.mesh.corner_uv[3 * t + 1], a.mesh.corner_uv[3 * t + 2]);
+  }
+  EXPECT_LT(measure_deviation(model, a.mesh).model.max_angle_deg, 15);
+}
+
+TEST_F(CheckCad, holds_deviations_to_their_thresholds) {
+  const auto failed = [&](const std::string& distance, std::optional<double> angle_deg) {
+    write_mesh(path("mesh.hdf"), make_mesh(40));
+    CheckStageOptions o{path("mesh.hdf"), path("geometry.hdf"), "", 0.01, {}, {}};
+    o.thresholds.max_deviation = distance;
+    o.thresholds.max_normal_deviation_deg = angle_deg;
+    const StageSummary s = run_check(o);
+    return says(s, "\"failed\":[\"max-deviation\"]")          ? 1
+           : says(s, "\"failed\":[\"max-normal-deviation\"]") ? 2
+           : s.code == ExitCode::kOk                          ? 0
+                                                              : -1;
+  };
+  EXPECT_EQ(failed("0.028", 1.6), 0);  // measured: 0.0274, 1.503 degrees
+  EXPECT_EQ(failed("0.027", 1.6), 1);
+  EXPECT_EQ(failed("0.028", 1.5), 2);
+  EXPECT_EQ(failed("0.1%", {}), 0) << "of the diagonal of 41";
+  EXPECT_EQ(failed("0.05%", {}), 1);
 }
 
 TEST_F(CheckCad, finds_a_face_without_triangles) {

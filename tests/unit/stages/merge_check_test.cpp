@@ -70,7 +70,7 @@ class MergeCheck : public testing::Test {
     }
     return ExitCode::kOk;
   }
-  StageSummary check() const { return run_check({path("mesh.hdf"), "", "", 0.01}); }
+  StageSummary check() const { return run_check({path("mesh.hdf"), "", "", 0.01, {}, {}}); }
 
   fs::path folder_;
 };

@@ -1,0 +1,276 @@
+#include "stages/check_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace st {
+
+bool Findings::passes() const {
+  return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.fails(); });
+}
+
+std::string face_label(const SurfaceMesh& mesh, FaceId f) {
+  const bool has_name = static_cast<std::size_t>(f) < mesh.face_name.size() && !mesh.face_name[f].empty();
+  return has_name ? fmt::format("face {} \"{}\"", f + 1, mesh.face_name[f]) : fmt::format("face {}", f + 1);
+}
+
+namespace {
+
+using nlohmann::json;
+
+std::string place_text(const SurfaceMesh& mesh, const DefectPlace& p) {
+  std::string text = fmt::format("({:.6g} {:.6g} {:.6g})", p.xyz.x, p.xyz.y, p.xyz.z);
+  if (p.face_a != kNone) text += ", " + face_label(mesh, p.face_a);
+  if (p.face_b != kNone && p.face_b != p.face_a) text += " and " + face_label(mesh, p.face_b);
+  return text;
+}
+
+std::string check_line(const SurfaceMesh& mesh, const Check& c) {
+  const std::string note = c.note.empty() ? "" : "  " + c.note;
+  if (c.defects.count == 0) return fmt::format("  {:<20} ok{}\n", c.name, note);
+  const std::string where = c.defects.first[0].face_a == kNone ? "" : ", first at " + place_text(mesh, c.defects.first[0]);
+  return fmt::format("  {:<20} {} {} {}{}{}\n", c.name, c.fails() ? "FAILS" : "note:", c.defects.count, c.what, where, note);
+}
+
+std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
+  const std::string worst = q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
+  return fmt::format(
+      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth {:.2f} (99.9 %)\n",
+      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg,
+      q.jump_p999);
+}
+
+std::string conformity_lines(const ConformityReport& c) {
+  std::int64_t n_forced = 0;
+  for (const ForcedPlace& p : c.forced) n_forced += p.n_edges;
+  const std::string forced =
+      n_forced ? fmt::format(" ({} edges in {} places forced short by the CAD apart)", n_forced, c.forced.size()) : "";
+  return fmt::format(
+      "  {:<20} {:.1f} % of edges within {} to {} of the requested length{}, {:.1f} % of those inside faces; mean {:.3f}, 1 % to 99 %: "
+      "{:.2f} to {:.2f}\n",
+      "sizes", 100 * c.free.share(), kConformityMin, kConformityMax, forced, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
+}
+
+std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d) {
+  const auto in_face = [&](FaceId f) { return f == kNone ? "" : " in " + face_label(mesh, f); };
+  return fmt::format("  {:<20} midpoints off the surface by {:.3g} at most{}, mean {:.3g}; normals by {:.1f} deg at most{}, mean {:.2f}\n",
+                     "deviation", d.model.max_distance, in_face(d.worst_distance), d.model.mean_distance(), d.model.max_angle_deg,
+                     in_face(d.worst_angle), d.model.mean_angle_deg());
+}
+
+/// Handles of all parts together, where the number means something.
+std::optional<std::int64_t> genus_of(const TopologyReport& t) {
+  const bool is_manifold = t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
+  return is_manifold ? std::optional(t.genus) : std::nullopt;
+}
+
+std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
+  std::string failed;
+  for (const Check& c : f.checks) {
+    if (!c.fails()) continue;
+    const bool has_place = c.defects.first[0].face_a != kNone;
+    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
+                          has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
+  }
+  const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
+  const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
+  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(), f.topology.n_used_nodes,
+                     f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
+}
+
+// --- JSON --------------------------------------------------------------------------------------------------------------------------------
+
+json xyz_json(Vec3 p) { return {p.x, p.y, p.z}; }
+
+json check_json(const Check& c) {
+  json places = json::array();
+  for (const DefectPlace& p : c.defects.first) {
+    json faces = json::array();
+    for (const FaceId f : {p.face_a, p.face_b})
+      if (f != kNone) faces.push_back(f + 1);
+    places.push_back({{"xyz", xyz_json(p.xyz)}, {"faces", faces}});
+  }
+  return {{"count", c.defects.count}, {"allowed", c.allowed}, {"passes", !c.fails()}, {"first", places}};
+}
+
+json quality_json(const QualityStats& q, ReportDetail detail) {
+  json j{{"triangles", q.n_triangles},
+         {"mean", q.mean},
+         {"p1", q.p1},
+         {"min", q.min},
+         {"below_0.3", q.n_below_03},
+         {"min_angle_deg", q.min_angle_deg},
+         {"max_angle_deg", q.max_angle_deg},
+         {"below_20_deg", q.n_below_20_deg},
+         {"below_10_deg", q.n_below_10_deg},
+         {"below_5_deg", q.n_below_5_deg}};
+  if (detail == ReportDetail::kFull) j["histogram"] = q.histogram, j["angle_histogram"] = q.angle_histogram;
+  return j;
+}
+
+json jump_json(const JumpStats& s, ReportDetail detail) {
+  json j{{"pairs", s.n_pairs}, {"max", s.max}};
+  if (detail == ReportDetail::kFull) j["histogram"] = s.histogram;
+  return j;
+}
+
+json conformity_json(const ConformityStats& c, ReportDetail detail) {
+  json j{{"edges", c.n_edges}, {"share", c.share()}, {"mean", c.mean()}, {"min", c.min}, {"max", c.max}};
+  if (detail == ReportDetail::kFull) j["histogram"] = c.histogram;
+  return j;
+}
+
+json deviation_json(const DeviationStats& d, ReportDetail detail) {
+  json j{
+      {"max", d.max_distance}, {"mean", d.mean_distance()}, {"normal_max_deg", d.max_angle_deg}, {"normal_mean_deg", d.mean_angle_deg()}};
+  if (detail == ReportDetail::kFull) {
+    j["place"] = xyz_json(d.distance_place);
+    j["normal_place"] = xyz_json(d.angle_place);
+    j["normal_histogram"] = d.angle_histogram;
+  }
+  return j;
+}
+
+json forced_json(const ConformityReport& c) {
+  json list = json::array();
+  for (const ForcedPlace& p : c.forced) {
+    json entry{{"edges", p.n_edges}, {"min_ratio", p.min_ratio}, {"xyz", xyz_json(p.xyz)}};
+    entry["kind"] = p.kind == ForcedPlace::Kind::kStrip ? "strip" : "short edge";
+    if (p.entity != kNone) entry[p.kind == ForcedPlace::Kind::kStrip ? "face" : "edge"] = p.entity + 1;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+json sizes_json(const ConformityReport& c, ReportDetail detail) {
+  std::int64_t n_forced = 0;
+  for (const ForcedPlace& p : c.forced) n_forced += p.n_edges;
+  json j{{"all", conformity_json(c.model, ReportDetail::kFull)},
+         {"free", conformity_json(c.free, detail)},
+         {"inner", conformity_json(c.inner, detail)},
+         {"forced_edges", n_forced},
+         {"forced_places", c.forced.size()},
+         {"p1", c.p1},
+         {"p99", c.p99}};
+  if (detail == ReportDetail::kFull) j["forced"] = forced_json(c);
+  return j;
+}
+
+/// Deviation of the faces of each group.
+std::vector<DeviationStats> deviation_by_group(const Findings& f) {
+  std::vector<DeviationStats> groups(f.quality.groups.size());
+  if (!f.deviation) return groups;
+  for (std::size_t i = 0; i < f.deviation->faces.size(); ++i)
+    if (static_cast<std::size_t>(f.face_group[i]) < groups.size()) groups[f.face_group[i]].add(f.deviation->faces[i]);
+  return groups;
+}
+
+json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail) {
+  json groups = json::array();
+  const std::vector<DeviationStats> deviation = deviation_by_group(f);
+  for (std::size_t g = 0; g < f.quality.groups.size(); ++g) {
+    json entry{{"name", g < mesh.group_name.size() ? mesh.group_name[g] : ""},
+               {"quality", quality_json(f.quality.groups[g], detail)},
+               {"jumps", jump_json(f.quality.group_jumps[g], detail)}};
+    if (f.conformity && g < f.conformity->groups.size()) entry["sizes"] = conformity_json(f.conformity->groups[g], detail);
+    if (f.deviation) entry["deviation"] = deviation_json(deviation[g], detail);
+    groups.push_back(entry);
+  }
+  return groups;
+}
+
+/// Relative difference between the mesh's and the CAD's area of a face; none without a geometry or an area.
+std::optional<double> area_error(const Findings& f, std::size_t face) {
+  if (face >= f.cad_area.size() || !(f.cad_area[face] > 0)) return std::nullopt;
+  return std::fabs(f.measure.face_area[face] - f.cad_area[face]) / f.cad_area[face];
+}
+
+json face_json(const SurfaceMesh& mesh, const Findings& f, std::size_t i, ReportDetail detail) {
+  const QualityStats& q = f.quality.faces[i];
+  json j{{"face", i + 1},
+         {"name", i < mesh.face_name.size() ? mesh.face_name[i] : ""},
+         {"triangles", q.n_triangles},
+         {"area", f.measure.face_area[i]},
+         {"mean", q.mean},
+         {"min", q.min}};
+  if (const auto error = area_error(f, i)) j["cad_area"] = f.cad_area[i], j["area_error"] = *error;
+  if (f.chords && i < f.chords->distance.size()) j["chord_distance"] = f.chords->distance[i];
+  if (f.conformity && i < f.conformity->faces.size()) j["size_share"] = f.conformity->faces[i].share();
+  if (f.deviation && i < f.deviation->faces.size()) j["deviation"] = deviation_json(f.deviation->faces[i], detail);
+  if (detail == ReportDetail::kSummary) return j;
+  j["quality"] = quality_json(q, detail);
+  j["jumps"] = jump_json(f.quality.face_jumps[i], detail);
+  if (f.conformity && i < f.conformity->faces.size()) j["sizes"] = conformity_json(f.conformity->faces[i], detail);
+  return j;
+}
+
+json faces_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail) {
+  json faces = json::array();
+  for (std::size_t i = 0; i < f.quality.faces.size(); ++i) faces.push_back(face_json(mesh, f, i, detail));
+  return faces;
+}
+
+/// Where the bins of the histograms lie: first value and width.
+json bins_json() {
+  return {{"quality", {0, 0.1}},
+          {"angle_deg", {0, 10}},
+          {"jump", {1, JumpStats::kBinWidth}},
+          {"size_ratio", {0, ConformityStats::kBinWidth}},
+          {"normal_deg", {0, DeviationStats::kBinDeg}}};
+}
+
+}  // namespace
+
+std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
+  std::string text;
+  for (const Check& c : f.checks) text += check_line(mesh, c);
+  text += quality_lines(mesh, f.quality);
+  if (f.conformity) text += conformity_lines(*f.conformity);
+  if (f.deviation) text += deviation_line(mesh, *f.deviation);
+  return text + verdict_line(path, mesh, f, seconds);
+}
+
+std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds, ReportDetail detail) {
+  json checks = json::object(), failed = json::array();
+  for (const Check& c : f.checks) {
+    checks[c.name] = check_json(c);
+    if (c.fails()) failed.push_back(c.name);
+  }
+  json j{{"mesh", path},
+         {"passes", f.passes()},
+         {"failed", failed},
+         {"triangles", mesh.n_triangles()},
+         {"nodes", f.topology.n_used_nodes},
+         {"edges", f.topology.n_edges},
+         {"components", f.topology.n_components},
+         {"euler", f.topology.euler},
+         {"genus", genus_of(f.topology) ? json(*genus_of(f.topology)) : json()},
+         {"closed", f.topology.is_closed()},
+         {"boundary_edges", f.topology.boundary_edges.count},
+         {"cad_boundary_edges", f.topology.n_cad_boundary_edges},
+         {"nonmanifold_edges", f.topology.nonmanifold_edges.count},
+         {"cad_nonmanifold_edges", f.topology.n_cad_nonmanifold_edges},
+         {"misoriented_edges", f.topology.misoriented_edges.count},
+         {"duplicate_nodes", f.shape.duplicate_nodes.count},
+         {"folds", f.shape.folds.count},
+         {"crossings", f.crossings.crossings.count},
+         {"area", f.measure.area},
+         {"volume", f.measure.volume},
+         {"checks", checks},
+         {"quality", quality_json(f.quality.model, ReportDetail::kFull)},
+         {"jump_p999", f.quality.jump_p999},
+         {"jump_max", f.quality.jump_max},
+         {"groups", groups_json(mesh, f, detail)},
+         {"faces", faces_json(mesh, f, detail)},
+         {"seconds", seconds}};
+  j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
+  if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);
+  if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
+  if (detail == ReportDetail::kFull) j["bins"] = bins_json();
+  return j.dump(detail == ReportDetail::kFull ? 1 : -1);
+}
+
+}  // namespace st

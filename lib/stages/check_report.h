@@ -1,0 +1,58 @@
+// What st-check found, and how it says it: text, JSON. Internal to the check stage.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/model.h"
+#include "mesh/checks.h"
+#include "mesh/quality.h"
+#include "stages/chord_error.h"
+#include "stages/surface_deviation.h"
+
+namespace st {
+
+/// One line of the report: what was looked for, what was found.
+struct Check {
+  std::string name;  ///< "closed", "folds" ...
+  std::string what;  ///< what is counted: "open edges"
+  Defects defects;
+  bool decides = true;       ///< the mesh fails when more than `allowed` were found
+  std::string note;          ///< added to the line, found or not
+  std::int64_t allowed = 0;  ///< as many are accepted
+
+  bool fails() const { return decides && defects.count > allowed; }
+};
+
+/// Everything that was measured.
+struct Findings {
+  TopologyReport topology;
+  ShapeReport shape;
+  CrossingReport crossings;
+  MeshMeasure measure;
+  QualityReport quality;
+  std::optional<ConformityReport> conformity;  ///< with a sizing
+  std::optional<ChordError> chords;            ///< with a geometry
+  std::optional<SurfaceDeviation> deviation;   ///< with a geometry
+  std::vector<double> cad_area;                ///< [n_faces] with a geometry, model unit squared
+  std::vector<std::int32_t> face_group;        ///< [n_faces] with a geometry
+  std::vector<Check> checks;
+
+  bool passes() const;
+};
+
+/// "face 17 "WING_UPPER"", 1-based.
+std::string face_label(const SurfaceMesh& mesh, FaceId f);
+
+/// One line per check, quality, sizes, deviation; the last line is the verdict. `path`: the mesh's, for the verdict.
+std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds);
+
+enum class ReportDetail { kSummary, kFull };
+
+/// One JSON object (docs/checks.md): a line for programs, or in full and indented, with histograms per group and face and all forced
+/// places.
+std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds, ReportDetail detail);
+
+}  // namespace st
