@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "io/hdf5_file.h"
 
 namespace st {
@@ -11,6 +12,12 @@ template <>
 struct Element<CellLength> {
   static constexpr ElementType type = ElementType::kFloat32;
   static constexpr std::size_t count = 5;
+};
+
+template <>
+struct Element<CellPlane> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 6;
 };
 
 namespace {
@@ -27,6 +34,10 @@ constexpr const char* kCause = "/st/octree/cause";
 constexpr const char* kFaceOffset = "/st/face/cell_offset";
 constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
 constexpr const char* kFaceArea = "/st/face/cell_area";
+constexpr const char* kFacePlane = "/st/face/cell_plane";
+constexpr const char* kFaceName = "/st/face/name";
+constexpr const char* kEdgeName = "/st/edge/name";
+constexpr const char* kSourceName = "/st/source/name";
 constexpr const char* kFaceWeight = "/st/face/weight";
 
 void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
@@ -35,11 +46,20 @@ void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
   file.set_attribute(kSizing, "far_length", n.far_length);
   file.set_attribute(kSizing, "alpha_deg", n.alpha_deg);
   file.set_attribute(kSizing, "cell_per_length", n.cell_per_length);
+  file.set_attribute(kSizing, "diagonal", n.diagonal);
 }
 
 SizingNumbers read_numbers(const Hdf5Reader& file) {
   const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
-  return {get("min_length"), get("max_length"), get("far_length"), get("alpha_deg"), get("cell_per_length")};
+  return {get("min_length"), get("max_length"), get("far_length"), get("alpha_deg"), get("cell_per_length"), get("diagonal")};
+}
+
+/// Older versions lack what this build needs.
+void require_version(const Hdf5Reader& file, int version, const std::string& tool) {
+  const ArtifactHeader& header = file.header();
+  if (header.schema_version < version)
+    throw Error(ExitCode::kInput, file.path() + ": " + header.schema + " schema version " + std::to_string(header.schema_version) +
+                                      " of an older " + tool + "; run " + tool + " again");
 }
 
 void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
@@ -69,8 +89,9 @@ OctreeShape read_shape(const Hdf5Reader& file) {
 }
 
 FaceCells read_face_cells(const Hdf5Reader& file) {
-  FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}};
+  FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}};
   faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
+  faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
   if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size()))
     file.fail(kFaceOffset, "does not fit cell_leaf");
   return faces;
@@ -102,10 +123,36 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   return std::make_unique<OctreeField>(data, arrays, min_length);
 }
 
+CauseNames read_names(const Hdf5Reader& file) {
+  return {file.read_strings(kEdgeName), file.read_strings(kFaceName), file.read_strings(kSourceName)};
+}
+
 }  // namespace
 
+std::string cause_text(const CauseNames& names, std::int32_t cause) {
+  if (cause == kNone) return "the largest length";
+  const std::size_t id = static_cast<std::size_t>(cause_id(cause));
+  const auto label = [id](const char* kind, const std::vector<std::string>& of) {
+    const std::string name = id < of.size() ? of[id] : "";
+    return std::string(kind) + " " + std::to_string(id + 1) + (name.empty() ? "" : " \"" + name + "\"");
+  };
+  switch (cause_kind(cause)) {
+    case CauseKind::kEdge:
+      return label("edge", names.edge);
+    case CauseKind::kFace:
+      return label("face", names.face);
+    case CauseKind::kSource:
+      return label("source", names.source);
+    case CauseKind::kOther:
+      break;
+  }
+  return "the background mesh";
+}
+
 std::string write_raster(const std::string& path, const RasterArtifact& raster) {
-  Hdf5Writer file(path, raster.header);
+  ArtifactHeader header = raster.header;
+  header.schema_version = kRasterVersion;
+  Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
@@ -113,11 +160,15 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
   file.write<float>(kFaceArea, raster.faces.area);
+  file.write<CellPlane>(kFacePlane, raster.faces.plane);
+  file.write_strings(kFaceName, raster.names.face);
+  file.write_strings(kEdgeName, raster.names.edge);
   return file.commit();
 }
 
 RasterArtifact read_raster(const std::string& path) {
-  const Hdf5Reader file(path, "raster");
+  const Hdf5Reader file(path, "raster", kRasterVersion);
+  require_version(file, kRasterVersion, "st-raster");
   RasterArtifact raster;
   raster.header = file.header();
   raster.numbers = read_numbers(file);
@@ -126,11 +177,14 @@ RasterArtifact read_raster(const std::string& path) {
   raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
   raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
   raster.faces = read_face_cells(file);
+  raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
   return raster;
 }
 
 std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
-  Hdf5Writer file(path, sizing.header);
+  ArtifactHeader header = sizing.header;
+  header.schema_version = kSizingVersion;
+  Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
   for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.length);
@@ -141,11 +195,15 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   file.write<CellLength>(kCell, sizing.lengths.cells);
   file.write<std::int32_t>(kCause, sizing.lengths.cause);
   file.write<double>(kFaceWeight, sizing.face_weight);
+  file.write_strings(kFaceName, sizing.names.face);
+  file.write_strings(kEdgeName, sizing.names.edge);
+  file.write_strings(kSourceName, sizing.names.source);
   return file.commit();
 }
 
 SizingArtifact read_sizing(const std::string& path) {
-  const Hdf5Reader file(path, "sizing");
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kSizingVersion, "st-prolong");
   SizingArtifact sizing;
   sizing.header = file.header();
   sizing.numbers = read_numbers(file);
@@ -156,13 +214,21 @@ SizingArtifact read_sizing(const std::string& path) {
   sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
   sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
   sizing.face_weight = file.read<double>(kFaceWeight);
+  sizing.names = read_names(file);
   return sizing;
 }
 
 MappedSizing map_sizing(const std::string& path) {
-  const Hdf5Reader file(path, "sizing");
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kSizingVersion, "st-prolong");
   return {file.header(), read_numbers(file), file.read<double>(kFaceWeight),
           map_field(file, file.double_attribute(kSizing, "smallest_length"))};
+}
+
+CauseNames read_cause_names(const std::string& path) {
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kSizingVersion, "st-prolong");
+  return read_names(file);
 }
 
 std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header) {

@@ -13,6 +13,9 @@
 
 namespace st {
 
+/// Schema versions that this build writes and reads.
+inline constexpr int kRasterVersion = 2, kSizingVersion = 2;
+
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
   double min_length = 0;       ///< smallest sample length
@@ -20,7 +23,18 @@ struct SizingNumbers {
   double far_length = 0;       ///< length where nothing asks for less: the largest of all groups, >= max_length
   double alpha_deg = 0;        ///< largest turning along one length, degrees
   double cell_per_length = 0;  ///< edge of a raster box over its sample length
+  double diagonal = 0;         ///< what per cents refer to: of the box of all walls
 };
+
+/// Names of what causes of lengths refer to; UTF-8, empty where there is none.
+struct CauseNames {
+  std::vector<std::string> edge;    ///< [n_edges]
+  std::vector<std::string> face;    ///< [n_faces]
+  std::vector<std::string> source;  ///< [n_sources] of sizing.hdf only
+};
+
+/// "edge 12 \"TE\"", "face 3", "source \"wake\"", "the background mesh", "the largest length". See pack_cause.
+std::string cause_text(const CauseNames& names, std::int32_t cause);
 
 /// raster.hdf
 struct RasterArtifact {
@@ -28,6 +42,7 @@ struct RasterArtifact {
   SizingNumbers numbers;
   RasterOctree octree;
   FaceCells faces;  ///< where in the octree each face lies, with its area there
+  CauseNames names;
 };
 
 /// sizing.hdf
@@ -38,7 +53,8 @@ struct SizingArtifact {
   double scale = 1;  ///< multiplies every length of a query
   OctreeShape shape;
   ProlongedLengths lengths;
-  std::vector<double> face_weight;  ///< [n_faces] area over squared length: number of triangles times sqrt(3)/4
+  std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
+  CauseNames names;
 };
 
 /// As all write_* and read_* of io/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).
@@ -55,6 +71,9 @@ struct MappedSizing {
   std::unique_ptr<OctreeField> field;
 };
 MappedSizing map_sizing(const std::string& path);
+
+/// Names of a sizing artifact alone.
+CauseNames read_cause_names(const std::string& path);
 
 /// The field alone; `header` may be null. Throws Error(kInput).
 std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header);

@@ -7,14 +7,22 @@
 
 #include "geometry/surface.h"
 #include "sizing/loop_polygon.h"
-#include "sizing/octree.h"
+#include "sizing/octree_field.h"
 
 namespace st {
 
-/// Area of a face in a cell.
+/// Area of a face in a cell, and the plane in which it lies there, roughly.
 struct CellArea {
   std::int32_t leaf = 0;
-  float area = 0;  ///< model unit squared
+  float area = 0;                 ///< model unit squared
+  float center[3] = {0, 0, 0};    ///< centre of the area, model unit
+  float normal[3] = {0, 0, 0};    ///< unit normal, either sign; zero: unknown
+};
+
+/// Of a FaceCells entry, without leaf and area.
+struct CellPlane {
+  float center[3] = {0, 0, 0};
+  float normal[3] = {0, 0, 0};
 };
 
 /// CSR by face: cells that hold part of the face, ascending, and the area in them.
@@ -22,6 +30,7 @@ struct FaceCells {
   std::vector<std::int64_t> offsets{0};  ///< [n_faces+1]
   std::vector<std::int32_t> leaf;        ///< [offsets.back()]
   std::vector<float> area;               ///< model unit squared, > 0
+  std::vector<CellPlane> plane;          ///< [offsets.back()]
 
   std::int32_t n_faces() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
   void append_face(std::span<const CellArea> cells);
@@ -31,7 +40,8 @@ struct FaceCells {
 /// scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree, double face_area);
 
-/// Per face: sum of area over squared length. Times 4/sqrt(3): the number of triangles. `lengths` by leaf, times `scale`.
-std::vector<double> face_weights(const FaceCells& faces, std::span<const CellLength> lengths, double scale);
+/// Per face: integral of 1/h^2. Times 4/sqrt(3): the number of triangles. `raster`: the octree that `faces` refers to; `field` may live on
+/// a finer one: the area in a cell is spread over its plane, the finer the more the cell was refined there.
+std::vector<double> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field);
 
 }  // namespace st

@@ -27,8 +27,10 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.scale = o.scale;
   sizing.lengths =
       prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length});
-  sizing.face_weight = face_weights(raster.faces, sizing.lengths.cells, o.scale);
   sizing.shape = std::move(raster.octree.shape);
+  sizing.names = std::move(raster.names);
+  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, o.slope, o.scale}, nullptr);
+  sizing.face_weight = face_weights(raster.faces, sizing.shape.view(), field);
   sizing.header = raster.header;
   sizing.header.schema = "sizing";
   sizing.header.tool = "st-prolong";

@@ -279,7 +279,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   if (!comm.is_root()) return {};
 
-  artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length};
+  artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
+  artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   fill_header(o, geometry_header, wall, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   return summarize(o, artifact, counts, timer.seconds());

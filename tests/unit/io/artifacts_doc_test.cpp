@@ -74,7 +74,7 @@ RasterArtifact sample_raster() {
   RasterArtifact r;
   r.header = sample_header();
   r.header.schema = "raster";
-  r.numbers = {0.1, 1, 2, 10, 2};
+  r.numbers = {0.1, 1, 2, 10, 2, 40};
   r.octree.shape.leaf_keys.resize(15);
   r.octree.shape.leaf_levels.resize(15);
   r.octree.shape.node_children.resize(16);
@@ -83,6 +83,8 @@ RasterArtifact sample_raster() {
   r.faces.offsets = {0, 3, 6, 7};
   r.faces.leaf.resize(7);
   r.faces.area.resize(7, 1);
+  r.faces.plane.resize(7);
+  r.names = {std::vector<std::string>(5), std::vector<std::string>(3), {}};
   return r;
 }
 
@@ -96,6 +98,7 @@ SizingArtifact sample_sizing() {
   s.lengths.cells.resize(15);
   s.lengths.cause.resize(15);
   s.face_weight = {1, 2, 3};
+  s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};
   return s;
 }
 

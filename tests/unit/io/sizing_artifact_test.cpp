@@ -16,7 +16,7 @@ RasterArtifact sample_raster() {
   RasterArtifact raster;
   raster.header = sample_header();
   raster.header.schema = "raster";
-  raster.numbers = {0.01, 0.1, 0.2, 10, 2};
+  raster.numbers = {0.01, 0.1, 0.2, 10, 2, 1.7};
   std::vector<RasterBox> boxes;
   for (int i = 0; i < 40; ++i)
     boxes.push_back({{0.02 * i, 0.5, 0.3},
@@ -24,8 +24,9 @@ RasterArtifact sample_raster() {
                      0.01F * static_cast<float>(1 + i % 5),
                      pack_cause(CauseKind::kEdge, i)});
   raster.octree = build_octree({{0, 0, 0}, {1, 1, 1}}, boxes);
-  raster.faces.append_face(std::vector<CellArea>{{1, 0.5F}, {7, 0.25F}});
+  raster.faces.append_face(std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
   raster.faces.append_face({});
+  raster.names = {{"TE", ""}, {"wing", "tip"}, {}};
   return raster;
 }
 
@@ -38,7 +39,9 @@ SizingArtifact sample_sizing() {
   sizing.slope = 0.2;
   sizing.scale = 1.5;
   sizing.lengths = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {0.2, 0.2});
-  sizing.face_weight = face_weights(raster.faces, sizing.lengths.cells, 1.5);
+  sizing.face_weight = {12.5, 0};
+  sizing.names = raster.names;
+  sizing.names.source = {"wake"};
   sizing.shape = raster.octree.shape;
   return sizing;
 }
@@ -59,6 +62,16 @@ TEST_F(SizingArtifacts, sizing_is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = write_sizing(file("a.hdf"), sample_sizing());
   EXPECT_EQ(write_sizing(file("b.hdf"), read_sizing(file("a.hdf"))), hash);
   EXPECT_EQ(read_bytes(file("a.hdf")), read_bytes(file("b.hdf")));
+}
+
+TEST_F(SizingArtifacts, name_what_causes_a_length) {
+  write_sizing(file("a.hdf"), sample_sizing());
+  const CauseNames names = read_cause_names(file("a.hdf"));
+  EXPECT_EQ(cause_text(names, pack_cause(CauseKind::kEdge, 0)), "edge 1 \"TE\"");
+  EXPECT_EQ(cause_text(names, pack_cause(CauseKind::kEdge, 1)), "edge 2");
+  EXPECT_EQ(cause_text(names, pack_cause(CauseKind::kFace, 1)), "face 2 \"tip\"");
+  EXPECT_EQ(cause_text(names, pack_cause(CauseKind::kSource, 0)), "source 1 \"wake\"");
+  EXPECT_EQ(cause_text(names, kNone), "the largest length");
 }
 
 TEST_F(SizingArtifacts, numbers_are_content) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "geometry/analytic.h"
+#include "sizing/prolong.h"
 #include "unit/sizing/cases.h"
 
 namespace st {
@@ -52,13 +53,47 @@ TEST(FaceCells, give_a_sliver_its_whole_area) {
   EXPECT_NEAR(total(locate_face(plane, sliver, raster.shape.view(), 1e-9)), 1e-9, 1e-13);
 }
 
+OctreeField field_on(const RasterOctree& raster, const ProlongedLengths& lengths, double scale) {
+  return {{raster.shape.view(), lengths.cells, lengths.cause, 0.2, scale}, nullptr};
+}
+
+TEST(FaceCells, know_the_plane_of_each_part) {
+  const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
+  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  for (const CellArea& c : locate_face(plane, {}, raster.shape.view(), 0)) {
+    EXPECT_NEAR(c.center[2], 0.9, 1e-6);
+    EXPECT_NEAR(std::abs(c.normal[2]), 1, 1e-6);
+  }
+}
+
 TEST(FaceCells, weigh_area_by_squared_length) {
+  const RasterOctree raster = build_octree(test::kUnitBox, {});
+  const ProlongedLengths half{{{0.5F, {}, 0.5F}}, {kNone}};
   FaceCells faces;
-  faces.append_face(std::vector<CellArea>{{0, 2}, {1, 3}});
+  faces.append_face(std::vector<CellArea>{{0, 2}, {0, 3}});
   faces.append_face({});
-  const std::vector<CellLength> lengths{{0.5F, {}, 0.5F}, {1, {}, 1}};
-  EXPECT_EQ(face_weights(faces, lengths, 1), (std::vector<double>{2 / 0.25 + 3, 0}));
-  EXPECT_EQ(face_weights(faces, lengths, 2), (std::vector<double>{2 + 0.75, 0}));
+  EXPECT_EQ(face_weights(faces, raster.shape.view(), field_on(raster, half, 1)), (std::vector<double>{5 / 0.25, 0}));
+  EXPECT_EQ(face_weights(faces, raster.shape.view(), field_on(raster, half, 2)), (std::vector<double>{5, 0}));
+}
+
+// The field grows from a wall across the plane: the octree of the areas may be much coarser than that of the field.
+TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
+  const RasterOctree coarse = build_octree(test::kUnitBox, std::vector<RasterBox>{{{0.5, 0.5, 0.5}, 0.15F, 0.3F, 0}});
+  const RasterOctree fine = build_octree(test::kUnitBox, test::wall_boxes(0.01F));
+  const ProlongedLengths lengths = prolong(fine.shape.view(), fine.stored_length, fine.stored_cause, {0.2, 1});
+  const OctreeField field = field_on(fine, lengths, 1);
+  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  double expected = 0;
+  constexpr int n = 1000;
+  for (int i = 0; i < n * n; ++i) {
+    const double h = static_cast<const SizeField&>(field).size(Vec3{(i % n + 0.5) / n, (i / n + 0.5) / n, 0.9});
+    expected += 1 / (h * h) / (n * n);
+  }
+  for (const RasterOctree* octree : {&coarse, &fine}) {
+    FaceCells faces;
+    faces.append_face(locate_face(plane, {}, octree->shape.view(), 1));
+    EXPECT_NEAR(face_weights(faces, octree->shape.view(), field)[0] / expected, 1, octree == &coarse ? 0.2 : 0.03);  // coarse: cells reach beyond the face
+  }
 }
 
 }  // namespace
