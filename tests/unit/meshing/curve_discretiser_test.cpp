@@ -1,0 +1,130 @@
+#include "meshing/curve_discretiser.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/analytic.h"
+#include "geometry/bspline.h"
+#include "unit/meshing/faces.h"
+
+namespace st {
+namespace {
+
+const Frame kFrame{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+std::vector<double> segment_lengths(const CurveNodes& n) {
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < n.x.size(); ++i) lengths.push_back(distance(n.x[i - 1], n.x[i]));
+  return lengths;
+}
+
+void expect_ends_and_order(const Curve& c, const CurveNodes& n, const SizeField& field) {
+  ASSERT_GE(n.t.size(), 2u);
+  EXPECT_EQ(n.t.front(), c.t_min());
+  EXPECT_EQ(n.t.back(), c.t_max());
+  ASSERT_EQ(n.x.size(), n.t.size());
+  ASSERT_EQ(n.h.size(), n.t.size());
+  for (std::size_t i = 0; i < n.t.size(); ++i) {
+    if (i > 0) {
+      EXPECT_GT(n.t[i], n.t[i - 1]);
+    }
+    EXPECT_TRUE(n.x[i] == c.point(n.t[i]));
+    EXPECT_EQ(n.h[i], field.size(n.x[i]));
+  }
+}
+
+TEST(DiscretiseCurve, cuts_a_line_into_as_many_equal_segments_as_its_length_asks_for) {
+  const LineCurve line({1, 1, 1}, {0, 3, 4}, 1, 3);  // length 10
+  for (const auto& [h, n] :
+       std::vector<std::pair<double, std::size_t>>{{1, 10}, {0.7, 14}, {0.6, 17}, {6.5, 2}, {7, 1}, {100, 1}, {0.01, 1000}}) {
+    const UniformField field(h);
+    const CurveNodes nodes = discretise_curve(line, field, {});
+    expect_ends_and_order(line, nodes, field);
+    ASSERT_EQ(nodes.t.size(), n + 1) << h;
+    for (double l : segment_lengths(nodes)) EXPECT_NEAR(l, 10.0 / static_cast<double>(n), 1e-9);
+  }
+}
+
+TEST(DiscretiseCurve, makes_at_least_the_segments_asked_for) {
+  const EllipseCurve circle(kFrame, 0.01, 0.01, 0, 2 * kPi);
+  const LineCurve line({}, {1, 0, 0}, 0, 1);
+  for (int least : {1, 2, 3, 7}) {
+    EXPECT_GE(discretise_curve(circle, UniformField(100), {30, std::max(3, least)}).t.size(),
+              static_cast<std::size_t>(std::max(3, least)) + 1);
+    EXPECT_EQ(discretise_curve(line, UniformField(100), {30, least}).t.size(), static_cast<std::size_t>(least) + 1);
+  }
+}
+
+TEST(DiscretiseCurve, spaces_a_fine_circle_evenly) {
+  const EllipseCurve circle(kFrame, 5, 5, 0, 2 * kPi);
+  const UniformField field(0.5);
+  const CurveNodes n = discretise_curve(circle, field, {});
+  expect_ends_and_order(circle, n, field);
+  EXPECT_EQ(n.t.size(), 63u + 1);  // 10 pi / 0.5 = 62.8
+  for (double l : segment_lengths(n)) EXPECT_NEAR(l, 10 * kPi / 63, 0.01 * l);
+}
+
+TEST(DiscretiseCurve, limits_the_turning_of_a_segment) {
+  const EllipseCurve circle(kFrame, 5, 5, 0, 2 * kPi);
+  for (double turning : {10.0, 30.0, 45.0})
+    EXPECT_EQ(discretise_curve(circle, UniformField(10), {turning, 3}).t.size(), std::round(360 / turning) + 1);
+  const EllipseCurve flat(kFrame, 10, 1, 0, 2 * kPi);
+  const CurveNodes n = discretise_curve(flat, UniformField(3), {30, 3});
+  for (std::size_t i = 1; i < n.t.size(); ++i)
+    EXPECT_LE(degrees(angle_between(flat.evaluate(n.t[i - 1]).d1, flat.evaluate(n.t[i]).d1)), 1.25 * 30);
+}
+
+TEST(DiscretiseCurve, follows_a_graded_field) {
+  const LineCurve line({0, 0, 0}, {1, 0, 0}, 0, 20);
+  const test::LinearField field({0, 0, 0}, 1, 0.2);
+  const CurveNodes n = discretise_curve(line, field, {});
+  expect_ends_and_order(line, n, field);
+  ASSERT_EQ(n.t.size(), 8u + 1);  // integral of dx / (1 + x/5) = 5 ln 5 = 8.05
+  const std::vector<double> lengths = segment_lengths(n);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    EXPECT_NEAR(lengths[i], field.size(0.5 * (n.x[i] + n.x[i + 1])), 0.05 * lengths[i]);
+    if (i > 0) {
+      EXPECT_NEAR(lengths[i] / lengths[i - 1], std::exp(0.2 * 8.047 / 8), 0.02);
+    }
+  }
+}
+
+TEST(DiscretiseCurve, is_the_same_from_either_end) {
+  const EllipseCurve there(kFrame, 10, 2, 0.3, 2.9);
+  const EllipseCurve back({kFrame.origin, -kFrame.x, kFrame.y, kFrame.z}, 10, 2, kPi - 2.9, kPi - 0.3);
+  const test::LinearField field({8, 0, 3}, 0.2, 0.3);
+  const CurveNodes a = discretise_curve(there, field, {}), b = discretise_curve(back, field, {});
+  ASSERT_EQ(a.t.size(), b.t.size());
+  for (std::size_t i = 0; i < a.t.size(); ++i) EXPECT_LE(distance(a.x[i], b.x[b.x.size() - 1 - i]), 1e-6);
+}
+
+TEST(DiscretiseCurve, does_not_multiply_segments_at_a_corner) {
+  const auto pole = [](double x, double y) { return Pole{{x, y, 0, 1}}; };
+  const BsplineCurve corner(KnotSpans(1, {0, 0, 0.37, 1, 1}, 0), {pole(0, 0), pole(5, 0), pole(5, 5)}, false, 0, 1);
+  const UniformField field(0.5);
+  const CurveNodes n = discretise_curve(corner, field, {});
+  expect_ends_and_order(corner, n, field);
+  EXPECT_NEAR(static_cast<double>(n.t.size()), 21, 2);
+}
+
+TEST(DiscretiseCurve, does_not_depend_on_the_fields_hint) {
+  const EllipseCurve c(kFrame, 5, 3, 0, 4);
+  EXPECT_EQ(discretise_curve(c, UniformField(0.3), {}).t, discretise_curve(c, test::RestlessField(0.3), {}).t);
+}
+
+TEST(DiscretiseCurve, sees_a_small_place_of_small_sizes) {
+  // 1 everywhere but for a spot of a hundredth of the line
+  class Spot : public UniformField {
+   public:
+    using UniformField::UniformField;
+    double size(Vec3 x, int&) const override { return std::min(1.0, 0.02 + 0.2 * std::abs(x.x - 7.3)); }
+    double slope() const override { return 0.2; }
+  };
+  const LineCurve line({}, {1, 0, 0}, 0, 20);
+  const CurveNodes n = discretise_curve(line, Spot(1), {});
+  double shortest = 1;
+  for (double l : segment_lengths(n)) shortest = std::min(shortest, l);
+  EXPECT_LE(shortest, 0.03);
+}
+
+}  // namespace
+}  // namespace st

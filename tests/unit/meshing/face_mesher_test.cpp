@@ -1,0 +1,232 @@
+#include "meshing/face_mesher.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/analytic.h"
+#include "unit/meshing/faces.h"
+
+namespace st {
+namespace {
+
+using test::FaceCase;
+using test::MeshView;
+
+struct Case {
+  const char* name;
+  const char* shape;
+  double length;
+  std::int64_t euler;
+  double area_error;  // relative, what the chord error explains
+  double mean_quality;
+  double conformity;
+  FaceId face = 0;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class MeshedFace : public testing::TestWithParam<Case> {};
+
+TEST_P(MeshedFace, gives_a_valid_mesh_of_the_whole_face) {
+  const Case c = GetParam();
+  const UniformField field(c.length);
+  const FaceCase face(c.shape, field, c.face);
+  const FaceMesh mesh = face.mesh(field);
+  test::expect_valid(face.boundary, mesh);
+  const MeshView view{face.boundary, mesh};
+  EXPECT_NEAR(view.area(), face.area(), c.area_error * face.area());
+  EXPECT_EQ(view.euler(), c.euler);
+}
+
+TEST_P(MeshedFace, makes_good_triangles_of_the_size_asked_for) {
+  const Case c = GetParam();
+  const UniformField field(c.length);
+  const FaceCase face(c.shape, field, c.face);
+  const FaceMesh mesh = face.mesh(field);
+  ASSERT_EQ(mesh.cause, "");
+  const MeshView view{face.boundary, mesh};
+  EXPECT_GT(view.mean_quality(), c.mean_quality);
+  EXPECT_GE(view.conformity(field), c.conformity);
+}
+
+TEST_P(MeshedFace, is_a_pure_function) {
+  const Case c = GetParam();
+  const FaceCase face(c.shape, UniformField(c.length), c.face);
+  const FaceMesh a = face.mesh(UniformField(c.length));
+  face.surface->evaluate({face.surface->u_max(), face.surface->v_max()});
+  const FaceMesh b = face.mesh(test::RestlessField(c.length));
+  EXPECT_EQ(a.corners, b.corners);
+  ASSERT_EQ(a.inner.size(), b.inner.size());
+  for (std::size_t i = 0; i < a.inner.size(); ++i) EXPECT_TRUE(a.inner[i].x == b.inner[i].x && a.inner[i].uv == b.inner[i].uv);
+}
+
+TEST_P(MeshedFace, keeps_boundary_nodes_and_puts_inner_ones_on_the_surface) {
+  const Case c = GetParam();
+  const UniformField field(c.length);
+  const FaceCase face(c.shape, field, c.face);
+  const FaceMesh mesh = face.mesh(field);
+  for (const auto& n : mesh.inner) {
+    EXPECT_LE(distance(face.surface->point(n.uv), n.x), 1e-9);
+    EXPECT_GT(n.h, 0);
+  }
+  const std::int32_t n_nodes = static_cast<std::int32_t>(face.boundary.nodes.size() + mesh.inner.size());
+  std::vector<char> used(n_nodes, 0);
+  for (std::int32_t corner : mesh.corners) {
+    ASSERT_TRUE(corner >= 0 && corner < n_nodes);
+    used[corner] = 1;
+  }
+  for (std::size_t i = face.boundary.nodes.size(); i < used.size(); ++i) EXPECT_TRUE(used[i]) << "inner node without a triangle";
+}
+
+TEST_P(MeshedFace, follows_a_linear_field) {
+  const Case c = GetParam();
+  const FaceCase uniform(c.shape, UniformField(c.length), c.face);
+  const Vec3 fine = uniform.boundary.nodes[0].x;
+  const test::LinearField field(fine, 0.4 * c.length, 0.2);
+  const FaceCase face(c.shape, field, c.face);
+  const FaceMesh mesh = face.mesh(field);
+  test::expect_valid(face.boundary, mesh);
+  const MeshView view{face.boundary, mesh};
+  EXPECT_GT(view.mean_quality(), c.mean_quality - 0.05);
+  EXPECT_GE(view.conformity(field), c.conformity - 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , MeshedFace,
+    testing::Values(Case{"square", "square", 0.5, 1, 1e-12, 0.97, 0.97}, Case{"disc", "disc", 1, 1, 0.01, 0.96, 0.95},
+                    Case{"annulus", "annulus", 0.7, 0, 0.01, 0.96, 0.95}, Case{"sphere", "sphere", 1.2, 2, 0.01, 0.95, 0.95},
+                    Case{"cone_apex", "cone_side", 1, 1, 0.01, 0.95, 0.95}, Case{"torus", "torus", 1.5, 0, 0.02, 0.95, 0.95},
+                    Case{"stretched", "stretched", 0.4, 1, 0.01, 0.95, 0.95}, Case{"wave", "wave", 0.8, 1, 0.02, 0.95, 0.9},
+                    Case{"periodic_tube", "periodic_tube", 1.2, 0, 0.02, 0.95, 0.95},
+                    Case{"rational_torus", "rational_torus", 1.5, 0, 0.02, 0.95, 0.95},
+                    Case{"drilled", "drilled_cylinder", 1, -1, 0.02, 0.95, 0.95},
+                    Case{"plate", "plate_with_hole", 1.5, 0, 0.005, 0.95, 0.95}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+/// A field too coarse for the face: no quality to be had, but a valid mesh.
+class MeshThinFace : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(MeshThinFace, is_valid_or_says_where_to_refine) {
+  const auto [shape, length] = GetParam();
+  const UniformField field(length);
+  const FaceCase face(shape, field);
+  const FaceMesh mesh = face.mesh(field);
+  if (mesh.cause.empty() && mesh.n_folds == 0) {
+    test::expect_valid(face.boundary, mesh);
+  } else {
+    EXPECT_FALSE(mesh.refinement.empty()) << mesh.cause;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, MeshThinFace,
+                         testing::Values(std::pair{"strip", 1.0}, std::pair{"strip", 10.0}, std::pair{"thin_tube", 1.0},
+                                         std::pair{"disc", 50.0}, std::pair{"annulus", 30.0}, std::pair{"sphere", 40.0},
+                                         std::pair{"torus", 40.0}, std::pair{"cone_side", 30.0}));
+
+TEST(MeshFace, takes_a_strip_thinner_than_the_size) {
+  const UniformField field(1);
+  const FaceCase face("strip", field);
+  const FaceMesh mesh = face.mesh(field);
+  test::expect_valid(face.boundary, mesh);
+  EXPECT_NEAR((MeshView{face.boundary, mesh}.area()), 20, 1e-9);
+  EXPECT_TRUE(mesh.inner.empty());
+}
+
+TEST(MeshFace, takes_a_tube_of_three_segments_a_turn) {
+  const UniformField field(0.11);
+  const FaceCase face("thin_tube", field);
+  const FaceMesh mesh = face.mesh(field);
+  test::expect_valid(face.boundary, mesh);
+  EXPECT_EQ((MeshView{face.boundary, mesh}.euler()), 0);
+}
+
+/// A hand-made boundary on the plane.
+FaceBoundary polygons(const std::vector<std::vector<Vec2>>& loops, double h) {
+  FaceBoundary b;
+  for (const auto& loop : loops) {
+    const std::int32_t first = static_cast<std::int32_t>(b.nodes.size()), n = static_cast<std::int32_t>(loop.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      b.nodes.push_back({loop[i], {loop[i].x, loop[i].y, 0}, h, first + i, false});
+      b.segments.push_back({first + i, first + (i + 1) % n});
+    }
+  }
+  return b;
+}
+
+const PlaneSurface kPlane({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 10, 0, 10);
+
+TEST(MeshFace, meshes_polygons_exactly) {
+  const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {6, 4}, {0, 10}}, {{4, 2}, {5, 3}, {6, 2}}}, 1.0);
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(1), {});
+  test::expect_valid(b, mesh);
+  EXPECT_NEAR((MeshView{b, mesh}.area()), 100 - 0.5 * 10 * 6 - 1, 1e-9);
+}
+
+TEST(MeshFace, says_where_loops_cross) {
+  const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{8, 4}, {8, 6}, {12, 6}, {12, 4}}}, 1.0);
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(1), {});
+  EXPECT_NE(mesh.cause.find("cross"), std::string::npos);
+  EXPECT_TRUE(mesh.corners.empty());
+  const auto places = check_boundary(kPlane, b);
+  ASSERT_FALSE(places.empty());
+  for (const RefinementPoint& p : places) EXPECT_LE(distance(p.x, {10, 5, 0}), 3);
+}
+
+TEST(MeshFace, finds_no_fault_in_good_loops) {
+  EXPECT_TRUE(check_boundary(kPlane, polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{4, 4}, {4, 6}, {6, 6}}}, 1.0)).empty());
+}
+
+TEST(MeshFace, refuses_a_loop_of_two_nodes) {
+  EXPECT_NE(mesh_face(kPlane, polygons({{{0, 0}, {10, 0}}}, 1.0), UniformField(1), {}).cause, "");
+  EXPECT_NE(mesh_face(kPlane, {}, UniformField(1), {}).cause, "");
+}
+
+TEST(MeshFace, tells_nodes_that_nearly_coincide_apart_by_their_ids) {
+  FaceBoundary b = polygons({{{0, 0}, {5, 0}, {5.00001, 0}, {10, 0}, {10, 10}, {0, 10}}}, 1.0);
+  b.nodes[2].id = b.nodes[1].id;  // one node with two places in (u,v), as at a bad junction
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(1), {});
+  ASSERT_EQ(mesh.cause, "");
+  EXPECT_EQ(std::count(mesh.corners.begin(), mesh.corners.end(), 2), 0);
+}
+
+TEST(MeshFace, stops_a_runaway) {
+  /// Asks for next to nothing off the boundary where expected_nodes() does not look: on the diagonal line x = y.
+  class Trap : public UniformField {
+   public:
+    using UniformField::UniformField;
+    double size(Vec3 x, int&) const override { return std::abs(x.x - 3.14159) < 0.01 ? 2e-5 : 1; }
+  };
+  const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}, 1.0);
+  const FaceMesh mesh = mesh_face(kPlane, b, Trap(1), {});
+  EXPECT_LT(mesh.inner.size(), 200000u);
+}
+
+TEST(MeshFace, enhancer_improves_the_triangles) {
+  for (const char* shape : {"square", "sphere", "wave", "torus", "stretched"}) {
+    const UniformField field(shape[0] == 's' && shape[1] == 'q' ? 0.4 : 1.0);
+    const FaceCase face(shape, field);
+    FaceMeshOptions raw;
+    raw.enhance_rounds = 0;
+    const FaceMesh before = face.mesh(field, raw), after = face.mesh(field);
+    test::expect_valid(face.boundary, before);
+    const MeshView a{face.boundary, before}, b{face.boundary, after};
+    EXPECT_GT(b.mean_quality(), a.mean_quality()) << shape;
+    EXPECT_GE(b.qualities()[b.n_triangles() / 100], a.qualities()[a.n_triangles() / 100]) << shape;
+  }
+}
+
+TEST(MeshFace, grows_from_short_boundary_segments) {
+  // a side cut a hundred times finer than the field asks for
+  std::vector<Vec2> loop;
+  for (int i = 0; i < 200; ++i) loop.push_back({0.05 * i, 0});
+  for (Vec2 p : {Vec2{10, 0}, Vec2{10, 5}, Vec2{10, 10}, Vec2{5, 10}, Vec2{0, 10}, Vec2{0, 5}}) loop.push_back(p);
+  FaceBoundary b = polygons({loop}, 5.0);
+  for (int i = 0; i < 200; ++i) b.nodes[i].h = 0.0625;
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(5), {});
+  test::expect_valid(b, mesh);
+  const MeshView view{b, mesh};
+  EXPECT_GT(view.mean_quality(), 0.85);
+  EXPECT_LT(view.n_triangles(), 3000u);
+}
+
+}  // namespace
+}  // namespace st
