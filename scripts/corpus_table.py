@@ -98,7 +98,7 @@ def read_peers():
 COLUMNS = ["model", "triangles"] + [f"{s} s" for s in STAGES] + [
     "not meshed", "open (CAD)", "non-manifold (CAD)", "folds", "crossings", "judge: open/nm/folds/crossings", "min angle", "below 10°", "q mean",
     "q 1 %", "jump 99.9 %", "sizes %", "inner %", "area error %", "gmsh: triangles", "gmsh s", "gmsh: below 10°", "gmsh: q mean",
-    "gmsh: jump 99.9 %"]
+    "gmsh: jump 99.9 %", "worse than gmsh"]
 
 
 def largest_area_error(check):
@@ -125,10 +125,17 @@ def cells_of_check(check, judge):
         "q mean": f"{quality['mean']:.4f}",
         "q 1 %": f"{quality['p1']:.3f}",
         "jump 99.9 %": f"{check['jump_p999']:.2f}",
-        "sizes %": f"{100 * sizes['all']['share']:.1f}" if sizes else "",
+        "sizes %": f"{100 * sizes['free']['share']:.1f}" if sizes else "",
         "inner %": f"{100 * sizes['inner']['share']:.1f}" if sizes else "",
         "area error %": largest_area_error(check),
     }
+
+
+def worse_than(peer, judge):
+    """What the judge finds worse than in Gmsh's mesh, angles and neighbours only where more than rounding."""
+    bounds = {"q mean": judge["mean_q"] >= float(peer["mean_q"]) - 1e-4, "jump": judge["jump_p999"] <= float(peer["jump_p999"]) + 1e-3,
+              "below 10°": judge["below_10deg"] <= int(peer["below_10deg"]), "min angle": judge["min_angle"] >= float(peer["min_angle"]) - 0.01}
+    return ", ".join(name for name, holds in bounds.items() if not holds)
 
 
 def cells_of(result, peer):
@@ -141,6 +148,8 @@ def cells_of(result, peer):
     if peer:
         cells |= {"gmsh: triangles": peer.get("triangles", ""), "gmsh s": peer.get("wall_s", ""), "gmsh: below 10°": peer.get("below_10deg", ""),
                   "gmsh: q mean": peer.get("mean_q", ""), "gmsh: jump 99.9 %": peer.get("jump_p999", "")}
+        if result.get("judge") and peer.get("min_angle"):
+            cells["worse than gmsh"] = worse_than(peer, result["judge"])
     return cells
 
 
