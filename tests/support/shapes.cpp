@@ -247,6 +247,12 @@ const std::map<std::string, Factory>& factories() {
       {"torus", [] { return BRepPrimAPI_MakeTorus(20, 6).Shape(); }},
       {"drilled_cylinder", drilled_cylinder},
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
+      {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
+      {"drilled_block",
+       [] {
+         const gp_Ax2 axis(gp_Pnt(30, 20, -5), gp_Dir(0, 0, 1));
+         return BRepAlgoAPI_Cut(box(60, 40, 20), BRepPrimAPI_MakeCylinder(axis, 4, 30).Shape()).Shape();
+       }},
       {"two_boxes",
        [] {
          return compound({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});

@@ -11,7 +11,8 @@
 namespace st::test {
 
 /// Shapes of one or more faces, by name. make_shape() knows them all; an unknown name throws std::runtime_error.
-///   solids   box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes
+///   solids   box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes thin_cylinder
+///            drilled_block
 ///   faces    square disc annulus strip plate_with_hole cone_side sphere_octant
 ///   sheets   wave rational_wave high_degree_wave bezier rational_bezier stretched kinked
 ///   tubes    periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)

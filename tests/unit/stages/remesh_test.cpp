@@ -1,0 +1,187 @@
+// st-remesh after the chain: it redoes what the new sizes ask for and nothing else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/log.h"
+#include "io/artifact.h"
+#include "stages/import_stage.h"
+#include "stages/merge_stage.h"
+#include "stages/mesh_stage.h"
+#include "stages/prolong_stage.h"
+#include "stages/raster_stage.h"
+#include "stages/remesh_stage.h"
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+const Communicator& one_rank() {
+  static const Communicator comm;
+  return comm;
+}
+
+class Remesh : public testing::Test {
+ protected:
+  void SetUp() override { set_verbosity(Verbosity::kQuiet); }
+
+  void import(const std::string& shape, const std::string& geometry) {
+    test::write_step(shape, dir_ / (shape + ".step"), "MM");
+    ImportStageOptions o;
+    o.model = dir_ / (shape + ".step");
+    o.output = dir_ / geometry;
+    run_import(o);
+  }
+  void size(const std::string& geometry, const std::string& sizing, double alpha_deg, double scale = 1) {
+    RasterStageOptions r;
+    r.geometry = dir_ / geometry;
+    r.output = dir_ / "raster.hdf";
+    r.lmax = "4";
+    r.alpha_deg = alpha_deg;
+    run_raster(r, one_rank());
+    ProlongStageOptions p;
+    p.raster = r.output;
+    p.output = dir_ / sizing;
+    p.scale = scale;
+    run_prolong(p);
+  }
+  void mesh(const std::string& geometry, const std::string& sizing, const std::string& output) {
+    MeshStageOptions m;
+    m.geometry = dir_ / geometry;
+    m.sizing = dir_ / sizing;
+    m.output = dir_ / "patches.hdf";
+    EXPECT_EQ(run_mesh(m, one_rank()).code, ExitCode::kOk);
+    merge("patches.hdf", output);
+  }
+  MeshArtifact merge(const std::string& patches, const std::string& output) {
+    MergeStageOptions o;
+    o.patches = {dir_ / patches};
+    o.output = dir_ / output;
+    const StageSummary s = run_merge(o);
+    EXPECT_NE(s.json.find("\"closed\":true"), std::string::npos) << s.json;
+    return read_mesh(o.output);
+  }
+  RemeshStageOptions options(const std::string& sizing) const {
+    RemeshStageOptions o;
+    o.mesh = dir_ / "mesh.hdf";
+    o.geometry = dir_ / "geometry.hdf";
+    o.sizing = dir_ / sizing;
+    o.output = dir_ / "remeshed.hdf";
+    return o;
+  }
+  /// A drilled block, meshed.
+  void prepare() {
+    import("drilled_block", "geometry.hdf");
+    size("geometry.hdf", "sizing.hdf", 20);
+    mesh("geometry.hdf", "sizing.hdf", "mesh.hdf");
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
+
+  TemporaryDirectory dir_;
+};
+
+/// Triangles of each face, by the coordinates of their corners, sorted.
+std::map<FaceId, std::vector<std::array<double, 9>>> triangles_by_face(const SurfaceMesh& m) {
+  std::map<FaceId, std::vector<std::array<double, 9>>> faces;
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    std::array<double, 9> x;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = m.node_xyz[m.triangles[i].n[k]];
+      x[3 * k] = p.x, x[3 * k + 1] = p.y, x[3 * k + 2] = p.z;
+    }
+    faces[m.triangle_face[i]].push_back(x);
+  }
+  for (auto& [face, triangles] : faces) std::sort(triangles.begin(), triangles.end());
+  return faces;
+}
+
+TEST_F(Remesh, with_unchanged_sizes_redoes_nothing_and_gives_the_same_mesh) {
+  prepare();
+  RemeshStageOptions o = options("sizing.hdf");
+  o.dry_run = true;
+  EXPECT_NE(run_remesh(o, one_rank()).json.find("\"faces_redone\":0"), std::string::npos);
+  EXPECT_FALSE(exists("remeshed.hdf"));
+  o.dry_run = false;
+  EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+  EXPECT_NE(read_patches(o.output).header.options_json.find("\"faces_redone\":0"), std::string::npos);
+  const SurfaceMesh before = read_mesh(o.mesh).mesh, after = merge("remeshed.hdf", "again.hdf").mesh;
+  EXPECT_EQ(after.n_nodes(), before.n_nodes());
+  EXPECT_TRUE(triangles_by_face(after) == triangles_by_face(before));
+}
+
+TEST_F(Remesh, with_smaller_sizes_at_the_hole_redoes_only_what_they_reach) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 6);
+  RemeshStageOptions o = options("finer.hdf");
+  EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+  const auto before = triangles_by_face(read_mesh(o.mesh).mesh), after = triangles_by_face(merge("remeshed.hdf", "finer_mesh.hdf").mesh);
+  ASSERT_EQ(before.size(), 7u);
+  ASSERT_EQ(after.size(), 7u);
+  int n_kept = 0, n_finer = 0;
+  for (const auto& [face, triangles] : before) {
+    n_kept += after.at(face) == triangles;
+    n_finer += after.at(face).size() > 2 * triangles.size();
+  }
+  EXPECT_EQ(n_kept, 4) << "the four sides";
+  EXPECT_EQ(n_finer, 3) << "the hole, top and bottom";
+}
+
+TEST_F(Remesh, with_smaller_sizes_everywhere_is_as_a_new_mesh) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 20, 0.5);
+  EXPECT_EQ(run_remesh(options("finer.hdf"), one_rank()).code, ExitCode::kOk);
+  const std::string redone = merge("remeshed.hdf", "redone.hdf").header.content_hash;
+  mesh("geometry.hdf", "finer.hdf", "fresh.hdf");
+  EXPECT_EQ(redone, read_mesh(dir_ / "fresh.hdf").header.content_hash);
+}
+
+TEST_F(Remesh, with_larger_sizes_makes_fewer_triangles) {
+  prepare();
+  size("geometry.hdf", "coarser.hdf", 20, 2.5);
+  EXPECT_EQ(run_remesh(options("coarser.hdf"), one_rank()).code, ExitCode::kOk);
+  EXPECT_LT(merge("remeshed.hdf", "coarser_mesh.hdf").mesh.n_triangles(), read_mesh(dir_ / "mesh.hdf").mesh.n_triangles() / 3);
+}
+
+TEST_F(Remesh, refuses_sizes_and_meshes_of_another_geometry) {
+  prepare();
+  import("box", "box.hdf");
+  size("box.hdf", "box_sizing.hdf", 20);
+  EXPECT_ERROR(run_remesh(options("box_sizing.hdf"), one_rank()), kMismatch, "box_sizing.hdf");
+  MeshStageOptions m;
+  m.geometry = dir_ / "geometry.hdf";
+  m.sizing = dir_ / "box_sizing.hdf";
+  m.output = dir_ / "wrong.hdf";
+  EXPECT_ERROR(run_mesh(m, one_rank()), kMismatch, "box_sizing.hdf");
+  RemeshStageOptions o = options("box_sizing.hdf");
+  o.geometry = dir_ / "box.hdf";
+  EXPECT_ERROR(run_remesh(o, one_rank()), kMismatch, "mesh.hdf");
+  EXPECT_FALSE(exists("remeshed.hdf"));
+  EXPECT_FALSE(exists("wrong.hdf"));
+}
+
+TEST_F(Remesh, refuses_limits_that_make_no_sense) {
+  RemeshStageOptions o = options("sizing.hdf");
+  o.too_long = 1;
+  EXPECT_ERROR(run_remesh(o, one_rank()), kUsage, "--too-long");
+  o = options("sizing.hdf");
+  for (double bad : {0.0, 1.0, -0.5}) {
+    o.too_short = bad;
+    EXPECT_ERROR(run_remesh(o, one_rank()), kUsage, "--too-short");
+  }
+}
+
+TEST_F(Remesh, limits_decide_what_is_redone) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 20, 0.8);
+  RemeshStageOptions o = options("finer.hdf");
+  o.dry_run = true;
+  o.too_long = 10;
+  EXPECT_NE(run_remesh(o, one_rank()).json.find("\"faces_redone\":0"), std::string::npos);
+  o.too_long = 1.05;
+  EXPECT_NE(run_remesh(o, one_rank()).json.find("\"faces_redone\":7"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace st
