@@ -1,0 +1,211 @@
+#include "mesh/patch_crossing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace st {
+
+namespace {
+
+/// Box in single precision. Rounding to nearest is monotonic: boxes that meet in double precision meet here.
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+  bool meets(const FloatBox& o) const {
+    return (lo[0] <= o.hi[0]) & (o.lo[0] <= hi[0]) & (lo[1] <= o.hi[1]) & (o.lo[1] <= hi[1]) & (lo[2] <= o.hi[2]) & (o.lo[2] <= hi[2]);
+  }
+  void add(const FloatBox& o) {
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
+  }
+  float extent() const { return (hi[0] - lo[0]) + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
+  int longest_axis() const {
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    return axis;
+  }
+};
+
+// --- normals ---------------------------------------------------------------------------------------------------------------------------
+
+/// One bit per direction that a set of normals agrees with: of all normals within 60 degrees.
+using Directions = std::uint32_t;
+
+constexpr float kMinCosine = 0.5f;        // of the angle between a normal and a direction: 60 degrees, the bound of a narrow cone
+constexpr double kSurelyHasArea = 1e-10;  // twice the area over the product of two sides: far above rounding
+constexpr int kAxes = 13;                 // through the faces, edges and corners of a cube; a cone of 33 degrees always fits one
+constexpr float kEdge = 0.70710678f, kCorner = 0.57735027f;
+constexpr float kAxisX[kAxes] = {1, 0, 0, kEdge, kEdge, kEdge, kEdge, 0, 0, kCorner, kCorner, kCorner, kCorner};
+constexpr float kAxisY[kAxes] = {0, 1, 0, kEdge, -kEdge, 0, 0, kEdge, kEdge, kCorner, kCorner, -kCorner, -kCorner};
+constexpr float kAxisZ[kAxes] = {0, 0, 1, 0, 0, kEdge, -kEdge, kEdge, -kEdge, kCorner, -kCorner, kCorner, -kCorner};
+
+Directions directions_near(Vec3 unit_normal) {
+  const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y), z = static_cast<float>(unit_normal.z);
+  Directions near = 0;
+  for (int k = 0; k < kAxes; ++k) {
+    const float cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
+    near |= static_cast<Directions>(cosine > kMinCosine) << k | static_cast<Directions>(cosine < -kMinCosine) << (k + kAxes);
+  }
+  return near;
+}
+
+// --- a tree per face, built while it is descended --------------------------------------------------------------------------------------
+
+struct Item {
+  FloatBox box;
+  Directions near;
+  TriangleId id;
+};
+
+struct TreeNode {
+  FloatBox box;
+  Directions near;            ///< directions that all triangles below agree with
+  std::int32_t begin, end;    ///< range of items
+  std::int32_t left = kNone;  ///< first of two children; kNone: not split (yet)
+  std::int32_t size() const { return end - begin; }
+};
+
+class Forest {
+ public:
+  explicit Forest(const PatchTriangles& mesh) : mesh_(mesh) {
+    items_.reserve(mesh.triangles.size());
+    for (std::size_t f = 0; f + 1 < mesh.face_begin.size(); ++f) add_face(mesh.face_begin[f], mesh.face_begin[f + 1]);
+  }
+  const FloatBox& box(FaceId f) const { return nodes_[f].box; }
+  bool is_empty(FaceId f) const { return nodes_[f].size() == 0; }
+  void test_within(std::int32_t n) {
+    if (nodes_[n].near != 0 || nodes_[n].size() < 2) return;
+    if (!split(n)) {
+      for (std::int32_t i = nodes_[n].begin; i < nodes_[n].end; ++i) test_item(i, i + 1, nodes_[n].end);
+      return;
+    }
+    const std::int32_t left = nodes_[n].left;
+    test_within(left);
+    test_within(left + 1);
+    test_between(left, left + 1);
+  }
+  void test_between(std::int32_t a, std::int32_t b) {
+    if (!nodes_[a].box.meets(nodes_[b].box)) return;
+    if (nodes_[a].box.extent() < nodes_[b].box.extent()) std::swap(a, b);
+    if (!split(a)) std::swap(a, b);
+    if (split(a)) {
+      const std::int32_t left = nodes_[a].left;
+      test_between(left, b);
+      test_between(left + 1, b);
+      return;
+    }
+    for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
+      if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end);
+  }
+  std::vector<TrianglePair> take_sorted() {
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    return std::move(pairs_);
+  }
+
+ private:
+  static constexpr std::int32_t kLeafSize = 6;
+  static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
+
+  /// Appends the root of a face: node f, over the face's triangles with an area.
+  void add_face(TriangleId begin, TriangleId end) {
+    const auto first = static_cast<std::int32_t>(items_.size());
+    for (TriangleId t = begin; t < end; ++t) {
+      const Triangle& tri = mesh_.triangles[t];
+      const Vec3 a = mesh_.points[tri.n[0]], b = mesh_.points[tri.n[1]], c = mesh_.points[tri.n[2]];
+      const Vec3 normal = cross(b - a, c - a);
+      const double length2 = norm2(normal);
+      if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) && is_degenerate(mesh_.points, tri)) continue;
+      Box3 box{a, a};
+      box.add(b);
+      box.add(c);
+      const auto f = [](double x) { return static_cast<float>(x); };
+      items_.push_back({{{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}},
+                        length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0,
+                        t});
+    }
+    nodes_.push_back(node_over(first, static_cast<std::int32_t>(items_.size())));
+  }
+
+  TreeNode node_over(std::int32_t begin, std::int32_t end) const {
+    if (begin == end) return {{}, 0, begin, end};
+    TreeNode node{items_[begin].box, items_[begin].near, begin, end};
+    for (std::int32_t i = begin + 1; i < end; ++i) node.box.add(items_[i].box), node.near &= items_[i].near;
+    return node;
+  }
+
+  /// Gives the node its children; false for a leaf. Halves the box, or the items where that would leave a small part.
+  bool split(std::int32_t n) {
+    const TreeNode node = nodes_[n];
+    if (node.left != kNone) return true;
+    if (node.size() <= kLeafSize) return false;
+    const int axis = node.box.longest_axis();
+    const auto key = [axis](const FloatBox& box) { return box.lo[axis] + box.hi[axis]; };
+    const auto first = items_.begin() + node.begin, last = items_.begin() + node.end;
+    auto middle = std::partition(first, last, [&, at = key(node.box)](const Item& i) { return key(i.box) < at; });
+    if (std::min(middle - first, last - middle) * kMaxLopsided < node.size()) {
+      middle = first + node.size() / 2;
+      std::nth_element(first, middle, last,
+                       [&](const Item& i, const Item& j) { return std::pair(key(i.box), i.id) < std::pair(key(j.box), j.id); });
+    }
+    const auto at = static_cast<std::int32_t>(middle - items_.begin());
+    nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
+    nodes_.push_back(node_over(node.begin, at));
+    nodes_.push_back(node_over(at, node.end));
+    return true;
+  }
+
+  /// Compares item i with the items [begin, end).
+  void test_item(std::int32_t i, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t j = begin; j < end; ++j) {
+      if (!items_[i].box.meets(items_[j].box)) continue;
+      const auto [a, b] = std::minmax(items_[i].id, items_[j].id);
+      int n_shared = 0;
+      if (triangles_cross(mesh_.points, mesh_.triangles[a], mesh_.triangles[b], n_shared)) pairs_.push_back({a, b, n_shared});
+    }
+  }
+
+  const PatchTriangles& mesh_;
+  std::vector<Item> items_;
+  std::vector<TreeNode> nodes_;  ///< node f is the root of face f
+  std::vector<TrianglePair> pairs_;
+};
+
+/// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the model.
+template <class Visit>
+void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit) {
+  std::vector<FaceId> order;
+  for (FaceId f = 0; f < n_faces; ++f)
+    if (!forest.is_empty(f)) order.push_back(f);
+  if (order.empty()) return;
+  FloatBox all = forest.box(order[0]);
+  for (const FaceId f : order) all.add(forest.box(f));
+  const int axis = all.longest_axis();
+  std::sort(order.begin(), order.end(),
+            [&](FaceId f, FaceId g) { return std::pair(forest.box(f).lo[axis], f) < std::pair(forest.box(g).lo[axis], g); });
+  std::vector<FaceId> open;
+  for (const FaceId f : order) {
+    std::erase_if(open, [&](FaceId g) { return forest.box(g).hi[axis] < forest.box(f).lo[axis]; });
+    for (const FaceId g : open)
+      if (forest.box(f).meets(forest.box(g))) visit(f, g);
+    open.push_back(f);
+  }
+}
+
+}  // namespace
+
+std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
+  const auto n_faces = static_cast<FaceId>(mesh.face_shell.size());
+  const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
+  Forest forest(mesh);
+  for (FaceId f = 0; f < n_faces; ++f)
+    if (is_dirty(f)) forest.test_within(f);
+  for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
+    if (mesh.face_shell[f] == mesh.face_shell[g] && (is_dirty(f) || is_dirty(g))) forest.test_between(f, g);
+  });
+  return forest.take_sorted();
+}
+
+}  // namespace st
