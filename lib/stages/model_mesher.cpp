@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "comm/packer.h"
-#include "mesh/crossing.h"
+#include "mesh/patch_crossing.h"
 #include "meshing/curve_discretiser.h"
 #include "meshing/face_boundary.h"
 #include "meshing/refined_field.h"
@@ -18,6 +18,7 @@ namespace {
 constexpr std::int32_t kEdgesPerTask = 24;
 constexpr double kLoopFloor = 1.0 / 16;       // of the requested length: refinement of loops, folds and narrow parts ends there
 constexpr double kCrossingFloor = 1.0 / 8;    // likewise for crossing facets
+constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed in one round
 constexpr double kWorthwhile = 0.95;           // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
@@ -93,6 +94,48 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
   return patch;
 }
 
+/// All patches as one mesh by global node ids, the triangles by face.
+struct JoinedPatches {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> face_begin;  // [n_faces+1]
+  FaceId face_of(TriangleId t) const {
+    return static_cast<FaceId>(std::upper_bound(face_begin.begin(), face_begin.end(), t) - face_begin.begin()) - 1;
+  }
+  /// Half the triangle's longest side, at its centre.
+  RefinementPoint refinement_of(TriangleId t) const {
+    const Vec3 a = points[triangles[t].n[0]], b = points[triangles[t].n[1]], c = points[triangles[t].n[2]];
+    return {(a + b + c) / 3, 0.5 * std::sqrt(std::max({norm2(a - b), norm2(b - c), norm2(c - a)}))};
+  }
+};
+
+JoinedPatches join_patches(const ModelTables& t, const EdgeMesh& edges, const std::vector<FacePatch>& patches) {
+  JoinedPatches m;
+  const BoundaryNumbering numbering(t, edges);
+  std::size_t n_points = numbering.first_inner.back(), n_triangles = 0;
+  for (const FacePatch& p : patches) n_points += p.inner_xyz.size(), n_triangles += p.triangles.size();
+  m.points.reserve(n_points);
+  m.triangles.reserve(n_triangles);
+  m.points.assign(t.vertex_xyz.begin(), t.vertex_xyz.end());
+  m.points.resize(numbering.first_inner.back());
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (std::int32_t i = edges.edge_offsets[e] + 1; i + 1 < edges.edge_offsets[e + 1]; ++i)
+      m.points[numbering.first_inner[e] + i - edges.edge_offsets[e] - 1] = edges.node_xyz[i];
+  m.face_begin.push_back(0);
+  std::vector<std::int32_t> number;
+  for (const FacePatch& p : patches) {
+    number.resize(p.n_boundary);
+    for (std::int32_t i = 0; i < p.n_boundary; ++i)
+      number[i] = p.boundary_dim[i] == 0 ? p.boundary_entity[i] : numbering.edge_node(p.boundary_entity[i], p.boundary_index[i]);
+    const std::int32_t first_inner = static_cast<std::int32_t>(m.points.size()) - p.n_boundary;
+    const auto id = [&](NodeId n) { return n < p.n_boundary ? number[n] : first_inner + n; };
+    for (const Triangle& tri : p.triangles) m.triangles.push_back({{id(tri.n[0]), id(tri.n[1]), id(tri.n[2])}});
+    m.points.insert(m.points.end(), p.inner_xyz.begin(), p.inner_xyz.end());
+    m.face_begin.push_back(static_cast<std::int32_t>(m.triangles.size()));
+  }
+  return m;
+}
+
 }  // namespace
 
 ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
@@ -106,6 +149,7 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
   face_cause_.resize(t.n_faces());
   face_cause_xyz_.resize(t.n_faces());
   face_fold_places_.resize(t.n_faces());
+  face_is_fresh_.assign(t.n_faces(), 1);
   edges.edge_offsets.assign(t.n_edges() + 1, 0);
   edge_in_scope_.assign(t.n_edges(), 1);
   face_in_scope_.assign(t.n_faces(), 1);
@@ -356,6 +400,7 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
         const FaceId f = dirty[task];
         Unpacker u(result);
         unpack(u, patches[f]);
+        face_is_fresh_[f] = 1;
         u.get(face_cause_[f]);
         u.get(wanted[task]);
         u.get(face_folds_[f]);
@@ -376,44 +421,25 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
   return all;
 }
 
-/// Facets of one part that cross: both are refined.
+/// Facets of one part that cross: both are refined. Searched are only pairs with a facet made since the last search.
 std::vector<RefinementPoint> ModelMesher::find_crossings() {
   std::vector<RefinementPoint> places;
   Bytes bytes;
   if (comm_.is_root()) {
-    const ModelTables& t = model_.tables();
-    const BoundaryNumbering numbering(t, edges);
-    std::vector<Vec3> points = t.vertex_xyz;
-    points.resize(numbering.first_inner.back());
-    for (EdgeId e = 0; e < t.n_edges(); ++e)
-      for (std::int32_t i = edges.edge_offsets[e] + 1; i + 1 < edges.edge_offsets[e + 1]; ++i)
-        points[numbering.first_inner[e] + i - edges.edge_offsets[e] - 1] = edges.node_xyz[i];
-    std::vector<Triangle> triangles;
-    std::vector<FaceId> face;
-    for (const FacePatch& p : patches) {
-      std::vector<std::int32_t> number(p.n_boundary);
-      for (std::int32_t i = 0; i < p.n_boundary; ++i)
-        number[i] = p.boundary_dim[i] == 0 ? p.boundary_entity[i] : numbering.edge_node(p.boundary_entity[i], p.boundary_index[i]);
-      const std::int32_t first_inner = static_cast<std::int32_t>(points.size()) - p.n_boundary;
-      for (const Triangle& tri : p.triangles) {
-        Triangle g;
-        for (int k = 0; k < 3; ++k) g.n[k] = tri.n[k] < p.n_boundary ? number[tri.n[k]] : first_inner + tri.n[k];
-        triangles.push_back(g);
-        face.push_back(p.face);
-      }
-      points.insert(points.end(), p.inner_xyz.begin(), p.inner_xyz.end());
+    const JoinedPatches m = join_patches(model_.tables(), edges, patches);
+    std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
+    for (const TrianglePair& p : find_crossing_patches({m.points, m.triangles, m.face_begin, model_.tables().face_shell, face_is_fresh_})) {
+      if (p.n_shared > 0) continue;
+      const FaceId a = m.face_of(p.a), b = m.face_of(p.b);
+      crossing_pairs_.push_back({a, b, p.a - m.face_begin[a], p.b - m.face_begin[b]});
     }
-    n_crossing_pairs = 0;
-    for (const TrianglePair& pair : find_crossing_triangles(points, triangles)) {
-      if (pair.n_shared > 0 || t.face_shell[face[pair.a]] != t.face_shell[face[pair.b]]) continue;
-      ++n_crossing_pairs;
-      if (places.size() >= 2000) continue;
-      for (TriangleId id : {pair.a, pair.b}) {
-        const Triangle& tri = triangles[id];
-        const Vec3 a = points[tri.n[0]], b = points[tri.n[1]], c = points[tri.n[2]];
-        const double longest = std::sqrt(std::max({norm2(a - b), norm2(b - c), norm2(c - a)}));
-        places.push_back({(a + b + c) / 3, 0.5 * longest});
-      }
+    std::sort(crossing_pairs_.begin(), crossing_pairs_.end());
+    std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
+    n_crossing_pairs = static_cast<int>(crossing_pairs_.size());
+    for (const FacetPair& p : crossing_pairs_) {
+      if (places.size() >= kMaxCrossingPlaces) break;
+      places.push_back(m.refinement_of(m.face_begin[p.face_a] + p.index_a));
+      places.push_back(m.refinement_of(m.face_begin[p.face_b] + p.index_b));
     }
     Packer p;
     p.add(places);

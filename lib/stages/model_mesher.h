@@ -47,6 +47,11 @@ class ModelMesher {
 
  private:
   struct FaceOutcome;
+  struct FacetPair {  // two triangles by face and place in its patch
+    FaceId face_a, face_b;
+    std::int32_t index_a, index_b;
+    auto operator<=>(const FacetPair&) const = default;
+  };
   void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
   void limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in);
   void mesh_edges(const std::vector<EdgeId>& dirty);
@@ -72,6 +77,8 @@ class ModelMesher {
   std::vector<std::string> face_cause_;
   std::vector<Vec3> face_cause_xyz_;
   std::vector<std::vector<RefinementPoint>> face_fold_places_;
+  std::vector<char> face_is_fresh_;          // meshed since the last search for crossings
+  std::vector<FacetPair> crossing_pairs_;    // found so far and still there, sorted
 };
 
 }  // namespace st
