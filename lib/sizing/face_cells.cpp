@@ -139,22 +139,28 @@ std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& lo
   return unite(locator.take(), face_area);
 }
 
-std::vector<double> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field) {
-  std::vector<double> weights(static_cast<std::size_t>(faces.n_faces()), 0.0);
+std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field) {
+  std::vector<FaceWeight> weights(static_cast<std::size_t>(faces.n_faces()));
   PlanePoints points;
   int hint = 0;
   for (std::size_t f = 0; f < weights.size(); ++f)
     for (std::int64_t k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k) {
       const std::size_t i = static_cast<std::size_t>(k);
       const std::int32_t leaf = faces.leaf[i];
-      const int n = points_per_axis(raster, leaf, field.data().octree);
-      double sum = 0;
-      const auto& on_plane = points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n);
+      const float* n = faces.plane[i].normal;
+      const Vec3 normal{n[0], n[1], n[2]};
+      const int n_points = points_per_axis(raster, leaf, field.data().octree);
+      const auto& on_plane = points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n_points);
+      double uniform = 0, graded = 0;
       for (const Vec3& x : on_plane) {
-        const double h = field.size(x, hint);
-        sum += 1 / (h * h);
+        Vec3 gradient;
+        const double h = field.size_and_gradient(x, hint, gradient);
+        uniform += 1 / (h * h);
+        graded += norm(gradient - dot(gradient, normal) * normal) / (h * h);
       }
-      weights[f] += static_cast<double>(faces.area[i]) * sum / static_cast<double>(on_plane.size());
+      const double area = static_cast<double>(faces.area[i]) / static_cast<double>(on_plane.size());
+      weights[f].uniform += area * uniform;
+      weights[f].graded += kTrianglesPerGradient * area * graded;
     }
   return weights;
 }

@@ -14,9 +14,9 @@ namespace st {
 /// Area of a face in a cell, and the plane in which it lies there, roughly.
 struct CellArea {
   std::int32_t leaf = 0;
-  float area = 0;                 ///< model unit squared
-  float center[3] = {0, 0, 0};    ///< centre of the area, model unit
-  float normal[3] = {0, 0, 0};    ///< unit normal, either sign; zero: unknown
+  float area = 0;               ///< model unit squared
+  float center[3] = {0, 0, 0};  ///< centre of the area, model unit
+  float normal[3] = {0, 0, 0};  ///< unit normal, either sign; zero: unknown
 };
 
 /// Of a FaceCells entry, without leaf and area.
@@ -40,8 +40,20 @@ struct FaceCells {
 /// scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree, double face_area);
 
-/// Per face: integral of 1/h^2. Times 4/sqrt(3): the number of triangles. `raster`: the octree that `faces` refers to; `field` may live on
-/// a finer one: the area in a cell is spread over its plane, the finer the more the cell was refined there.
-std::vector<double> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field);
+/// How much meshing a face is, as a function of a scale of all lengths.
+struct FaceWeight {
+  double uniform = 0;  ///< integral of 1/h^2
+  double graded = 0;   ///< integral of |tangential gradient of h|/h^2, times kTrianglesPerGradient
+
+  /// Number of triangles, times sqrt(3)/4, when all lengths are multiplied by `scale`.
+  double at(double scale) const { return uniform / (scale * scale) + graded / scale; }
+};
+
+/// Where lengths change, advancing fronts make more triangles than 1/h^2: measured, wings and bodies with slopes up to 0.2.
+inline constexpr double kTrianglesPerGradient = 0.6;
+
+/// Per face. `raster`: the octree that `faces` refers to; `field` may live on a finer one: the area in a cell is spread over its plane, the
+/// finer the more the cell was refined there.
+std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field);
 
 }  // namespace st

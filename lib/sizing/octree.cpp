@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "sizing/octree_nodes.h"
 #include "sizing/radix_sort.h"
 
 namespace st {
 namespace {
-
-/// Inner cells of each level as keys relative to their level (3*level bits).
-using NodeLevels = std::array<std::vector<std::uint64_t>, kMaxLevel>;
 
 /// Drops most repeated keys of a coherent stream before they cost memory; what it lets through twice the sort removes.
 class RepeatFilter {
@@ -77,8 +75,9 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
   }
 }
 
-/// Sorts each level and adds what tree and balance need, finest level first: where a cell is split, all 26 neighbours of its size must
-/// exist, so their parents are split.
+}  // namespace
+
+// Finest level first: where a cell is split, all 26 neighbours of its size must exist, so their parents are split.
 void close_nodes(NodeLevels& nodes) {
   for (int level = kMaxLevel - 1; level >= 0; --level) {
     std::vector<std::uint64_t>& split = nodes[level];
@@ -102,7 +101,7 @@ void close_nodes(NodeLevels& nodes) {
   }
 }
 
-/// Numbers the nodes level by level and the leaves in Morton order, and links them. One walk: each level's nodes are met in order.
+// One walk: each level's nodes are met in order.
 void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
   std::array<std::size_t, kMaxLevel + 1> offset{}, cursor{};
   for (std::size_t l = 0; l < kMaxLevel; ++l) offset[l + 1] = offset[l] + nodes[l].size();
@@ -124,6 +123,8 @@ void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
   };
   walk(walk, 0, 0);
 }
+
+namespace {
 
 /// Gives each leaf the smallest length of the boxes that meet it. Boxes of fine levels come first, and whole subtrees that hold smaller
 /// lengths already are skipped, so that large boxes do not visit every fine cell inside them.

@@ -39,6 +39,14 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   return std::max(data_.scale * std::min<double>(c.length + unit_ * rise, c.upper), min_size_);
 }
 
+double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const {
+  const double h = size(xyz, hint);
+  const CellLength& c = data_.cells[hint];
+  const bool is_cut_off = h >= data_.scale * static_cast<double>(c.upper) || h <= min_size_;
+  gradient = is_cut_off ? Vec3{} : data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
+  return h;
+}
+
 SizeExplanation OctreeField::explain(Vec3 xyz) const {
   int leaf = 0;
   SizeExplanation result;

@@ -41,6 +41,8 @@ class OctreeField : public SizeField {
   double slope() const override { return data_.slope * data_.scale; }
   const OctreeFieldData& data() const { return data_; }
   SizeExplanation explain(Vec3 xyz) const;
+  /// Likewise size(), and its gradient.
+  double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const;
 
  private:
   OctreeFieldData data_;

@@ -11,56 +11,100 @@
 
 #include "base/log.h"
 #include "io/sizing_artifact.h"
+#include "stages/source_input.h"
 
 namespace st {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// Equilateral triangles of the local length, per unit of the integral of 1/h^2.
+const double kTrianglesPerWeight = 4 / std::sqrt(3.0);
+
 void require_valid(const ProlongStageOptions& o) {
   if (!(o.slope > 0 && o.slope <= 2)) throw Error(ExitCode::kUsage, fmt::format("--slope {}: not in (0, 2]", o.slope));
   if (!(o.scale > 0) || !std::isfinite(o.scale)) throw Error(ExitCode::kUsage, fmt::format("--scale {}: not a positive number", o.scale));
+  if (o.target_triangles && *o.target_triangles < 4)
+    throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
+  parse_similarity(o.transform, "--transform");
+  if (o.target_triangles && o.scale != 1) throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
+}
+
+/// Resolved options; file names stand among the inputs.
+std::string options_json(const ProlongStageOptions& o, double scale) {
+  Json json = {{"slope", o.slope}, {"scale", scale}};
+  if (!o.transform.empty()) json["transform"] = o.transform;
+  if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
+  return json.dump();
+}
+
+ArtifactHeader sizing_header(const ProlongStageOptions& o, const ArtifactHeader& raster, double scale,
+                             const std::vector<InputRef>& sources) {
+  ArtifactHeader header = raster;
+  header.schema = "sizing";
+  header.tool = "st-prolong";
+  header.tool_version = ST_VERSION;
+  header.options_json = options_json(o, scale);
+  header.inputs = {{"raster", std::filesystem::path(o.raster).filename().string(), raster.content_hash}};
+  header.inputs.insert(header.inputs.end(), sources.begin(), sources.end());
+  return header;
+}
+
+/// About this many triangles: equilateral ones of the local length.
+double expected_triangles(const std::vector<double>& face_weight) {
+  return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
+}
+
+/// The scale of all lengths that gives this many triangles: N(s) = a/s^2 + b/s, solved for 1/s.
+double scale_to(int target_triangles, const std::vector<FaceWeight>& weights) {
+  double a = 0, b = 0;
+  for (const FaceWeight& w : weights) {
+    a += kTrianglesPerWeight * w.uniform;
+    b += kTrianglesPerWeight * w.graded;
+  }
+  return 2 * a / (std::sqrt(b * b + 4 * a * target_triangles) - b);
 }
 
 SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
+  SourceInput input = read_sources(o.sources, o.background, o.transform, o.slope, {raster.numbers.diagonal, raster.header.unit_in_m});
   SizingArtifact sizing;
   sizing.numbers = raster.numbers;
   sizing.slope = o.slope;
-  sizing.scale = o.scale;
+  const OctreeShape raster_shape = raster.octree.shape;
+  if (!input.sources.empty())
+    raster.octree = refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
   sizing.lengths =
       prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length});
   sizing.shape = std::move(raster.octree.shape);
   sizing.names = std::move(raster.names);
-  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, o.slope, o.scale}, nullptr);
-  sizing.face_weight = face_weights(raster.faces, sizing.shape.view(), field);
-  sizing.header = raster.header;
-  sizing.header.schema = "sizing";
-  sizing.header.tool = "st-prolong";
-  sizing.header.tool_version = ST_VERSION;
-  sizing.header.options_json = nlohmann::json{{"slope", o.slope}, {"scale", o.scale}}.dump();
-  sizing.header.inputs = {{"raster", std::filesystem::path(o.raster).filename().string(), raster.header.content_hash}};
+  sizing.names.source = std::move(input.names);
+  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, o.slope, 1}, nullptr);
+  const std::vector<FaceWeight> weights = face_weights(raster.faces, raster_shape.view(), field);
+  sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
+  for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
+  sizing.header = sizing_header(o, raster.header, sizing.scale, input.files);
   return sizing;
-}
-
-/// About this many triangles: equilateral ones of the local length.
-double expected_triangles(const SizingArtifact& sizing) {
-  return std::accumulate(sizing.face_weight.begin(), sizing.face_weight.end(), 0.0) * 4 / std::sqrt(3.0);
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
   const auto [smallest, largest] = std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                                                        [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
-  const double lo = o.scale * smallest->length, hi = o.scale * largest->length;
+  const double lo = sizing.scale * smallest->length, hi = sizing.scale * largest->length, n = expected_triangles(sizing.face_weight);
+  const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
+  const std::string sources = sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
   StageSummary summary;
-  summary.line = fmt::format("{}: {} cells, lengths {:.4g} to {:.4g}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
-                             sizing.lengths.cells.size(), lo, hi, o.slope, expected_triangles(sizing), seconds);
-  summary.json = nlohmann::json{
+  summary.line = fmt::format("{}: {} cells{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
+                             sizing.lengths.cells.size(), sources, lo, hi, scaled, o.slope, n, seconds);
+  summary.json = Json{
       {"tool", "st-prolong"},
       {"output", o.output},
       {"cells", sizing.lengths.cells.size()},
+      {"sources", sizing.names.source.size()},
       {"lmin", lo},
       {"lmax", hi},
       {"slope", o.slope},
-      {"scale", o.scale},
-      {"expected_triangles", std::llround(expected_triangles(sizing))},
+      {"scale", sizing.scale},
+      {"expected_triangles", std::llround(n)},
       {"hash", sizing.header.content_hash},
       {"seconds",
        seconds}}.dump();

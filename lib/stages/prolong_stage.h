@@ -1,17 +1,23 @@
-// st-prolong: slope-limited mesh size specification from a raster.
+// st-prolong: the complete mesh size specification from a raster, sources and a background mesh.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "stages/summary.h"
 
 namespace st {
 
 struct ProlongStageOptions {
-  std::string raster;                   ///< raster artifact
+  std::string raster;  ///< raster artifact
   std::string output = "sizing.hdf";
   double slope = 0.2;                   ///< largest change of length per distance, (0, 2]
   double scale = 1.0;                   ///< multiplies every length, > 0
+  std::vector<std::string> sources;     ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same name
+  std::string background;               ///< background mesh (.bac, .ba3, .msh); empty: none
+  std::string transform;                ///< moves sources and background into the model's frame; see parse_similarity; empty: as they are
+  std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
 };
 
 /// Local. Throws Error.

@@ -11,9 +11,9 @@ N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-r
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--check": "", "--require-closed": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
-    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1"},
+    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": ""},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
-    "st-remesh": {"--output": "patches.hdf", "--too-long": "1.5", "--too-short": "0.5", "--dry-run": "", "--np": "1"},
+    "st-remesh": {"--output": "patches.hdf", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
     "st-check": {
         "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
@@ -34,7 +34,7 @@ REFUSED = {
         "--cell-per-length": ["0.99", "8.1"],
         "--np": ["0", "-2", "x"],
     },
-    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"]},
+    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--max-turning": ["0", "61"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
     "st-check": {

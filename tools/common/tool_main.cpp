@@ -122,6 +122,11 @@ void ToolMain::optional_input(const std::string& flag, std::string& path, const 
   file_options_.push_back(input_options_.back());
 }
 
+void ToolMain::optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
+  input_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
+  file_options_.push_back(input_options_.back());
+}
+
 void ToolMain::output(std::string& path, const std::string& help) {
   CLI::Option* option = app_.add_option("-o,--output", path, help)->type_name("FILE");
   path.empty() ? option->required() : option->capture_default_str();
@@ -158,6 +163,10 @@ void ToolMain::number(const std::string& flag, int& value, const std::string& in
 
 void ToolMain::number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help) {
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->check(in_interval(interval)));
+}
+
+void ToolMain::number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help) {
+  file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->check(in_interval(interval)));
 }
 
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {

@@ -34,6 +34,8 @@ class ToolMain {
   void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
   /// An optional input file; `flag` with its dashes, as everywhere below.
   void optional_input(const std::string& flag, std::string& path, const std::string& help);
+  /// The same, repeatable.
+  void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
   /// -o,--output with the struct's default; required when that is empty.
   void output(std::string& path, const std::string& help = "artifact to write");
   /// A repeatable option naming a further file to write.
@@ -49,6 +51,8 @@ class ToolMain {
   void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);
   /// The same for what is off unless it is given.
   void number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help);
+  /// A whole number that may be left out.
+  void number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help);
   void flag(const std::string& flag, bool& value, const std::string& help);
 
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.

@@ -1,4 +1,4 @@
-// st-prolong: slope-limited mesh size specification from a raster.
+// st-prolong: the complete mesh size specification from a raster, sources and a background mesh.
 #include "common/tool_main.h"
 #include "stages/prolong_stage.h"
 
@@ -9,5 +9,9 @@ int main(int argc, char** argv) {
   tool.output(o.output);
   tool.number("--slope", o.slope, "(0, 2]", "largest change of length per distance");
   tool.number("--scale", o.scale, "(0, 1e6]", "multiplies every length");
+  tool.number("--target-triangles", o.target_triangles, "[4, 2e9]", "scale all lengths to about this many triangles");
+  tool.optional_inputs("--sources", o.sources, "sources: TOML, .bac or .ba3; repeatable");
+  tool.optional_input("--background", o.background, "background mesh: .bac, .ba3 or .msh (2.2)");
+  tool.text("--transform", o.transform, "STEPS", "moves sources and background: 'rotate X Y Z DEG; scale F; translate X Y Z'");
   return tool.run(argc, argv, [&] { return st::run_prolong(o); });
 }

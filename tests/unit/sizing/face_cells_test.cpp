@@ -72,8 +72,11 @@ TEST(FaceCells, weigh_area_by_squared_length) {
   FaceCells faces;
   faces.append_face(std::vector<CellArea>{{0, 2}, {0, 3}});
   faces.append_face({});
-  EXPECT_EQ(face_weights(faces, raster.shape.view(), field_on(raster, half, 1)), (std::vector<double>{5 / 0.25, 0}));
-  EXPECT_EQ(face_weights(faces, raster.shape.view(), field_on(raster, half, 2)), (std::vector<double>{5, 0}));
+  const std::vector<FaceWeight> weights = face_weights(faces, raster.shape.view(), field_on(raster, half, 1));
+  EXPECT_EQ(weights[0].at(1), 5 / 0.25);
+  EXPECT_EQ(weights[0].at(2), 5);
+  EXPECT_EQ(weights[1].at(1), 0);
+  EXPECT_EQ(face_weights(faces, raster.shape.view(), field_on(raster, half, 2))[0].at(1), 5);
 }
 
 // The field grows from a wall across the plane: the octree of the areas may be much coarser than that of the field.
@@ -92,8 +95,19 @@ TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
   for (const RasterOctree* octree : {&coarse, &fine}) {
     FaceCells faces;
     faces.append_face(locate_face(plane, {}, octree->shape.view(), 1));
-    EXPECT_NEAR(face_weights(faces, octree->shape.view(), field)[0] / expected, 1, octree == &coarse ? 0.2 : 0.03);  // coarse: cells reach beyond the face
+    EXPECT_NEAR(face_weights(faces, octree->shape.view(), field)[0].uniform / expected, 1,
+                octree == &coarse ? 0.2 : 0.03);  // coarse: cells reach beyond the face
   }
+}
+
+TEST(FaceCells, weigh_gradients_along_the_face_only) {
+  const RasterOctree raster = build_octree(test::kUnitBox, {});
+  const ProlongedLengths graded{{{0.5F, {0.1F, 0, 0.1F}, 2}}, {kNone}};
+  const OctreeField field({raster.shape.view(), graded.cells, graded.cause, 0.2, 1}, nullptr, 1e-3);
+  FaceCells faces;
+  faces.append_face(std::vector<CellArea>{{0, 1, {0.5F, 0.5F, 0.5F}, {0, 0, 1}}});
+  const FaceWeight w = face_weights(faces, raster.shape.view(), field)[0];
+  EXPECT_NEAR(w.graded / w.uniform, 0.1 * kTrianglesPerGradient, 1e-6);
 }
 
 }  // namespace

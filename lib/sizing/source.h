@@ -1,0 +1,87 @@
+// Lengths asked for in space besides the raster: point, line and triangle sources, volumes, and the cells of a background mesh.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// Bounds of a length over a ball.
+struct SizeRange {
+  double lo = 0, hi = 0;    ///< lo <= length <= hi wherever the source asks for something; lo = infinity: it asks for nothing there
+  bool meets_core = false;  ///< part of the ball may lie where the length is constant and smallest
+};
+
+/// Something that asks for lengths in space. A new kind of source is a new implementation.
+class SizeSource : public SizeField {
+ public:
+  using SizeField::size;
+  /// Bounds over the ball; they may be wide, but tighten as the ball shrinks.
+  virtual SizeRange range(Vec3 center, double radius) const = 0;
+  /// Whether it asks for something everywhere, and if not, whether at `xyz`; elsewhere size() continues what holds at the border.
+  virtual bool is_everywhere() const { return true; }
+  virtual bool covers(Vec3) const { return true; }
+};
+
+enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
+
+/// What a source asks for at one of its points (FLITE): `length` up to the distance `radius`, twice as much at `doubling`, growing
+/// exponentially, but never faster than the slope.
+struct SourceSpacing {
+  double length = 0;    ///< model unit, > 0
+  double radius = 0;    ///< model unit, >= 0
+  double doubling = 0;  ///< model unit; <= radius: growth by the slope alone
+};
+
+/// A source as the user describes it.
+struct SourceSpec {
+  std::string name;
+  SourceKind kind = SourceKind::kPoint;
+  std::array<Vec3, 3> point;             ///< point; ends; corners; centre of box, sphere, disc; ends of the cylinder's axis
+  std::array<SourceSpacing, 3> spacing;  ///< at each point of point, line and triangle; [0] for the others
+  std::array<Vec3, 3> half_axis;         ///< box: its three half axes; disc: [0] the normal
+  double extent = 0;                     ///< radius of cylinder, sphere, disc: the length is constant inside
+};
+
+/// Points of a line or triangle, 1 for the rest.
+int n_spacings(SourceKind kind);
+
+/// Rotation, then scaling in common, then translation.
+struct Similarity {
+  std::array<Vec3, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows
+  double scale = 1;
+  Vec3 translation;
+
+  Vec3 rotated(Vec3 v) const { return {dot(rotation[0], v), dot(rotation[1], v), dot(rotation[2], v)}; }
+  Vec3 operator()(Vec3 x) const { return scale * rotated(x) + translation; }
+  /// This one first, then `next`.
+  Similarity then(const Similarity& next) const;
+};
+
+/// Rotation by `angle` (radians, right-handed) about the axis through the origin.
+Similarity rotation_about(Vec3 axis, double angle);
+
+/// Positions are moved; lengths, radii and extents are scaled.
+void transform(const Similarity& motion, SourceSpec& source);
+
+/// The source as a field that grows by at most `slope`. Precondition: lengths > 0, radii >= 0, slope > 0.
+std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope);
+
+/// A background mesh: lengths at the nodes of tetrahedra, linear inside.
+struct BackgroundMesh {
+  std::vector<Vec3> node_xyz;
+  std::vector<double> node_length;                ///< model unit, > 0
+  std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
+  std::int64_t n_anisotropic = 0;                 ///< nodes whose three lengths differed: the smallest was taken
+};
+
+void transform(const Similarity& motion, BackgroundMesh& mesh);
+
+/// One source per tetrahedron; flat ones are left out.
+std::vector<std::unique_ptr<SizeSource>> make_sources(const BackgroundMesh& mesh);
+
+}  // namespace st

@@ -1,0 +1,28 @@
+// The sources and background mesh that st-prolong is given. Internal to stages.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/artifact.h"
+#include "io/source_file.h"
+#include "sizing/refine.h"
+
+namespace st {
+
+/// Sources as fields, with their causes.
+struct SourceInput {
+  std::vector<std::unique_ptr<SizeSource>> owned;
+  std::vector<NamedSource> sources;
+  std::vector<std::string> names;  ///< of causes of kind source
+  std::vector<InputRef> files;     ///< for the header
+  std::size_t n_tets = 0;          ///< of the background mesh
+};
+
+/// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up. Warns where an
+/// anisotropic background is taken by its smallest spacings. Throws Error(kInput), Error(kUsage).
+SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const std::string& transform, double slope,
+                         const ModelScale& scale);
+
+}  // namespace st

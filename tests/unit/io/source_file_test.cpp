@@ -1,0 +1,224 @@
+#include "io/source_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+class SourceFiles : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(dir_ / name) << text;
+    return dir_ / name;
+  }
+  SourceFile toml(const std::string& text, const ModelScale& scale = {10, 0.001}) const {
+    return read_source_file(write("s.toml", text), scale);
+  }
+  void expect_error(const std::string& text, const std::string& part) const {
+    try {
+      toml(text);
+      ADD_FAILURE() << "no error for " << text;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kInput);
+      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("s.toml:"), std::string::npos) << e.what();
+    }
+  }
+  TemporaryDirectory dir_;
+};
+
+TEST_F(SourceFiles, toml_knows_every_kind) {
+  const SourceFile f = toml(R"(
+[[source]]
+type = "point"
+at = [1, 2, 3]
+length = 0.5
+[[source]]
+name = "wake"
+type = "line"
+points = [[0, 0, 0], [9, 0, 0]]
+length = ["5mm", 0.2]
+radius = 0
+doubling = "10%"
+[[source]]
+type = "triangle"
+points = [[0, 0, 0], [9, 0, 0], [0, 1, 0]]
+length = 1
+[[source]]
+type = "box"
+lo = [0, 0, 0]
+hi = [2, 4, 6]
+length = 1
+[[source]]
+type = "cylinder"
+from = [0, 0, 0]
+to = [0, 0, 2]
+extent = 0.5
+length = 1
+[[source]]
+type = "sphere"
+at = [0, 0, 0]
+extent = 0.5
+length = 1
+[[source]]
+type = "disc"
+at = [0, 0, 0]
+normal = [0, 0, 3]
+extent = 0.5
+length = 1
+)");
+  ASSERT_EQ(f.sources.size(), 7u);
+  EXPECT_EQ(f.sources[0].point[0], (Vec3{1, 2, 3}));
+  EXPECT_EQ(f.sources[1].name, "wake");
+  EXPECT_DOUBLE_EQ(f.sources[1].spacing[0].length, 5);  // mm in a model in mm
+  EXPECT_EQ(f.sources[1].spacing[1].length, 0.2);
+  EXPECT_EQ(f.sources[1].spacing[1].doubling, 1);
+  EXPECT_EQ(f.sources[3].point[0], (Vec3{1, 2, 3}));
+  EXPECT_EQ(norm(f.sources[3].half_axis[2]), 3);
+  EXPECT_EQ(f.sources[4].extent, 0.5);
+}
+
+TEST_F(SourceFiles, toml_deletes_by_name) {
+  EXPECT_EQ(toml("[[source]]\nname = \"wake\"\ndelete = true").deleted, std::vector<std::string>{"wake"});
+}
+
+TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
+  expect_error("[[source]]\ntype = \"blob\"\nlength = 1", "blob");
+  expect_error("[[source]]\ntype = \"point\"\nlength = 1", "at = [x, y, z]");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0]\nlength = 1", "s.toml:3");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = -1", "must be positive");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = \"1 parsec\"", "parsec");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]", "needs a length");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nsize = 2", "unknown key 'size'");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nradius = 2\ndoubling = 1", "larger than radius");
+  expect_error("[[source]]\ntype = \"line\"\npoints = [[0, 0, 0]]\nlength = 1", "2 points");
+  expect_error("[[source]]\ntype = \"box\"\nlo = [0, 0, 0]\nhi = [1, 0, 1]\nlength = 1", "lo must be below hi");
+  expect_error("slope = 3", "unknown");
+  expect_error("[[source]\n", "s.toml:1");
+}
+
+const char* const kBac = R"(* background mesh
+  4  1  1  1  1  0 0 0
+  10  0 0 0
+   1 0 0 0.5
+   0 1 0 0.5
+   0 0 1 0.5
+  11  1.0D0 0 0
+   1 0 0 0.5
+   0 1 0 0.25
+   0 0 1 0.5
+  12  0 1 0
+   1 0 0 1
+   0 1 0 1
+   0 0 1 1
+  13  0 0 1
+   1 0 0 1
+   0 1 0 1
+   0 0 1 1
+  1 10 11 12 13
+* points
+global
+  0.5 0.5 0.5  0.1  0  2
+* lines
+Leading edge 1
+  0 0 0  0.1  0.2  0.4
+  1 0 0  0.2  0.2  0.4
+* triangles
+7
+  0 0 0  0.1  0.2  0.4
+  1 0 0  0.2  0.2  0.4
+  0 1 0  0.3  0.2  0.4
+)";
+
+TEST_F(SourceFiles, bac_has_background_and_sources) {
+  const SourceFile f = read_source_file(write("m.bac", kBac), {});
+  ASSERT_EQ(f.background.tets.size(), 1u);
+  EXPECT_EQ(f.background.tets[0], (std::array<std::int32_t, 4>{0, 1, 2, 3}));
+  EXPECT_EQ(f.background.node_xyz[1], (Vec3{1, 0, 0}));
+  EXPECT_EQ(f.background.node_length, (std::vector<double>{0.5, 0.25, 1, 1}));
+  EXPECT_EQ(f.background.n_anisotropic, 1);
+  ASSERT_EQ(f.sources.size(), 3u);
+  EXPECT_EQ(f.sources[0].name, "global");
+  EXPECT_EQ(f.sources[1].name, "Leading edge 1");
+  EXPECT_EQ(f.sources[1].spacing[1].length, 0.2);
+  EXPECT_EQ(f.sources[2].kind, SourceKind::kTriangle);
+  EXPECT_EQ(f.sources[2].point[2], (Vec3{0, 1, 0}));
+}
+
+TEST_F(SourceFiles, cut_bac_files_are_refused_at_every_line) {
+  const std::string text = kBac;
+  for (std::size_t end = text.find('\n'); end + 1 < text.size(); end = text.find('\n', end + 1))
+    EXPECT_THROW(read_source_file(write("cut.bac", text.substr(0, end)), {}), Error) << end;
+}
+
+const char* const kMsh = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+5 0 1 0
+7 0 0 1
+$EndNodes
+$Elements
+2
+1 2 2 0 1 1 2 5
+2 4 2 0 1 1 2 5 7
+$EndElements
+$NodeData
+1
+"length"
+1
+0
+3
+0
+1
+4
+1 0.1
+2 0.2
+5 0.3
+7 0.4
+$EndNodeData
+)";
+
+TEST_F(SourceFiles, msh_has_lengths_at_the_nodes_of_tetrahedra) {
+  const SourceFile f = read_background_file(write("m.msh", kMsh));
+  ASSERT_EQ(f.background.tets.size(), 1u);
+  EXPECT_EQ(f.background.tets[0], (std::array<std::int32_t, 4>{0, 1, 2, 3}));
+  EXPECT_EQ(f.background.node_length, (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+}
+
+TEST_F(SourceFiles, msh_of_another_version_or_without_data_is_refused) {
+  std::string text = kMsh;
+  EXPECT_THROW(read_background_file(write("a.msh", text.substr(0, text.find("$NodeData")))), Error);
+  text.replace(text.find("2.2"), 3, "4.1");
+  EXPECT_THROW(read_background_file(write("b.msh", text)), Error);
+}
+
+TEST_F(SourceFiles, missing_empty_and_directory_are_refused) {
+  for (const std::string& path : {dir_ / "none.toml", write("empty.bac", ""), dir_ / "."}) {
+    try {
+      read_source_file(path, {});
+      ADD_FAILURE() << path;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kInput);
+    }
+  }
+}
+
+TEST(Similarity, is_read_in_steps) {
+  const Similarity s = parse_similarity("rotate 0 0 1 90; scale 2; translate 1 2 3", "--transform");
+  EXPECT_NEAR(distance(s({1, 0, 0}), {1, 4, 3}), 0, 1e-12);
+  EXPECT_EQ(parse_similarity("", "--transform")({1, 2, 3}), (Vec3{1, 2, 3}));
+  for (const char* bad : {"rotate 1 2 3", "scale -1", "shear 1", "translate 1 2 3 4", "rotate 0 0 0 3", "scale 1x"})
+    EXPECT_THROW(parse_similarity(bad, "--transform"), Error) << bad;
+}
+
+}  // namespace
+}  // namespace st

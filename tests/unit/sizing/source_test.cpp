@@ -1,0 +1,141 @@
+#include "sizing/source.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace st {
+namespace {
+
+constexpr double kSlope = 0.2;
+
+SourceSpec point_source(SourceSpacing spacing) {
+  SourceSpec spec;
+  spec.kind = SourceKind::kPoint;
+  spec.spacing[0] = spacing;
+  return spec;
+}
+
+double size_at(const SourceSpec& spec, Vec3 x, double slope = kSlope) {
+  return static_cast<const SizeField&>(*make_source(spec, slope)).size(x);
+}
+
+std::vector<SourceSpec> one_of_each_kind() {
+  std::vector<SourceSpec> all;
+  for (const SourceKind kind : {SourceKind::kPoint, SourceKind::kLine, SourceKind::kTriangle, SourceKind::kBox, SourceKind::kCylinder,
+                                SourceKind::kSphere, SourceKind::kDisc}) {
+    SourceSpec s;
+    s.kind = kind;
+    s.point = {{{0.1, 0.2, 0.3}, {1.1, 0.3, -0.2}, {0.2, 0.9, 0.1}}};
+    s.half_axis = {{{0.4, 0.3, 0}, {-0.15, 0.2, 0}, {0, 0, 0.5}}};
+    s.extent = 0.4;
+    s.spacing = {{{0.05, 0.1, 0.3}, {0.08, 0.02, 0.4}, {0.03, 0.2, 0.9}}};
+    all.push_back(s);
+  }
+  return all;
+}
+
+TEST(Source, is_constant_inside_its_radius_and_twice_as_large_at_doubling) {
+  const SourceSpec s = point_source({0.01, 1, 3});
+  EXPECT_EQ(size_at(s, {0.7, 0.7, 0}), 0.01);
+  EXPECT_NEAR(size_at(s, {3, 0, 0}), 0.02, 1e-15);
+  EXPECT_NEAR(size_at(s, {0, 5, 0}), 0.04, 1e-15);
+}
+
+TEST(Source, grows_no_faster_than_the_slope) {
+  const SourceSpec exponential = point_source({0.01, 0, 1}), steep = point_source({0.01, 0, 0.001});
+  EXPECT_NEAR(size_at(exponential, {101, 0, 0}) - size_at(exponential, {100, 0, 0}), kSlope, 1e-9);
+  EXPECT_NEAR(size_at(steep, {1, 0, 0}), 0.01 + kSlope, 1e-12);
+}
+
+TEST(Source, without_doubling_grows_by_the_slope) { EXPECT_NEAR(size_at(point_source({0.01, 0.5, 0}), {1.5, 0, 0}), 0.21, 1e-12); }
+
+TEST(Source, line_interpolates_between_its_ends) {
+  SourceSpec s;
+  s.kind = SourceKind::kLine;
+  s.point = {{{0, 0, 0}, {2, 0, 0}, {}}};
+  s.spacing = {{{0.1, 0.2, 1}, {0.3, 0.4, 1}, {}}};
+  EXPECT_NEAR(size_at(s, {1, 0.29, 0}), 0.2, 1e-12);
+  EXPECT_NEAR(size_at(s, {-0.1, 0, 0}), 0.1, 1e-12);
+  EXPECT_NEAR(size_at(s, {2.3, 0.1, 0}), 0.3, 1e-12);
+}
+
+TEST(Source, triangle_interpolates_between_its_corners) {
+  SourceSpec s;
+  s.kind = SourceKind::kTriangle;
+  s.point = {{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}};
+  s.spacing = {{{0.1, 0.5, 0}, {0.2, 0.5, 0}, {0.6, 0.5, 0}}};
+  EXPECT_NEAR(size_at(s, {1, 1, 0.4}), 0.3, 1e-12);
+  EXPECT_NEAR(size_at(s, {1.5, -0.3, 0}), 0.15, 1e-12);
+}
+
+TEST(Source, volumes_are_constant_inside) {
+  for (const SourceSpec& s : one_of_each_kind()) {
+    const double core = s.spacing[0].length;
+    if (s.kind == SourceKind::kBox) {
+      EXPECT_EQ(size_at(s, s.point[0] + 0.99 * (s.half_axis[0] - s.half_axis[1] + s.half_axis[2])), core);
+      EXPECT_GT(size_at(s, s.point[0] + 1.5 * s.half_axis[0]), core);
+    }
+    if (s.kind == SourceKind::kCylinder) EXPECT_EQ(size_at(s, 0.5 * (s.point[0] + s.point[1]) + Vec3{0, 0.38, 0}), core);
+    if (s.kind == SourceKind::kSphere) EXPECT_EQ(size_at(s, s.point[0] + Vec3{0, 0, 0.49}), core);
+    if (s.kind == SourceKind::kDisc) {
+      EXPECT_EQ(size_at(s, s.point[0] + Vec3{0, 0, 0.45}), core);
+      EXPECT_GT(size_at(s, s.point[0] + 0.9 * normalized(s.half_axis[0])), core);
+    }
+  }
+}
+
+TEST(Source, range_bounds_the_length_in_the_ball) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const SourceSpec& spec : one_of_each_kind()) {
+    const auto source = make_source(spec, kSlope);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 c = 2.0 * Vec3{uniform(random), uniform(random), uniform(random)};
+      const double radius = std::pow(10, -2 + 2 * std::abs(uniform(random)));
+      const SizeRange range = source->range(c, radius);
+      const Vec3 d{uniform(random), uniform(random), uniform(random)};
+      const double h = static_cast<const SizeField&>(*source).size(c + radius * std::abs(uniform(random)) * normalized(d));
+      ASSERT_LE(range.lo, h * (1 + 1e-12)) << static_cast<int>(spec.kind);
+      ASSERT_GE(range.hi, h * (1 - 1e-12)) << static_cast<int>(spec.kind);
+      ASSERT_GE(range.lo, source->min_size());
+    }
+  }
+}
+
+TEST(Source, moves_with_its_frame) {
+  const Similarity motion = rotation_about({0, 0, 1}, radians(90)).then({.scale = 2}).then({.translation = {1, 2, 3}});
+  EXPECT_NEAR(distance(motion({1, 0, 0}), {1, 4, 3}), 0, 1e-12);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-2, 2);
+  for (const SourceSpec& spec : one_of_each_kind()) {
+    SourceSpec moved = spec;
+    transform(motion, moved);
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 x{uniform(random), uniform(random), uniform(random)};
+      ASSERT_NEAR(size_at(moved, motion(x)), 2 * size_at(spec, x), 1e-9);
+    }
+  }
+}
+
+TEST(BackgroundMesh, is_linear_in_each_tetrahedron_and_silent_outside) {
+  BackgroundMesh mesh;
+  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.node_length = {0.1, 0.2, 0.3, 0.4};
+  mesh.tets = {{0, 1, 2, 3}, {0, 1, 2, 2}};
+  const auto tets = make_sources(mesh);
+  ASSERT_EQ(tets.size(), 1u);  // the flat one is left out
+  const Vec3 x{0.2, 0.3, 0.1};
+  EXPECT_NEAR(static_cast<const SizeField&>(*tets[0]).size(x), 0.1 + 0.02 + 0.06 + 0.03, 1e-12);
+  EXPECT_TRUE(tets[0]->covers(x));
+  EXPECT_FALSE(tets[0]->covers({0.5, 0.5, 0.5}));
+  EXPECT_TRUE(std::isinf(tets[0]->range({2, 2, 2}, 0.5).lo));
+  const SizeRange range = tets[0]->range(x, 0.01);
+  EXPECT_LT(range.lo, 0.21);
+  EXPECT_GT(range.hi, 0.21);
+  EXPECT_LT(range.hi - range.lo, 0.02);
+}
+
+}  // namespace
+}  // namespace st
