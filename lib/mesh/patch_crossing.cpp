@@ -106,7 +106,7 @@ class Forest {
   }
 
  private:
-  static constexpr std::int32_t kLeafSize = 6;
+  static constexpr std::int32_t kLeafSize = 12;
   static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
 
   /// Appends the root of a face: node f, over the face's triangles with an area.
