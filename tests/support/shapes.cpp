@@ -395,12 +395,16 @@ void write_named_assembly(const std::string& path) {
   require(d.shapes->FindSubShape(block_label, faces(1), first), "no label");
   d.colors->SetColor(first, Quantity_Color(1, 0, 0, Quantity_TOC_RGB), XCAFDoc_ColorSurf);
   d.layers->SetLayer(first, "skin");
-  d.shapes->AddComponent(assembly, block_label, TopLoc_Location());
-  for (const double x : {100.0, 150.0}) {
+  const auto at = [](double x) {
     gp_Trsf place;
     place.SetTranslation(gp_Vec(x, 0, 0));
-    d.shapes->AddComponent(assembly, pin_label, TopLoc_Location(place));
-  }
+    return TopLoc_Location(place);
+  };
+  const TDF_Label rack = d.shapes->NewShape();
+  name(rack, "rack");
+  for (const double x : {0.0, 50.0}) d.shapes->AddComponent(rack, pin_label, at(x));
+  d.shapes->AddComponent(assembly, block_label, at(0));
+  d.shapes->AddComponent(assembly, rack, at(100));
   d.write(path);
 }
 

@@ -231,11 +231,9 @@ TEST(Triangulation, locates_points_but_not_across_a_segment) {
   EXPECT_GT(n_found, 10);
 }
 
-/// Random inner nodes in the square with a hole, by cavities in a metric that has nothing to do with the plane.
-Triangulation with_inner_nodes(int n, const Metric& metric) {
-  Triangulation m = with_nodes(kSquareWithHole);
-  m.build(joined(ring(0, 4), ring(4, 4)));
-  for (Vec2 q : random_points(n, 11)) {
+/// Random inner nodes in the square with a hole, by cavities in metrics, in turn, that have nothing to do with the plane or each other.
+void insert_nodes(Triangulation& m, int n, unsigned seed, const std::vector<Metric>& metrics) {
+  for (Vec2 q : random_points(n, seed)) {
     const Vec2 p = 4 * q;
     std::int32_t t = kNone;
     for (std::size_t i = 0; i < m.triangles.size() && t == kNone; ++i) {
@@ -244,19 +242,26 @@ Triangulation with_inner_nodes(int n, const Metric& metric) {
       for (int k = 0; k < 3; ++k) holds = holds && orient2d(m.nodes[r.v[k]].p, m.nodes[r.v[(k + 1) % 3]].p, p) > 0;
       if (holds) t = static_cast<std::int32_t>(i);
     }
-    if (t == kNone || !m.find_cavity(p, metric, t)) continue;
+    if (t == kNone || !m.find_cavity(p, metrics[m.nodes.size() % metrics.size()], t)) continue;
     MeshNode node;
     node.p = p;
     m.nodes.push_back(node);
     m.added_node();
     m.fill_cavity(static_cast<std::int32_t>(m.nodes.size()) - 1);
   }
+}
+
+Triangulation with_inner_nodes(int n, const std::vector<Metric>& metrics) {
+  Triangulation m = with_nodes(kSquareWithHole);
+  m.build(joined(ring(0, 4), ring(4, 4)));
+  insert_nodes(m, n, 11, metrics);
   return m;
 }
 
 TEST(Triangulation, stays_valid_under_insertion_in_any_metric) {
-  for (const Metric& metric : {Metric{}, Metric{1e6, 0, 1}, Metric{2, 1.4, 1}, Metric{1, 0, 1e-9}}) {
-    const Triangulation m = with_inner_nodes(300, metric);
+  const Metric plain, flat{1e6, 0, 1}, sheared{2, 1.4, 1}, singular{1, 0, 1e-9};
+  for (const std::vector<Metric>& metrics : {std::vector{plain}, {flat}, {sheared}, {singular}, {plain, flat, sheared, singular}}) {
+    const Triangulation m = with_inner_nodes(300, metrics);
     EXPECT_GT(m.nodes.size(), 200u);
     expect_valid(m);
     EXPECT_NEAR(inside_area(m), 14, 1e-10);
@@ -267,7 +272,7 @@ TEST(Triangulation, stays_valid_under_insertion_in_any_metric) {
 }
 
 TEST(Triangulation, stays_valid_under_swaps) {
-  Triangulation m = with_inner_nodes(300, {});
+  Triangulation m = with_inner_nodes(300, {Metric{}});
   std::mt19937 random(3);
   int n_swaps = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -288,6 +293,21 @@ TEST(Triangulation, stays_valid_under_swaps) {
   EXPECT_NEAR(inside_area(m), 14, 1e-10);
 }
 
+TEST(Triangulation, stays_valid_under_insertion_where_nothing_is_delaunay) {
+  Triangulation m = with_inner_nodes(200, {Metric{}});
+  std::mt19937 random(5);
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 2000; ++i) {
+      const std::int32_t t = static_cast<std::int32_t>(random() % m.triangles.size());
+      const int k = static_cast<int>(random() % 3);
+      if (m.can_swap(t, k)) m.swap(t, k);
+    }
+    insert_nodes(m, 10, 100 + round, {Metric{}, Metric{2, 1.4, 1}});
+    expect_valid(m);
+  }
+  EXPECT_NEAR(inside_area(m), 14, 1e-10);
+}
+
 TEST(Triangulation, refuses_to_swap_where_the_quadrilateral_is_not_convex) {
   Triangulation m = with_nodes({{0, 0}, {4, 0}, {1, 1}, {0, 4}});  // an arrow head: the diagonal 0-2 is the only one inside
   ASSERT_TRUE(m.build(ring(0, 4)).empty());
@@ -303,7 +323,7 @@ TEST(Triangulation, refuses_to_swap_where_the_quadrilateral_is_not_convex) {
 }
 
 TEST(Triangulation, ring_of_a_node_goes_once_around_it) {
-  const Triangulation m = with_inner_nodes(100, {});
+  const Triangulation m = with_inner_nodes(100, {Metric{}});
   std::vector<std::int32_t> around, tris;
   for (std::int32_t i = m.n_boundary + 4; i < static_cast<std::int32_t>(m.nodes.size()); ++i) {
     ASSERT_TRUE(m.ring_of(i, around, tris));
@@ -321,7 +341,7 @@ TEST(Triangulation, ring_of_a_node_goes_once_around_it) {
 }
 
 TEST(Triangulation, stays_valid_under_collapses) {
-  Triangulation m = with_inner_nodes(300, {});
+  Triangulation m = with_inner_nodes(300, {Metric{}});
   std::vector<std::int32_t> around, tris;
   int n_collapsed = 0;
   for (std::int32_t i = m.n_boundary + 4; i < static_cast<std::int32_t>(m.nodes.size()); i += 2) {
