@@ -429,7 +429,7 @@ std::vector<RefinementPoint> ModelMesher::find_crossings() {
     const JoinedPatches m = join_patches(model_.tables(), edges, patches);
     std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
     for (const TrianglePair& p : find_crossing_patches({m.points, m.triangles, m.face_begin, model_.tables().face_shell, face_is_fresh_})) {
-      if (p.n_shared > 0) continue;
+      if (p.n_shared == 1) continue;  // two common nodes: folded flat onto each other
       const FaceId a = m.face_of(p.a), b = m.face_of(p.b);
       crossing_pairs_.push_back({a, b, p.a - m.face_begin[a], p.b - m.face_begin[b]});
     }
