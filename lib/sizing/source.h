@@ -54,7 +54,7 @@ int n_spacings(SourceKind kind);
 struct Similarity {
   std::array<Vec3, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows
   double scale = 1;
-  Vec3 translation;
+  Vec3 translation{};
 
   Vec3 rotated(Vec3 v) const { return {dot(rotation[0], v), dot(rotation[1], v), dot(rotation[2], v)}; }
   Vec3 operator()(Vec3 x) const { return scale * rotated(x) + translation; }

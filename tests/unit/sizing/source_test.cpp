@@ -77,8 +77,12 @@ TEST(Source, volumes_are_constant_inside) {
       EXPECT_EQ(size_at(s, s.point[0] + 0.99 * (s.half_axis[0] - s.half_axis[1] + s.half_axis[2])), core);
       EXPECT_GT(size_at(s, s.point[0] + 1.5 * s.half_axis[0]), core);
     }
-    if (s.kind == SourceKind::kCylinder) EXPECT_EQ(size_at(s, 0.5 * (s.point[0] + s.point[1]) + Vec3{0, 0.38, 0}), core);
-    if (s.kind == SourceKind::kSphere) EXPECT_EQ(size_at(s, s.point[0] + Vec3{0, 0, 0.49}), core);
+    if (s.kind == SourceKind::kCylinder) {
+      EXPECT_EQ(size_at(s, 0.5 * (s.point[0] + s.point[1]) + Vec3{0, 0.38, 0}), core);
+    }
+    if (s.kind == SourceKind::kSphere) {
+      EXPECT_EQ(size_at(s, s.point[0] + Vec3{0, 0, 0.49}), core);
+    }
     if (s.kind == SourceKind::kDisc) {
       EXPECT_EQ(size_at(s, s.point[0] + Vec3{0, 0, 0.45}), core);
       EXPECT_GT(size_at(s, s.point[0] + 0.9 * normalized(s.half_axis[0])), core);
