@@ -44,6 +44,10 @@ void write_vtk(Hdf5Writer& w, const SurfaceMesh& m) {
   w.write("/VTKHDF/PointData/entity_dim", m.node_entity_dim);
   w.write("/VTKHDF/PointData/entity_id", one_based(m.node_entity));
   w.write("/VTKHDF/PointData/size", m.node_size);
+  if (!m.node_previous.empty()) {
+    w.write("/VTKHDF/CellData/previous_id", m.triangle_previous);
+    w.write("/VTKHDF/PointData/previous_id", m.node_previous);
+  }
   if (!m.face_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.face_name);  // VTK complains of empty ones
   if (!m.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.group_name);
 }
@@ -106,6 +110,10 @@ MeshArtifact read_mesh(const std::string& path) {
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));
   require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.group_name.size());
   m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());
+  if (r.has("/VTKHDF/PointData/previous_id")) {
+    m.node_previous = r.read_rows<std::int32_t>("/VTKHDF/PointData/previous_id", n_nodes);
+    m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", m.triangles.size());
+  }
   return artifact;
 }
 

@@ -103,6 +103,21 @@ std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtif
   return patches;
 }
 
+/// What st-remesh kept: -1 for what is new. Absent when nothing was remeshed.
+void write_previous(Hdf5Writer& w, const PatchesArtifact& a) {
+  if (a.edges.node_previous.empty()) return;
+  w.write("/st/edge_node/previous_id", a.edges.node_previous);
+  w.write("/st/inner/previous_id", concatenate(a.patches, &FacePatch::inner_previous));
+  w.write("/st/triangle/previous_id", concatenate(a.patches, &FacePatch::triangle_previous));
+}
+
+void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
+  if (!r.has("/st/edge_node/previous_id")) return;
+  a.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", a.edges.node_t.size());
+  distribute(r, "/st/inner/previous_id", offsets_of(a.patches, &FacePatch::inner_xyz), a.patches, &FacePatch::inner_previous);
+  distribute(r, "/st/triangle/previous_id", offsets_of(a.patches, &FacePatch::triangles), a.patches, &FacePatch::triangle_previous);
+}
+
 void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
   std::vector<std::int32_t> face;
   std::vector<std::string> cause, remedy;
@@ -137,6 +152,7 @@ void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
   e.node_t = r.read<double>("/st/edge_node/t");
   e.node_xyz = r.read_rows<Vec3>("/st/edge_node/xyz", e.node_t.size());
   e.node_size = r.read_rows<double>("/st/edge_node/size", e.node_t.size());
+  if (r.has("/st/edge_node/request")) e.node_request = r.read_rows<double>("/st/edge_node/request", e.node_t.size());
   e.edge_offsets = r.read_rows<std::int32_t>("/st/edge/node_offsets", a.edge_vertices.size() / 2 + 1);
   require_offsets(r, "/st/edge/node_offsets", e.edge_offsets, e.node_t.size());
 }
@@ -163,12 +179,14 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   w.write("/st/edge_node/t", a.edges.node_t);
   w.write("/st/edge_node/xyz", a.edges.node_xyz);
   w.write("/st/edge_node/size", a.edges.node_size);
+  if (!a.edges.node_request.empty()) w.write("/st/edge_node/request", a.edges.node_request);
   w.write_strings("/st/face/name", a.face_name);
   w.write("/st/face/group", a.face_group);
   w.write("/st/face/shell", a.face_shell);
   w.write("/st/face/area", a.face_area);
   w.write_strings("/st/group/name", a.group_name);
   write_patch_arrays(w, a.patches);
+  write_previous(w, a);
   write_failures(w, a.failures);
   w.set_attribute("/st", "is_complete", std::int64_t{a.is_complete});
   return w.commit();
@@ -181,6 +199,7 @@ PatchesArtifact read_patches(const std::string& path) {
   read_edges(r, a);
   read_faces(r, a);
   a.patches = read_patch_arrays(r, a);
+  read_previous(r, a);
   a.failures = read_failures(r);
   a.is_complete = r.int_attribute("/st", "is_complete") != 0;
   return a;

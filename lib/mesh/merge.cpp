@@ -37,7 +37,8 @@ void require_valid(const MergeInput& in, const FacePatch& p) {
   const auto n_boundary = static_cast<std::size_t>(p.n_boundary);
   if (p.n_boundary < 0 || p.boundary_dim.size() != n_boundary || p.boundary_entity.size() != n_boundary ||
       p.boundary_index.size() != n_boundary || p.inner_uv.size() != p.inner_xyz.size() || p.inner_size.size() != p.inner_xyz.size() ||
-      p.corner_uv.size() != 3 * p.triangles.size())
+      p.corner_uv.size() != 3 * p.triangles.size() || (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
+      (!p.triangle_previous.empty() && p.triangle_previous.size() != p.triangles.size()))
     throw_bad_patch(p.face, "has arrays that do not fit each other");
   const auto n_edges = static_cast<std::int64_t>(in.edges.edge_offsets.size()) - 1;
   for (std::size_t i = 0; i < n_boundary; ++i) {
@@ -88,6 +89,8 @@ NodeNumbers mark_used(const MergeInput& in, std::span<const FacePatch* const> pa
   return numbers;
 }
 
+const std::vector<double>& requests(const EdgeMesh& e) { return e.node_request.empty() ? e.node_size : e.node_request; }
+
 /// Requested length at each vertex: from the edge of lowest id that ends there.
 std::vector<double> vertex_sizes(const MergeInput& in) {
   std::vector<double> size(in.vertex_xyz.size(), 0);
@@ -95,7 +98,7 @@ std::vector<double> vertex_sizes(const MergeInput& in) {
     const std::int32_t begin = in.edges.edge_offsets[e], end = in.edges.edge_offsets[e + 1];
     if (begin == end) continue;
     for (int k = 0; k < 2; ++k)
-      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0) s = in.edges.node_size[k ? end - 1 : begin];
+      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0) s = requests(in.edges)[k ? end - 1 : begin];
   }
   return size;
 }
@@ -121,7 +124,7 @@ void append_boundary_nodes(const MergeInput& in, NodeNumbers& numbers, SurfaceMe
   for (std::size_t e = 0; e + 1 < in.edges.edge_offsets.size(); ++e)
     for (std::int32_t i = in.edges.edge_offsets[e]; i < in.edges.edge_offsets[e + 1]; ++i)
       if (number(numbers.edge_node[i]))
-        append_node(mesh, in.edges.node_xyz[i], EntityDim::kEdge, static_cast<std::int32_t>(e), in.edges.node_t[i], in.edges.node_size[i]);
+        append_node(mesh, in.edges.node_xyz[i], EntityDim::kEdge, static_cast<std::int32_t>(e), in.edges.node_t[i], requests(in.edges)[i]);
 }
 
 /// Appends the inner nodes and the triangles of one face.
@@ -139,6 +142,28 @@ void append_patch(const MergeInput& in, const FacePatch& p, NodeNumbers& numbers
   const bool has_group = static_cast<std::size_t>(p.face) < in.face_group.size();
   mesh.triangle_face.insert(mesh.triangle_face.end(), p.triangles.size(), p.face);
   mesh.triangle_group.insert(mesh.triangle_group.end(), p.triangles.size(), has_group ? in.face_group[p.face] : 0);
+}
+
+/// Numbers in the mesh that a remeshing started from, in the order of append_*; nothing when no patch has them.
+void append_previous(const MergeInput& in, std::span<const FacePatch* const> patches, const NodeNumbers& numbers, SurfaceMesh& mesh) {
+  if (in.edges.node_previous.empty()) return;
+  mesh.node_previous.assign(mesh.node_xyz.size(), kNone);
+  for (std::size_t e = 0; e + 1 < in.edges.edge_offsets.size(); ++e)
+    for (std::int32_t i = in.edges.edge_offsets[e], end = in.edges.edge_offsets[e + 1]; i < end; ++i) {
+      const bool is_first = i == in.edges.edge_offsets[e], is_last = i + 1 == end;
+      const NodeId n = is_first || is_last ? numbers.vertex[in.edge_vertices[2 * e + (is_first ? 0 : 1)]] : numbers.edge_node[i];
+      if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
+    }
+  NodeId n = std::count_if(mesh.node_entity_dim.begin(), mesh.node_entity_dim.end(), [](std::uint8_t d) { return d < 2; });
+  for (const FacePatch* p : patches) {
+    const std::vector<std::uint8_t> used = used_nodes(*p);
+    for (std::size_t i = 0; i < p->inner_xyz.size(); ++i)
+      if (used[p->n_boundary + i]) mesh.node_previous[n++] = p->inner_previous.empty() ? kNone : p->inner_previous[i];
+    if (p->triangle_previous.empty())
+      mesh.triangle_previous.insert(mesh.triangle_previous.end(), p->triangles.size(), kNone);
+    else
+      mesh.triangle_previous.insert(mesh.triangle_previous.end(), p->triangle_previous.begin(), p->triangle_previous.end());
+  }
 }
 
 void reserve(SurfaceMesh& mesh, std::size_t n_nodes, std::size_t n_triangles) {
@@ -164,6 +189,7 @@ SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report) {
   reserve(mesh, n_used(numbers.vertex) + n_used(numbers.edge_node) + n_inner, n_triangles);
   append_boundary_nodes(input, numbers, mesh);
   for (const FacePatch* p : patches) append_patch(input, *p, numbers, mesh);
+  append_previous(input, patches, numbers, mesh);
   report = orient_outward(mesh);
   return mesh;
 }

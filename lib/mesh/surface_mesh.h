@@ -24,7 +24,9 @@ struct EdgeMesh {
   std::vector<std::int32_t> edge_offsets;  ///< [n_edges+1]
   std::vector<double> node_t;              ///< parameter on the edge, strictly increasing within an edge
   std::vector<Vec3> node_xyz;              ///< model unit; end nodes are the vertices' own coordinates
-  std::vector<double> node_size;           ///< requested length at the node
+  std::vector<double> node_size;           ///< length it was made for at the node: the request, or less where that had to be refined
+  std::vector<double> node_request;        ///< requested length; empty: node_size
+  std::vector<NodeId> node_previous;       ///< empty, or the node's number in the mesh that st-remesh started from, kNone: new
 };
 
 /// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the rest are inside.
@@ -39,6 +41,8 @@ struct FacePatch {
   std::vector<double> inner_size;             ///< [n_inner] requested length
   std::vector<Triangle> triangles;            ///< patch node ids; already oriented out of the solid
   std::vector<Vec2> corner_uv;                ///< [3*n_triangles] (u,v) of each corner: a seam node has two
+  std::vector<NodeId> inner_previous;         ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone: new
+  std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 };
 
 /// Why a face has no complete patch.
@@ -61,6 +65,8 @@ struct SurfaceMesh {
   std::vector<std::int32_t> triangle_group;  ///< index into group_name
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
+  std::vector<NodeId> node_previous;          ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone: new
+  std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(node_xyz.size()); }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(triangles.size()); }

@@ -41,6 +41,8 @@ void append_edge(const EdgeMesh& from, std::size_t e, EdgeMesh& to) {
   to.node_t.insert(to.node_t.end(), from.node_t.begin() + begin, from.node_t.begin() + end);
   to.node_xyz.insert(to.node_xyz.end(), from.node_xyz.begin() + begin, from.node_xyz.begin() + end);
   to.node_size.insert(to.node_size.end(), from.node_size.begin() + begin, from.node_size.begin() + end);
+  const std::vector<double>& request = from.node_request.empty() ? from.node_size : from.node_request;
+  to.node_request.insert(to.node_request.end(), request.begin() + begin, request.begin() + end);
   to.edge_offsets.push_back(static_cast<std::int32_t>(to.node_t.size()));
 }
 

@@ -90,6 +90,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
     mesher.run_part(faces.empty() ? all : faces, std::move(fixed));
   }
   if (!comm.is_root()) return {};
+  store_requests(*sizing.field, mesher);
 
   ArtifactHeader header;
   header.tool = "st-mesh";

@@ -13,6 +13,18 @@ nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
 
 }  // namespace
 
+void store_requests(const SizeField& field, ModelMesher& m) {
+  int hint = 0;
+  const auto renew = [&](const std::vector<Vec3>& xyz, const std::vector<NodeId>& previous, std::vector<double>& size) {
+    for (std::size_t i = 0; i < xyz.size(); ++i)
+      if (previous.empty() || previous[i] == kNone) size[i] = field.size(xyz[i], hint);
+  };
+  m.edges.node_request = m.edges.node_size;
+  renew(m.edges.node_xyz, m.edges.node_previous, m.edges.node_request);
+  if (m.edges.node_request == m.edges.node_size) m.edges.node_request.clear();
+  for (FacePatch& p : m.patches) renew(p.inner_xyz, p.inner_previous, p.inner_size);
+}
+
 StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry, ArtifactHeader header,
                                   ModelMesher& m, const RunFacts& facts) {
   PatchesArtifact out;

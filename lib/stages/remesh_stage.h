@@ -14,8 +14,9 @@ struct RemeshStageOptions {
   std::string geometry;                 ///< geometry artifact the mesh was made on
   std::string sizing;                   ///< new sizing artifact
   std::string output = "patches.hdf";
-  double too_long = 1.5;                ///< an edge longer than this times the requested length makes its face redone, > 1
-  double too_short = 0.5;               ///< likewise shorter than, (0, 1)
+  double too_long = 1.4;                ///< where the sizes changed, an edge longer than this times the requested length is redone, > 1
+  double too_short = 0.7;               ///< likewise shorter than, (0, 1)
+  std::string keep;                     ///< group of which nothing changes; empty: none
   bool dry_run = false;                 ///< say how much would change, write nothing
 };
 

@@ -4,13 +4,14 @@
 
 int main(int argc, char** argv) {
   st::RemeshStageOptions o;
-  st::ToolMain tool("st-remesh", "Redoes the faces of a mesh that no longer respect the sizes.");
+  st::ToolMain tool("st-remesh", "Redoes the triangles of a mesh that no longer respect the sizes.");
   tool.input("mesh", o.mesh, "mesh artifact");
   tool.input("geometry", o.geometry, "geometry artifact the mesh was made on");
   tool.input("sizing", o.sizing, "new sizing artifact");
   tool.output(o.output);
-  tool.number("--too-long", o.too_long, "(1, 100]", "an edge longer than this times the requested length has its face redone");
+  tool.number("--too-long", o.too_long, "(1, 100]", "an edge longer than this times the requested length is redone where the sizes changed");
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
+  tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
   tool.flag("--dry-run", o.dry_run, "say how much would change, write nothing");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
 }

@@ -67,6 +67,8 @@ inline PatchesArtifact sample_patches() {
   p.edges.node_t = {0, 0.5, 1, 0, 0.4, 1, 0, 1};
   p.edges.node_xyz = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0.6, 0.4, 0}, {0, 1, 0}, {0, 1, 0}, {0, 0, 0}};
   p.edges.node_size = {0.5, 0.5, 0.5, 0.5, 0.6, 0.5, 1, 1};
+  p.edges.node_request = {0.5, 0.5, 0.5, 0.5, 0.7, 0.5, 1, 1};
+  p.edges.node_previous = {0, 3, 1, 1, kNone, 2, 2, 0};
   FacePatch patch;
   patch.face = 0;
   patch.n_boundary = 5;
@@ -77,6 +79,8 @@ inline PatchesArtifact sample_patches() {
   patch.inner_uv = {{0.3, 0.3}};
   patch.inner_size = {0.4};
   patch.triangles = {{{0, 1, 5}}, {{1, 2, 5}}, {{2, 3, 5}}, {{3, 4, 5}}, {{4, 0, 5}}};
+  patch.inner_previous = {kNone};
+  patch.triangle_previous = {4, 7, kNone, kNone, kNone};
   for (const Triangle& t : patch.triangles)
     for (const NodeId n : t.n) patch.corner_uv.push_back({0.1 * n, 0.2 * n});
   FacePatch empty;
@@ -105,6 +109,8 @@ inline MeshArtifact sample_mesh() {
   m.triangle_face = {0, 1, 2, 3};
   m.triangle_group = {0, 0, 1, 1};
   for (int i = 0; i < 12; ++i) m.corner_uv.push_back({0.1 * i, -0.1 * i});
+  m.node_previous = {0, 2, kNone, 3};
+  m.triangle_previous = {kNone, 5, 6, kNone};
   m.face_name = {"bottom", "", "Flügel", "a b"};
   m.group_name = {"body", "wing"};
   return artifact;

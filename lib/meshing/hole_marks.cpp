@@ -1,0 +1,128 @@
+#include "meshing/hole_marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace st {
+namespace {
+
+class Marker {
+ public:
+  Marker(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options)
+      : cad_(mesh), mesh_(mesh.mesh), wanted_(wanted), options_(options) {
+    marks_.triangle.assign(mesh_.triangles.size(), 0);
+    marks_.segment.assign(mesh.edges.node_t.size(), 0);
+    node_.assign(mesh_.node_xyz.size(), 0);
+  }
+
+  HoleMarks run() {
+    mark_segments();
+    join_segments();
+    mark_triangles();
+    for (int i = 0; i < options_.layers; ++i) add_layer();
+    while (close_gaps()) {
+    }
+    return std::move(marks_);
+  }
+
+ private:
+  bool keeps(FaceId f) const { return !options_.keep_face.empty() && options_.keep_face[f]; }
+
+  bool violates(NodeId a, NodeId b) const {
+    const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
+    if (std::abs(size - before) <= options_.change * before) return false;
+    const double ratio = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]) / size;
+    return ratio > options_.too_long || ratio < options_.too_short;
+  }
+
+  /// Segments of kept faces stay.
+  std::vector<char> free_edges() const {
+    const ModelTables& t = cad_.tables;
+    std::vector<char> is_free(t.n_edges(), 1);
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; keeps(f) && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
+        is_free[t.coedge_edge[c]] = 0;
+    return is_free;
+  }
+
+  void mark_segments() {
+    const std::vector<char> is_free = free_edges();
+    for (const CadSegment& s : cad_.segments) marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high);
+  }
+
+  /// A segment between two marked ones goes with them.
+  void join_segments() {
+    const auto& offsets = cad_.edges.edge_offsets;
+    for (std::size_t e = 0; e + 1 < offsets.size(); ++e)
+      for (std::int32_t i = offsets[e] + 1; i + 2 < offsets[e + 1]; ++i)
+        if (marks_.segment[i - 1] && marks_.segment[i + 1]) marks_.segment[i] = 1;
+    for (std::size_t i = 0; i < marks_.segment.size(); ++i)
+      if (marks_.segment[i]) node_[cad_.edge_node[i]] = node_[cad_.edge_node[i + 1]] = 1;
+  }
+
+  void mark_triangles() {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (keeps(mesh_.triangle_face[i])) continue;
+      for (int k = 0; k < 3; ++k) marks_.triangle[i] |= violates(n[k], n[(k + 1) % 3]);
+    }
+    mark_nodes();
+  }
+
+  void mark_nodes() {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+      if (marks_.triangle[i])
+        for (NodeId n : mesh_.triangles[i].n) node_[n] = 1;
+  }
+
+  void add_layer() {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (!keeps(mesh_.triangle_face[i])) marks_.triangle[i] |= node_[n[0]] | node_[n[1]] | node_[n[2]];
+    }
+    mark_nodes();
+  }
+
+  bool close_gaps() {
+    bool any = false;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (marks_.triangle[i] || keeps(mesh_.triangle_face[i]) || !(node_[n[0]] && node_[n[1]] && node_[n[2]])) continue;
+      marks_.triangle[i] = any = true;
+    }
+    return any;
+  }
+
+  const HoleMesh& cad_;
+  const SurfaceMesh& mesh_;
+  std::span<const double> wanted_;
+  const HoleMarkOptions& options_;
+  HoleMarks marks_;
+  std::vector<char> node_;   // of a marked triangle or segment
+};
+
+}  // namespace
+
+std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
+
+HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options) {
+  return Marker(mesh, wanted, options).run();
+}
+
+bool grow_hole(const HoleMesh& cad, FaceId face, int layers, HoleMarks& marks) {
+  const SurfaceMesh& m = cad.mesh;
+  std::vector<NodeId> touched;
+  bool any = false;
+  for (int l = 0; l < layers; ++l) {
+    touched.clear();
+    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
+      if (marks.triangle[i]) touched.insert(touched.end(), m.triangles[i].n, m.triangles[i].n + 3);
+    std::sort(touched.begin(), touched.end());
+    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
+      for (int k = 0; k < 3 && !marks.triangle[i]; ++k)
+        if (std::binary_search(touched.begin(), touched.end(), m.triangles[i].n[k])) marks.triangle[i] = any = true;
+  }
+  return any;
+}
+
+}  // namespace st

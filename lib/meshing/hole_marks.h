@@ -1,0 +1,34 @@
+// Which triangles and segments no longer respect the sizes (the analysis of a remeshing).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meshing/hole_mesh.h"
+
+namespace st {
+
+struct HoleMarkOptions {
+  double too_long = 1.4;     ///< times the requested length, > 1
+  double too_short = 0.7;    ///< likewise, in (0, 1)
+  double change = 0.1;       ///< relative: where the request changed by less, edges are good whatever their length
+  int layers = 2;            ///< triangles around a marked one that are marked with it, >= 1
+  std::vector<char> keep_face = {};   ///< [n_faces] 1: nothing of it changes; empty: none
+};
+
+/// 1: to be redone.
+struct HoleMarks {
+  std::vector<char> triangle;   ///< [n_triangles]
+  std::vector<char> segment;    ///< [edges.node_t] by CadSegment::index; all triangles that touch an inner node of a run of these are marked
+  std::int64_t n_triangles() const;
+};
+
+/// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size stored with the mesh; with it
+/// its triangles, and `layers` around them; segments between marked ones and triangles with marked triangles at all corners follow, in loops until
+/// nothing changes. Local, pure.
+HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
+
+/// Grows the marks within one face by `layers`; segments stay. False when nothing was left to mark.
+bool grow_hole(const HoleMesh& mesh, FaceId face, int layers, HoleMarks& marks);
+
+}  // namespace st
