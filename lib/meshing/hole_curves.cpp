@@ -52,21 +52,25 @@ EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& run
   EdgeUpdate u;
   u.old_to_new.assign(old.node_t.size(), kNone);
   u.edges.edge_offsets.push_back(0);
-  const auto add = [&](double t, Vec3 x, double h, NodeId previous) {
+  const auto add = [&](double t, Vec3 x, double h, double request, NodeId previous) {
     u.edges.node_t.push_back(t);
     u.edges.node_xyz.push_back(x);
     u.edges.node_size.push_back(h);
+    u.edges.node_request.push_back(request);
     u.edges.node_previous.push_back(previous);
   };
   std::size_t r = 0;
   for (EdgeId e = 0; e + 1 < static_cast<EdgeId>(old.edge_offsets.size()); ++e) {
+    double end_size = 0;  // at the end of a run that was just replaced
     for (std::int32_t i = old.edge_offsets[e]; i < old.edge_offsets[e + 1]; ++i) {
       u.old_to_new[i] = static_cast<std::int32_t>(u.edges.node_t.size());
-      add(old.node_t[i], old.node_xyz[i], old.node_size[i], mesh.edge_node[i]);
+      add(old.node_t[i], old.node_xyz[i], end_size > 0 ? end_size : old.node_size[i], old.node_size[i], mesh.edge_node[i]);
+      end_size = 0;
       if (r == runs.size() || runs[r].first != i || runs[r].edge != e) continue;
       const CurveNodes& n = fresh[r];
       u.edges.node_size.back() = n.h.front();
-      for (std::size_t k = 1; k + 1 < n.t.size(); ++k) add(n.t[k], n.x[k], n.h[k], kNone);
+      for (std::size_t k = 1; k + 1 < n.t.size(); ++k) add(n.t[k], n.x[k], n.h[k], n.h[k], kNone);
+      end_size = n.h.back();
       i = runs[r++].last - 1;
     }
     u.edges.edge_offsets.push_back(static_cast<std::int32_t>(u.edges.node_t.size()));

@@ -22,7 +22,7 @@ CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Cur
 
 /// The edges with new nodes in their runs.
 struct EdgeUpdate {
-  EdgeMesh edges;                          ///< node_previous filled: mesh node, or kNone
+  EdgeMesh edges;                          ///< node_request (of nodes that stay: the old) and node_previous (mesh node, or kNone) filled
   std::vector<std::int32_t> old_to_new;    ///< [old edges.node_t] into edges.node_*; kNone: inside a run
 };
 

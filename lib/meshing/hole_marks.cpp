@@ -12,16 +12,16 @@ class Marker {
       : cad_(mesh), mesh_(mesh.mesh), wanted_(wanted), options_(options) {
     marks_.triangle.assign(mesh_.triangles.size(), 0);
     marks_.segment.assign(mesh.edges.node_t.size(), 0);
-    node_.assign(mesh_.node_xyz.size(), 0);
+    on_run_.assign(mesh_.node_xyz.size(), 0);
+    face_at_.assign(mesh_.node_xyz.size(), kNone);
   }
 
   HoleMarks run() {
     mark_segments();
     join_segments();
     mark_triangles();
-    for (int i = 0; i < options_.layers; ++i) add_layer();
-    while (close_gaps()) {
-    }
+    for (int i = 0; i < options_.layers; ++i) for_each_face([&](FaceId f) { add_layer(f); });
+    for_each_face([&](FaceId f) { close_gaps(f); });
     return std::move(marks_);
   }
 
@@ -57,7 +57,7 @@ class Marker {
       for (std::int32_t i = offsets[e] + 1; i + 2 < offsets[e + 1]; ++i)
         if (marks_.segment[i - 1] && marks_.segment[i + 1]) marks_.segment[i] = 1;
     for (std::size_t i = 0; i < marks_.segment.size(); ++i)
-      if (marks_.segment[i]) node_[cad_.edge_node[i]] = node_[cad_.edge_node[i + 1]] = 1;
+      if (marks_.segment[i]) on_run_[cad_.edge_node[i]] = on_run_[cad_.edge_node[i + 1]] = 1;
   }
 
   void mark_triangles() {
@@ -66,31 +66,36 @@ class Marker {
       if (keeps(mesh_.triangle_face[i])) continue;
       for (int k = 0; k < 3; ++k) marks_.triangle[i] |= violates(n[k], n[(k + 1) % 3]);
     }
-    mark_nodes();
   }
 
-  void mark_nodes() {
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+  template <class Work>
+  void for_each_face(const Work& work) {
+    for (FaceId f = 0; f < cad_.tables.n_faces(); ++f)
+      if (!keeps(f)) work(f);
+  }
+
+  /// Marks spread within a face; over CAD edges only where the edge itself changes.
+  void note_nodes(FaceId f) {
+    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
       if (marks_.triangle[i])
-        for (NodeId n : mesh_.triangles[i].n) node_[n] = 1;
+        for (NodeId n : mesh_.triangles[i].n) face_at_[n] = f;
+  }
+  bool is_marked(NodeId n, FaceId f) const { return on_run_[n] || face_at_[n] == f; }
+
+  void add_layer(FaceId f) {
+    note_nodes(f);
+    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
+      for (NodeId n : mesh_.triangles[i].n)
+        if (is_marked(n, f)) marks_.triangle[i] = 1;
   }
 
-  void add_layer() {
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+  /// No triangle with marked ones at all its corners stays; one pass finds all, as no further node is touched.
+  void close_gaps(FaceId f) {
+    note_nodes(f);
+    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i) {
       const NodeId* n = mesh_.triangles[i].n;
-      if (!keeps(mesh_.triangle_face[i])) marks_.triangle[i] |= node_[n[0]] | node_[n[1]] | node_[n[2]];
+      if (is_marked(n[0], f) && is_marked(n[1], f) && is_marked(n[2], f)) marks_.triangle[i] = 1;
     }
-    mark_nodes();
-  }
-
-  bool close_gaps() {
-    bool any = false;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-      const NodeId* n = mesh_.triangles[i].n;
-      if (marks_.triangle[i] || keeps(mesh_.triangle_face[i]) || !(node_[n[0]] && node_[n[1]] && node_[n[2]])) continue;
-      marks_.triangle[i] = any = true;
-    }
-    return any;
   }
 
   const HoleMesh& cad_;
@@ -98,7 +103,8 @@ class Marker {
   std::span<const double> wanted_;
   const HoleMarkOptions& options_;
   HoleMarks marks_;
-  std::vector<char> node_;   // of a marked triangle or segment
+  std::vector<char> on_run_;         // nodes of marked segments
+  std::vector<FaceId> face_at_;      // last face in which a marked triangle was seen at the node
 };
 
 }  // namespace

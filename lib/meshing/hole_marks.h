@@ -24,8 +24,8 @@ struct HoleMarks {
 };
 
 /// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size stored with the mesh; with it
-/// its triangles, and `layers` around them; segments between marked ones and triangles with marked triangles at all corners follow, in loops until
-/// nothing changes. Local, pure.
+/// its triangles, and `layers` around them within their face (over a CAD edge where its segments are marked); segments between marked ones and triangles
+/// with marked ones at all corners follow. Local, pure.
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
 
 /// Grows the marks within one face by `layers`; segments stay. False when nothing was left to mark.

@@ -19,7 +19,7 @@ void store_requests(const SizeField& field, ModelMesher& m) {
     for (std::size_t i = 0; i < xyz.size(); ++i)
       if (previous.empty() || previous[i] == kNone) size[i] = field.size(xyz[i], hint);
   };
-  m.edges.node_request = m.edges.node_size;
+  if (m.edges.node_request.empty()) m.edges.node_request = m.edges.node_size;
   renew(m.edges.node_xyz, m.edges.node_previous, m.edges.node_request);
   if (m.edges.node_request == m.edges.node_size) m.edges.node_request.clear();
   for (FacePatch& p : m.patches) renew(p.inner_xyz, p.inner_previous, p.inner_size);

@@ -80,6 +80,18 @@ void redo_failed_faces(ModelMesher& mesher, Remesher& r) {
   }
 }
 
+/// Nodes that stay although all their triangles are new were asked for by the new sizes as well.
+void renew_surrounded_nodes(const SurfaceMesh& old, const SizeField& field, ModelMesher& m) {
+  std::vector<char> is_held(old.node_xyz.size(), 0);
+  for (const FacePatch& p : m.patches)
+    for (TriangleId t : p.triangle_previous)
+      for (int k = 0; t != kNone && k < 3; ++k) is_held[old.triangles[t].n[k]] = 1;
+  if (m.edges.node_request.empty()) m.edges.node_request = m.edges.node_size;
+  int hint = 0;
+  for (std::size_t i = 0; i < m.edges.node_t.size(); ++i)
+    if (const NodeId n = m.edges.node_previous[i]; n != kNone && !is_held[n]) m.edges.node_request[i] = field.size(m.edges.node_xyz[i], hint);
+}
+
 }  // namespace
 
 StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
@@ -108,6 +120,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   ModelMesher mesher(model, *sizing.field, sizing.face_weight, {}, comm);
   redo_failed_faces(mesher, remesher);
   if (!comm.is_root()) return {};
+  renew_surrounded_nodes(old.mesh, *sizing.field, mesher);
   store_requests(*sizing.field, mesher);
   mesher.times.edges += remesher.seconds_edges;
   mesher.times.faces += remesher.seconds_faces;
