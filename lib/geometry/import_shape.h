@@ -1,0 +1,62 @@
+// The B-Rep on its way through the import, and what every step asks of it. Included inside lib/geometry only.
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <gp_Pnt.hxx>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/vec.h"
+#include "geometry/cad_reader.h"
+#include "geometry/model.h"
+
+namespace st::occt {
+
+/// What the file says of a face.
+struct FaceAttributes {
+  std::string name, layer, part;  ///< UTF-8, empty when the file has none
+  std::int32_t color = kNone;     ///< 0xRRGGBB
+  std::int32_t part_index = 0;    ///< of CadFile::parts
+};
+
+/// One shape, its faces in the order of their ids, and what the file said of faces and edges.
+struct ImportedShape {
+  TopoDS_Shape shape;
+  TopTools_IndexedMapOfShape faces;        ///< TopExp order of `shape`
+  std::vector<FaceAttributes> attributes;  ///< [n_faces]
+  std::vector<std::pair<TopoDS_Shape, std::string>> edge_names;
+
+  /// Takes over `changed`, in which `images(face)` stands for a face of old (any shape with faces in it, or null when it is gone): the
+  /// attributes follow. Returns false and changes nothing when `changed` has no face.
+  bool replace(const TopoDS_Shape& changed, const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);
+};
+
+/// All parts of the file in one compound. Throws Error(kGeometry) when there is no face.
+ImportedShape collect_parts(const CadFile& file, const std::string& path);
+
+inline Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+
+/// Box of the curves and surfaces, enlarged by tolerances.
+Box3 rough_box(const TopoDS_Shape& shape);
+
+/// An edge inside a face (INTERNAL, EXTERNAL) that bounds nothing.
+bool is_constraint(const TopoDS_Shape& edge);
+
+/// How often faces use each edge of `edges` (a seam counts twice); fills `edges` with all edges of the shape.
+std::vector<int> edge_uses(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& edges);
+
+/// Edges used once, poles left out.
+int count_free_edges(const TopoDS_Shape& shape);
+
+double max_edge_tolerance(const TopoDS_Shape& shape);
+
+/// Four significant digits.
+std::string format_number(double x);
+
+}  // namespace st::occt
