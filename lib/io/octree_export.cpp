@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/background_export.h"
 #include "io/sizing_artifact.h"
 #include "io/temporary_file.h"
 #include "sizing/radix_sort.h"
@@ -120,9 +121,17 @@ void write_vtu(const OctreeView& octree, const CellData& data, const std::string
 }  // namespace
 
 void export_octree(const std::string& artifact, const std::string& output) {
-  if (!output.ends_with(".vtu")) throw Error(ExitCode::kUsage, output + ": an octree is exported as .vtu; give that suffix");
+  const bool is_raster = read_header(artifact).schema == "raster";
+  if (!is_raster && (output.ends_with(".bac") || output.ends_with(".pos"))) {
+    const MappedSizing sizing = map_sizing(artifact);
+    output.ends_with(".bac") ? export_bac(*sizing.field, output) : export_pos(*sizing.field, output);
+    return;
+  }
+  if (!output.ends_with(".vtu"))
+    throw Error(ExitCode::kUsage, output + (is_raster ? ": a raster is exported as .vtu; give that suffix"
+                                                      : ": a sizing is exported as .vtu, .pos or .bac; give one of these suffixes"));
   CellData data;
-  if (read_header(artifact).schema == "raster") {
+  if (is_raster) {
     const RasterArtifact raster = read_raster(artifact);
     data.size = raster.octree.stored_length;
     for (float& size : data.size) size = std::min(size, static_cast<float>(raster.numbers.far_length));

@@ -11,7 +11,8 @@
 namespace st {
 namespace {
 
-constexpr double kLargestChange = 1.5;  // of the length over a cell, as a factor
+constexpr double kLargestChange = 1.5;  // of the length over a cell where it has detail, as a factor
+constexpr double kLargestBend = 0.1;    // by which the length at the centre may miss the mean across, of the length
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A cell on the way down from the root.
@@ -21,7 +22,6 @@ struct Cell {
   Vec3 center;
   double edge = 0;
 
-  double radius() const { return 0.5 * std::sqrt(3.0) * edge; }
   Cell child(std::uint64_t o) const {
     const double q = 0.25 * edge;
     const Vec3 step{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q};
@@ -37,6 +37,7 @@ Cell root_cell(const OctreeView& octree) {
 struct ActiveSources {
   std::vector<std::int32_t> index;
   double lo = kInfinity, hi = kInfinity;
+  bool has_detail = false;
 };
 
 class Refinement {
@@ -58,22 +59,27 @@ class Refinement {
 
   /// Drops sources that ask for nothing here, or for more than another one surely does.
   ActiveSources select(const Cell& cell, const ActiveSources& from) const {
+    struct Candidate {
+      std::int32_t index;
+      SizeRange range;
+    };
+    std::vector<Candidate> candidates;
     ActiveSources active;
-    std::vector<std::pair<std::int32_t, double>> candidates;
     active.hi = options_.max_length;
     for (const std::int32_t i : from.index) {
-      const SizeRange range = sources_[i].source->range(cell.center, cell.radius());
+      const SizeSource& source = *sources_[i].source;
+      const SizeRange range = source.range(cell.center, 0.5 * cell.edge);
       if (!(range.lo < options_.max_length)) continue;
-      candidates.emplace_back(i, range.lo);
-      // an upper bound for all of the cell only when the source has an opinion everywhere in it
-      if (range.hi < active.hi && sources_[i].source->is_everywhere()) active.hi = range.hi;
+      candidates.push_back({i, range});
+      if (source.is_everywhere()) active.hi = std::min(active.hi, range.hi);  // a bound for all of the cell
     }
     double highest = 0;
-    for (const auto& [i, lo] : candidates) {
-      if (lo > active.hi) continue;
+    for (const auto& [i, range] : candidates) {
+      if (range.lo > active.hi) continue;
       active.index.push_back(i);
-      active.lo = std::min(active.lo, lo);
-      highest = std::max(highest, sources_[i].source->range(cell.center, cell.radius()).hi);
+      active.lo = std::min(active.lo, range.lo);
+      active.has_detail |= range.has_detail;
+      highest = std::max(highest, range.hi);
     }
     active.hi = std::min(active.hi, highest);
     return active;
@@ -81,7 +87,7 @@ class Refinement {
 
   bool is_coarse(const Cell& cell, const ActiveSources& active) const {
     return !active.index.empty() && cell.level < kMaxLevel && cell.edge > options_.cell_per_length * active.lo &&
-           active.hi > kLargestChange * active.lo;
+           active.hi > kLargestChange * active.lo && (active.has_detail || is_bent(cell, active));
   }
 
  private:
@@ -99,6 +105,24 @@ class Refinement {
     nodes_[cell.level].push_back(cell.key);
     require_few();
     for (std::uint64_t o = 0; o < 8; ++o) split_leaf(cell.child(o), select(cell.child(o), active), stored);
+  }
+
+  /// Smallest length at a point.
+  double length_at(Vec3 x, const ActiveSources& active) const {
+    double length = options_.max_length;
+    for (const std::int32_t i : active.index)
+      if (const SizeSource& source = *sources_[i].source; source.covers(x)) length = std::min(length, source.size(x));
+    return length;
+  }
+
+  /// Whether a linear function misses the lengths in the cell.
+  bool is_bent(const Cell& cell, const ActiveSources& active) const {
+    const double middle = length_at(cell.center, active), half = 0.5 * cell.edge;
+    for (const Vec3& d : {Vec3{half, 0, 0}, Vec3{0, half, 0}, Vec3{0, 0, half}}) {
+      const double mean = 0.5 * (length_at(cell.center + d, active) + length_at(cell.center - d, active));
+      if (std::abs(mean - middle) > kLargestBend * middle) return true;
+    }
+    return false;
   }
 
   void require_few() {
@@ -148,7 +172,7 @@ class SourceStore {
     for (const std::int32_t i : active.index) {
       const SizeSource& source = *sources_[i].source;
       if (any_covers && !source.covers(cell.center)) continue;
-      const SizeRange range = source.range(cell.center, cell.radius());
+      const SizeRange range = source.range(cell.center, 0.5 * cell.edge);
       const auto length = static_cast<float>(range.meets_core ? range.lo : source.size(cell.center));
       float& stored = octree_.stored_length[leaf];
       std::int32_t& cause = octree_.stored_cause[leaf];

@@ -87,14 +87,16 @@ class ShapeSource final : public SizeSource {
   double min_size() const override { return min_size_; }
   double slope() const override { return slope_; }
 
-  SizeRange range(Vec3 center, double radius) const override {
+  SizeRange range(Vec3 center, double half) const override {
+    const double radius = std::sqrt(3.0) * half;
     const Nearest n = nearest(center);
     const SourceSpacing& s = n.spacing;
     const double dl = change_.length * radius, dr = change_.radius * radius, dd = change_.doubling * radius;
     const double nearest_r = std::max(0.0, n.distance - radius);
     const SourceSpacing least{std::max(min_size_, s.length - dl), s.radius + dr, s.doubling > s.radius ? s.doubling + dd : 0};
     const SourceSpacing most{s.length + dl, std::max(0.0, s.radius - dr), s.doubling - dd};
-    return {length_at(least, slope_, nearest_r), length_at(most, slope_, n.distance + radius), nearest_r <= s.radius};
+    const bool meets_core = nearest_r <= least.radius;
+    return {length_at(least, slope_, nearest_r), length_at(most, slope_, n.distance + radius), meets_core, meets_core};
   }
 
  private:
@@ -152,6 +154,7 @@ class TetSource final : public SizeSource {
       weight_[k] = n / dot(n, p[k] - a);
       offset_[k] = -dot(weight_[k], a);
       gradient_ += h[k] * weight_[k];
+      box_.add(p[k]);
     }
     min_size_ = *std::min_element(h.begin(), h.end());
   }
@@ -176,23 +179,30 @@ class TetSource final : public SizeSource {
     return true;
   }
 
-  SizeRange range(Vec3 center, double radius) const override {
+  SizeRange range(Vec3 center, double half) const override {
+    constexpr SizeRange kNothing{kInfinity, kInfinity, false, false};
+    const Vec3 a = box_.lo - center, b = center - box_.hi;
+    if (std::max({a.x, a.y, a.z, b.x, b.y, b.z}) > half) return kNothing;
     double value = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       const double c = coordinate(k, center);
-      if (c + radius * norm(weight_[k]) < 0) return {kInfinity, kInfinity, false};
+      if (c + half * sum_abs(weight_[k]) < 0) return kNothing;
       value += c * length_[k];
     }
-    const double change = radius * norm(gradient_), largest = *std::max_element(length_.begin(), length_.end());
-    return {std::clamp(value - change, min_size_, largest), std::clamp(value + change, min_size_, largest), false};
+    const double change = half * sum_abs(gradient_), largest = *std::max_element(length_.begin(), length_.end());
+    const Vec3 e = box_.hi - box_.lo;
+    return {std::clamp(value - change, min_size_, largest), std::clamp(value + change, min_size_, largest), false,
+            2 * half > std::max({e.x, e.y, e.z})};
   }
 
  private:
+  static double sum_abs(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
   double coordinate(std::size_t k, Vec3 x) const { return dot(weight_[k], x) + offset_[k]; }
 
   std::array<Vec3, 4> weight_;
   std::array<double, 4> offset_{}, length_;
   Vec3 gradient_;
+  Box3 box_;
   double min_size_ = 0;
 };
 

@@ -10,18 +10,19 @@
 
 namespace st {
 
-/// Bounds of a length over a ball.
+/// Bounds of a length over a cube.
 struct SizeRange {
   double lo = 0, hi = 0;    ///< lo <= length <= hi wherever the source asks for something; lo = infinity: it asks for nothing there
-  bool meets_core = false;  ///< part of the ball may lie where the length is constant and smallest
+  bool meets_core = false;  ///< part of the cube may lie where the length is constant and smallest
+  bool has_detail = false;  ///< the length may do more in the cube than grow evenly: its values at a few points do not tell
 };
 
 /// Something that asks for lengths in space. A new kind of source is a new implementation.
 class SizeSource : public SizeField {
  public:
   using SizeField::size;
-  /// Bounds over the ball; they may be wide, but tighten as the ball shrinks.
-  virtual SizeRange range(Vec3 center, double radius) const = 0;
+  /// Bounds over the cube center +- half; they may be wide, but tighten as the cube shrinks.
+  virtual SizeRange range(Vec3 center, double half) const = 0;
   /// Whether it asks for something everywhere, and if not, whether at `xyz`; elsewhere size() continues what holds at the border.
   virtual bool is_everywhere() const { return true; }
   virtual bool covers(Vec3) const { return true; }

@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "io/sizing_artifact.h"
+#include "stages/size_report.h"
 #include "stages/source_input.h"
 
 namespace st {
@@ -117,7 +118,12 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   const Timer timer;
   require_valid(o);
   require_writable(o.output);
+  if (!o.sample.empty()) require_writable(o.sample_output);
   SizingArtifact sizing = prolong_raster(o, read_raster(o.raster));
+  if (!o.sample.empty()) {
+    const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale}, nullptr);
+    sample_sizes(field, sizing.names, o.sample, o.sample_output);
+  }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   return summarize(o, sizing, timer.seconds());
 }

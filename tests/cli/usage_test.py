@@ -11,7 +11,8 @@ N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-r
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--check": "", "--require-closed": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
-    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": ""},
+    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
+                   "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
@@ -20,7 +21,7 @@ OPTIONS = {
         "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
         "--max-normal-deviation": "",
     },
-    "st-info": {"--hash": ""},
+    "st-info": {"--hash": "", "--at": ""},
     "st-diff": {"--tolerance": "0"},
     "st-export": {"--output": ""},
 }

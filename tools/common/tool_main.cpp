@@ -133,6 +133,10 @@ void ToolMain::output(std::string& path, const std::string& help) {
   output_options_.push_back(option);
 }
 
+void ToolMain::output_option(const std::string& flag, std::string& path, const std::string& help) {
+  output_options_.push_back(app_.add_option(flag, path, help)->capture_default_str()->type_name("FILE"));
+}
+
 void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
   output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
 }

@@ -38,6 +38,8 @@ class ToolMain {
   void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
   /// -o,--output with the struct's default; required when that is empty.
   void output(std::string& path, const std::string& help = "artifact to write");
+  /// A further file to write, with the struct's default.
+  void output_option(const std::string& flag, std::string& path, const std::string& help);
   /// A repeatable option naming a further file to write.
   void outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
   /// A length such as 3, 0.1%, 0.25mm or 2in; `default_text` stands in --help for an empty value.

@@ -3,12 +3,17 @@
 
 #include "common/tool_main.h"
 #include "stages/inspect_stage.h"
+#include "stages/size_report.h"
 
 int main(int argc, char** argv) {
-  std::string artifact;
+  std::string artifact, at;
   bool hash = false;
   st::ToolMain tool("st-info", "Says what an artifact is and from what it was made.", st::ToolMain::Kind::kReport);
   tool.input("artifact", artifact, "any artifact");
   tool.flag("--hash", hash, "print the content hash alone");
-  return tool.run(argc, argv, [&] { return hash ? st::run_hash(artifact) : st::run_info(artifact); });
+  tool.text("--at", at, "X,Y,Z", "print the length at a point of a sizing artifact, and why");
+  return tool.run(argc, argv, [&] {
+    if (!at.empty()) return st::run_size_at(artifact, at);
+    return hash ? st::run_hash(artifact) : st::run_info(artifact);
+  });
 }

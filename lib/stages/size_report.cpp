@@ -1,0 +1,108 @@
+#include "stages/size_report.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "io/temporary_file.h"
+#include "sizing/size_origin.h"
+
+namespace st {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "x,y,z", separated by commas, semicolons or blanks; false: something else.
+bool parse_point(std::string_view text, Vec3& xyz) {
+  double v[3];
+  const char *at = text.data(), *end = at + text.size();
+  const auto skip = [&](std::string_view what) {
+    while (at != end && what.find(*at) != std::string_view::npos) ++at;
+  };
+  for (double& x : v) {
+    skip(" \t,;+");
+    const auto [next, error] = std::from_chars(at, end, x);
+    if (error != std::errc() || !std::isfinite(x)) return false;
+    at = next;
+  }
+  skip(" \t\r,;");
+  xyz = {v[0], v[1], v[2]};
+  return at == end;
+}
+
+bool is_inside(const OctreeView& octree, Vec3 x) {
+  const Vec3 d = x - octree.lo;
+  return std::min({d.x, d.y, d.z}) >= 0 && std::max({d.x, d.y, d.z}) <= octree.edge;
+}
+
+Json to_json(Vec3 v) { return {v.x, v.y, v.z}; }
+std::string to_text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+
+}  // namespace
+
+StageSummary run_size_at(const std::string& artifact, const std::string& text) {
+  Vec3 x;
+  if (!parse_point(text, x)) throw Error(ExitCode::kUsage, fmt::format("--at '{}': three numbers expected, such as 1.5,0,-2", text));
+  const MappedSizing sizing = map_sizing(artifact);
+  const CauseNames names = read_cause_names(artifact);
+  const OctreeField& field = *sizing.field;
+  const SizeExplanation why = field.explain(x);
+  const SizeOrigin origin = find_origin(field.data(), Neighbours(field.data().octree), why.leaf);
+  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit, cause = cause_text(names, why.cause);
+  const bool inside = is_inside(field.data().octree, x);
+  StageSummary summary;
+  summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
+  if (!inside) summary.line += "  outside the box of the model: the length at its border holds\n";
+  summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient), norm(why.gradient), field.slope());
+  summary.line += fmt::format("  cause     {}", cause);
+  if (why.cause != kNone)
+    summary.line += fmt::format(", which asks for {:.6g}{} near {}, {:.4g}{} away", origin.length, unit, to_text(origin.xyz),
+                                distance(x, origin.xyz), unit);
+  summary.line += fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
+  const Json json = {{"tool", "st-info"},
+                     {"artifact", artifact},
+                     {"xyz", to_json(x)},
+                     {"is_inside", inside},
+                     {"length", why.length},
+                     {"gradient", to_json(why.gradient)},
+                     {"slope", field.slope()},
+                     {"cause", cause},
+                     {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
+                     {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
+  summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return summary;
+}
+
+std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, const std::string& points, const std::string& output) {
+  std::ifstream in(points);
+  if (!in) throw Error(ExitCode::kInput, points + ": cannot be read; check name and permissions");
+  TemporaryFile temporary(output);
+  std::ofstream out(temporary.name());
+  out << "x,y,z,length,gradient_x,gradient_y,gradient_z,cause\n";
+  std::size_t n = 0, number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
+    Vec3 x;
+    if (!parse_point(line, x)) {
+      if (n == 0 && number == 1) continue;  // a heading
+      throw Error(ExitCode::kInput, fmt::format("{}:{}: three numbers expected, not '{}'", points, number, line));
+    }
+    const SizeExplanation why = field.explain(x);
+    std::string cause = cause_text(names, why.cause);
+    for (std::size_t k = 0; (k = cause.find('"', k)) != std::string::npos; k += 2) cause.insert(k, 1, '"');
+    out << fmt::format("{},{},{},{:.9g},{:.6g},{:.6g},{:.6g},\"{}\"\n", x.x, x.y, x.z, why.length, why.gradient.x, why.gradient.y,
+                       why.gradient.z, cause);
+    ++n;
+  }
+  out.close();
+  if (!out) throw Error(ExitCode::kOutput, output + ": cannot be written; check free space and permissions");
+  temporary.commit();
+  return n;
+}
+
+}  // namespace st

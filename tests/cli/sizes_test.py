@@ -1,0 +1,68 @@
+"""What a size specification says of itself: the length at a point and why, lengths at many points, the background meshes of other programs."""
+import csv
+import re
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+SOURCE = '[[source]]\nname = "wake"\ntype = "point"\nat = [25, 20, 5]\nlength = 0.1\nradius = 0.5\n'
+
+
+class Sizes(ToolTest):
+    def with_source(self):
+        (self.folder / "wake.toml").write_text(SOURCE)
+        run = must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "wake.toml", "--json")
+        self.n_cells = run.json()["cells"]
+        return self.folder / "s.hdf"
+
+    def test_a_point_names_the_source_that_it_obeys(self):
+        sizing = self.with_source()
+        said = must("st-info", sizing, "--at", "26,20,5").out
+        self.assertIn('source 1 "wake"', said)
+        at = must("st-info", sizing, "--at", "27,20,5", "--json").json()
+        self.assertAlmostEqual(at["length"], 0.1 + 0.2 * 1.5, delta=0.1)
+        self.assertAlmostEqual(at["origin"]["length"], at["length"], delta=0.1)  # the source itself asks for it, in this cell
+        self.assertEqual(must("st-info", artifacts_of("box") / "sizing.hdf", "--at", "27,20,5", "--json").json()["cause"], "the largest length")
+
+    def test_points_of_a_csv_have_the_lengths_of_single_queries(self):
+        (self.folder / "p.csv").write_text("x,y,z\n26,20,5\n# far\n1 2 3\n")
+        (self.folder / "wake.toml").write_text(SOURCE)
+        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "wake.toml",
+             "--sample", self.folder / "p.csv", "--sample-output", self.folder / "o.csv")
+        rows = list(csv.DictReader((self.folder / "o.csv").read_text().splitlines()))
+        self.assertEqual([r["cause"] for r in rows][0], 'source 1 "wake"')
+        for row, at in zip(rows, ("26,20,5", "1,2,3"), strict=True):
+            self.assertAlmostEqual(float(row["length"]), must("st-info", self.folder / "s.hdf", "--at", at, "--json").json()["length"], delta=1e-6)
+
+    def test_bad_points_are_refused_and_nothing_is_written(self):
+        raster = artifacts_of("box") / "raster.hdf"
+        self.expect_error(USAGE, "st-info", artifacts_of("box") / "sizing.hdf", "--at", "1,2", says="--at")
+        self.expect_error(INPUT, "st-info", artifacts_of("box") / "mesh.hdf", "--at", "1,2,3", says="mesh.hdf")
+        (self.folder / "p.csv").write_text("1,2,3\n1,two,3\n")
+        (self.folder / "out").mkdir()
+        self.expect_error(INPUT, "st-prolong", raster, "-o", self.folder / "out/s.hdf", "--sample", self.folder / "p.csv",
+                          "--sample-output", self.folder / "out/o.csv", says="p.csv:2")
+        self.expect_nothing_left(self.folder / "out")
+
+    def test_background_meshes_hold_the_lengths(self):
+        sizing = self.with_source()
+        must("st-export", sizing, "-o", self.folder / "s.pos")
+        text = (self.folder / "s.pos").read_text()
+        lengths = [float(v) for cell in re.findall(r"\)\{([^}]*)\}", text) for v in cell.split(",")]
+        self.assertEqual(text.count("SH("), text.count("\n") - 2)
+        self.assertEqual(text.count("SH("), self.n_cells)
+        self.assertAlmostEqual(min(lengths), 0.1, delta=1e-3)
+        must("st-export", sizing, "-o", self.folder / "s.bac")
+        (self.folder / "p.csv").write_text("26,20,5\n25.2,20,5\n10,10,10\n")
+        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "b.hdf", "--background", self.folder / "s.bac",
+             "--sample", self.folder / "p.csv", "--sample-output", self.folder / "o.csv")
+        for row in csv.DictReader((self.folder / "o.csv").read_text().splitlines()):
+            at = must("st-info", sizing, "--at", f"{row['x']},{row['y']},{row['z']}", "--json").json()
+            self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
