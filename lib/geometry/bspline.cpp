@@ -7,6 +7,7 @@ namespace st {
 namespace {
 
 constexpr int kMaxOrder = 26;  // OpenCASCADE's largest degree is 25
+constexpr int kBucketsPerSpan = 2;
 
 // Power coefficients in s of the degree+1 basis functions that act on [knots[k], knots[k+1]]; t = middle + half * s.
 // Cox-de Boor recursion carried out on polynomials.
@@ -36,17 +37,14 @@ void basis_polynomials(const std::vector<double>& knots, int k, int degree, doub
 
 }  // namespace
 
-KnotSpans::KnotSpans(int degree, std::vector<double> flat_knots, double period) : degree_(degree), period_(period) {
+KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double period) : degree_(degree), period_(period) {
   const int order = degree + 1, n_poles = static_cast<int>(flat_knots.size()) - order;
   lo_ = flat_knots[degree];
   hi_ = flat_knots[n_poles];
   for (int k = degree; k < n_poles; ++k) {
     const double a = flat_knots[k], b = flat_knots[k + 1];
     if (!(b > a)) continue;
-    start_.push_back(a);
-    end_.push_back(b);
-    middle_.push_back(0.5 * (a + b));
-    rate_.push_back(2.0 / (b - a));
+    spans_.push_back({a, b, 0.5 * (a + b), 2.0 / (b - a)});
     first_pole_.push_back(k - degree);
     basis_.resize(basis_.size() + order * order);
     basis_polynomials(flat_knots, k, degree, 0.5 * (a + b), 0.5 * (b - a), &basis_[basis_.size() - order * order]);
@@ -57,21 +55,33 @@ KnotSpans::KnotSpans(int degree, std::vector<double> flat_knots, double period) 
     if (multiplicity >= degree && flat_knots[k] > lo_ && flat_knots[k] < hi_) c0_knots_.push_back(flat_knots[k]);
     k += multiplicity;
   }
+  const int n_buckets = kBucketsPerSpan * n_spans();
+  buckets_per_t_ = n_buckets / (hi_ - lo_);
+  for (int b = 0, k = 0; b < n_buckets; ++b) {
+    while (k + 1 < n_spans() && lo_ + b / buckets_per_t_ >= spans_[k + 1].start) ++k;
+    bucket_span_.push_back(k);
+  }
 }
 
-int KnotSpans::locate(double t, int& last, double& s) const {
+int KnotSpans::find(double& t) const {
   if (period_ > 0 && (t < lo_ || t > hi_)) t -= period_ * std::floor((t - lo_) / period_);
-  int k = last;
-  if (!(t >= start_[k] && t < end_[k])) {
-    k = static_cast<int>(std::upper_bound(start_.begin(), start_.end(), t) - start_.begin()) - 1;
-    last = k = std::clamp(k, 0, n_spans() - 1);
-  }
-  s = (t - middle_[k]) * rate_[k];
+  const double bucket = (t - lo_) * buckets_per_t_;
+  const auto n_buckets = static_cast<double>(bucket_span_.size());
+  int k = bucket_span_[bucket > 0 ? static_cast<std::size_t>(std::min(bucket, n_buckets - 1)) : 0];
+  while (k + 1 < n_spans() && t >= spans_[k + 1].start) ++k;
+  while (k > 0 && t < spans_[k].start) --k;
   return k;
 }
 
+std::vector<double> KnotSpans::distinct_knots() const {
+  std::vector<double> knots;
+  for (const Span& span : spans_) knots.push_back(span.start);
+  knots.push_back(hi_);
+  return knots;
+}
+
 BsplineCurve::BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool is_rational, double t_min, double t_max)
-    : knots_(std::move(knots)), is_rational_(is_rational) {
+    : knots_(std::move(knots)), is_rational_(is_rational), kernels_(patch_kernels(knots_.degree() + 1, is_rational ? 4 : 3)) {
   t_min_ = t_min;
   t_max_ = t_max;
   const int order = knots_.degree() + 1;
@@ -95,30 +105,20 @@ Vec3 BsplineCurve::point(double t) const {
 }
 
 CurvePoint BsplineCurve::evaluate(double t) const {
-  double s;
-  const int k = knots_.locate(t, last_, s), degree = knots_.degree();
-  const Pole* c = &coefficients_[static_cast<std::size_t>(k) * (degree + 1)];
-  double p[4], d[4] = {}, e[4] = {};
-  for (int x = 0; x < 4; ++x) p[x] = c[degree].x[x];
-  for (int i = degree - 1; i >= 0; --i)
-    for (int x = 0; x < 4; ++x) {
-      e[x] = e[x] * s + d[x];
-      d[x] = d[x] * s + p[x];
-      p[x] = p[x] * s + c[i].x[x];
-    }
-  const double r = knots_.rate(k);
-  Vec3 x0{p[0], p[1], p[2]}, x1 = r * Vec3{d[0], d[1], d[2]}, x2 = 2 * r * r * Vec3{e[0], e[1], e[2]};
-  if (is_rational_) {
-    const double w0 = p[3], w1 = r * d[3], w2 = 2 * r * r * e[3];
-    x0 = x0 / w0;
-    x1 = (x1 - w1 * x0) / w0;
-    x2 = (x2 - 2 * w1 * x1 - w2 * x0) / w0;
-  }
-  return {x0, x1, x2};
+  double s, out[12];
+  const int k = knots_.locate(t, last_, s), order = knots_.degree() + 1;
+  kernels_.line_second(coefficients_[static_cast<std::size_t>(k) * order].x, order, s, knots_.rate(k), out);
+  return {{out[0], out[1], out[2]}, {out[4], out[5], out[6]}, {out[8], out[9], out[10]}};
 }
 
 BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, Bounds bounds)
-    : u_(std::move(u)), v_(std::move(v)), poles_(std::move(poles)), n_v_(n_v), is_rational_(is_rational) {
+    : u_(std::move(u)),
+      v_(std::move(v)),
+      poles_(std::move(poles)),
+      n_v_(n_v),
+      is_rational_(is_rational),
+      stride_(is_rational ? 4 : 3),
+      kernels_(patch_kernels(v_.degree() + 1, stride_)) {
   type_ = SurfaceType::kBspline;
   u_min_ = bounds.u_min;
   u_max_ = bounds.u_max;
@@ -129,13 +129,28 @@ BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles
   patch_index_.assign(static_cast<std::size_t>(u_.n_spans()) * v_.n_spans(), -1);
 }
 
-const Pole* BsplineSurface::patch(int iu, int iv) const {
-  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
+BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
+  Place place;
+  const int iu = u_.locate(uv.x, last_u_, place.s), iv = v_.locate(uv.y, last_v_, place.t);
+  place.rate_u = u_.rate(iu);
+  place.rate_v = v_.rate(iv);
+  place.coefficients = patch(iu, iv);
+  return place;
+}
+
+const double* BsplineSurface::patch(int iu, int iv) const {
+  const std::size_t size = static_cast<std::size_t>(u_.degree() + 1) * (v_.degree() + 1) * stride_;
   std::int32_t& index = patch_index_[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
-  if (index >= 0) return &patches_[static_cast<std::size_t>(index) * nu * nv];
-  index = static_cast<std::int32_t>(patches_.size() / (nu * nv));
-  patches_.resize(patches_.size() + nu * nv, Pole{});
-  Pole* out = &patches_[static_cast<std::size_t>(index) * nu * nv];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(patches_.size() / size);
+    patches_.resize((index + 1) * size + 1, 0.0);
+    convert(iu, iv, &patches_[index * size]);
+  }
+  return &patches_[index * size];
+}
+
+void BsplineSurface::convert(int iu, int iv, double* out) const {
+  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
   const double *bu = u_.basis(iu), *bv = v_.basis(iv);
   Pole half[kMaxOrder];
   for (int j = 0; j < nu; ++j) {
@@ -147,50 +162,23 @@ const Pole* BsplineSurface::patch(int iu, int iv) const {
     }
     for (int b = 0; b < nu; ++b)
       for (int c = 0; c < nv; ++c)
-        for (int x = 0; x < 4; ++x) out[b * nv + c].x[x] += bu[j * nu + b] * half[c].x[x];
+        for (int x = 0; x < stride_; ++x) out[(b * nv + c) * stride_ + x] += bu[j * nu + b] * half[c].x[x];
   }
-  return out;
 }
 
 Vec3 BsplineSurface::point(Vec2 uv) const {
-  double s, t;
-  const int iu = u_.locate(uv.x, last_u_, s), iv = v_.locate(uv.y, last_v_, t);
-  const Pole* c = patch(iu, iv);
-  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
-  double p[4] = {};
-  for (int i = nu - 1; i >= 0; --i) {
-    const Pole* row = c + i * nv;
-    double q[4] = {row[nv - 1].x[0], row[nv - 1].x[1], row[nv - 1].x[2], row[nv - 1].x[3]};
-    for (int j = nv - 2; j >= 0; --j)
-      for (int x = 0; x < 4; ++x) q[x] = q[x] * t + row[j].x[x];
-    for (int x = 0; x < 4; ++x) p[x] = p[x] * s + q[x];
-  }
+  const Place at = locate(uv);
+  double p[4];
+  kernels_.point(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, p);
   if (is_rational_) return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
   return {p[0], p[1], p[2]};
 }
 
 SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
-  double s, t;
-  const int iu = u_.locate(uv.x, last_u_, s), iv = v_.locate(uv.y, last_v_, t);
-  const Pole* c = patch(iu, iv);
-  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
-  double p[4] = {}, pu[4] = {}, pv[4] = {};
-  for (int i = nu - 1; i >= 0; --i) {
-    const Pole* row = c + i * nv;
-    double q[4], d[4] = {};
-    for (int x = 0; x < 4; ++x) q[x] = row[nv - 1].x[x];
-    for (int j = nv - 2; j >= 0; --j)
-      for (int x = 0; x < 4; ++x) {
-        d[x] = d[x] * t + q[x];
-        q[x] = q[x] * t + row[j].x[x];
-      }
-    for (int x = 0; x < 4; ++x) {
-      pu[x] = pu[x] * s + p[x];
-      p[x] = p[x] * s + q[x];
-      pv[x] = pv[x] * s + d[x];
-    }
-  }
-  const double ru = u_.rate(iu), rv = v_.rate(iv);
+  const Place at = locate(uv);
+  double out[12];
+  kernels_.first(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
+  const double *p = out, *pu = out + 4, *pv = out + 8, ru = at.rate_u, rv = at.rate_v;
   SurfacePoint r{{p[0], p[1], p[2]}, ru * Vec3{pu[0], pu[1], pu[2]}, rv * Vec3{pv[0], pv[1], pv[2]}};
   if (is_rational_) {
     const double w = 1.0 / p[3];
@@ -202,31 +190,11 @@ SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
 }
 
 SurfacePoint2 BsplineSurface::evaluate2(Vec2 uv) const {
-  double s, t;
-  const int iu = u_.locate(uv.x, last_u_, s), iv = v_.locate(uv.y, last_v_, t);
-  const Pole* c = patch(iu, iv);
-  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
-  double p[4] = {}, pu[4] = {}, pv[4] = {}, puu[4] = {}, puv[4] = {}, pvv[4] = {};
-  for (int i = nu - 1; i >= 0; --i) {
-    const Pole* row = c + i * nv;
-    double q[4], d[4] = {}, e[4] = {};
-    for (int x = 0; x < 4; ++x) q[x] = row[nv - 1].x[x];
-    for (int j = nv - 2; j >= 0; --j)
-      for (int x = 0; x < 4; ++x) {
-        e[x] = e[x] * t + d[x];
-        d[x] = d[x] * t + q[x];
-        q[x] = q[x] * t + row[j].x[x];
-      }
-    for (int x = 0; x < 4; ++x) {
-      puu[x] = puu[x] * s + pu[x];
-      pu[x] = pu[x] * s + p[x];
-      p[x] = p[x] * s + q[x];
-      puv[x] = puv[x] * s + pv[x];
-      pv[x] = pv[x] * s + d[x];
-      pvv[x] = pvv[x] * s + e[x];
-    }
-  }
-  const double a = u_.rate(iu), b = v_.rate(iv);
+  const Place at = locate(uv);
+  double out[24];
+  kernels_.second(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
+  const double *p = out, *pu = out + 4, *pv = out + 8, *puu = out + 12, *puv = out + 16, *pvv = out + 20;
+  const double a = at.rate_u, b = at.rate_v;
   const auto v3 = [](const double* w, double f) { return f * Vec3{w[0], w[1], w[2]}; };
   SurfacePoint2 r{v3(p, 1), v3(pu, a), v3(pv, b), v3(puu, 2 * a * a), v3(puv, a * b), v3(pvv, 2 * b * b)};
   if (is_rational_) {

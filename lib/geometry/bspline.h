@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/curve.h"
+#include "geometry/patch_kernels.h"
 #include "geometry/surface.h"
 
 namespace st {
@@ -14,25 +15,43 @@ namespace st {
 class KnotSpans {
  public:
   /// `flat_knots`: non-decreasing, n_poles + degree + 1 values; `period` > 0 wraps parameters into the knot range.
-  KnotSpans(int degree, std::vector<double> flat_knots, double period);
+  KnotSpans(int degree, const std::vector<double>& flat_knots, double period);
 
   int degree() const { return degree_; }
-  int n_spans() const { return static_cast<int>(start_.size()); }
+  int n_spans() const { return static_cast<int>(spans_.size()); }
+  double period() const { return period_; }
   /// Span that holds `t` (wrapped; clamped to the first and last), `s` its local parameter. `last` is the caller's cache.
-  int locate(double t, int& last, double& s) const;
+  int locate(double t, int& last, double& s) const {
+    const Span* span = &spans_[last];
+    if (!(t >= span->start && t < span->end)) {
+      last = find(t);
+      span = &spans_[last];
+    }
+    s = (t - span->middle) * span->rate;
+    return last;
+  }
   /// First pole that acts on a span.
   int first_pole(int span) const { return first_pole_[span]; }
   /// ds/dt of a span.
-  double rate(int span) const { return rate_[span]; }
+  double rate(int span) const { return spans_[span].rate; }
   /// Coefficient matrix [(degree+1)][(degree+1)]: row j = power coefficients of the j-th acting basis function.
   const double* basis(int span) const { return &basis_[static_cast<std::size_t>(span) * (degree_ + 1) * (degree_ + 1)]; }
   /// Interior knots where the spline is only C0 (multiplicity >= degree), ascending.
   const std::vector<double>& c0_knots() const { return c0_knots_; }
+  /// Different knots from first to last, ascending: n_spans() + 1 values.
+  std::vector<double> distinct_knots() const;
 
  private:
+  struct Span {
+    double start, end, middle, rate;
+  };
+  /// Span that holds `t`, which is wrapped on return.
+  int find(double& t) const;
+
   int degree_;
-  double period_, lo_, hi_;
-  std::vector<double> start_, end_, middle_, rate_;
+  double period_, lo_, hi_, buckets_per_t_;
+  std::vector<Span> spans_;
+  std::vector<std::int32_t> bucket_span_;  // the span at the start of each of as many equal parts of the range
   std::vector<int> first_pole_;
   std::vector<double> basis_;
   std::vector<double> c0_knots_;
@@ -54,6 +73,7 @@ class BsplineCurve : public Curve {
   KnotSpans knots_;
   bool is_rational_;
   std::vector<Pole> coefficients_;  // [span][degree+1]
+  PatchKernels kernels_;
   mutable int last_ = 0;
 };
 
@@ -69,14 +89,23 @@ class BsplineSurface : public Surface {
   SurfacePoint2 evaluate2(Vec2 uv) const override;
 
  private:
-  const Pole* patch(int iu, int iv) const;
+  /// Local parameters of (u,v), the spans' rates, and the coefficients of the patch that holds them.
+  struct Place {
+    double s, t, rate_u, rate_v;
+    const double* coefficients;
+  };
+  Place locate(Vec2 uv) const;
+  const double* patch(int iu, int iv) const;
+  void convert(int iu, int iv, double* out) const;
 
   KnotSpans u_, v_;
   std::vector<Pole> poles_;
   int n_v_;
   bool is_rational_;
+  int stride_;  // doubles per coefficient
+  PatchKernels kernels_;
   mutable std::vector<std::int32_t> patch_index_;  // [n_spans_u][n_spans_v], -1 until met
-  mutable std::vector<Pole> patches_;
+  mutable std::vector<double> patches_;            // [patch][degree_u+1][degree_v+1][stride], and one more
   mutable int last_u_ = 0, last_v_ = 0;
 };
 
