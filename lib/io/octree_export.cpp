@@ -22,6 +22,7 @@ constexpr int kCornerBits = 21;  // corners lie at 0 .. 2^20
 struct CellData {
   std::vector<float> size;
   std::vector<std::int32_t> cause;
+  std::vector<std::uint8_t> colour;  // empty: nothing is blanked
 };
 
 std::uint64_t pack_corner(GridPoint p) {
@@ -73,7 +74,8 @@ std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays&
     id.push_back(cause == kNone ? 0 : cause_id(cause) + 1);
   }
   return "      <CellData Scalars=\"size\">\n" + arrays.add("size", "Float32", data.size) + arrays.add("level", "Int32", level) +
-         arrays.add("cause_kind", "Int32", kind) + arrays.add("cause_id", "Int32", id) + "      </CellData>\n";
+         arrays.add("cause_kind", "Int32", kind) + arrays.add("cause_id", "Int32", id) +
+         (data.colour.empty() ? "" : arrays.add("colour", "UInt8", data.colour)) + "      </CellData>\n";
 }
 
 std::string points_and_cells(const OctreeView& octree, VtuArrays& arrays, std::size_t& n_points) {
@@ -142,6 +144,7 @@ void export_octree(const std::string& artifact, const std::string& output) {
   const SizingArtifact sizing = read_sizing(artifact);
   for (const CellLength& c : sizing.lengths.cells) data.size.push_back(static_cast<float>(sizing.scale) * c.length);
   data.cause = sizing.lengths.cause;
+  for (const CellColour c : sizing.blanking.colour) data.colour.push_back(static_cast<std::uint8_t>(c));
   write_vtu(sizing.shape.view(), data, output);
 }
 

@@ -20,8 +20,18 @@ struct Element<CellPlane> {
   static constexpr std::size_t count = 6;
 };
 
+template <>
+struct Element<CellSplit> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 5;
+};
+
+template <>
+struct Element<CellColour> : Element<std::uint8_t> {};
+
 namespace {
 
+constexpr int kOpenSizingVersion = 2;  // of a sizing without a surface in it
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kRoot = "/st/octree/root";
 constexpr const char* kLeafKey = "/st/octree/leaf_key";
@@ -31,6 +41,11 @@ constexpr const char* kStoredLength = "/st/octree/stored_length";
 constexpr const char* kStoredCause = "/st/octree/stored_cause";
 constexpr const char* kCell = "/st/octree/cell";
 constexpr const char* kCause = "/st/octree/cause";
+constexpr const char* kColour = "/st/octree/colour";
+constexpr const char* kSplitLeaf = "/st/split/leaf";
+constexpr const char* kSplitPlane = "/st/split/plane";
+constexpr const char* kSplitCell = "/st/split/cell";
+constexpr const char* kSplitCause = "/st/split/cause";
 constexpr const char* kFaceOffset = "/st/face/cell_offset";
 constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
 constexpr const char* kFaceArea = "/st/face/cell_area";
@@ -104,13 +119,32 @@ struct MappedArrays {
   MappedArray<std::int32_t> node_child;
   MappedArray<CellLength> cell;
   MappedArray<std::int32_t> cause;
+  MappedArray<std::int32_t> split_leaf;
+  MappedArray<CellSplit> split;
+  MappedArray<CellLength> second_cell;
+  MappedArray<std::int32_t> second_cause;
 };
 
 std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
   const std::vector<double> root = file.read_rows<double>(kRoot, 4);
-  const auto arrays = std::make_shared<const MappedArrays>(
-      MappedArrays{file.map<std::uint64_t>(kLeafKey), file.map<std::uint8_t>(kLeafLevel), file.map<std::int32_t>(kNodeChild, 8),
-                   file.map<CellLength>(kCell), file.map<std::int32_t>(kCause)});
+  const auto arrays = std::make_shared<MappedArrays>(MappedArrays{file.map<std::uint64_t>(kLeafKey),
+                                                                  file.map<std::uint8_t>(kLeafLevel),
+                                                                  file.map<std::int32_t>(kNodeChild, 8),
+                                                                  file.map<CellLength>(kCell),
+                                                                  file.map<std::int32_t>(kCause),
+                                                                  {},
+                                                                  {},
+                                                                  {},
+                                                                  {}});
+  if (file.has(kColour)) {
+    const std::size_t n = file.info(kSplitLeaf).shape[0];
+    arrays->split_leaf = file.map<std::int32_t>(kSplitLeaf);
+    arrays->split = file.map<CellSplit>(kSplitPlane);
+    arrays->second_cell = file.map<CellLength>(kSplitCell);
+    arrays->second_cause = file.map<std::int32_t>(kSplitCause);
+    if (arrays->split.size() != n || arrays->second_cell.size() != n || arrays->second_cause.size() != n)
+      file.fail(kSplitLeaf, "does not fit the other arrays of split cells");
+  }
   require_shape(file, arrays->leaf_key.size(), arrays->leaf_level.size(), arrays->node_child.size(), root[3]);
   if (arrays->cell.size() != arrays->leaf_key.size()) file.fail(kCell, "length does not fit the number of leaves");
   if (arrays->cause.size() != arrays->leaf_key.size()) file.fail(kCause, "length does not fit the number of leaves");
@@ -118,6 +152,10 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   data.octree = {{root[0], root[1], root[2]}, root[3], arrays->leaf_key.values(), arrays->leaf_level.values(), arrays->node_child.values()};
   data.cells = arrays->cell.values();
   data.cause = arrays->cause.values();
+  data.split_leaf = arrays->split_leaf.values();
+  data.split = arrays->split.values();
+  data.second_cells = arrays->second_cell.values();
+  data.second_cause = arrays->second_cause.values();
   data.slope = file.double_attribute(kSizing, "slope");
   data.scale = file.double_attribute(kSizing, "scale");
   return std::make_unique<OctreeField>(data, arrays, min_length);
@@ -183,7 +221,8 @@ RasterArtifact read_raster(const std::string& path) {
 
 std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
   ArtifactHeader header = sizing.header;
-  header.schema_version = kSizingVersion;
+  const bool is_blanked = !sizing.blanking.colour.empty();
+  header.schema_version = is_blanked ? kSizingVersion : kOpenSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
@@ -194,6 +233,13 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   write_shape(file, sizing.shape);
   file.write<CellLength>(kCell, sizing.lengths.cells);
   file.write<std::int32_t>(kCause, sizing.lengths.cause);
+  if (is_blanked) {
+    file.write<CellColour>(kColour, sizing.blanking.colour);
+    file.write<std::int32_t>(kSplitLeaf, sizing.blanking.split_leaf);
+    file.write<CellSplit>(kSplitPlane, sizing.blanking.split);
+    file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
+    file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
+  }
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
   file.write_strings(kEdgeName, sizing.names.edge);
@@ -203,7 +249,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
 
 SizingArtifact read_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kSizingVersion, "st-prolong");
+  require_version(file, kOpenSizingVersion, "st-prolong");
   SizingArtifact sizing;
   sizing.header = file.header();
   sizing.numbers = read_numbers(file);
@@ -213,6 +259,14 @@ SizingArtifact read_sizing(const std::string& path) {
   const std::size_t n = sizing.shape.leaf_keys.size();
   sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
   sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
+  if (file.has(kColour)) {
+    sizing.blanking.colour = file.read_rows<CellColour>(kColour, n);
+    sizing.blanking.split_leaf = file.read<std::int32_t>(kSplitLeaf);
+    const std::size_t n_split = sizing.blanking.split_leaf.size();
+    sizing.blanking.split = file.read_rows<CellSplit>(kSplitPlane, n_split);
+    sizing.lengths.second_cells = file.read_rows<CellLength>(kSplitCell, n_split);
+    sizing.lengths.second_cause = file.read_rows<std::int32_t>(kSplitCause, n_split);
+  }
   sizing.face_weight = file.read<double>(kFaceWeight);
   sizing.names = read_names(file);
   return sizing;
@@ -220,14 +274,14 @@ SizingArtifact read_sizing(const std::string& path) {
 
 MappedSizing map_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kSizingVersion, "st-prolong");
+  require_version(file, kOpenSizingVersion, "st-prolong");
   return {file.header(), read_numbers(file), file.read<double>(kFaceWeight),
           map_field(file, file.double_attribute(kSizing, "smallest_length"))};
 }
 
 CauseNames read_cause_names(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kSizingVersion, "st-prolong");
+  require_version(file, kOpenSizingVersion, "st-prolong");
   return read_names(file);
 }
 

@@ -14,7 +14,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 2, kSizingVersion = 2;
+inline constexpr int kRasterVersion = 2, kSizingVersion = 3;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -53,8 +53,15 @@ struct SizingArtifact {
   double scale = 1;  ///< multiplies every length of a query
   OctreeShape shape;
   ProlongedLengths lengths;
+  Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
+
+  /// Views of the arrays above.
+  OctreeFieldData field_data() const {
+    return {shape.view(),   lengths.cells,        lengths.cause,       slope, scale, blanking.split_leaf,
+            blanking.split, lengths.second_cells, lengths.second_cause};
+  }
 };
 
 /// As all write_* and read_* of io/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).

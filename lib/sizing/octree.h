@@ -79,7 +79,7 @@ struct RasterOctree {
 struct CellLength {
   float length = 0;               ///< at the centre, model unit, > 0
   float gradient[3] = {0, 0, 0};  ///< change of length per distance
-  float upper = 0;                ///< largest length of the leaf and its neighbours, model unit
+  float upper = 0;                ///< largest length of the leaf and its neighbours, model unit; negated where a surface splits the leaf
 };
 
 /// Cube around `box`, enlarged by 1 % on each side; edge 1 for an empty box or a single point.

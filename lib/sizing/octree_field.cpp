@@ -1,6 +1,7 @@
 #include "sizing/octree_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace st {
@@ -15,7 +16,8 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
   min_size_ = min_length * data_.scale;
 }
 
-double OctreeField::size(Vec3 xyz, int& hint) const {
+/// Finds the leaf; returns xyz (moved into the root cube) from its centre.
+inline Vec3 OctreeField::locate(Vec3 xyz, int& hint) const {
   const OctreeView& octree = data_.octree;
   // position in grid units, inside the root; the comparison is written so that NaN becomes 0
   const auto to_grid = [this](double x, double origin) {
@@ -33,31 +35,51 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
     hint = octree.find_leaf(key, level);
   const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
   const double half = 0.5 * extent;
-  const CellLength& c = data_.cells[hint];
-  const double rise =
-      c.gradient[0] * (gx - (p.x & mask) - half) + c.gradient[1] * (gy - (p.y & mask) - half) + c.gradient[2] * (gz - (p.z & mask) - half);
-  return std::max(data_.scale * std::min<double>(c.length + unit_ * rise, c.upper), min_size_);
+  return {unit_ * (gx - (p.x & mask) - half), unit_ * (gy - (p.y & mask) - half), unit_ * (gz - (p.z & mask) - half)};
+}
+
+std::int32_t OctreeField::find_part(std::int32_t leaf, Vec3 d) const {
+  const auto it = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
+  if (it == data_.split_leaf.end() || *it != leaf) return kNone;
+  const auto k = static_cast<std::int32_t>(it - data_.split_leaf.begin());
+  const CellSplit& s = data_.split[k];
+  const double height = s.normal[0] * d.x + s.normal[1] * d.y + s.normal[2] * d.z - s.offset;
+  if (std::abs(height) > s.margin) return height > 0 ? kNone : k;
+  return length_in(data_.second_cells[k], d) < length_in(data_.cells[leaf], d) ? k : kNone;
+}
+
+double OctreeField::size(Vec3 xyz, int& hint) const {
+  const Vec3 d = locate(xyz, hint);
+  const CellLength& cell = data_.cells[hint];
+  if (cell.upper < 0) [[unlikely]] {
+    const std::int32_t second = find_part(hint, d);
+    if (second != kNone) return length_in(data_.second_cells[second], d);
+  }
+  return length_in(cell, d);
 }
 
 double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const {
-  const double h = size(xyz, hint);
-  const CellLength& c = data_.cells[hint];
-  const bool is_cut_off = h >= data_.scale * static_cast<double>(c.upper) || h <= min_size_;
+  const Vec3 d = locate(xyz, hint);
+  const std::int32_t second = data_.cells[hint].upper < 0 ? find_part(hint, d) : kNone;
+  const CellLength& c = second == kNone ? data_.cells[hint] : data_.second_cells[second];
+  const double h = length_in(c, d);
+  const bool is_cut_off = h >= data_.scale * std::abs(static_cast<double>(c.upper)) || h <= min_size_;
   gradient = is_cut_off ? Vec3{} : data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
   return h;
 }
 
 SizeExplanation OctreeField::explain(Vec3 xyz) const {
   int leaf = 0;
+  const Vec3 d = locate(xyz, leaf);
+  const std::int32_t second = data_.cells[leaf].upper < 0 ? find_part(leaf, d) : kNone;
+  const CellLength& c = second == kNone ? data_.cells[leaf] : data_.second_cells[second];
   SizeExplanation result;
-  result.length = size(xyz, leaf);
-  const std::size_t l = static_cast<std::size_t>(leaf);
+  result.length = length_in(c, d);
   result.leaf = leaf;
-  result.level = data_.octree.leaf_levels[l];
+  result.level = data_.octree.leaf_levels[leaf];
   result.cell_edge = data_.octree.cell_edge(result.level);
-  const float* g = data_.cells[l].gradient;
-  result.gradient = data_.scale * Vec3{g[0], g[1], g[2]};
-  result.cause = data_.cause[l];
+  result.gradient = data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
+  result.cause = second == kNone ? data_.cause[leaf] : data_.second_cause[second];
   return result;
 }
 

@@ -1,8 +1,11 @@
 // The size field of an octree: a lookup and a linear function.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
+#include "sizing/blanking.h"
 #include "sizing/octree.h"
 #include "sizing/size_field.h"
 
@@ -15,6 +18,11 @@ struct OctreeFieldData {
   std::span<const std::int32_t> cause;  ///< [n_leaves]; see pack_cause
   double slope = 0;                     ///< largest change of length per distance
   double scale = 1;                     ///< multiplies every answer
+  /// Leaves that a surface splits (Blanking), [n_split] each; `cells` and `cause` hold their first part.
+  std::span<const std::int32_t> split_leaf = {};
+  std::span<const CellSplit> split = {};
+  std::span<const CellLength> second_cells = {};
+  std::span<const std::int32_t> second_cause = {};
 };
 
 /// What stands behind the length at a place.
@@ -28,7 +36,7 @@ struct SizeExplanation {
 };
 
 /// h(x) = min(length + gradient . (x - centre), upper) of the leaf at x, times scale. Never leaves the range of the lengths of the leaf and
-/// its neighbours.
+/// its neighbours. Where a surface splits the leaf, those of the part that x lies in; the smaller one when that is not certain.
 class OctreeField : public SizeField {
  public:
   /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n): looks for the
@@ -45,6 +53,13 @@ class OctreeField : public SizeField {
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const;
 
  private:
+  Vec3 locate(Vec3 xyz, int& hint) const;
+  double length_in(const CellLength& cell, Vec3 d) const {
+    const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
+    return std::max(data_.scale * std::min<double>(cell.length + rise, std::abs(cell.upper)), min_size_);
+  }
+  /// Part of a split leaf at d from its centre: kNone the first, or the index of the second.
+  std::int32_t find_part(std::int32_t leaf, Vec3 d) const;
   OctreeFieldData data_;
   std::shared_ptr<const void> owner_;
   double unit_;     // edge of a grid cell

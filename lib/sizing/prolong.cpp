@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLargestStep2 = 27;
 
-/// What is prolonged: one length and its cause per cell.
+/// What is prolonged: one length and its cause per site: the cells, and the second parts of cells that a surface splits.
 struct CellLengths {
   std::vector<float> length;
   std::vector<std::int32_t> cause;
@@ -50,10 +50,10 @@ class LengthBuckets {
 };
 
 /// Label-correcting shortest paths: start from every cell with a stored length, pass length + slope * distance on until nothing changes.
-void pass_lengths(const OctreeView& octree, const Neighbours& neighbours, double slope, CellLengths& cells) {
+void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking* blanking, double slope, CellLengths& cells) {
   const auto [smallest, largest] = std::minmax_element(cells.length.begin(), cells.length.end());
   LengthBuckets buckets(*smallest, *largest);
-  const StepWeights weight(octree.edge, slope);
+  const StepWeights weight(root_edge, slope);
   std::vector<std::uint8_t> is_waiting(cells.length.size(), 0);
   for (std::size_t leaf = 0; leaf < cells.length.size(); ++leaf)
     if (cells.cause[leaf] != kNone) {
@@ -67,7 +67,7 @@ void pass_lengths(const OctreeView& octree, const Neighbours& neighbours, double
       is_waiting[leaf] = 0;
       const float length = cells.length[leaf];
       const std::int32_t cause = cells.cause[leaf];
-      neighbours.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
+      for_each_link(blanking, neighbours, leaf, [&](std::int32_t other, const CellStep& step) {
         const std::size_t o = static_cast<std::size_t>(other);
         const float limit = length + weight(step);
         if (limit > cells.length[o] || (limit == cells.length[o] && cause >= cells.cause[o])) return;
@@ -100,16 +100,30 @@ struct GradientFit {
   }
 };
 
+/// What gradients are computed from.
+struct FitInput {
+  const OctreeView& octree;
+  const Neighbours& neighbours;
+  const Blanking* blanking;
+  std::span<const float> lengths;  // [n_sites]
+  double slope;
+
+  bool is_blanked(std::int32_t site) const { return site < octree.n_leaves() && blanking->colour[site] == CellColour::kBlanked; }
+  /// Lengths pass from flow to blanked cells, which must not be seen from the flow.
+  bool is_one_way(std::int32_t from, std::int32_t to) const { return blanking && is_blanked(from) != is_blanked(to); }
+};
+
 /// Least-squares gradient of one cell, shortened until the slope holds and no corner is below the smallest length around; a ridge is cut
 /// off by `upper` instead, so that the field still rises to it.
-CellLength fit_cell(const OctreeView& octree, const Neighbours& neighbours, std::span<const float> lengths, std::int32_t leaf,
-                    double slope) {
-  const double length = static_cast<double>(lengths[leaf]);
+CellLength fit_cell(const FitInput& in, std::int32_t site) {
+  const double length = static_cast<double>(in.lengths[site]);
   double smallest = length, largest = length;
   GradientFit fit;
-  const int level = octree.leaf_levels[leaf];
-  neighbours.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
-    const double other_length = static_cast<double>(lengths[other]);
+  const std::int32_t n_leaves = in.octree.n_leaves(), leaf = site < n_leaves ? site : in.blanking->split_leaf[site - n_leaves];
+  const int level = in.octree.leaf_levels[leaf];
+  for_each_link(in.blanking, in.neighbours, site, [&](std::int32_t other, const CellStep& step) {
+    if (in.is_one_way(site, other)) return;
+    const double other_length = static_cast<double>(in.lengths[other]);
     const double unit = step.fine_level > level ? 0.25 : 0.5;  // halves of the smaller cell, in edges of this one
     smallest = std::min(smallest, other_length);
     largest = std::max(largest, other_length);
@@ -117,7 +131,7 @@ CellLength fit_cell(const OctreeView& octree, const Neighbours& neighbours, std:
   });
   CellLength cell{static_cast<float>(length), {0, 0, 0}, static_cast<float>(largest)};
   if (!(length > smallest)) return cell;
-  const double edge = octree.cell_edge(level);
+  const double edge = in.octree.cell_edge(level), slope = in.slope;
   Vec3 gradient = fit.solve() / edge;
   const double steepness = norm(gradient);
   if (steepness > slope) gradient = gradient * (slope / steepness);
@@ -142,17 +156,33 @@ CellLengths bounded_lengths(std::span<const float> stored_length, std::span<cons
   return cells;
 }
 
+/// The second part of a split cell starts from the same.
+void add_second_parts(const Blanking& blanking, CellLengths& cells) {
+  for (const std::int32_t leaf : blanking.split_leaf) {
+    cells.length.push_back(cells.length[leaf]);
+    cells.cause.push_back(cells.cause[leaf]);
+  }
+}
+
 }  // namespace
 
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
-                         const ProlongOptions& options) {
+                         const ProlongOptions& options, const Blanking* blanking) {
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
+  if (blanking) add_second_parts(*blanking, lengths);
   const Neighbours neighbours(octree);
-  pass_lengths(octree, neighbours, options.slope, lengths);
+  pass_lengths(octree.edge, neighbours, blanking, options.slope, lengths);
   ProlongedLengths result;
-  result.cells.resize(lengths.length.size());
-  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
-    result.cells[leaf] = fit_cell(octree, neighbours, lengths.length, leaf, options.slope);
+  const FitInput input{octree, neighbours, blanking, lengths.length, options.slope};
+  const std::int32_t n = octree.n_leaves(), n_sites = static_cast<std::int32_t>(lengths.length.size());
+  result.cells.resize(static_cast<std::size_t>(n));
+  for (std::int32_t leaf = 0; leaf < n; ++leaf) result.cells[leaf] = fit_cell(input, leaf);
+  for (std::int32_t site = n; site < n_sites; ++site) {
+    result.second_cells.push_back(fit_cell(input, site));
+    result.cells[blanking->split_leaf[site - n]].upper *= -1;  // says that there is a second part
+  }
+  result.second_cause.assign(lengths.cause.begin() + n, lengths.cause.end());
+  lengths.cause.resize(static_cast<std::size_t>(n));
   result.cause = std::move(lengths.cause);
   return result;
 }

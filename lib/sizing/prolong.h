@@ -1,6 +1,7 @@
 // Slope-limited prolongation: from stored sample lengths to a length in every cell.
 #pragma once
 
+#include "sizing/blanking.h"
 #include "sizing/octree.h"
 
 namespace st {
@@ -9,6 +10,8 @@ namespace st {
 struct ProlongedLengths {
   std::vector<CellLength> cells;    ///< no point of a cell is below the smallest or above the largest length of the cell and its neighbours
   std::vector<std::int32_t> cause;  ///< whose sample length it goes back to; kNone: the largest length
+  std::vector<CellLength> second_cells = {};  ///< [n_split] of the second parts of cells that a surface splits; their `upper` is negated in `cells`
+  std::vector<std::int32_t> second_cause = {};  ///< [n_split]
 };
 
 struct ProlongOptions {
@@ -19,7 +22,8 @@ struct ProlongOptions {
 /// The largest lengths with h <= stored, h <= max_length and h(a) <= h(b) + slope * |centre a - centre b| for all cells a, b that touch at
 /// a face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed point, so the result is exactly
 /// reproducible; equal lengths take the smallest cause. Then the least-squares gradient. O(n) in practice. Precondition: balanced octree.
+/// With `blanking` (may be null) lengths pass through its open links only; both parts of a split cell start from what the cell stores.
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
-                         const ProlongOptions& options);
+                         const ProlongOptions& options, const Blanking* blanking = nullptr);
 
 }  // namespace st

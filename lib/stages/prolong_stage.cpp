@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "io/sizing_artifact.h"
+#include "stages/blank_input.h"
 #include "stages/size_report.h"
 #include "stages/source_input.h"
 
@@ -28,12 +29,14 @@ void require_valid(const ProlongStageOptions& o) {
   if (o.target_triangles && *o.target_triangles < 4)
     throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
   parse_similarity(o.transform, "--transform");
+  require_blank_side(o.blank_side);
   if (o.target_triangles && o.scale != 1) throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
 /// Resolved options; file names stand among the inputs.
 std::string options_json(const ProlongStageOptions& o, double scale) {
   Json json = {{"slope", o.slope}, {"scale", scale}};
+  if (!o.blank.empty()) json["blank_side"] = o.blank_side;
   if (!o.transform.empty()) json["transform"] = o.transform;
   if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
   return json.dump();
@@ -74,12 +77,18 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   const OctreeShape raster_shape = raster.octree.shape;
   if (!input.sources.empty())
     raster.octree = refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
-  sizing.lengths =
-      prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length});
+  const OctreeView octree = raster.octree.shape.view();
+  if (!o.blank.empty()) {
+    const BlankInput blank = read_blank(o.blank, o.blank_side);
+    sizing.blanking = blank_cells(octree, Neighbours(octree), blank.view(), blank.side);
+    input.files.push_back(blank.file);
+  }
+  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length},
+                           o.blank.empty() ? nullptr : &sizing.blanking);
   sizing.shape = std::move(raster.octree.shape);
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);
-  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, o.slope, 1}, nullptr);
+  const OctreeField field(sizing.field_data(), nullptr);
   const std::vector<FaceWeight> weights = face_weights(raster.faces, raster_shape.view(), field);
   sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
@@ -93,13 +102,21 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   const double lo = sizing.scale * smallest->length, hi = sizing.scale * largest->length, n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
   const std::string sources = sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
+  const std::vector<CellColour>& colour = sizing.blanking.colour;
+  const auto n_blanked = std::count(colour.begin(), colour.end(), CellColour::kBlanked);
+  const auto n_cut = std::count(colour.begin(), colour.end(), CellColour::kCut);
+  const std::string blanked =
+      colour.empty() ? "" : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut, sizing.blanking.split.size());
   StageSummary summary;
-  summary.line = fmt::format("{}: {} cells{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
-                             sizing.lengths.cells.size(), sources, lo, hi, scaled, o.slope, n, seconds);
+  summary.line = fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
+                             sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
   summary.json = Json{
       {"tool", "st-prolong"},
       {"output", o.output},
       {"cells", sizing.lengths.cells.size()},
+      {"blanked_cells", n_blanked},
+      {"cut_cells", n_cut},
+      {"split_cells", sizing.blanking.split.size()},
       {"sources", sizing.names.source.size()},
       {"lmin", lo},
       {"lmax", hi},
@@ -121,8 +138,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   if (!o.sample.empty()) require_writable(o.sample_output);
   SizingArtifact sizing = prolong_raster(o, read_raster(o.raster));
   if (!o.sample.empty()) {
-    const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale}, nullptr);
-    sample_sizes(field, sizing.names, o.sample, o.sample_output);
+    sample_sizes(OctreeField(sizing.field_data(), nullptr), sizing.names, o.sample, o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   return summarize(o, sizing, timer.seconds());

@@ -18,6 +18,8 @@ struct ProlongStageOptions {
   std::string background;               ///< background mesh (.bac, .ba3, .msh); empty: none
   std::string transform;                ///< moves sources and background into the model's frame; see parse_similarity; empty: as they are
   std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
+  std::string blank;                    ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty: none
+  std::string blank_side = "auto";      ///< "inside", "outside", or "auto": outside when a group of the mesh is the far field
   std::string sample;                   ///< CSV of points at which lengths are written to `sample_output`; empty: none
   std::string sample_output = "sizes.csv";
 };

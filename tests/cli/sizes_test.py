@@ -64,5 +64,27 @@ class Sizes(ToolTest):
             self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
 
 
+class Blanking(ToolTest):
+    def test_a_mesh_blanks_its_inside_or_its_outside(self):
+        box = artifacts_of("box")
+        said = {}
+        for side in ("inside", "auto", "outside"):
+            run = must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", box / "mesh.hdf", "--blank-side", side, "--json")
+            said[side] = run.json()
+        self.assertGreater(said["inside"]["cut_cells"], 0)
+        self.assertEqual(said["auto"]["blanked_cells"], said["inside"]["blanked_cells"])
+        self.assertEqual(said["inside"]["blanked_cells"] + said["outside"]["blanked_cells"] + said["inside"]["cut_cells"], said["inside"]["cells"])
+        must("st-export", self.folder / "s.hdf", "-o", self.folder / "s.vtu")
+        self.assertIn(b'Name="colour"', (self.folder / "s.vtu").read_bytes())
+
+    def test_an_open_mesh_is_refused_with_the_places_of_its_edges(self):
+        (self.folder / "out").mkdir()
+        plate = artifacts_of("plate_with_hole")
+        self.expect_error(GEOMETRY, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "mesh.hdf",
+                          says=["mesh.hdf", "open", "one triangle only, at ("])
+        self.expect_error(INPUT, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "raster.hdf", says="raster.hdf")
+        self.expect_nothing_left(self.folder / "out")
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -97,6 +97,11 @@ SizingArtifact sample_sizing() {
   s.shape = sample_raster().octree.shape;
   s.lengths.cells.resize(15);
   s.lengths.cause.resize(15);
+  s.blanking.colour.resize(15, CellColour::kCut);
+  s.blanking.split_leaf = {3, 8};
+  s.blanking.split.resize(2);
+  s.lengths.second_cells.resize(2);
+  s.lengths.second_cause.resize(2);
   s.face_weight = {1, 2, 3};
   s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};
   return s;

@@ -1,0 +1,349 @@
+#include "sizing/blanking.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/predicates.h"
+
+namespace st {
+namespace {
+
+constexpr int kSamples = 9;  // points of a cell that tell its parts apart: near its corners, and the centre
+// Of the half edge; irregular, so that surfaces aligned with the cells rarely hit them.
+constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampleCentre = 0.0137;
+constexpr std::int8_t kNoFlow = -1;
+
+/// A leaf as a cube.
+struct Cube {
+  Vec3 center;
+  double half = 0;
+
+  Vec3 sample(int s) const {
+    if (s == 8) return center + kSampleCentre * half * Vec3{1, 0.7, 0.4};
+    return center + half * Vec3{s & 1 ? kSampleX : -kSampleX, s & 2 ? kSampleY : -kSampleY, s & 4 ? kSampleZ : -kSampleZ};
+  }
+  /// The point of the cube, a share of it around its centre, that is nearest to x.
+  Vec3 closest(Vec3 x, double share = 1) const {
+    const double h = share * half;
+    const auto clamp = [h](double v, double c) { return std::clamp(v, c - h, c + h); };
+    return {clamp(x.x, center.x), clamp(x.y, center.y), clamp(x.z, center.z)};
+  }
+  Vec3 nearest(Vec3 x) const { return closest(x, 0.94); }
+};
+
+/// The parts of the flow in a cut cell, by samples.
+struct CellParts {
+  std::array<std::int8_t, kSamples> part{};  // 0, 1 or kNoFlow
+  Vec3 spare;                                // a point of the flow where no sample is one
+  bool has_spare = false;
+
+  bool has(int p) const { return has_spare ? p == 0 : std::find(part.begin(), part.end(), p) != part.end(); }
+};
+
+class Blanker {
+ public:
+  Blanker(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side)
+      : octree_(octree), neighbours_(neighbours), surface_(surface), flow_sign_(side == BlankSide::kInside ? 1 : -1) {}
+
+  Blanking run() {
+    cut_ = find_cut_cells(octree_, surface_);
+    colour_cut_cells();
+    colour_the_rest();
+    find_parts();
+    link_sites();
+    return std::move(result_);
+  }
+
+ private:
+  Cube cube(std::int32_t leaf) const { return {octree_.leaf_center(leaf), 0.5 * octree_.cell_edge(octree_.leaf_levels[leaf])}; }
+  bool is_cut(std::int32_t leaf) const { return result_.colour[leaf] == CellColour::kCut; }
+
+  void colour_cut_cells() {
+    result_.colour.assign(octree_.leaf_keys.size(), CellColour::kFlow);
+    cut_index_.assign(octree_.leaf_keys.size(), kNone);
+    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
+      result_.colour[cut_.leaf[i]] = CellColour::kCut;
+      cut_index_[cut_.leaf[i]] = i;
+    }
+  }
+
+  /// One ray for each region of uncut cells, and its colour for all of them.
+  void colour_the_rest() {
+    std::vector<std::uint8_t> is_known(octree_.leaf_keys.size(), 0);
+    std::vector<std::int32_t> front;
+    for (std::int32_t seed = 0; seed < octree_.n_leaves(); ++seed) {
+      if (is_cut(seed) || is_known[seed]) continue;
+      const bool is_inside = winding_number(surface_, octree_.leaf_center(seed)) > 0;
+      const CellColour colour = is_inside == (flow_sign_ < 0) ? CellColour::kFlow : CellColour::kBlanked;
+      front.assign(1, seed);
+      is_known[seed] = 1;
+      while (!front.empty()) {
+        const std::int32_t leaf = front.back();
+        front.pop_back();
+        result_.colour[leaf] = colour;
+        neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+          if (is_cut(other) || is_known[other]) return;
+          is_known[other] = 1;
+          front.push_back(other);
+        });
+      }
+    }
+  }
+
+  bool is_open(Vec3 p, Vec3 q, std::span<const TriangleId> triangles) const {
+    Box3 box;
+    box.add(p);
+    box.add(q);
+    for (const TriangleId t : triangles) {
+      const Vec3 a = surface_.corner(t, 0), b = surface_.corner(t, 1), c = surface_.corner(t, 2);
+      if (std::max({a.x, b.x, c.x}) < box.lo.x || std::min({a.x, b.x, c.x}) > box.hi.x || std::max({a.y, b.y, c.y}) < box.lo.y ||
+          std::min({a.y, b.y, c.y}) > box.hi.y || std::max({a.z, b.z, c.z}) < box.lo.z || std::min({a.z, b.z, c.z}) > box.hi.z)
+        continue;
+      if (segment_meets_triangle(p, q, a, b, c)) return false;
+    }
+    return true;
+  }
+
+  // --- parts of cut cells ---
+
+  void find_parts() {
+    parts_.resize(cut_.leaf.size());
+    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
+      parts_[i] = parts_of(i);
+      if (!parts_[i].has(1)) continue;
+      result_.split_leaf.push_back(cut_.leaf[i]);
+      result_.split.push_back(split_cell(i));
+    }
+  }
+
+  CellParts parts_of(std::int32_t i) {
+    const Cube cell = cube(cut_.leaf[i]);
+    clip(i, cell);
+    const std::array<int, kSamples> group = connect_samples(cell, cut_.triangles(i));
+    std::array<int, kSamples> vote{}, count{};
+    for (int s = 0; s < kSamples; ++s) {
+      vote[group[s]] += sign_at(cell.sample(s));
+      ++count[group[s]];
+    }
+    std::array<int, 2> largest{kNone, kNone};  // groups of flow
+    for (int g = 0; g < kSamples; ++g) {
+      if (count[g] == 0 || vote[g] <= 0) continue;
+      if (largest[0] == kNone || count[g] > count[largest[0]]) {
+        largest[1] = largest[0];
+        largest[0] = g;
+      } else if (largest[1] == kNone || count[g] > count[largest[1]]) {
+        largest[1] = g;
+      }
+    }
+    CellParts parts;
+    for (int s = 0; s < kSamples; ++s) {
+      const int g = group[s];
+      parts.part[s] = vote[g] <= 0 ? kNoFlow : g == largest[1] ? 1 : 0;
+    }
+    if (largest[0] == kNone) set_spare(cell, parts);
+    return parts;
+  }
+
+  /// Triangles of the cell, cut off at its sides.
+  void clip(std::int32_t i, const Cube& cell) {
+    pieces_.clear();
+    for (const TriangleId t : cut_.triangles(i)) {
+      const Vec3 a = surface_.corner(t, 0), b = surface_.corner(t, 1), c = surface_.corner(t, 2);
+      const ClippedTriangle polygon = clip_triangle(a, b, c, cell.center, cell.half);
+      if (polygon.n < 3) continue;
+      Vec3 area;
+      for (int k = 1; k + 1 < polygon.n; ++k)
+        area += 0.5 * cross(polygon.corner[k] - polygon.corner[0], polygon.corner[k + 1] - polygon.corner[0]);
+      if (norm2(area) > 0) pieces_.push_back({t, polygon, polygon.middle(), flow_sign_ * area});
+    }
+  }
+
+  /// For each sample the lowest one that it is connected with along the cell's edges and diagonals.
+  std::array<int, kSamples> connect_samples(const Cube& cell, std::span<const TriangleId> triangles) const {
+    std::array<int, kSamples> group;
+    std::iota(group.begin(), group.end(), 0);
+    const auto join = [&](int a, int b) {
+      if (group[a] == group[b] || !is_open(cell.sample(a), cell.sample(b), triangles)) return;
+      const auto [low, high] = std::minmax(group[a], group[b]);
+      const int from = high, to = low;
+      for (int& g : group)
+        if (g == from) g = to;
+    };
+    for (int axis = 1; axis < 8; axis *= 2)
+      for (int s = 0; s < 8; ++s)
+        if (!(s & axis)) join(s, s | axis);
+    for (int s = 0; s < 8; ++s) join(s, 8);
+    return group;
+  }
+
+  /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface decides.
+  int sign_at(Vec3 x) const {
+    const Piece* nearest = nullptr;
+    for (const Piece& piece : pieces_)
+      if (!nearest || norm2(piece.middle - x) < norm2(nearest->middle - x)) nearest = &piece;
+    if (!nearest) return 0;
+    double first = std::numeric_limits<double>::infinity();
+    int sign = 0;
+    for (const Piece& piece : pieces_) {
+      const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1), c = surface_.corner(piece.triangle, 2);
+      if (&piece != nearest && !segment_meets_triangle(x, nearest->middle, a, b, c)) continue;
+      const double from = orient3d(a, b, c, x), to = orient3d(a, b, c, nearest->middle);
+      const double t = &piece == nearest ? 1 : from / (from - to);
+      if (!(t < first) || from == 0) continue;
+      first = t;
+      sign = from > 0 ? 1 : -1;
+    }
+    return flow_sign_ * sign;
+  }
+
+  void set_spare(const Cube& cell, CellParts& parts) const {
+    const Piece* largest = nullptr;
+    for (const Piece& piece : pieces_)
+      if (!largest || norm2(piece.area) > norm2(largest->area)) largest = &piece;
+    constexpr double kOff = 1e-3;  // of the half edge
+    parts.spare = largest ? largest->middle + kOff * cell.half * normalized(largest->area) : cell.center;
+    parts.has_spare = true;
+  }
+
+  /// The plane between the surface that looks to the first part and the one that looks to the second.
+  CellSplit split_cell(std::int32_t i) const {
+    const Cube cell = cube(cut_.leaf[i]);
+    std::array<Vec3, 2> sum;
+    std::array<int, 2> count{};
+    for (int s = 0; s < kSamples; ++s)
+      if (const int p = parts_[i].part[s]; p != kNoFlow) {
+        sum[p] += cell.sample(s);
+        ++count[p];
+      }
+    const Vec3 across = sum[0] / count[0] - sum[1] / count[1];
+    Vec3 normal;
+    for (const Piece& piece : pieces_) normal += (dot(piece.area, across) < 0 ? -1.0 : 1.0) * piece.area;
+    normal = norm2(normal) > 0 ? normalized(normal) : normalized(across);
+    double lowest_first = std::numeric_limits<double>::infinity(), highest_second = -lowest_first;
+    for (const Piece& piece : pieces_)
+      for (int k = 0; k < piece.polygon.n; ++k) {
+        const double height = dot(normal, piece.polygon.corner[k] - cell.center);
+        if (dot(piece.area, normal) > 0)
+          lowest_first = std::min(lowest_first, height);
+        else
+          highest_second = std::max(highest_second, height);
+      }
+    if (!std::isfinite(lowest_first)) lowest_first = highest_second;
+    if (!std::isfinite(highest_second)) highest_second = lowest_first;
+    const auto f = [](double v) { return static_cast<float>(v); };
+    return {{f(normal.x), f(normal.y), f(normal.z)},
+            f(0.5 * (lowest_first + highest_second)),
+            f(std::max(0.0, 0.5 * (highest_second - lowest_first)))};
+  }
+
+  // --- links ---
+
+  /// Rows of all sites that touch a cut cell or are cut.
+  void link_sites() {
+    const std::int32_t n = octree_.n_leaves(), n_split = static_cast<std::int32_t>(result_.split_leaf.size());
+    result_.site_links.assign(static_cast<std::size_t>(n + n_split), kNone);
+    for (std::int32_t leaf = 0; leaf < n; ++leaf) {
+      bool is_near = is_cut(leaf);
+      if (!is_near) neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { is_near |= is_cut(other); });
+      if (is_near) add_row(leaf, leaf, 0);
+    }
+    for (std::int32_t k = 0; k < n_split; ++k) add_row(n + k, result_.split_leaf[k], 1);
+  }
+
+  void add_row(std::int32_t site, std::int32_t leaf, int part) {
+    OpenLinks open;
+    std::uint64_t bit = 1;
+    std::int32_t last = kNone;
+    std::array<bool, 2> last_open{};
+    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+      if (other != last) last_open = {passes(leaf, part, other, 0), passes(leaf, part, other, 1)};
+      last = other;
+      if (last_open[0]) open.to_first |= bit;
+      if (last_open[1]) open.to_second |= bit;
+      bit <<= 1;
+    });
+    result_.site_links[site] = static_cast<std::int32_t>(result_.links.size());
+    result_.links.push_back(open);
+  }
+
+  bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part) const {
+    if (to_part == 1 && !(is_cut(to) && parts_[cut_index_[to]].has(1))) return false;
+    if (result_.colour[to] == CellColour::kBlanked) return true;
+    if (result_.colour[from] == CellColour::kBlanked) return false;
+    return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
+  }
+
+  /// Whether the surface leaves a way between two parts: tried from the nearest pairs of their samples.
+  bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) const {
+    constexpr int kTries = 3;
+    const Cube cube_a = cube(a), cube_b = cube(b);
+    struct Way {
+      double length2;
+      Vec3 from, to;
+    };
+    std::array<Way, kSamples * kSamples> ways;
+    int n = 0;
+    for_each_point(a, part_a, cube_b, [&](Vec3 from) {
+      for_each_point(b, part_b, cube_a, [&](Vec3 to) {
+        const Vec3 p = is_cut(a) ? from : cube_a.nearest(to), q = is_cut(b) ? to : cube_b.nearest(from);
+        ways[n++] = {norm2(q - p), p, q};
+      });
+    });
+    const int tries = std::min(n, kTries);
+    std::partial_sort(ways.begin(), ways.begin() + tries, ways.begin() + n,
+                      [](const Way& v, const Way& w) { return v.length2 < w.length2; });
+    for (int k = 0; k < tries; ++k) {  // through a common point, so that each leg stays in its cell
+      const Vec3 common = cube_b.closest(cube_a.closest(0.5 * (ways[k].from + ways[k].to)));
+      if (is_open(ways[k].from, common, triangles_of(a)) && is_open(common, ways[k].to, triangles_of(b))) return true;
+    }
+    return false;
+  }
+
+  /// The samples of a part; of an uncut cell the point nearest to `other`.
+  template <class F>
+  void for_each_point(std::int32_t leaf, int part, const Cube& other, const F& f) const {
+    if (!is_cut(leaf)) return f(cube(leaf).nearest(other.center));
+    const CellParts& parts = parts_[cut_index_[leaf]];
+    if (parts.has_spare) return f(parts.spare);
+    const Cube own = cube(leaf);
+    for (int s = 0; s < kSamples; ++s)
+      if (parts.part[s] == part) f(own.sample(s));
+  }
+
+  std::span<const TriangleId> triangles_of(std::int32_t leaf) const {
+    return is_cut(leaf) ? cut_.triangles(cut_index_[leaf]) : std::span<const TriangleId>{};
+  }
+
+  struct Piece {
+    TriangleId triangle = kNone;
+    ClippedTriangle polygon;
+    Vec3 middle, area;  // area: towards the flow
+  };
+
+  const OctreeView& octree_;
+  const Neighbours& neighbours_;
+  const SurfaceView& surface_;
+  const int flow_sign_;  // +1: the flow lies where the normals point to
+  CutCells cut_;
+  std::vector<std::int32_t> cut_index_;  // [n_leaves] kNone: not cut
+  std::vector<CellParts> parts_;         // [n_cut]
+  std::vector<Piece> pieces_;            // of the cell at hand
+  Blanking result_;
+};
+
+}  // namespace
+
+std::int32_t Blanking::find_split(std::int32_t leaf) const {
+  const auto it = std::lower_bound(split_leaf.begin(), split_leaf.end(), leaf);
+  return it != split_leaf.end() && *it == leaf ? static_cast<std::int32_t>(it - split_leaf.begin()) : kNone;
+}
+
+Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side) {
+  return Blanker(octree, neighbours, surface, side).run();
+}
+
+}  // namespace st

@@ -1,0 +1,130 @@
+#include "sizing/cut_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/predicates.h"
+
+namespace st {
+namespace {
+
+constexpr double kTouching = 1 + 1e-9;  // cells are that much larger: what touches them cuts them
+
+/// Finds the leaves of one triangle after the other.
+class TriangleWalk {
+ public:
+  TriangleWalk(const OctreeView& octree, const SurfaceView& surface) : octree_(octree), surface_(surface) {}
+
+  void visit(TriangleId t) {
+    triangle_ = t;
+    for (int k = 0; k < 3; ++k) corner_[k] = surface_.corner(t, k);
+    box_ = {};
+    for (const Vec3& x : corner_) box_.add(x);
+    normal_ = cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
+    const double half = 0.5 * octree_.edge;
+    descend(octree_.node_children.empty() ? ~0 : 0, octree_.lo + Vec3{half, half, half}, half);
+  }
+  std::vector<std::pair<std::int32_t, TriangleId>> found;  // leaf, triangle
+
+ private:
+  void descend(std::int32_t node, Vec3 center, double half) {
+    if (!may_meet(center, kTouching * half)) return;
+    if (node < 0) {
+      if (clip_triangle(corner_[0], corner_[1], corner_[2], center, kTouching * half).n > 0) found.emplace_back(~node, triangle_);
+      return;
+    }
+    const double q = 0.5 * half;
+    for (int o = 0; o < 8; ++o)
+      descend(octree_.node_children[8 * static_cast<std::size_t>(node) + static_cast<std::size_t>(o)],
+              center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q}, q);
+  }
+  bool may_meet(Vec3 c, double h) const {
+    if (box_.lo.x > c.x + h || box_.hi.x < c.x - h || box_.lo.y > c.y + h || box_.hi.y < c.y - h || box_.lo.z > c.z + h ||
+        box_.hi.z < c.z - h)
+      return false;
+    return std::abs(dot(normal_, c - corner_[0])) <= h * (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
+  }
+
+  const OctreeView& octree_;
+  const SurfaceView& surface_;
+  TriangleId triangle_ = 0;
+  Vec3 corner_[3], normal_;
+  Box3 box_;
+};
+
+}  // namespace
+
+CutCells find_cut_cells(const OctreeView& octree, const SurfaceView& surface) {
+  TriangleWalk walk(octree, surface);
+  for (TriangleId t = 0; t < static_cast<TriangleId>(surface.triangles.size()); ++t) walk.visit(t);
+  std::sort(walk.found.begin(), walk.found.end());
+  CutCells cells;
+  for (const auto& [leaf, triangle] : walk.found) {
+    if (cells.leaf.empty() || cells.leaf.back() != leaf) {
+      cells.leaf.push_back(leaf);
+      cells.offsets.push_back(cells.offsets.back());
+    }
+    cells.triangle.push_back(triangle);
+    ++cells.offsets.back();
+  }
+  return cells;
+}
+
+Vec3 ClippedTriangle::middle() const {
+  Vec3 sum;
+  for (int k = 0; k < n; ++k) sum += corner[k];
+  return sum / std::max(n, 1);
+}
+
+// Sutherland and Hodgman: one side of the cube after the other.
+ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half) {
+  ClippedTriangle polygon{3, {a - center, b - center, c - center}};
+  const auto component = [](const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; };
+  for (int side = 0; side < 6 && polygon.n > 0; ++side) {
+    const int axis = side / 2;
+    const double sign = side % 2 ? -1 : 1;
+    ClippedTriangle next;
+    for (int k = 0; k < polygon.n; ++k) {
+      const Vec3 p = polygon.corner[k], q = polygon.corner[(k + 1) % polygon.n];
+      const double dp = half - sign * component(p, axis), dq = half - sign * component(q, axis);
+      if (dp >= 0) next.corner[next.n++] = p;
+      if ((dp > 0 && dq < 0) || (dp < 0 && dq > 0)) next.corner[next.n++] = p + dp / (dp - dq) * (q - p);
+    }
+    polygon = next;
+  }
+  for (int k = 0; k < polygon.n; ++k) polygon.corner[k] += center;
+  return polygon;
+}
+
+bool segment_meets_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
+  const double sp = orient3d(a, b, c, p), sq = orient3d(a, b, c, q);
+  if ((sp > 0 && sq > 0) || (sp < 0 && sq < 0)) return false;
+  const double u = orient3d(p, q, a, b), v = orient3d(p, q, b, c), w = orient3d(p, q, c, a);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+// A ray along +x: seen along it, each triangle winds around x or not; common edges of two triangles are counted once whatever the rounding.
+int winding_number(const SurfaceView& surface, Vec3 x) {
+  const Vec2 origin{x.y, x.z};
+  int winding = 0;
+  for (TriangleId t = 0; t < static_cast<TriangleId>(surface.triangles.size()); ++t) {
+    const Vec3 p[3] = {surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)};
+    if (std::max({p[0].x, p[1].x, p[2].x}) < x.x) continue;
+    int turns = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 a{p[k].y, p[k].z}, b{p[(k + 1) % 3].y, p[(k + 1) % 3].z};
+      if ((a.y <= origin.y) == (b.y <= origin.y)) continue;
+      const double side = orient2d(a, b, origin);
+      if (b.y > origin.y && side > 0) ++turns;
+      if (a.y > origin.y && side < 0) --turns;
+    }
+    if (turns == 0) continue;
+    // the side of the triangle that x lies on tells whether the ray meets it: seen along +x, a counter-clockwise one has its normal there
+    const double side = orient3d(p[0], p[1], p[2], x);
+    if ((turns > 0 && side < 0) || (turns < 0 && side > 0)) winding += turns;
+  }
+  return winding;
+}
+
+}  // namespace st

@@ -1,0 +1,27 @@
+// The closed mesh that st-prolong is given for blanking. Internal to stages.
+#pragma once
+
+#include <string>
+
+#include "io/artifact.h"
+#include "sizing/blanking.h"
+
+namespace st {
+
+/// A mesh whose triangles agree in orientation, normals out of its inside.
+struct BlankInput {
+  SurfaceMesh mesh;
+  BlankSide side = BlankSide::kInside;
+  InputRef file;  ///< for the header
+
+  SurfaceView view() const { return {mesh.node_xyz, mesh.triangles}; }
+};
+
+/// Throws Error(kUsage) unless `side` is "inside", "outside" or "auto".
+void require_blank_side(const std::string& side);
+
+/// Reads, orients and checks. `side`: as above; "auto": outside when the name of a group says far field. Throws
+/// Error(kUsage), Error(kInput), Error(kGeometry) naming places when the mesh is open or cannot be oriented.
+BlankInput read_blank(const std::string& path, const std::string& side);
+
+}  // namespace st
