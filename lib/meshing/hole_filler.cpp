@@ -253,18 +253,35 @@ class HoleBoundaryMaker {
   FaceBoundary result_;
 };
 
-/// Numbers nodes of a patch: boundary nodes by id, kept inner nodes by id, new ones.
+/// Numbers the nodes that a patch takes over: boundary nodes by id, then inner nodes by id. The inner ids of a face are consecutive.
 class PatchNodes {
  public:
-  explicit PatchNodes(std::vector<std::int32_t> ids) : ids_(std::move(ids)) {
-    std::sort(ids_.begin(), ids_.end());
-    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+  PatchNodes(std::int32_t first_inner, std::int32_t n_inner) : first_inner_(first_inner), inner_(n_inner, kNone) {}
+  void add(std::int32_t id) {
+    if (id < first_inner_)
+      boundary_.push_back(id);
+    else
+      inner_[id - first_inner_] = 0;
   }
-  std::int32_t number(std::int32_t id) const { return static_cast<std::int32_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()); }
+  void number_all() {
+    std::sort(boundary_.begin(), boundary_.end());
+    boundary_.erase(std::unique(boundary_.begin(), boundary_.end()), boundary_.end());
+    ids_ = boundary_;
+    for (std::size_t i = 0; i < inner_.size(); ++i) {
+      if (inner_[i] == kNone) continue;
+      inner_[i] = static_cast<std::int32_t>(ids_.size());
+      ids_.push_back(first_inner_ + static_cast<std::int32_t>(i));
+    }
+  }
+  std::int32_t number(std::int32_t id) const {
+    if (id >= first_inner_) return inner_[id - first_inner_];
+    return static_cast<std::int32_t>(std::lower_bound(boundary_.begin(), boundary_.end(), id) - boundary_.begin());
+  }
   const std::vector<std::int32_t>& ids() const { return ids_; }
 
  private:
-  std::vector<std::int32_t> ids_;
+  std::int32_t first_inner_;
+  std::vector<std::int32_t> boundary_, inner_, ids_;
 };
 
 void add_known_nodes(const PatchNodes& nodes, const HoleNumbering& numbering, FacePatch& p) {
@@ -312,14 +329,14 @@ FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, Face
 FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary, const FaceMesh* fill) {
   const HoleMesh& cad = numbering.mesh;
   const SurfaceMesh& m = cad.mesh;
-  std::vector<std::int32_t> ids;
+  PatchNodes nodes(numbering.inner(cad.inner_begin[face]), cad.inner_begin[face + 1] - cad.inner_begin[face]);
   const auto kept = [&](TriangleId i) { return fill == nullptr || !marks.triangle[i]; };
   for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
-    for (int k = 0; k < 3 && kept(i); ++k) ids.push_back(numbering.of_node[m.triangles[i].n[k]]);
+    for (int k = 0; k < 3 && kept(i); ++k) nodes.add(numbering.of_node[m.triangles[i].n[k]]);
   const std::int32_t n_local = boundary ? static_cast<std::int32_t>(boundary->nodes.size()) : 0;
   if (boundary)
-    for (const auto& n : boundary->nodes) ids.push_back(n.id);
-  const PatchNodes nodes(std::move(ids));
+    for (const auto& n : boundary->nodes) nodes.add(n.id);
+  nodes.number_all();
   FacePatch p;
   p.face = face;
   add_known_nodes(nodes, numbering, p);
