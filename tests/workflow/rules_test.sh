@@ -6,7 +6,7 @@ source=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-unset MAKEFLAGS MAKELEVEL MFLAGS MODEL OUT NP EXPORT ALLOW_INCOMPLETE TOOLS BUILD
+unset MAKEFLAGS MAKELEVEL MFLAGS MODEL OUT NP EXPORT BLANK ALLOW_INCOMPLETE TOOLS BUILD
 export FAKE_LOG=$work/ran
 mkdir bin
 for tool in st-import st-raster st-prolong st-mesh st-merge st-check st-info st-export; do
@@ -54,6 +54,17 @@ expect "the last stage's option file runs the last stage alone" "$ran" "st-merge
 rm out/a/st-raster.toml
 run MODEL=a.step
 expect "a removed option file comes back with the defaults and counts as an edit" "$ran" "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+
+run MODEL=a.step OUT=b BLANK=1
+expect "blanking takes two passes and one raster" "$ran" "st-import st-raster st-prolong st-mesh st-merge st-prolong st-mesh st-merge st-check st-export st-info "
+run MODEL=a.step OUT=b BLANK=1
+expect "a second run with blanking runs nothing" "$ran" ""
+run MODEL=a.step OUT=b
+expect "without blanking the second pass is made again" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
+run MODEL=a.step OUT=b BLANK=1
+expect "and with it again, from the mesh of the first" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
+expect "the mesh of the first pass blanks" "$(grep -cx st-merge b/sizing.hdf)" 1
+rm -r b
 
 run MODEL=a.step NP=7
 expect "the number of ranks does not make results old" "$ran" ""
