@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale.
+"""Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale, by the cause of
+the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow, orange cut, grey blanked).
 
-usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [-o docs/images]
+usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour] [--suffix TEXT] [-o docs/images]
 With --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
 Needs python3-vtk9 and, without a display, xvfb.
 """
@@ -50,17 +51,40 @@ def cut(data, origin, normal):
     return cutter.GetOutput()
 
 
-def slice_scene(grid, name, origin, normal, body, half_height):
+def categories(grid, by):
+    """Adds the cell array "category" and returns the table of its colours."""
+    if by == "colour":
+        value, palette = common.cell_array(grid, "colour"), [(1, 1, 1), (0.95, 0.70, 0.35), (0.72, 0.72, 0.72)]
+    else:
+        kind, ident = common.cell_array(grid, "cause_kind").astype(int), common.cell_array(grid, "cause_id").astype(int)
+        n = len(common.PALETTE)
+        value, palette = numpy.where(kind < 0, 0, 1 + (5 * ident + 3 * kind) % n), [(1, 1, 1)] + list(common.PALETTE)
+    array = vtk.vtkIntArray()
+    array.SetName("category")
+    array.SetNumberOfTuples(len(value))
+    vtk_to_numpy(array)[:] = value
+    grid.GetCellData().AddArray(array)
+    table = vtk.vtkLookupTable()
+    table.SetNumberOfTableValues(len(palette))
+    table.SetTableRange(0, len(palette) - 1)
+    for i, rgb in enumerate(palette):
+        table.SetTableValue(i, *rgb, 1)
+    return table
+
+
+def slice_scene(grid, name, origin, normal, body, half_height, table=None):
     """Coloured slice with cell edges, the section of the body and a scale for the lengths that are in the picture."""
     piece = cut(grid, origin, normal)
-    centres = vtk.vtkCellCenters()
-    centres.SetInputData(piece)
-    centres.Update()
-    near = numpy.abs(vtk_to_numpy(centres.GetOutput().GetPoints().GetData()) - numpy.array(origin)).max(axis=1) < 1.6 * half_height
-    lengths = vtk_to_numpy(piece.GetCellData().GetArray(name))[near]
-    table = colours(float(lengths.min()), float(lengths.max()))
+    is_category = table is not None
+    if not is_category:
+        centres = vtk.vtkCellCenters()
+        centres.SetInputData(piece)
+        centres.Update()
+        near = numpy.abs(vtk_to_numpy(centres.GetOutput().GetPoints().GetData()) - numpy.array(origin)).max(axis=1) < 1.6 * half_height
+        lengths = vtk_to_numpy(piece.GetCellData().GetArray(name))[near]
+        table = colours(float(lengths.min()), float(lengths.max()))
 
-    piece.GetCellData().SetActiveScalars(name)
+    piece.GetCellData().SetActiveScalars("category" if is_category else name)
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(piece)
     mapper.SetScalarModeToUseCellData()
@@ -79,7 +103,8 @@ def slice_scene(grid, name, origin, normal, body, half_height):
         outline.GetProperty().LightingOff()
         outline.SetPosition(*(1e-3 * half_height * numpy.array(normal)))  # in front of the cells
         renderer.AddActor(outline)
-    renderer.AddViewProp(scale_bar(table))
+    if not is_category:
+        renderer.AddViewProp(scale_bar(table))
     return renderer
 
 
@@ -139,6 +164,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("sizing", help="octree exported as .vtu")
     parser.add_argument("--mesh", help="mesh artifact: places the slices and shows the body")
+    parser.add_argument("--by", choices=("size", "cause", "colour"), default="size", help="what colours show (default: %(default)s)")
+    parser.add_argument("--suffix", default="", help="added to the names of the pictures")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     options = parser.parse_args()
     grid = common.read(options.sizing)
@@ -148,12 +175,13 @@ def main():
         from render_mesh import Mesh
         mesh = Mesh(options.mesh)
         body = mesh.surface(~mesh.is_outer())
+    table = None if options.by == "size" else categories(grid, options.by)
     os.makedirs(options.output, exist_ok=True)
     for picture, (origin, normal, half_height) in slices(grid, name, mesh).items():
-        renderer = slice_scene(grid, name, origin, normal, body, half_height)
+        renderer = slice_scene(grid, name, origin, normal, body, half_height, table)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, origin, normal, half_height)
-        common.write_png(window, os.path.join(options.output, picture + ".png"))
+        common.write_png(window, os.path.join(options.output, picture + options.suffix + ".png"))
 
 
 if __name__ == "__main__":
