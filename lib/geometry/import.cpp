@@ -95,10 +95,13 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units)
     result.findings.push_back({"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});
-  result.tables = occt::make_tables(model, path);
+  occt::ModelOfFile tables = occt::make_tables(model, path);
+  result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
-  occt::report_topology(model, result);
+  const double small = resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
+  occt::report_topology(model, tables.measures, small, result);
+  if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
   result.brep = brep_bytes(model.shape);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;

@@ -38,6 +38,7 @@ struct ModelTables {
   std::vector<double> face_uv_bounds;                ///< [4*n_faces] u_min, u_max, v_min, v_max
   std::vector<double> face_tolerance;
   std::vector<double> face_area;                     ///< model unit squared, from the B-Rep
+  std::vector<double> face_width;                    ///< model unit; of the rectangle of the same area and perimeter
   std::vector<Box3> face_box;
   std::vector<std::string> face_name;                ///< UTF-8, empty when the file has none
   std::vector<std::int32_t> face_color;              ///< 0xRRGGBB, kNone when the file has none
@@ -49,6 +50,7 @@ struct ModelTables {
   std::vector<std::string> group_name;               ///< UTF-8
   std::vector<std::string> group_role;               ///< "wall", "symmetry", "farfield": from the name (symmetry, sym, farfield, far_field ...)
   std::int32_t n_shells = 0, n_solids = 0;
+  std::optional<double> volume;                      ///< model unit cubed, of a closed model; negative where normals point inward
   // unit
   std::string unit;                                  ///< "mm", "m", "in" ...; empty when the model has none
   std::optional<double> unit_in_m;
@@ -107,7 +109,8 @@ struct ImportFinding {
 
 struct ImportOptions {
   std::string unit;                       ///< target unit name; empty: the file's own
-  bool check_only = false;
+  std::string small = "0.01%";            ///< length: edges shorter and faces narrower than this are listed
+  bool check_only = false;                ///< also run OpenCASCADE's checker
   bool require_closed = false;            ///< Error(kGeometry) for a model that is open after repairs
 };
 

@@ -1,19 +1,16 @@
 #include "geometry/model_tables.h"
 
-#include <BRepGProp.hxx>
-#include <BRepTools.hxx>
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <cctype>
 #include <cmath>
 #include <map>
 
 #include "base/error.h"
+#include "geometry/face_integral.h"
 #include "geometry/occt_evaluators.h"
 
 namespace st::occt {
@@ -21,9 +18,9 @@ namespace {
 
 class TableWriter {
  public:
-  TableWriter(const ImportedShape& model, const std::string& path) : model_(model), path_(path) {}
+  TableWriter(const ImportedShape& model, const std::string& path) : model_(model), path_(path), origin_(rough_box(model.shape).center()) {}
 
-  ModelTables run() {
+  ModelOfFile run() {
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
     TopExp::MapShapes(model_.shape, TopAbs_VERTEX, vertices_);
     fill_vertices();
@@ -31,7 +28,7 @@ class TableWriter {
     fill_faces();
     fill_shells_and_solids();
     fill_groups();
-    return std::move(tables_);
+    return {std::move(tables_), std::move(measures_)};
   }
 
  private:
@@ -66,7 +63,12 @@ class TableWriter {
       t.edge_range.push_back(t1);
       t.edge_tolerance.push_back(BRep_Tool::Tolerance(e));
       t.edge_is_degenerate.push_back(degenerate);
-      t.edge_length.push_back(degenerate ? 0.0 : arc_length(*make_curve(c, t0, t1), t0, t1, 32));
+      edge_box_.emplace_back();
+      t.edge_length.push_back(0);
+      if (degenerate) continue;
+      const std::unique_ptr<Curve> curve = make_curve(c, t0, t1);
+      t.edge_length.back() = arc_length(*curve, t0, t1, 32);
+      edge_box_.back() = sampled_box(*curve);
     }
   }
 
@@ -84,69 +86,61 @@ class TableWriter {
     t.loop_coedge_offsets.push_back(0);
     for (int i = 0; i < model_.faces.Extent(); ++i) {
       const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1).Oriented(TopAbs_FORWARD));
-      double u0, u1, v0, v1;
-      BRepTools::UVBounds(f, u0, u1, v0, v1);
-      for (double b : {u0, u1, v0, v1}) t.face_uv_bounds.push_back(b);
+      const FaceDomain domain = make_domain(f);
+      for (double b : {domain.bounds.u_min, domain.bounds.u_max, domain.bounds.v_min, domain.bounds.v_max}) t.face_uv_bounds.push_back(b);
       t.face_is_reversed.push_back(orientation[i] == TopAbs_REVERSED);
       t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
       t.face_tolerance.push_back(BRep_Tool::Tolerance(f));
-      GProp_GProps properties;
-      BRepGProp::SurfaceProperties(f, properties);
-      t.face_area.push_back(std::abs(properties.Mass()));
-      t.face_box.push_back(rough_box(f));
       t.face_name.push_back(model_.attributes[i].name);
       t.face_layer.push_back(model_.attributes[i].layer);
       t.face_color.push_back(model_.attributes[i].color);
-      fill_loops(f);
+      fill_loops(domain);
+      measure(f, domain);
     }
   }
 
-  struct Loop {
-    std::vector<TopoDS_Edge> edges;
-    double area = 0;  // signed, in (u,v)
-  };
-
-  void fill_loops(const TopoDS_Face& f) {
+  void fill_loops(const FaceDomain& domain) {
     ModelTables& t = tables_;
-    std::vector<Loop> loops;
-    for (TopoDS_Iterator w(f); w.More(); w.Next()) {
-      if (w.Value().ShapeType() != TopAbs_WIRE) continue;
-      Loop loop;
-      for (BRepTools_WireExplorer e(TopoDS::Wire(w.Value()), f); e.More(); e.Next())
-        if (!is_constraint(e.Current())) loop.edges.push_back(e.Current());
-      if (loop.edges.empty()) continue;
-      loop.area = uv_area(loop.edges, f);
-      loops.push_back(std::move(loop));
-    }
-    std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return a.area > b.area; });
-    for (const Loop& loop : loops) {
-      for (const TopoDS_Edge& e : loop.edges) {
-        t.coedge_edge.push_back(edges_.FindIndex(e) - 1);
-        t.coedge_is_reversed.push_back(e.Orientation() == TopAbs_REVERSED);
+    for (const LoopUv& loop : domain.loops) {
+      for (const CoedgeUv& c : loop.coedges) {
+        t.coedge_edge.push_back(edges_.FindIndex(c.edge) - 1);
+        t.coedge_is_reversed.push_back(c.edge.Orientation() == TopAbs_REVERSED);
       }
       t.loop_coedge_offsets.push_back(static_cast<std::int32_t>(t.coedge_edge.size()));
     }
     t.face_loop_offsets.push_back(static_cast<std::int32_t>(t.loop_coedge_offsets.size()) - 1);
   }
 
-  static double uv_area(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& f) {
-    std::vector<Vec2> polygon;
-    for (const TopoDS_Edge& e : edges) {
-      double t0, t1;
-      const Handle(Geom2d_Curve) c = BRep_Tool::CurveOnSurface(e, f, t0, t1);
-      if (c.IsNull()) continue;
-      const bool reversed = e.Orientation() == TopAbs_REVERSED;
-      constexpr int kSamples = 16;
-      for (int k = 0; k < kSamples; ++k) {
-        const double s = reversed ? 1.0 - double(k) / kSamples : double(k) / kSamples;
-        const gp_Pnt2d p = c->Value(t0 + s * (t1 - t0));
-        polygon.push_back({p.X(), p.Y()});
+  /// Area, width, box, and what the report says of the loops.
+  void measure(const TopoDS_Face& f, const FaceDomain& domain) {
+    ModelTables& t = tables_;
+    const FaceIntegral integral = integrate_face(domain, origin_);
+    Box3 sampled = sampled_box(domain);
+    double perimeter = 0, tolerance = BRep_Tool::Tolerance(f);
+    for (const LoopUv& loop : domain.loops)
+      for (const CoedgeUv& c : loop.coedges) {
+        const EdgeId e = edges_.FindIndex(c.edge) - 1;
+        perimeter += t.edge_length[e];
+        tolerance = std::max(tolerance, t.edge_tolerance[e]);
+        sampled.add(edge_box_[e]);
       }
-    }
-    double area = 0;
-    for (std::size_t k = 0; k < polygon.size(); ++k)
-      area += 0.5 * cross(polygon[k] - polygon[0], polygon[(k + 1) % polygon.size()] - polygon[0]);
-    return area;
+    t.face_area.push_back(std::fabs(integral.area));
+    t.face_width.push_back(rectangle_width(std::fabs(integral.area), perimeter));
+    t.face_box.push_back(common_box(rough_box(f), sampled));
+    measures_.cone_volume.push_back(integral.volume);
+    measures_.crossing.push_back(find_loop_crossing(domain, 2 * tolerance));
+  }
+
+  /// Width of the rectangle of this area and perimeter: of a strip its width, of anything rounder than a square the square's side.
+  static double rectangle_width(double area, double perimeter) {
+    const double half = 0.5 * perimeter, d = half * half - 4 * area;
+    return d > 0 ? 2 * area / (half + std::sqrt(d)) : std::sqrt(area);
+  }
+
+  static Box3 common_box(const Box3& a, const Box3& b) {
+    if (b.is_empty() || a.is_empty()) return a;
+    return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+            {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
   }
 
   void fill_shells_and_solids() {
@@ -191,12 +185,15 @@ class TableWriter {
 
   const ImportedShape& model_;
   const std::string& path_;
+  Vec3 origin_;
   ModelTables tables_;
+  FaceMeasures measures_;
+  std::vector<Box3> edge_box_;
   TopTools_IndexedMapOfShape edges_, vertices_;
 };
 
 }  // namespace
 
-ModelTables make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
+ModelOfFile make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
 
 }  // namespace st::occt

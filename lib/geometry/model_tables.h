@@ -1,14 +1,28 @@
 // Flat tables of a B-Rep. Included inside lib/geometry only.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/import_shape.h"
+#include "geometry/loop_crossing.h"
 
 namespace st::occt {
 
+/// What the report and the volume need of each face beyond the tables.
+struct FaceMeasures {
+  std::vector<double> cone_volume;                    ///< [n_faces] over the face as du x dv orients it, from one common point
+  std::vector<std::optional<LoopCrossing>> crossing;  ///< [n_faces]
+};
+
+struct ModelOfFile {
+  ModelTables tables;
+  FaceMeasures measures;
+};
+
 /// Tables of `model`: ids in TopExp order; unit and findings are left to the caller. Throws Error(kGeometry) naming `path` for an edge
 /// without a vertex.
-ModelTables make_tables(const ImportedShape& model, const std::string& path);
+ModelOfFile make_tables(const ImportedShape& model, const std::string& path);
 
 }  // namespace st::occt

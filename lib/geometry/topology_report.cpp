@@ -1,31 +1,132 @@
 #include "geometry/topology_report.h"
 
-#include <BRepGProp.hxx>
-#include <GProp_GProps.hxx>
+#include <BRepCheck.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepCheck_ListIteratorOfListOfStatus.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <cctype>
+#include <sstream>
 
 namespace st::occt {
+namespace {
 
-void report_topology(const ImportedShape& model, ImportResult& result) {
-  ModelTables& t = result.tables;
+Vec3 middle(const ModelTables& t, EdgeId e) {
+  return 0.5 * (t.vertex_xyz[t.edge_vertices[2 * e]] + t.vertex_xyz[t.edge_vertices[2 * e + 1]]);
+}
+
+void report_uses(ImportResult& result) {
+  const ModelTables& t = result.tables;
   std::vector<int> uses(t.n_edges(), 0);
   for (EdgeId e : t.coedge_edge) ++uses[e];
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    if (t.edge_is_degenerate[e]) continue;
-    const Vec3 at = t.vertex_xyz[t.edge_vertices[2 * e]];
-    if (uses[e] == 1) {
-      ++result.n_free_edges;
-      result.findings.push_back({"free edge", t.edge_label(e), at, t.edge_length[e], false});
-    } else if (uses[e] > 2) {
-      ++result.n_nonmanifold_edges;
-      result.findings.push_back({"non-manifold edge", t.edge_label(e), at, t.edge_length[e], false});
-    }
+    if (t.edge_is_degenerate[e] || uses[e] == 2 || uses[e] == 0) continue;
+    const bool is_free = uses[e] == 1;
+    ++(is_free ? result.n_free_edges : result.n_nonmanifold_edges);
+    result.findings.push_back(
+        {is_free ? "free edge" : "non-manifold edge", t.edge_label(e), t.vertex_xyz[t.edge_vertices[2 * e]], t.edge_length[e], false});
   }
-  result.is_closed = t.n_shells > 0 && result.n_free_edges == 0;
-  for (double a : t.face_area) result.area += a;
-  if (result.is_closed) {
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(model.shape, properties);
-    result.volume = properties.Mass();
+}
+
+void report_edges(double small, ImportResult& result) {
+  const ModelTables& t = result.tables;
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    if (t.edge_is_degenerate[e]) continue;
+    const double tolerance =
+        std::max({t.edge_tolerance[e], t.vertex_tolerance[t.edge_vertices[2 * e]], t.vertex_tolerance[t.edge_vertices[2 * e + 1]]});
+    if (t.edge_length[e] < small) result.findings.push_back({"short edge", t.edge_label(e), middle(t, e), t.edge_length[e], false});
+    if (t.edge_length[e] < tolerance)
+      result.findings.push_back({"tolerance larger than the edge is long", t.edge_label(e), middle(t, e), tolerance, false});
+  }
+}
+
+double edge_tolerance(const ModelTables& t, FaceId f) {
+  double tolerance = t.face_tolerance[f];
+  for (std::int32_t k = t.loop_coedge_offsets[t.face_loop_offsets[f]]; k < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++k)
+    tolerance = std::max(tolerance, t.edge_tolerance[t.coedge_edge[k]]);
+  return tolerance;
+}
+
+void report_faces(const FaceMeasures& measures, double small, ImportResult& result) {
+  const ModelTables& t = result.tables;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    const Vec3 at = t.face_box[f].center();
+    const double tolerance = edge_tolerance(t, f);
+    if (t.face_width[f] < small) result.findings.push_back({"sliver face", t.face_label(f), at, t.face_width[f], false});
+    if (t.face_width[f] < tolerance)
+      result.findings.push_back({"tolerance larger than the face is wide", t.face_label(f), at, tolerance, false});
+    if (const auto& c = measures.crossing[f])
+      result.findings.push_back({"loop crosses itself or another", t.face_label(f), c->xyz, c->size, false});
+  }
+}
+
+/// "BRepCheck_InvalidCurveOnSurface" -> "invalid curve on surface".
+std::string words(BRepCheck_Status status) {
+  std::ostringstream stream;
+  BRepCheck::Print(status, stream);
+  std::string name = stream.str(), text;
+  if (const std::size_t prefix = name.find('_'); prefix != std::string::npos) name.erase(0, prefix + 1);
+  for (const char c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) continue;
+    if (std::isupper(static_cast<unsigned char>(c)) && !text.empty()) text += ' ';
+    text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+std::string first_status(const BRepCheck_ListOfStatus& list) {
+  for (BRepCheck_ListIteratorOfListOfStatus s(list); s.More(); s.Next())
+    if (s.Value() != BRepCheck_NoError) return words(s.Value());
+  return {};
+}
+
+/// Why the checker calls `shape` invalid: its own status, else that of the first wire or edge in it.
+std::string cause(const BRepCheck_Analyzer& checker, const TopoDS_Shape& shape) {
+  if (const auto own = checker.Result(shape); !own.IsNull())
+    if (std::string text = first_status(own->Status()); !text.empty()) return text;
+  for (const auto kind : {TopAbs_FACE, TopAbs_WIRE, TopAbs_EDGE, TopAbs_VERTEX})
+    for (TopExp_Explorer e(shape, kind); e.More(); e.Next()) {
+      const auto part = checker.Result(e.Current());
+      if (part.IsNull()) continue;
+      if (std::string text = first_status(part->Status()); !text.empty()) return text;
+      for (part->InitContextIterator(); part->MoreShapeInContext(); part->NextShapeInContext())
+        if (std::string text = first_status(part->StatusOnShape()); !text.empty()) return text;
+    }
+  return "cause unknown";
+}
+
+}  // namespace
+
+void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result) {
+  report_uses(result);
+  report_faces(measures, small, result);
+  report_edges(small, result);
+  result.is_closed = result.tables.n_shells > 0 && result.n_free_edges == 0;
+  for (double a : result.tables.face_area) result.area += a;
+  if (!result.is_closed) return;
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE); e.More(); e.Next())
+    result.volume += (e.Current().Orientation() == TopAbs_REVERSED ? -1 : 1) * measures.cone_volume[model.faces.FindIndex(e.Current()) - 1];
+  result.tables.volume = result.volume;
+}
+
+void report_validity(const ImportedShape& model, ImportResult& result) {
+  const ModelTables& t = result.tables;
+  const BRepCheck_Analyzer checker(model.shape);
+  if (checker.IsValid()) return;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (!checker.IsValid(model.faces(f + 1)))
+      result.findings.push_back({"invalid face (" + cause(checker, model.faces(f + 1)) + ")", t.face_label(f), t.face_box[f].center(),
+                                 t.face_box[f].diagonal(), false});
+  for (const auto& [kind, name] : {std::pair{TopAbs_SHELL, "shell"}, std::pair{TopAbs_SOLID, "solid"}}) {
+    TopTools_IndexedMapOfShape map;
+    TopExp::MapShapes(model.shape, kind, map);
+    for (int i = 1; i <= map.Extent(); ++i) {
+      if (checker.IsValid(map(i))) continue;
+      const Box3 box = rough_box(map(i));
+      result.findings.push_back({std::string("invalid ") + name + " (" + cause(checker, map(i)) + ")", std::string(name).append(" ").append(std::to_string(i)),
+                                 box.center(), box.diagonal(), false});
+    }
   }
 }
 

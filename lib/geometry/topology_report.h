@@ -1,11 +1,15 @@
-// What the import says of the model: what is open, what is not manifold. Included inside lib/geometry only.
+// What the import says of the model: what is open, not manifold, small, invalid. Included inside lib/geometry only.
 #pragma once
 
-#include "geometry/import_shape.h"
+#include "geometry/model_tables.h"
 
 namespace st::occt {
 
-/// Fills counts, area, volume, is_closed and the findings of `result`, whose tables are complete.
-void report_topology(const ImportedShape& model, ImportResult& result);
+/// Fills counts, area, volume, is_closed and findings of `result`, whose tables are complete. `small` (model unit): edges shorter and faces
+/// narrower than this are listed.
+void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result);
+
+/// Adds a finding for each face, shell and solid that OpenCASCADE's checker calls invalid. About 0.4 ms per face.
+void report_validity(const ImportedShape& model, ImportResult& result);
 
 }  // namespace st::occt

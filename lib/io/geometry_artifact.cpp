@@ -1,4 +1,6 @@
 // geometry.hdf: docs/artifacts.md
+#include <cmath>
+
 #include "io/artifact_checks.h"
 
 namespace st {
@@ -25,6 +27,7 @@ void write_faces(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/face/uv_bounds", t.face_uv_bounds, 4);
   w.write("/st/face/tolerance", t.face_tolerance);
   w.write("/st/face/area", t.face_area);
+  w.write("/st/face/width", t.face_width);
   w.write("/st/face/box", t.face_box);
   w.write_strings("/st/face/name", t.face_name);
   w.write("/st/face/color", t.face_color);
@@ -86,6 +89,11 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
   t.face_uv_bounds = r.read_rows<double>("/st/face/uv_bounds", n, 4);
   t.face_tolerance = r.read_rows<double>("/st/face/tolerance", n);
   t.face_area = r.read_rows<double>("/st/face/area", n);
+  if (r.has("/st/face/width")) {
+    t.face_width = r.read_rows<double>("/st/face/width", n);
+  } else {  // written before widths were: as wide as long
+    for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
+  }
   t.face_box = r.read_rows<Box3>("/st/face/box", n);
   t.face_name = r.read_string_rows("/st/face/name", n);
   t.face_color = r.read_rows<std::int32_t>("/st/face/color", n);
@@ -130,6 +138,7 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
   w.write("/st/brep", geometry.brep);
   w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
   w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
+  if (t.volume) w.write("/st/volume", std::vector<double>{*t.volume});
   w.set_attribute("/st", "is_closed", std::int64_t{geometry.is_closed});
   return w.commit();
 }
@@ -142,6 +151,7 @@ GeometryArtifact read_geometry(const std::string& path) {
   read_faces(r, geometry.tables);
   geometry.tables.unit = r.header().unit;
   geometry.tables.unit_in_m = r.header().unit_in_m;
+  if (r.has("/st/volume")) geometry.tables.volume = r.read_rows<double>("/st/volume", 1)[0];
   geometry.findings = read_findings(r);
   geometry.brep = r.read<std::byte>("/st/brep");
   geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -53,18 +54,28 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
 }
 
-void warn(const std::string& model, const ImportResult& r) {
+/// The first findings as text; the rest is counted.
+void say(const std::string& model, const ImportResult& r) {
   if (!r.is_closed)
     log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there", model, r.n_free_edges));
-  int n = 0;
-  for (const ImportFinding& f : r.findings) {
-    if (n++ == kFindingsShown) {
-      log_info("  ... more in the JSON report (--json)");
-      break;
-    }
+  const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const ImportFinding& f = r.findings[i];
     log_info(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what,
                          f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size));
   }
+  if (n > shown) log_info(fmt::format("  ... and {} more: see --json", n - shown));
+}
+
+/// "box 37.8 x 18.9 x 4.1 m, area 520 m^2, volume 402 m^3".
+std::string extent(const ImportResult& r) {
+  const Box3 box = r.tables.box();
+  const std::string unit = r.tables.unit.empty() ? "" : " " + r.tables.unit, square = unit.empty() ? "" : unit + "^2",
+                    cube = unit.empty() ? "" : unit + "^3";
+  std::string text = fmt::format("box {:.6g} x {:.6g} x {:.6g}{}, area {:.6g}{}", box.hi.x - box.lo.x, box.hi.y - box.lo.y,
+                                 box.hi.z - box.lo.z, unit, r.area, square);
+  if (r.is_closed) text += fmt::format(", volume {:.6g}{}", r.volume, cube);
+  return text;
 }
 
 }  // namespace
@@ -74,24 +85,23 @@ StageSummary run_import(const ImportStageOptions& o) {
   if (!o.check) require_writable(o.output);
   ImportOptions options;
   options.unit = o.unit;
+  options.small = o.small;
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   ImportResult r = import_model(o.model, options);
-  warn(o.model, r);
+  say(o.model, r);
   nlohmann::json json = report(o.model, r);
   const ModelTables& t = r.tables;
-  const Box3 box = t.box();
-  const std::string unit = t.unit.empty() ? "" : " " + t.unit;
   StageSummary s;
-  s.line = fmt::format("{}: {} faces, {} edges, {}, box {:.6g} x {:.6g} x {:.6g}{}, {} repairs", o.check ? o.model : o.output, t.n_faces(), t.n_edges(),
-                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), box.hi.x - box.lo.x, box.hi.y - box.lo.y,
-                       box.hi.z - box.lo.z, unit, r.n_repairs);
+  s.line = fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(), t.n_edges(),
+                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), extent(r),
+                       r.findings.size() - r.n_repairs, r.n_repairs);
   if (!o.check) {
     GeometryArtifact g;
     g.header.schema = "geometry";
     g.header.tool = "st-import";
     g.header.tool_version = ST_VERSION;
-    g.header.options_json = nlohmann::json{{"unit", o.unit}}.dump();
+    g.header.options_json = nlohmann::json{{"unit", o.unit}, {"small", o.small}}.dump();
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};

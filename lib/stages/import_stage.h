@@ -11,6 +11,7 @@ struct ImportStageOptions {
   std::string model;                ///< CAD file: STEP, IGES or BREP
   std::string output = "geometry.hdf";
   std::string unit;                 ///< convert to this unit; empty: the file's own
+  std::string small = "0.01%";      ///< length: edges shorter and faces narrower than this are listed
   bool check = false;               ///< report only, write nothing
   bool require_closed = false;      ///< an open model is an error (exit 4)
 };

@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   tool.input("model", o.model, "CAD file");
   tool.output(o.output);
   tool.unit("--unit", o.unit, "unit of the artifact (mm, cm, m, in, ft); the file's own when not given");
+  tool.length("--small", o.small, "0.01%", "edges shorter and faces narrower than this are listed");
   tool.flag("--check", o.check, "report defects only, write nothing");
   tool.flag("--require-closed", o.require_closed, "an open model is an error (exit 4)");
   return tool.run(argc, argv, [&] { return st::run_import(o); });

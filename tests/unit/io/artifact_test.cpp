@@ -245,6 +245,8 @@ TEST(GeometryArtifact, gives_back_every_table) {
   EXPECT_EQ(a.group_name, b.group_name);
   EXPECT_EQ(a.group_role, b.group_role);
   EXPECT_EQ(a.n_shells, b.n_shells);
+  EXPECT_EQ(a.face_width, b.face_width);
+  EXPECT_EQ(a.volume, b.volume);
   EXPECT_EQ(a.n_solids, b.n_solids);
   EXPECT_EQ(a.unit, b.unit);
   EXPECT_EQ(a.unit_in_m, b.unit_in_m);

@@ -39,6 +39,7 @@ inline GeometryArtifact sample_geometry() {
   t.face_uv_bounds = {0, 1, 0, 1, -1, 1, -2, 2};
   t.face_tolerance = {1e-7, 2e-7};
   t.face_area = {0.5, 0.75};
+  t.face_width = {0.5, 0.25};
   t.face_box = {{{0, 0, 0}, {1, 1, 0}}, {{0, 0, -1}, {1, 1, 1}}};
   t.face_name = {"WING_UPPER", "Flügel unten"};
   t.face_color = {0xff8000, kNone};
@@ -50,6 +51,7 @@ inline GeometryArtifact sample_geometry() {
   t.group_role = {"wall", "farfield"};
   t.n_shells = 1;
   t.n_solids = 1;
+  t.volume = 0.125;
   t.unit = "mm";
   t.unit_in_m = 0.001;
   for (int i = 0; i < 3000; ++i) g.brep.push_back(static_cast<std::byte>(i * 7));
