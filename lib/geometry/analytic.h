@@ -40,6 +40,7 @@ class PlaneSurface : public Surface {
   Vec3 point(Vec2 uv) const override { return frame_.origin + uv.x * frame_.x + uv.y * frame_.y; }
   SurfacePoint evaluate(Vec2 uv) const override { return {point(uv), frame_.x, frame_.y}; }
   SurfacePoint2 evaluate2(Vec2 uv) const override { return {point(uv), frame_.x, frame_.y, {}, {}, {}}; }
+  std::optional<Vec2> exact_foot(Vec3 p) const override { return Vec2{dot(p - frame_.origin, frame_.x), dot(p - frame_.origin, frame_.y)}; }
 
  private:
   Frame frame_;
@@ -54,6 +55,7 @@ class AxialSurface : public Surface {
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
+  std::optional<Vec2> exact_foot(Vec3 p) const override;
 
  private:
   struct Profile {

@@ -80,10 +80,23 @@ std::vector<double> KnotSpans::distinct_knots() const {
   return knots;
 }
 
+std::vector<double> KnotSpans::knots_between(double lo, double hi) const {
+  std::vector<double> knots;
+  const int first = period_ > 0 ? static_cast<int>(std::floor((lo - lo_) / period_)) : 0;
+  const int last = period_ > 0 ? static_cast<int>(std::floor((hi - lo_) / period_)) : 0;
+  for (int turn = first; turn <= last; ++turn)
+    for (std::size_t k = 0; k < spans_.size(); ++k) {
+      const double t = spans_[k].start + turn * period_;
+      if ((k > 0 || turn > first) && t > lo && t < hi) knots.push_back(t);
+    }
+  return knots;
+}
+
 BsplineCurve::BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool is_rational, double t_min, double t_max)
     : knots_(std::move(knots)), is_rational_(is_rational), kernels_(patch_kernels(knots_.degree() + 1, is_rational ? 4 : 3)) {
   t_min_ = t_min;
   t_max_ = t_max;
+  period_ = knots_.period();
   const int order = knots_.degree() + 1;
   coefficients_.assign(static_cast<std::size_t>(knots_.n_spans()) * order, Pole{});
   for (int k = 0; k < knots_.n_spans(); ++k)
@@ -124,6 +137,8 @@ BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles
   u_max_ = bounds.u_max;
   v_min_ = bounds.v_min;
   v_max_ = bounds.v_max;
+  u_period_ = u_.period();
+  v_period_ = v_.period();
   u_breaks_ = u_.c0_knots();
   v_breaks_ = v_.c0_knots();
   patch_index_.assign(static_cast<std::size_t>(u_.n_spans()) * v_.n_spans(), -1);
@@ -187,6 +202,10 @@ SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
     r.dv = w * (r.dv - (rv * pv[3]) * r.x);
   }
   return r;
+}
+
+void BsplineSurface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) out[i] = BsplineSurface::evaluate(uv[i]);
 }
 
 SurfacePoint2 BsplineSurface::evaluate2(Vec2 uv) const {

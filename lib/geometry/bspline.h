@@ -40,6 +40,8 @@ class KnotSpans {
   const std::vector<double>& c0_knots() const { return c0_knots_; }
   /// Different knots from first to last, ascending: n_spans() + 1 values.
   std::vector<double> distinct_knots() const;
+  /// Different knots strictly between `lo` and `hi`, ascending, repeated along the period.
+  std::vector<double> knots_between(double lo, double hi) const;
 
  private:
   struct Span {
@@ -68,6 +70,7 @@ class BsplineCurve : public Curve {
   Vec3 point(double t) const override;
   CurvePoint evaluate(double t) const override;
   const std::vector<double>& c0_knots() const { return knots_.c0_knots(); }
+  std::vector<double> knots() const override { return knots_.knots_between(t_min_, t_max_); }
 
  private:
   KnotSpans knots_;
@@ -87,6 +90,9 @@ class BsplineSurface : public Surface {
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
+  void evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const override;
+  std::vector<double> u_knots() const override { return u_.knots_between(u_min_, u_max_); }
+  std::vector<double> v_knots() const override { return v_.knots_between(v_min_, v_max_); }
 
  private:
   /// Local parameters of (u,v), the spans' rates, and the coefficients of the patch that holds them.

@@ -47,9 +47,10 @@ Pole pole(const gp_Pnt& p, double w) { return {{w * p.X(), w * p.Y(), w * p.Z(),
 /// Everything without an evaluator of our own.
 class AdaptorCurve : public Curve {
  public:
-  AdaptorCurve(const Handle(Geom_Curve)& c, double t_min, double t_max) : curve_(c) {
+  AdaptorCurve(const Handle(Geom_Curve) & c, double t_min, double t_max) : curve_(c) {
     t_min_ = t_min;
     t_max_ = t_max;
+    if (c->IsPeriodic()) period_ = c->Period();
   }
   Vec3 point(double t) const override { return vec(curve_.Value(t)); }
   CurvePoint evaluate(double t) const override {
@@ -65,7 +66,7 @@ class AdaptorCurve : public Curve {
 
 class AdaptorCurve2d : public Curve2d {
  public:
-  explicit AdaptorCurve2d(const Handle(Geom2d_Curve)& c) : curve_(c) {}
+  explicit AdaptorCurve2d(const Handle(Geom2d_Curve) & c) : curve_(c) {}
   Vec2 point(double t) const override {
     const gp_Pnt2d p = curve_.Value(t);
     return {p.X(), p.Y()};
@@ -86,12 +87,14 @@ class LineCurve2d : public Curve2d {
 
 class AdaptorSurface : public Surface {
  public:
-  AdaptorSurface(const Handle(Geom_Surface)& s, SurfaceType type, const UvBounds& b) : surface_(s) {
+  AdaptorSurface(const Handle(Geom_Surface) & s, SurfaceType type, const UvBounds& b) : surface_(s) {
     type_ = type;
     u_min_ = b.u_min;
     u_max_ = b.u_max;
     v_min_ = b.v_min;
     v_max_ = b.v_max;
+    if (s->IsUPeriodic()) u_period_ = s->UPeriod();
+    if (s->IsVPeriodic()) v_period_ = s->VPeriod();
     add_breaks(surface_.NbUIntervals(GeomAbs_C1), true);
     add_breaks(surface_.NbVIntervals(GeomAbs_C1), false);
   }
@@ -132,7 +135,7 @@ Handle(Geom_Curve) basis_curve(Handle(Geom_Curve) c) {
   return c;
 }
 
-std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve)& original, double t_min, double t_max) {
+std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve) & original, double t_min, double t_max) {
   const auto c = Handle(Geom_BSplineCurve)::DownCast(original->Copy());
   const double period = c->IsPeriodic() ? c->Period() : 0;
   if (c->IsPeriodic()) c->SetNotPeriodic();
@@ -142,7 +145,7 @@ std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve)& original, 
   return std::make_unique<BsplineCurve>(KnotSpans(c->Degree(), flat(c->KnotSequence()), period), poles, is_rational, t_min, t_max);
 }
 
-std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface)& original, const UvBounds& b) {
+std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface) & original, const UvBounds& b) {
   const auto s = Handle(Geom_BSplineSurface)::DownCast(original->Copy());
   const double u_period = s->IsUPeriodic() ? s->UPeriod() : 0, v_period = s->IsVPeriodic() ? s->VPeriod() : 0;
   if (s->IsUPeriodic()) s->SetUNotPeriodic();
@@ -155,31 +158,29 @@ std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface)& orig
     for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(s->Pole(i, j), is_rational ? s->Weight(i, j) : 1.0));
   return std::make_unique<BsplineSurface>(KnotSpans(s->UDegree(), flat(s->UKnotSequence()), u_period),
                                           KnotSpans(s->VDegree(), flat(s->VKnotSequence()), v_period), std::move(poles), s->NbVPoles(),
-                                          is_rational,
-                                          BsplineSurface::Bounds{b.u_min, b.u_max, b.v_min, b.v_max});
+                                          is_rational, BsplineSurface::Bounds{b.u_min, b.u_max, b.v_min, b.v_max});
 }
 
 }  // namespace
 
-SurfaceType surface_type(const Handle(Geom_Surface)& surface) {
+SurfaceType surface_type(const Handle(Geom_Surface) & surface) {
   const Handle(Geom_Surface) s = basis_surface(surface);
-  const std::pair<Handle(Standard_Type), SurfaceType> types[] = {
-      {STANDARD_TYPE(Geom_Plane), SurfaceType::kPlane},
-      {STANDARD_TYPE(Geom_CylindricalSurface), SurfaceType::kCylinder},
-      {STANDARD_TYPE(Geom_ConicalSurface), SurfaceType::kCone},
-      {STANDARD_TYPE(Geom_SphericalSurface), SurfaceType::kSphere},
-      {STANDARD_TYPE(Geom_ToroidalSurface), SurfaceType::kTorus},
-      {STANDARD_TYPE(Geom_BezierSurface), SurfaceType::kBezier},
-      {STANDARD_TYPE(Geom_BSplineSurface), SurfaceType::kBspline},
-      {STANDARD_TYPE(Geom_SurfaceOfRevolution), SurfaceType::kRevolution},
-      {STANDARD_TYPE(Geom_SurfaceOfLinearExtrusion), SurfaceType::kExtrusion},
-      {STANDARD_TYPE(Geom_OffsetSurface), SurfaceType::kOffset}};
+  const std::pair<Handle(Standard_Type), SurfaceType> types[] = {{STANDARD_TYPE(Geom_Plane), SurfaceType::kPlane},
+                                                                 {STANDARD_TYPE(Geom_CylindricalSurface), SurfaceType::kCylinder},
+                                                                 {STANDARD_TYPE(Geom_ConicalSurface), SurfaceType::kCone},
+                                                                 {STANDARD_TYPE(Geom_SphericalSurface), SurfaceType::kSphere},
+                                                                 {STANDARD_TYPE(Geom_ToroidalSurface), SurfaceType::kTorus},
+                                                                 {STANDARD_TYPE(Geom_BezierSurface), SurfaceType::kBezier},
+                                                                 {STANDARD_TYPE(Geom_BSplineSurface), SurfaceType::kBspline},
+                                                                 {STANDARD_TYPE(Geom_SurfaceOfRevolution), SurfaceType::kRevolution},
+                                                                 {STANDARD_TYPE(Geom_SurfaceOfLinearExtrusion), SurfaceType::kExtrusion},
+                                                                 {STANDARD_TYPE(Geom_OffsetSurface), SurfaceType::kOffset}};
   for (const auto& [type, kind] : types)
     if (s->IsKind(type)) return kind;
   return SurfaceType::kOther;
 }
 
-std::unique_ptr<Curve> make_curve(const Handle(Geom_Curve)& curve, double t_min, double t_max) {
+std::unique_ptr<Curve> make_curve(const Handle(Geom_Curve) & curve, double t_min, double t_max) {
   const Handle(Geom_Curve) c = basis_curve(curve);
   if (const auto line = Handle(Geom_Line)::DownCast(c))
     return std::make_unique<LineCurve>(vec(line->Lin().Location()), vec(line->Lin().Direction()), t_min, t_max);
@@ -193,7 +194,7 @@ std::unique_ptr<Curve> make_curve(const Handle(Geom_Curve)& curve, double t_min,
   return std::make_unique<AdaptorCurve>(c, t_min, t_max);
 }
 
-std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve)& curve, double, double) {
+std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve) & curve, double, double) {
   Handle(Geom2d_Curve) c = curve;
   while (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(c)) c = trimmed->BasisCurve();
   if (const auto line = Handle(Geom2d_Line)::DownCast(c)) {
@@ -203,7 +204,7 @@ std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve)& curve, double,
   return std::make_unique<AdaptorCurve2d>(c);
 }
 
-std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface)& surface, const UvBounds& b) {
+std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const UvBounds& b) {
   const Handle(Geom_Surface) s = basis_surface(surface);
   const auto axial = [&](SurfaceType type, const gp_Ax3& position, double radius, double second) {
     return std::make_unique<AxialSurface>(type, frame(position), radius, second, b.u_min, b.u_max, b.v_min, b.v_max);
@@ -219,8 +220,7 @@ std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface)& surface, const
   if (const auto torus = Handle(Geom_ToroidalSurface)::DownCast(s))
     return axial(SurfaceType::kTorus, torus->Position(), torus->MajorRadius(), torus->MinorRadius());
   if (const auto bspline = Handle(Geom_BSplineSurface)::DownCast(s)) return bspline_surface(bspline, b);
-  if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(s))
-    return bspline_surface(GeomConvert::SurfaceToBSplineSurface(bezier), b);
+  if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(s)) return bspline_surface(GeomConvert::SurfaceToBSplineSurface(bezier), b);
   return std::make_unique<AdaptorSurface>(s, surface_type(s), b);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/samples.h"
+
 namespace st {
 namespace {
 // du x dv counts as singular below this sine of the angle between du and dv, or where one of them vanishes against the other.
@@ -14,6 +16,12 @@ Vec3 regular_normal(const SurfacePoint& p, double scale2) {
   return size > kSingular * kSingular * scale2 && size > kSingular * norm(p.du) * norm(p.dv) ? n / size : Vec3{};
 }
 }  // namespace
+
+void Surface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) out[i] = evaluate(uv[i]);
+}
+
+std::optional<Vec2> Surface::exact_foot(Vec3) const { return std::nullopt; }
 
 Vec3 surface_normal(const Surface& surface, Vec2 uv) {
   const double mid_u = 0.5 * (surface.u_min() + surface.u_max()), mid_v = 0.5 * (surface.v_min() + surface.v_max());
@@ -47,6 +55,40 @@ Curvature principal_curvature(const SurfacePoint2& p) {
   Curvature c{mean + root, mean - root};
   if (std::abs(c.k2) > std::abs(c.k1)) std::swap(c.k1, c.k2);
   return c;
+}
+
+Box3 bounding_box(const Surface& surface) {
+  const std::vector<double> u = sample_parameters(surface.u_min(), surface.u_max(), surface.u_knots(), kBoxSamples, kBoxSamplesPerPiece);
+  const std::vector<double> v = sample_parameters(surface.v_min(), surface.v_max(), surface.v_knots(), kBoxSamples, kBoxSamplesPerPiece);
+  Box3 box;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      const SurfacePoint2 p = surface.evaluate2({u[i], v[j]});
+      const double hu = u[std::min(i + 1, u.size() - 1)] - u[i], hv = v[std::min(j + 1, v.size() - 1)] - v[j];
+      // Taylor's remainder over half a cell; twice, as second derivatives vary inside it
+      const auto reach = [&](double uu, double uv, double vv) {
+        return (std::abs(uu) * hu * hu + 2 * std::abs(uv) * hu * hv + std::abs(vv) * hv * hv) / 4;
+      };
+      const Vec3 r{reach(p.duu.x, p.duv.x, p.dvv.x), reach(p.duu.y, p.duv.y, p.dvv.y), reach(p.duu.z, p.duv.z, p.dvv.z)};
+      box.add(p.x - r);
+      box.add(p.x + r);
+    }
+  return box;
+}
+
+std::vector<SingularSide> singular_sides(const Surface& surface, double tolerance) {
+  std::vector<SingularSide> singular;
+  for (int side = 0; side < 4; ++side) {
+    const bool along_v = side < 2;
+    const double fixed = side == 0 ? surface.u_min() : side == 1 ? surface.u_max() : side == 2 ? surface.v_min() : surface.v_max();
+    const double lo = along_v ? surface.v_min() : surface.u_min(), hi = along_v ? surface.v_max() : surface.u_max();
+    const auto at = [&](double t) { return surface.point(along_v ? Vec2{fixed, t} : Vec2{t, fixed}); };
+    const Vec3 middle = at(0.5 * (lo + hi));
+    const std::vector<double> samples = sample_parameters(lo, hi, along_v ? surface.v_knots() : surface.u_knots());
+    if (std::all_of(samples.begin(), samples.end(), [&](double t) { return distance(at(t), middle) <= tolerance; }))
+      singular.push_back({side, middle});
+  }
+  return singular;
 }
 
 std::optional<Vec2> project_near(const Surface& surface, Vec3 target, Vec2 uv) {

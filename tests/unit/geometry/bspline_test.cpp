@@ -74,6 +74,28 @@ TEST(KnotSpans, wraps_by_the_period) {
     }
 }
 
+TEST(KnotSpans, finds_spans_of_very_different_lengths) {
+  const std::vector<double> inner{1e-9, 2e-9, 3e-9, 0.5, 0.5 + 1e-12, 0.7, 0.99999999};
+  const KnotSpans k(3, clamped_knots(3, inner, 1), 0);
+  const std::vector<double> knots = k.distinct_knots();
+  ASSERT_EQ(knots.size(), inner.size() + 2);
+  for (int i = 0; i < k.n_spans(); ++i)
+    for (double t : {knots[i], 0.5 * (knots[i] + knots[i + 1]), std::nextafter(knots[i + 1], 0.0)}) {
+      int last = (i + 3) % k.n_spans();
+      double s;
+      EXPECT_EQ(k.locate(t, last, s), i) << t;
+    }
+}
+
+TEST(KnotSpans, lists_its_knots_along_the_period) {
+  const KnotSpans once(2, clamped_knots(2, {1, 3, 3}, 4), 0), round(2, clamped_knots(2, {1, 3}, 4), 4);
+  EXPECT_EQ(once.distinct_knots(), (std::vector<double>{0, 1, 3, 4}));
+  EXPECT_EQ(once.knots_between(0, 4), (std::vector<double>{1, 3}));
+  EXPECT_EQ(once.knots_between(1, 3.5), std::vector<double>{3});
+  EXPECT_EQ(round.knots_between(-2, 5.5), (std::vector<double>{-1, 0, 1, 3, 4, 5}));
+  EXPECT_EQ(round.knots_between(0, 4), (std::vector<double>{1, 3}));
+}
+
 TEST(KnotSpans, knows_its_kinks) {
   EXPECT_EQ(KnotSpans(3, clamped_knots(3, {1, 2, 2, 2, 3, 3}, 4), 0).c0_knots(), std::vector<double>{2});
   EXPECT_TRUE(KnotSpans(3, clamped_knots(3, {1, 2, 2}, 4), 0).c0_knots().empty());

@@ -120,5 +120,80 @@ TEST(ProjectNear, gives_up_where_the_surface_has_no_tangent_plane) {
   EXPECT_FALSE(project_near(needle, {2, 2, 3}, {1, 0.5}));
 }
 
+const char* const kManyShapes[] = {"square",        "sphere",    "cylinder",    "cone",           "torus",       "wave",
+                                   "rational_wave", "stretched", "kinked",      "periodic_tube",  "revolution",  "extrusion",
+                                   "offset",        "bezier",    "closed_tube", "rational_torus", "tube_window", "high_degree_wave"};
+
+TEST(BoundingBox, holds_the_surface_and_little_more) {
+  for (const char* shape : kManyShapes) {
+    const auto model = test::make_model(shape);
+    const auto s = model.surface(0);
+    const Box3 box = bounding_box(*s);
+    Box3 samples;
+    for (int i = 0; i <= 97; ++i)
+      for (int j = 0; j <= 97; ++j)
+        samples.add(s->point({s->u_min() + (s->u_max() - s->u_min()) * i / 97, s->v_min() + (s->v_max() - s->v_min()) * j / 97}));
+    Box3 both = box;
+    both.add(samples);
+    EXPECT_LE(both.diagonal() - box.diagonal(), 1e-12 * box.diagonal()) << shape;
+    EXPECT_LE(box.diagonal(), 1.15 * samples.diagonal()) << shape;
+  }
+}
+
+TEST(BoundingBox, of_a_plane_is_exact) {
+  const Box3 box = bounding_box(PlaneSurface(kFrame, -1, 2, 0, 4));
+  EXPECT_TRUE(box.lo == (Vec3{0, 2, 3}));
+  EXPECT_TRUE(box.hi == (Vec3{3, 6, 3}));
+}
+
+TEST(SingularSides, are_the_poles_of_a_sphere_and_the_apex_of_a_cone) {
+  const AxialSurface sphere(SurfaceType::kSphere, kFrame, 5, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  const auto poles = singular_sides(sphere, 1e-9);
+  ASSERT_EQ(poles.size(), 2u);
+  EXPECT_EQ(poles[0].side, 2);
+  EXPECT_LE(distance(poles[0].x, {1, 2, -2}), 1e-12);
+  EXPECT_EQ(poles[1].side, 3);
+  const double apex = 5 / std::sin(0.4);
+  const auto tip = singular_sides(AxialSurface(SurfaceType::kCone, kFrame, 5, -0.4, 0, 2 * kPi, 0, apex), 1e-9);
+  ASSERT_EQ(tip.size(), 1u);
+  EXPECT_EQ(tip[0].side, 3);
+  EXPECT_TRUE(singular_sides(kTorus, 1e-9).empty());
+  EXPECT_TRUE(singular_sides(kCylinder, 1e-9).empty());
+}
+
+TEST(SurfacePeriod, brings_back_the_same_point) {
+  for (const char* shape : kManyShapes) {
+    const auto model = test::make_model(shape);
+    const auto s = model.surface(0);
+    const Vec2 uv{0.7 * s->u_min() + 0.3 * s->u_max(), 0.4 * s->v_min() + 0.6 * s->v_max()};
+    const double size = model.tables().box().diagonal();
+    EXPECT_LE(distance(s->point({uv.x + s->u_period(), uv.y}), s->point(uv)), 1e-12 * size) << shape;
+    EXPECT_LE(distance(s->point({uv.x, uv.y + s->v_period()}), s->point(uv)), 1e-12 * size) << shape;
+  }
+  EXPECT_EQ(kTorus.u_period(), 2 * kPi);
+  EXPECT_EQ(kTorus.v_period(), 2 * kPi);
+  EXPECT_EQ(kSphere.v_period(), 0);
+  const auto tube = test::make_model("periodic_tube");
+  EXPECT_GT(tube.surface(0)->u_period() + tube.surface(0)->v_period(), 0);
+  const auto revolution = test::make_model("revolution");
+  EXPECT_NEAR(revolution.surface(0)->u_period(), 2 * kPi, 1e-15);
+}
+
+TEST(EvaluateBatch, is_evaluate_at_each_point) {
+  for (const char* shape : kManyShapes) {
+    const auto model = test::make_model(shape);
+    const auto s = model.surface(0);
+    std::vector<Vec2> uv;
+    for (int k = 0; k < 20; ++k)
+      uv.push_back({s->u_min() + (s->u_max() - s->u_min()) * k / 19.0, s->v_max() + (s->v_min() - s->v_max()) * (k * k % 20) / 19.0});
+    std::vector<SurfacePoint> out(uv.size());
+    s->evaluate_batch(uv, out);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const SurfacePoint p = s->evaluate(uv[k]);
+      EXPECT_TRUE(out[k].x == p.x && out[k].du == p.du && out[k].dv == p.dv) << shape;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace st
