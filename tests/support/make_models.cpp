@@ -13,9 +13,9 @@
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
-#include <Quantity_Color.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
@@ -88,6 +88,22 @@ TopoDS_Shape two_boxes_apart() {
   return both;
 }
 
+/// A body, and a thin rod that asks for lengths far below the body's on one side of its wall.
+TopoDS_Shape with_rod(const TopoDS_Shape& body, gp_Pnt from, gp_Dir along, double length) {
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, body);
+  builder.Add(both, BRepPrimAPI_MakeCylinder(gp_Ax2(from, along), 0.3, length).Shape());
+  return both;
+}
+
+/// A thin nacelle: a tube with a rod inside, near its wall.
+TopoDS_Shape tube_with_rod() {
+  const TopoDS_Shape outer = BRepPrimAPI_MakeCylinder(10, 40).Shape(), inner = BRepPrimAPI_MakeCylinder(9.6, 40).Shape();
+  return with_rod(BRepAlgoAPI_Cut(outer, inner).Shape(), gp_Pnt(8.9, 0, 17), gp_Dir(0, 0, 1), 6);
+}
+
 void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
 
 /// An assembly: a named block, and two instances of a pin of which one face has a name and a colour.
@@ -137,6 +153,8 @@ void write_all(const fs::path& dir) {
   write_brep(dir / "plate_with_hole.brep", plate_with_hole());
   write_step(dir / "block_with_hole.step", block_with_hole(), "MM");
   write_brep(dir / "thin_plate.brep", box(100, 60, 0.2));
+  write_brep(dir / "tube_with_rod.brep", tube_with_rod());
+  write_brep(dir / "plate_with_rod.brep", with_rod(box(100, 60, 0.2), gp_Pnt(47, 30, 1.2), gp_Dir(1, 0, 0), 6));
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
 }

@@ -1,0 +1,63 @@
+"""Blanking on whole models: what one side of a thin wall asks for stays on that side, in the field and in the mesh."""
+import struct
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+
+def triangles(path):
+    """Corners of the triangles of a binary STL file."""
+    for x in struct.iter_unpack("<12f2x", path.read_bytes()[84:]):
+        yield x[3:6], x[6:9], x[9:12]
+
+
+class Blanking(ToolTest):
+    def two_meshes(self, name):
+        """Folder of the chain without blanking, and of the one blanked with the former's mesh."""
+        a, b = artifacts_of(name), self.folder
+        must("st-prolong", a / "raster.hdf", "-o", b / "sizing.hdf", "--blank", a / "mesh.hdf")
+        must("st-mesh", a / "geometry.hdf", b / "sizing.hdf", "-o", b / "patches.hdf")
+        must("st-merge", b / "patches.hdf", "-o", b / "mesh.hdf")
+        must("st-check", b / "mesh.hdf", "--geometry", a / "geometry.hdf", "--sizing", b / "sizing.hdf")
+        return a, b
+
+    def count(self, folder, is_there):
+        """Triangles with all corners where is_there(x, y, z) says."""
+        must("st-export", folder / "mesh.hdf", "-o", self.folder / "m.stl")
+        return sum(all(is_there(*corner) for corner in t) for t in triangles(self.folder / "m.stl"))
+
+    def length(self, folder, *xyz):
+        return must("st-info", folder / "sizing.hdf", "--at=" + ",".join(map(str, xyz)), "--json").json()["length"]
+
+    def test_the_outside_of_a_thin_nacelle_loses_the_refinement_inside(self):
+        a, b = self.two_meshes("tube_with_rod")
+        rod = 0.3 * 3.14159 / 18
+        self.assertAlmostEqual(self.length(a, 10, 0, 20), rod + 0.2 * 0.8, delta=0.06)
+        largest = self.length(a, -10, 0, 20)
+        self.assertGreater(largest, 5 * (rod + 0.2 * 0.8))
+        self.assertAlmostEqual(self.length(b, 10, 0, 20), largest, delta=0.05 * largest)
+        self.assertAlmostEqual(self.length(b, 9.6, 0, 20), self.length(a, 9.6, 0, 20), delta=0.05)
+        outside = lambda x, y, z: x * x + y * y > 9.9**2 and 3 < z < 37  # noqa: E731
+        inside = lambda x, y, z: 9**2 < x * x + y * y < 9.7**2 and 3 < z < 37  # noqa: E731
+        n_a, n_b = self.count(a, outside), self.count(b, outside)
+        self.assertLess(n_b, 0.85 * n_a, "the number of triangles outside falls")
+        uniform = 2 * 3.14159 * 10 * 34 / (0.433 * largest**2)
+        self.assertAlmostEqual(n_b / uniform, 1, delta=0.15, msg="to what a tube alone would have")
+        self.assertAlmostEqual(self.count(b, inside) / self.count(a, inside), 1, delta=0.05, msg="the inside stays")
+
+    def test_a_plate_far_thinner_than_the_cells_blocks(self):
+        a, b = self.two_meshes("plate_with_rod")
+        largest = self.length(a, 50, 10, 0)
+        self.assertLess(self.length(a, 50, 30, 0), 0.15 * largest)
+        self.assertAlmostEqual(self.length(b, 50, 30, -0.001), largest, delta=0.02 * largest)
+        self.assertAlmostEqual(self.length(b, 50, 30, 0.2), self.length(a, 50, 30, 0.2), delta=0.05)
+        below, above = (lambda x, y, z: z < 0.01), (lambda x, y, z: 0.19 < z < 0.21)
+        self.assertLess(self.count(b, below), 0.85 * self.count(a, below))
+        self.assertAlmostEqual(self.count(b, above) / self.count(a, above), 1, delta=0.05)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
