@@ -1,16 +1,14 @@
 // import_model(), step by step.
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BinTools.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <cmath>
-#include <cstring>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/length.h"
 #include "geometry/import_shape.h"
 #include "geometry/model.h"
+#include "geometry/model_impl.h"
 #include "geometry/model_tables.h"
 #include "geometry/sewing.h"
 #include "geometry/shape_repair.h"
@@ -69,15 +67,6 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
   for (ImportFinding& f : findings) f.xyz = factor * f.xyz, f.size *= factor;
 }
 
-std::vector<std::byte> brep_bytes(const TopoDS_Shape& shape) {
-  std::ostringstream stream(std::ios::binary);
-  BinTools::Write(shape, stream);
-  const std::string bytes = stream.str();
-  std::vector<std::byte> result(bytes.size());
-  std::memcpy(result.data(), bytes.data(), bytes.size());
-  return result;
-}
-
 void require_closed(const ImportResult& result, const std::string& path) {
   if (!result.is_closed)
     throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
@@ -103,7 +92,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
-  result.brep = brep_bytes(model.shape);
+  result.brep = occt::brep_bytes(model.shape);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;
 }

@@ -5,14 +5,16 @@
 #include <BinTools.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <cstring>
 #include <istream>
+#include <sstream>
 #include <streambuf>
 
 #include "base/error.h"
+#include "geometry/model_impl.h"
 #include "geometry/occt_evaluators.h"
 
 namespace st {
@@ -71,10 +73,14 @@ void ModelTables::edge_faces(std::vector<std::int32_t>& offsets, std::vector<Fac
       for (CoedgeId c = loop_coedge_offsets[l]; c < loop_coedge_offsets[l + 1]; ++c) faces[next[coedge_edge[c]]++] = f;
 }
 
-struct Model::Impl {
-  TopoDS_Shape shape;
-  TopTools_IndexedMapOfShape faces, edges;
-};
+std::vector<std::byte> occt::brep_bytes(const TopoDS_Shape& shape) {
+  std::ostringstream stream(std::ios::binary);
+  BinTools::Write(shape, stream);
+  const std::string bytes = stream.str();
+  std::vector<std::byte> result(bytes.size());
+  std::memcpy(result.data(), bytes.data(), bytes.size());
+  return result;
+}
 
 Model::Model(ModelTables tables, std::vector<std::byte> brep)
     : tables_(std::move(tables)), brep_(std::move(brep)), impl_(std::make_unique<Impl>()) {

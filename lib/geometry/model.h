@@ -17,6 +17,7 @@
 namespace st {
 
 /// Flat B-Rep tables (structure of arrays). All ids 0-based; entity k of a table is entity k+1 in artifacts and messages.
+/// A new column also goes into edit_model.cpp, which takes parts of models and puts models together.
 struct ModelTables {
   // vertices [n_vertices]
   std::vector<Vec3> vertex_xyz;
@@ -91,8 +92,10 @@ class Model {
   /// Trimming curve of a coedge in its face's (u,v), parametrised like the edge.
   std::unique_ptr<Curve2d> pcurve(FaceId face, CoedgeId coedge) const;
 
- private:
   struct Impl;
+
+ private:
+  friend class ModelEditor;
   ModelTables tables_;
   std::vector<std::byte> brep_;
   std::unique_ptr<Impl> impl_;

@@ -1,0 +1,277 @@
+#include "geometry/edit_model.h"
+
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRep_Builder.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopoDS_Compound.hxx>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "geometry/model_impl.h"
+#include "geometry/model_tables.h"
+
+namespace st {
+namespace {
+
+constexpr double kSameAngle = 1e-9;  // of a map's rows: lengths alike, right angles
+
+TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& s : shapes) builder.Add(compound, s);
+  return compound;
+}
+
+/// `values[ids[i]]` for each i, in rows of `n_columns`.
+template <class T>
+std::vector<T> gather(const std::vector<T>& values, const std::vector<std::int32_t>& ids, int n_columns = 1) {
+  std::vector<T> out;
+  out.reserve(ids.size() * n_columns);
+  for (const std::int32_t id : ids)
+    for (int c = 0; c < n_columns; ++c) out.push_back(values[static_cast<std::size_t>(id) * n_columns + c]);
+  return out;
+}
+
+template <class T>
+void add_all(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// Ids of `n_entities` entities to places in `ids`; kNone where absent.
+std::vector<std::int32_t> places(const std::vector<std::int32_t>& ids, std::int32_t n_entities) {
+  std::vector<std::int32_t> place(n_entities, kNone);
+  for (std::size_t i = 0; i < ids.size(); ++i) place[ids[i]] = static_cast<std::int32_t>(i);
+  return place;
+}
+
+std::vector<FaceId> checked(const ModelTables& t, std::span<const FaceId> faces) {
+  std::vector<char> seen(t.n_faces(), 0);
+  for (const FaceId f : faces) {
+    if (f < 0 || f >= t.n_faces())
+      throw Error(ExitCode::kUsage,
+                  "face " + std::to_string(f + 1) + " is not in the model; it has " + std::to_string(t.n_faces()) + " faces");
+    if (seen[f]) throw Error(ExitCode::kUsage, t.face_label(f) + " is named twice; name each face once");
+    seen[f] = 1;
+  }
+  if (faces.empty()) throw Error(ExitCode::kUsage, "no face would be left; name at least one face to keep");
+  return {faces.begin(), faces.end()};
+}
+
+/// Columns of the faces of a part.
+void select_faces(const ModelTables& t, const std::vector<FaceId>& f, ModelTables& out) {
+  out.face_is_reversed = gather(t.face_is_reversed, f);
+  out.face_type = gather(t.face_type, f);
+  out.face_uv_bounds = gather(t.face_uv_bounds, f, 4);
+  out.face_tolerance = gather(t.face_tolerance, f);
+  out.face_area = gather(t.face_area, f);
+  out.face_width = gather(t.face_width, f);
+  out.face_box = gather(t.face_box, f);
+  out.face_name = gather(t.face_name, f);
+  out.face_color = gather(t.face_color, f);
+  out.face_layer = gather(t.face_layer, f);
+  out.face_group = gather(t.face_group, f);
+  out.face_shell = gather(t.face_shell, f);
+  out.face_solid = gather(t.face_solid, f);
+}
+
+/// Columns of the edges and vertices of a part.
+void select_edges(const ModelTables& t, const std::vector<EdgeId>& e, const std::vector<VertexId>& v, ModelTables& out) {
+  out.vertex_xyz = gather(t.vertex_xyz, v);
+  out.vertex_tolerance = gather(t.vertex_tolerance, v);
+  const std::vector<std::int32_t> vertex_place = places(v, t.n_vertices());
+  out.edge_vertices = gather(t.edge_vertices, e, 2);
+  for (VertexId& vertex : out.edge_vertices) vertex = vertex_place[vertex];
+  out.edge_range = gather(t.edge_range, e, 2);
+  out.edge_length = gather(t.edge_length, e);
+  out.edge_tolerance = gather(t.edge_tolerance, e);
+  out.edge_is_degenerate = gather(t.edge_is_degenerate, e);
+  out.edge_name = gather(t.edge_name, e);
+}
+
+/// Loops of the faces of a part.
+void select_loops(const ModelTables& t, const std::vector<FaceId>& faces, const std::vector<EdgeId>& e, ModelTables& out) {
+  const std::vector<std::int32_t> edge_place = places(e, t.n_edges());
+  out.face_loop_offsets = {0};
+  out.loop_coedge_offsets = {0};
+  out.coedge_edge.clear();
+  out.coedge_is_reversed.clear();
+  for (const FaceId f : faces) {
+    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l) {
+      for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) {
+        out.coedge_edge.push_back(edge_place[t.coedge_edge[c]]);
+        out.coedge_is_reversed.push_back(t.coedge_is_reversed[c]);
+      }
+      out.loop_coedge_offsets.push_back(out.n_coedges());
+    }
+    out.face_loop_offsets.push_back(out.n_loops());
+  }
+}
+
+/// Ids in `whole` of the entities of a kind in `part`.
+std::vector<std::int32_t> ids_of(const TopoDS_Shape& part, TopAbs_ShapeEnum kind, const TopTools_IndexedMapOfShape& whole) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(part, kind, map);
+  std::vector<std::int32_t> ids;
+  for (int i = 1; i <= map.Extent(); ++i) ids.push_back(whole.FindIndex(map(i)) - 1);
+  return ids;
+}
+
+gp_Trsf similarity(const AffineMap& m) {
+  const double scale = norm(m.a[0]);
+  double worst = scale > 0 ? 0 : 1;
+  for (int i = 0; i < 3 && scale > 0; ++i) {
+    worst = std::max(worst, std::abs(norm(m.a[i]) / scale - 1));
+    worst = std::max(worst, std::abs(dot(m.a[i], m.a[(i + 1) % 3])) / (scale * scale));
+  }
+  if (!(worst <= kSameAngle))
+    throw Error(ExitCode::kUsage,
+                "the matrix does not keep angles; only moving, turning, mirroring and scaling alike in x, y and z can be done");
+  gp_Trsf t;
+  t.SetValues(m.a[0].x, m.a[0].y, m.a[0].z, m.shift.x, m.a[1].x, m.a[1].y, m.a[1].z, m.shift.y, m.a[2].x, m.a[2].y, m.a[2].z, m.shift.z);
+  return t;
+}
+
+/// Groups of `second` in the numbers of `to`, to which the new ones are added.
+std::vector<std::int32_t> merge_groups(ModelTables& to, const ModelTables& second) {
+  std::vector<std::int32_t> group;
+  for (std::size_t g = 0; g < second.group_name.size(); ++g) {
+    std::size_t k = 0;
+    while (k < to.group_name.size() && (to.group_name[k] != second.group_name[g] || to.group_role[k] != second.group_role[g])) ++k;
+    if (k == to.group_name.size()) {
+      to.group_name.push_back(second.group_name[g]);
+      to.group_role.push_back(second.group_role[g]);
+    }
+    group.push_back(static_cast<std::int32_t>(k));
+  }
+  return group;
+}
+
+/// Adds `more`, each raised by `shift` unless it is kNone.
+void add_shifted(std::vector<std::int32_t>& to, std::span<const std::int32_t> more, std::int32_t shift) {
+  for (const std::int32_t id : more) to.push_back(id == kNone ? kNone : id + shift);
+}
+
+void append_topology(ModelTables& t, const ModelTables& s) {
+  const std::int32_t n_vertices = t.n_vertices(), n_edges = t.n_edges(), n_loops = t.n_loops(), n_coedges = t.n_coedges();
+  add_all(t.vertex_xyz, s.vertex_xyz);
+  add_all(t.vertex_tolerance, s.vertex_tolerance);
+  add_shifted(t.edge_vertices, s.edge_vertices, n_vertices);
+  add_all(t.edge_range, s.edge_range);
+  add_all(t.edge_length, s.edge_length);
+  add_all(t.edge_tolerance, s.edge_tolerance);
+  add_all(t.edge_is_degenerate, s.edge_is_degenerate);
+  add_all(t.edge_name, s.edge_name);
+  add_shifted(t.face_loop_offsets, std::span(s.face_loop_offsets).subspan(1), n_loops);
+  add_shifted(t.loop_coedge_offsets, std::span(s.loop_coedge_offsets).subspan(1), n_coedges);
+  add_shifted(t.coedge_edge, s.coedge_edge, n_edges);
+  add_all(t.coedge_is_reversed, s.coedge_is_reversed);
+}
+
+void append_faces(ModelTables& t, const ModelTables& s) {
+  add_all(t.face_is_reversed, s.face_is_reversed);
+  add_all(t.face_type, s.face_type);
+  add_all(t.face_uv_bounds, s.face_uv_bounds);
+  add_all(t.face_tolerance, s.face_tolerance);
+  add_all(t.face_area, s.face_area);
+  add_all(t.face_width, s.face_width);
+  add_all(t.face_box, s.face_box);
+  add_all(t.face_name, s.face_name);
+  add_all(t.face_color, s.face_color);
+  add_all(t.face_layer, s.face_layer);
+  const std::vector<std::int32_t> group = merge_groups(t, s);
+  for (const std::int32_t g : s.face_group) t.face_group.push_back(group[g]);
+  add_shifted(t.face_shell, s.face_shell, t.n_shells);
+  add_shifted(t.face_solid, s.face_solid, t.n_solids);
+  t.n_shells += s.n_shells;
+  t.n_solids += s.n_solids;
+}
+
+}  // namespace
+
+/// What of a Model only this file sees.
+class ModelEditor {
+ public:
+  static const Model::Impl& brep(const Model& m) { return *m.impl_; }
+};
+
+SubModel extract(const Model& model, std::span<const FaceId> wanted) {
+  const ModelTables& t = model.tables();
+  const Model::Impl& whole = ModelEditor::brep(model);
+  std::vector<FaceId> faces = checked(t, wanted);
+  std::vector<TopoDS_Shape> shapes;
+  for (const FaceId f : faces) shapes.push_back(whole.faces(f + 1).Oriented(t.face_is_reversed[f] ? TopAbs_REVERSED : TopAbs_FORWARD));
+  const TopoDS_Compound part = compound_of(shapes);
+  TopTools_IndexedMapOfShape vertex_map;
+  TopExp::MapShapes(whole.shape, TopAbs_VERTEX, vertex_map);
+  std::vector<EdgeId> edges = ids_of(part, TopAbs_EDGE, whole.edges);
+  std::vector<VertexId> vertices = ids_of(part, TopAbs_VERTEX, vertex_map);
+  ModelTables out;
+  select_faces(t, faces, out);
+  select_edges(t, edges, vertices, out);
+  select_loops(t, faces, edges, out);
+  out.group_name = t.group_name;
+  out.group_role = t.group_role;
+  out.n_shells = t.n_shells;
+  out.n_solids = t.n_solids;
+  out.unit = t.unit;
+  out.unit_in_m = t.unit_in_m;
+  return {Model(std::move(out), occt::brep_bytes(part)), std::move(faces), std::move(edges), std::move(vertices)};
+}
+
+SubModel remove_faces(const Model& model, std::span<const FaceId> faces) {
+  const ModelTables& t = model.tables();
+  std::vector<char> stays(t.n_faces(), 1);
+  if (!faces.empty())
+    for (const FaceId f : checked(t, faces)) stays[f] = 0;
+  std::vector<FaceId> rest;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (stays[f]) rest.push_back(f);
+  return extract(model, rest);
+}
+
+Model transform(const Model& model, const AffineMap& map) {
+  const ModelTables& t = model.tables();
+  const gp_Trsf trsf = similarity(map);
+  occt::ImportedShape moved;
+  occt::ModelOfFile measured;
+  try {
+    moved.shape = BRepBuilderAPI_Transform(ModelEditor::brep(model).shape, trsf, true).Shape();
+    TopExp::MapShapes(moved.shape, TopAbs_FACE, moved.faces);
+    moved.attributes.resize(moved.faces.Extent());
+    measured = occt::make_tables(moved, "the transformed model");
+  } catch (const Standard_Failure& e) {
+    throw Error(ExitCode::kGeometry,
+                std::string("OpenCASCADE cannot transform this model (") + e.GetMessageString() + "); transform it in the CAD system");
+  }
+  ModelTables& out = measured.tables;
+  out.edge_name = t.edge_name;
+  out.face_name = t.face_name;
+  out.face_color = t.face_color;
+  out.face_layer = t.face_layer;
+  out.face_group = t.face_group;
+  out.group_name = t.group_name;
+  out.group_role = t.group_role;
+  out.unit = t.unit;
+  out.unit_in_m = t.unit_in_m;
+  if (t.volume) out.volume = *t.volume * std::pow(std::abs(trsf.ScaleFactor()), 3);
+  return Model(std::move(out), occt::brep_bytes(moved.shape));
+}
+
+Model append(const Model& first, const Model& second) {
+  ModelTables t = first.tables();
+  const ModelTables& s = second.tables();
+  if (t.unit != s.unit || t.unit_in_m != s.unit_in_m)
+    throw Error(ExitCode::kMismatch, "one model is in '" + t.unit + "', the other in '" + s.unit + "'; import both with the same --unit");
+  append_topology(t, s);
+  append_faces(t, s);
+  t.volume = first.tables().volume && s.volume ? std::optional(*first.tables().volume + *s.volume) : std::nullopt;
+  // from bytes: shapes that both models share would count once
+  const Model copy(s, second.brep());
+  return Model(std::move(t), occt::brep_bytes(compound_of({ModelEditor::brep(first).shape, ModelEditor::brep(copy).shape})));
+}
+
+}  // namespace st

@@ -1,0 +1,225 @@
+#include "geometry/edit_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+const char* const kShapes[] = {"box",           "sphere",        "drilled_cylinder", "cone",       "torus",     "wave",
+                               "rational_wave", "periodic_tube", "plate_with_hole",  "revolution", "extrusion", "offset",
+                               "bezier",        "tube_window",   "two_boxes"};
+
+/// Every table as long as it must be, and evaluators that fit it: curves end at their vertices, trimming curves lie on them, loops close.
+void expect_consistent(const Model& model) {
+  const ModelTables& t = model.tables();
+  const auto n_faces = static_cast<std::size_t>(t.n_faces()), n_edges = static_cast<std::size_t>(t.n_edges());
+  for (const std::size_t n : {t.face_type.size(), t.face_uv_bounds.size() / 4, t.face_tolerance.size(), t.face_area.size(),
+                              t.face_width.size(), t.face_box.size(), t.face_name.size(), t.face_color.size(), t.face_layer.size(),
+                              t.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
+    ASSERT_EQ(n, n_faces);
+  for (const std::size_t n :
+       {t.edge_vertices.size() / 2, t.edge_range.size() / 2, t.edge_tolerance.size(), t.edge_is_degenerate.size(), t.edge_name.size()})
+    ASSERT_EQ(n, n_edges);
+  ASSERT_EQ(t.vertex_tolerance.size(), t.vertex_xyz.size());
+  ASSERT_EQ(t.face_loop_offsets.back(), t.n_loops());
+  ASSERT_EQ(t.loop_coedge_offsets.back(), t.n_coedges());
+  const double slack = 1e-6 * t.box().diagonal();
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    if (t.edge_is_degenerate[e]) continue;
+    const auto c = model.curve(e);
+    for (int end = 0; end < 2; ++end)
+      EXPECT_LE(distance(c->point(t.edge_range[2 * e + end]), t.vertex_xyz[t.edge_vertices[2 * e + end]]), slack) << "edge " << e;
+    EXPECT_NEAR(arc_length(*c, c->t_min(), c->t_max(), 32), t.edge_length[e], slack);
+  }
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    const auto s = model.surface(f);
+    EXPECT_LT(t.face_group[f], static_cast<std::int32_t>(t.group_name.size()));
+    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l) {
+      const CoedgeId first = t.loop_coedge_offsets[l], end = t.loop_coedge_offsets[l + 1];
+      for (CoedgeId c = first; c < end; ++c) {
+        const EdgeId e = t.coedge_edge[c];
+        const CoedgeId next = c + 1 < end ? c + 1 : first;
+        EXPECT_EQ(t.edge_vertices[2 * e + !t.coedge_is_reversed[c]], t.edge_vertices[2 * t.coedge_edge[next] + t.coedge_is_reversed[next]]);
+        if (t.edge_is_degenerate[e]) continue;
+        const auto curve = model.curve(e);
+        const auto uv = model.pcurve(f, c);
+        for (double share : {0.0, 0.3, 1.0}) {
+          const double at = t.edge_range[2 * e] + share * (t.edge_range[2 * e + 1] - t.edge_range[2 * e]);
+          EXPECT_LE(distance(s->point(uv->point(at)), curve->point(at)), t.edge_tolerance[e] + slack) << "face " << f << " edge " << e;
+        }
+      }
+    }
+  }
+}
+
+/// Unit normal out of the solid in the middle of a face.
+Vec3 outward(const Model& m, FaceId f) {
+  const auto s = m.surface(f);
+  return (m.tables().face_is_reversed[f] ? -1.0 : 1.0) *
+         surface_normal(*s, {0.5 * (s->u_min() + s->u_max()), 0.5 * (s->v_min() + s->v_max())});
+}
+
+/// Face f of `part` is face g of `whole`, to the bit.
+void expect_same_face(const Model& part, FaceId f, const Model& whole, FaceId g) {
+  const ModelTables &a = part.tables(), &b = whole.tables();
+  EXPECT_EQ(a.face_type[f], b.face_type[g]);
+  EXPECT_EQ(a.face_area[f], b.face_area[g]);
+  EXPECT_EQ(a.face_is_reversed[f], b.face_is_reversed[g]);
+  EXPECT_EQ(a.face_name[f], b.face_name[g]);
+  EXPECT_EQ(a.group_name[a.face_group[f]], b.group_name[b.face_group[g]]);
+  const auto s = part.surface(f), t = whole.surface(g);
+  EXPECT_EQ(s->u_min(), t->u_min());
+  const Vec2 uv{0.3 * s->u_min() + 0.7 * s->u_max(), 0.6 * s->v_min() + 0.4 * s->v_max()};
+  EXPECT_LE(distance(s->point(uv), t->point(uv)), 1e-13 * b.box().diagonal());
+  const auto n_loops = [](const ModelTables& m, FaceId i) { return m.face_loop_offsets[i + 1] - m.face_loop_offsets[i]; };
+  EXPECT_EQ(n_loops(a, f), n_loops(b, g));
+}
+
+TEST(Extract, gives_faces_with_their_edges_and_vertices_only) {
+  for (const char* shape : kShapes) {
+    const Model whole = test::make_model(shape);
+    const ModelTables& t = whole.tables();
+    std::vector<FaceId> faces;
+    for (FaceId f = t.n_faces() - 1; f >= 0; f -= 2) faces.push_back(f);  // backwards: the order asked for is kept
+    const SubModel part = extract(whole, faces);
+    EXPECT_EQ(part.faces, faces);
+    expect_consistent(part.model);
+    std::vector<char> is_used(t.n_edges(), 0);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      expect_same_face(part.model, static_cast<FaceId>(i), whole, faces[i]);
+      EXPECT_LE(distance(outward(part.model, static_cast<FaceId>(i)), outward(whole, faces[i])), 1e-12) << shape;
+      for (LoopId l = t.face_loop_offsets[faces[i]]; l < t.face_loop_offsets[faces[i] + 1]; ++l)
+        for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) is_used[t.coedge_edge[c]] = 1;
+    }
+    EXPECT_EQ(std::count(is_used.begin(), is_used.end(), 1), part.model.tables().n_edges()) << shape;
+    for (EdgeId e = 0; e < part.model.tables().n_edges(); ++e) {
+      EXPECT_TRUE(is_used[part.edges[e]]);
+      EXPECT_EQ(part.model.tables().edge_length[e], t.edge_length[part.edges[e]]);
+      for (int end = 0; end < 2; ++end)
+        EXPECT_EQ(part.vertices[part.model.tables().edge_vertices[2 * e + end]], t.edge_vertices[2 * part.edges[e] + end]);
+    }
+  }
+}
+
+TEST(Extract, refuses_faces_that_are_not_there_or_named_twice) {
+  const Model box = test::make_model("box");
+  EXPECT_ERROR(extract(box, std::vector<FaceId>{6}), kUsage, "face 7 is not in the model");
+  EXPECT_ERROR(extract(box, std::vector<FaceId>{-1}), kUsage, "6 faces");
+  EXPECT_ERROR(extract(box, std::vector<FaceId>{2, 2}), kUsage, "named twice");
+  EXPECT_ERROR(extract(box, {}), kUsage, "no face");
+}
+
+TEST(RemoveFaces, leaves_the_others_and_opens_the_shell) {
+  const Model box = test::make_model("box");
+  const SubModel open = remove_faces(box, std::vector<FaceId>{2, 0});
+  EXPECT_EQ(open.faces, (std::vector<FaceId>{1, 3, 4, 5}));
+  expect_consistent(open.model);
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  open.model.tables().edge_faces(offsets, faces);
+  int n_free = 0;
+  for (EdgeId e = 0; e < open.model.tables().n_edges(); ++e) n_free += offsets[e + 1] - offsets[e] == 1;
+  EXPECT_GE(n_free, 6);
+  EXPECT_FALSE(open.model.tables().volume);
+  EXPECT_EQ(remove_faces(box, {}).model.tables().n_faces(), 6);
+  EXPECT_ERROR(remove_faces(open.model, std::vector<FaceId>{0, 1, 2, 3}), kUsage, "no face");
+}
+
+AffineMap turned(double scale, bool is_mirrored) {
+  const double c = 0.8, s = 0.6;
+  AffineMap m;
+  m.a = {scale * Vec3{c, -s, 0}, scale * Vec3{s, c, 0}, scale * Vec3{0, 0, is_mirrored ? -1.0 : 1.0}};
+  m.shift = {10, -20, 5};
+  return m;
+}
+
+TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
+  for (const char* shape : kShapes)
+    for (const AffineMap& map : {turned(1, false), turned(1, true), turned(0.001, false), turned(2.5, true)}) {
+      Model before = test::make_model(shape);
+      const Model after = transform(before, map);
+      const ModelTables &a = after.tables(), &b = before.tables();
+      const double scale = norm(map.a[0]), size = scale * b.box().diagonal() + 23;
+      ASSERT_EQ(a.n_faces(), b.n_faces());
+      ASSERT_EQ(a.n_edges(), b.n_edges());
+      expect_consistent(after);
+      EXPECT_EQ(a.face_group, b.face_group);
+      for (VertexId v = 0; v < b.n_vertices(); ++v) EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
+      for (EdgeId e = 0; e < b.n_edges(); ++e) EXPECT_NEAR(a.edge_length[e], scale * b.edge_length[e], 1e-6 * size);
+      AffineMap turn = map;
+      turn.shift = {};
+      for (FaceId f = 0; f < b.n_faces(); ++f) {
+        EXPECT_EQ(a.face_type[f], b.face_type[f]);
+        EXPECT_NEAR(a.face_area[f], scale * scale * b.face_area[f], 1e-6 * size * size) << shape;
+        const auto s = after.surface(f);
+        const Vec3 x = s->point({0.5 * (s->u_min() + s->u_max()), 0.5 * (s->v_min() + s->v_max())});
+        const auto old = before.surface(f);
+        const Vec3 y = map(old->point({0.5 * (old->u_min() + old->u_max()), 0.5 * (old->v_min() + old->v_max())}));
+        EXPECT_LE(distance(x, y), 1e-10 * size) << shape << " face " << f;
+        EXPECT_LE(distance(outward(after, f), turn(outward(before, f)) / scale), 1e-9) << shape << " face " << f;
+      }
+    }
+}
+
+TEST(Transform, refuses_maps_that_change_angles) {
+  const Model box = test::make_model("box");
+  AffineMap stretched;
+  stretched.a[1] = {0, 2, 0};
+  EXPECT_ERROR(transform(box, stretched), kUsage, "angles");
+  AffineMap sheared;
+  sheared.a[0] = {std::sqrt(0.5), std::sqrt(0.5), 0};
+  EXPECT_ERROR(transform(box, sheared), kUsage, "angles");
+  AffineMap flat;
+  flat.a = {};
+  EXPECT_ERROR(transform(box, flat), kUsage, "angles");
+}
+
+TEST(Append, puts_the_second_behind_the_first) {
+  const Model box = test::make_model("drilled_cylinder"), ball = test::make_model("sphere");
+  const Model both = append(box, ball);
+  const ModelTables &t = both.tables(), &a = box.tables(), &b = ball.tables();
+  EXPECT_EQ(t.n_faces(), a.n_faces() + b.n_faces());
+  EXPECT_EQ(t.n_vertices(), a.n_vertices() + b.n_vertices());
+  EXPECT_EQ(t.n_solids, a.n_solids + b.n_solids);
+  expect_consistent(both);
+  for (FaceId f = 0; f < a.n_faces(); ++f) expect_same_face(both, f, box, f);
+  for (FaceId f = 0; f < b.n_faces(); ++f) expect_same_face(both, a.n_faces() + f, ball, f);
+  EXPECT_NE(t.face_solid.front(), t.face_solid.back());
+  EXPECT_EQ(t.group_name, a.group_name);  // both "default"
+}
+
+TEST(Append, of_a_model_to_itself_or_to_its_image_doubles_it) {
+  const Model box = test::make_model("box");
+  expect_consistent(append(box, box));
+  EXPECT_EQ(append(box, box).tables().n_edges(), 24);
+  AffineMap mirror;
+  mirror.a[1] = {0, -1, 0};
+  const Model pair = append(box, transform(box, mirror));
+  expect_consistent(pair);
+  EXPECT_EQ(pair.tables().n_faces(), 12);
+}
+
+TEST(Append, takes_back_what_was_extracted) {
+  const Model whole = test::make_model("drilled_cylinder");
+  const SubModel first = extract(whole, std::vector<FaceId>{0}), rest = remove_faces(whole, std::vector<FaceId>{0});
+  const Model again = append(first.model, rest.model);
+  expect_consistent(again);
+  for (FaceId f = 0; f < whole.tables().n_faces(); ++f) expect_same_face(again, f, whole, f);
+}
+
+TEST(Append, refuses_models_of_different_units) {
+  ImportResult a = test::import_shape("box"), b = test::import_shape("box");
+  b.tables.unit = "m";
+  b.tables.unit_in_m = 1;
+  const Model first(a.tables, a.brep), second(b.tables, b.brep);
+  EXPECT_ERROR(append(first, second), kMismatch, "--unit");
+}
+
+}  // namespace
+}  // namespace st
