@@ -277,41 +277,39 @@ class Blanker {
     return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
   }
 
-  /// Whether the surface leaves a way between two parts: tried from the nearest pairs of their samples.
+  /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and once more.
   bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) const {
-    constexpr int kTries = 3;
     const Cube cube_a = cube(a), cube_b = cube(b);
-    struct Way {
-      double length2;
-      Vec3 from, to;
-    };
-    std::array<Way, kSamples * kSamples> ways;
-    int n = 0;
-    for_each_point(a, part_a, cube_b, [&](Vec3 from) {
-      for_each_point(b, part_b, cube_a, [&](Vec3 to) {
-        const Vec3 p = is_cut(a) ? from : cube_a.nearest(to), q = is_cut(b) ? to : cube_b.nearest(from);
-        ways[n++] = {norm2(q - p), p, q};
-      });
-    });
-    const int tries = std::min(n, kTries);
-    std::partial_sort(ways.begin(), ways.begin() + tries, ways.begin() + n,
-                      [](const Way& v, const Way& w) { return v.length2 < w.length2; });
-    for (int k = 0; k < tries; ++k) {  // through a common point, so that each leg stays in its cell
-      const Vec3 common = cube_b.closest(cube_a.closest(0.5 * (ways[k].from + ways[k].to)));
-      if (is_open(ways[k].from, common, triangles_of(a)) && is_open(common, ways[k].to, triangles_of(b))) return true;
-    }
-    return false;
+    const Vec3 from_a = nearest_point(a, part_a, cube_b.center), to_b = nearest_point(b, part_b, from_a);
+    if (is_way(a, from_a, b, to_b, cube_a, cube_b)) return true;
+    const Vec3 from_b = nearest_point(b, part_b, cube_a.center), to_a = nearest_point(a, part_a, from_b);
+    if (!(from_b == to_b && to_a == from_a) && is_way(a, to_a, b, from_b, cube_a, cube_b)) return true;
+    const Vec3 second = nearest_point(a, part_a, cube_b.center, &from_a);
+    return is_way(a, second, b, nearest_point(b, part_b, second), cube_a, cube_b);
   }
 
-  /// The samples of a part; of an uncut cell the point nearest to `other`.
-  template <class F>
-  void for_each_point(std::int32_t leaf, int part, const Cube& other, const F& f) const {
-    if (!is_cut(leaf)) return f(cube(leaf).nearest(other.center));
-    const CellParts& parts = parts_[cut_index_[leaf]];
-    if (parts.has_spare) return f(parts.spare);
+  /// Through a point that both cells have, so that each leg stays in its cell.
+  bool is_way(std::int32_t a, Vec3 from, std::int32_t b, Vec3 to, const Cube& cube_a, const Cube& cube_b) const {
+    const Vec3 common = cube_b.closest(cube_a.closest(0.5 * (from + to)));
+    return is_open(from, common, triangles_of(a)) && is_open(common, to, triangles_of(b));
+  }
+
+  /// Of the samples of a part, but `without`, the one nearest to x; in an uncut cell any point.
+  Vec3 nearest_point(std::int32_t leaf, int part, Vec3 x, const Vec3* without = nullptr) const {
     const Cube own = cube(leaf);
-    for (int s = 0; s < kSamples; ++s)
-      if (parts.part[s] == part) f(own.sample(s));
+    if (!is_cut(leaf)) return own.nearest(x);
+    const CellParts& parts = parts_[cut_index_[leaf]];
+    if (parts.has_spare) return parts.spare;
+    Vec3 nearest = without ? *without : own.center;
+    double least = std::numeric_limits<double>::infinity();
+    for (int s = 0; s < kSamples; ++s) {
+      if (parts.part[s] != part) continue;
+      const Vec3 y = own.sample(s);
+      if (norm2(y - x) >= least || (without && y == *without)) continue;
+      least = norm2(y - x);
+      nearest = y;
+    }
+    return nearest;
   }
 
   std::span<const TriangleId> triangles_of(std::int32_t leaf) const {
