@@ -12,7 +12,6 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
-#include <OSD.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Reader.hxx>
@@ -52,6 +51,41 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& why) { throw Error(ExitCode::kInput, path + ": " + why); }
 
+/// "a PNG image, " for files that are often taken for another; empty for anything else.
+std::string what_else(const std::string& head) {
+  static const std::pair<const char*, const char*> kKinds[] = {
+      {"\x89PNG", "a PNG image"}, {"\xff\xd8\xff", "a JPEG image"}, {"PK\x03\x04", "a zip archive"}, {"\x1f\x8b", "a gzip archive"},
+      {"%PDF", "a PDF document"}, {"<!DOCTYPE", "a web page"},       {"<html", "a web page"},          {"<?xml", "an XML file"},
+      {"solid", "an STL mesh"},   {"\x7f" "ELF", "a program"}};
+  for (const auto& [start, kind] : kKinds)
+    if (head.compare(0, std::strlen(start), start) == 0) return std::string(kind) + ", ";
+  return {};
+}
+
+/// The last bytes of the file, blanks at its end left out.
+std::string tail_of(const std::string& path, std::streamoff n) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - n));
+  std::string text(static_cast<std::size_t>(std::min(size, n)), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const std::size_t end = text.find_last_not_of(std::string(" \t\r\n\0\x1a", 6));
+  return end == std::string::npos ? std::string() : text.substr(0, end + 1);
+}
+
+/// OpenCASCADE takes what it finds of a file that is cut off: the end must be there.
+void require_end(const std::string& path, const std::string& format) {
+  const std::string tail = tail_of(path, 4096);
+  bool is_whole = true;
+  if (format == "STEP") is_whole = tail.find("END-ISO-10303-21") != std::string::npos;
+  if (format == "IGES") {
+    const std::size_t line = tail.find_last_of("\r\n"), start = line == std::string::npos ? 0 : line + 1;
+    is_whole = tail.size() > start + 72 && tail[start + 72] == 'T';
+    if (line == std::string::npos) is_whole = tail.size() >= 8 && tail[tail.size() - 8] == 'T';  // records without line ends
+  }
+  if (!is_whole) fail(path, "the " + format + " file is cut off: its last section is missing; export the model again");
+}
+
 std::string format_of(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code code;
@@ -69,7 +103,7 @@ std::string format_of(const std::string& path) {
   const std::size_t line_end = head.find_first_of("\r\n");
   if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C')) return "IGES";
   if (head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79])) return "IGES";
-  fail(path, "not a STEP, IGES or BREP file; export the model as STEP");
+  fail(path, what_else(head) + "not a STEP, IGES or BREP file; export the model as STEP");
 }
 
 bool is_junk(const std::string& name) {
@@ -304,7 +338,7 @@ CadFile read_brep(const std::string& path) {
 
 CadFile read_cad(const std::string& path) {
   const std::string format = format_of(path);
-  OSD::SetSignal(false);
+  require_end(path, format);
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
     return format == "STEP" ? read_step(path) : format == "IGES" ? read_iges(path) : read_brep(path);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "io/artifact.h"
@@ -78,11 +79,17 @@ std::string extent(const ImportResult& r) {
   return text;
 }
 
-}  // namespace
+/// Processor time for a file: whole ones take about 0.2 s per megabyte.
+double time_limit(const ImportStageOptions& o) {
+  constexpr double kSeconds = 30, kSecondsPerByte = 5e-6;
+  if (o.time_limit) return *o.time_limit;
+  std::error_code unreadable;
+  const auto bytes = std::filesystem::file_size(o.model, unreadable);
+  return unreadable ? kSeconds : kSeconds + kSecondsPerByte * static_cast<double>(bytes);
+}
 
-StageSummary run_import(const ImportStageOptions& o) {
+StageSummary import_here(const ImportStageOptions& o) {
   const Timer timer;
-  if (!o.check) require_writable(o.output);
   ImportOptions options;
   options.unit = o.unit;
   options.small = o.small;
@@ -114,8 +121,22 @@ StageSummary run_import(const ImportStageOptions& o) {
   }
   json["seconds"] = timer.seconds();
   s.line += fmt::format(", {:.2f} s", timer.seconds());
-  s.json = json.dump();
+  s.json = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return s;
+}
+
+}  // namespace
+
+// OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps the last word.
+StageSummary run_import(const ImportStageOptions& o) {
+  if (!o.check) require_writable(o.output);
+  const auto work = [&] {
+    const StageSummary s = import_here(o);
+    return s.line + '\n' + s.json;
+  };
+  const std::string both = run_in_child(work, {time_limit(o)}, o.model);
+  const std::size_t line_end = both.find('\n');
+  return {both.substr(0, line_end), both.substr(line_end + 1), ExitCode::kOk};
 }
 
 }  // namespace st

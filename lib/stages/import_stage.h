@@ -1,6 +1,7 @@
 // st-import: CAD file to geometry artifact.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "stages/summary.h"
@@ -8,15 +9,16 @@
 namespace st {
 
 struct ImportStageOptions {
-  std::string model;                ///< CAD file: STEP, IGES or BREP
+  std::string model;  ///< CAD file: STEP, IGES or BREP
   std::string output = "geometry.hdf";
-  std::string unit;                 ///< convert to this unit; empty: the file's own
-  std::string small = "0.01%";      ///< length: edges shorter and faces narrower than this are listed
-  bool check = false;               ///< report only, write nothing
-  bool require_closed = false;      ///< an open model is an error (exit 4)
+  std::string unit;                  ///< convert to this unit; empty: the file's own
+  std::string small = "0.01%";       ///< length: edges shorter and faces narrower than this are listed
+  std::optional<double> time_limit;  ///< s of processor time; absent: 30 and 5 per megabyte of the file
+  bool check = false;                ///< report only, write nothing
+  bool require_closed = false;       ///< an open model is an error (exit 4)
 };
 
-/// Local. Throws Error.
+/// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE crashes.
 StageSummary run_import(const ImportStageOptions& options);
 
 }  // namespace st

@@ -1,0 +1,120 @@
+#include "base/child_process.h"
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+constexpr int kUnknownFailure = -1;  // instead of an exit code: an exception that is no Error
+
+void write_all(int fd, const void* data, std::size_t size) {
+  const char* p = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = write(fd, p, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    p += n;
+    size -= static_cast<std::size_t>(n);
+  }
+}
+
+/// All that the child wrote.
+std::string read_all(int fd) {
+  std::string text;
+  char buffer[65536];
+  for (;;) {
+    const ssize_t n = read(fd, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return text;
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+void limit(int resource, double value) {
+  rlimit r;
+  if (getrlimit(static_cast<__rlimit_resource>(resource), &r) != 0) return;
+  r.rlim_cur = std::min<rlim_t>(r.rlim_max, static_cast<rlim_t>(std::ceil(value)));
+  setrlimit(static_cast<__rlimit_resource>(resource), &r);
+}
+
+double machine_memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
+
+/// The child: a code, then the text. Never returns.
+[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits, int fd, const std::string& subject) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, limits.cpu_seconds);
+  limit(RLIMIT_AS, machine_memory());
+  limit(RLIMIT_CORE, 0);
+  int code = kUnknownFailure;
+  std::string text;
+  try {
+    text = work();
+    code = static_cast<int>(ExitCode::kOk);
+  } catch (const Error& e) {
+    code = static_cast<int>(e.code());
+    text = e.what();
+  } catch (const std::bad_alloc&) {
+    code = static_cast<int>(ExitCode::kInput);
+    text = subject + ": needs more memory than the machine has; the file is damaged, or the model must be split";
+  } catch (const std::exception& e) {
+    text = e.what();
+  } catch (...) {
+    text = "exception of an unknown type";
+  }
+  std::fflush(nullptr);
+  write_all(fd, &code, sizeof code);
+  write_all(fd, text.data(), text.size());
+  _exit(0);
+}
+
+[[noreturn]] void fail(const std::string& subject, int status, const ChildLimits& limits) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    throw Error(ExitCode::kInput, subject + ": not read within " + std::to_string(std::lround(limits.cpu_seconds)) +
+                                      " s of processor time; the file is damaged, or give it more with --time-limit");
+  if (WIFSIGNALED(status))
+    throw Error(ExitCode::kInput, subject + ": OpenCASCADE crashed on this file (" + strsignal(WTERMSIG(status)) +
+                                      "); it is damaged: export the model again");
+  throw Error(ExitCode::kInput, subject + ": OpenCASCADE gave up on this file; it is damaged: export the model again");
+}
+
+}  // namespace
+
+std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits, const std::string& subject) {
+  int ends[2];
+  if (pipe(ends) != 0) throw Error(ExitCode::kInternal, std::string("pipe: ") + std::strerror(errno) + "; close some files");
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
+  if (child == 0) {
+    close(ends[0]);
+    be_child(work, limits, ends[1], subject);
+  }
+  close(ends[1]);
+  const std::string answer = read_all(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  int code = kUnknownFailure;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.size() < sizeof code) fail(subject, status, limits);
+  std::memcpy(&code, answer.data(), sizeof code);
+  const std::string text = answer.substr(sizeof code);
+  if (code == kUnknownFailure) throw std::runtime_error(text);
+  if (code != static_cast<int>(ExitCode::kOk)) throw Error(static_cast<ExitCode>(code), text);
+  return text;
+}
+
+}  // namespace st
