@@ -34,7 +34,8 @@ std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks
   return runs;
 }
 
-CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field, const CurveMeshOptions& options) {
+CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
+                          const CurveMeshOptions& options) {
   const EdgeMesh& m = mesh.edges;
   const int n_kept = m.edge_offsets[run.edge + 1] - m.edge_offsets[run.edge] - 1 - (run.last - run.first);
   CurveMeshOptions part = options;

@@ -12,21 +12,29 @@
 namespace st {
 namespace {
 
-constexpr double kShortSides = 0.6;     // of the requested length: where the sides around a node are shorter the mesh grows from them
-constexpr double kGrowFrom = 1.25;      // times their length
+constexpr double kShortSides = 0.6;  // of the requested length: where the sides around a node are shorter the mesh grows from them
+constexpr double kGrowFrom = 1.25;   // times their length
 
 /// A marked segment as one triangle of the hole uses it.
 struct ChainLink {
   CoedgeId coedge;
   std::int32_t segment;
-  std::int32_t start, end;   // corners' local nodes at the segment's lower and upper end
+  std::int32_t start, end;  // corners' local nodes at the segment's lower and upper end
 };
 
 class HoleBoundaryMaker {
  public:
-  HoleBoundaryMaker(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const SizeField& field)
-      : model_(model), t_(model.tables()), surface_(surface), face_(face), marks_(marks), numbering_(numbering), cad_(numbering.mesh),
-        mesh_(cad_.mesh), field_(field) {}
+  HoleBoundaryMaker(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
+                    const SizeField& field)
+      : model_(model),
+        t_(model.tables()),
+        surface_(surface),
+        face_(face),
+        marks_(marks),
+        numbering_(numbering),
+        cad_(numbering.mesh),
+        mesh_(cad_.mesh),
+        field_(field) {}
 
   FaceBoundary run() {
     number_corners();
@@ -41,9 +49,7 @@ class HoleBoundaryMaker {
   }
 
  private:
-  [[noreturn]] void fail(const char* what) const {
-    throw Error(ExitCode::kInternal, t_.face_label(face_) + ": " + what);
-  }
+  [[noreturn]] void fail(const char* what) const { throw Error(ExitCode::kInternal, t_.face_label(face_) + ": " + what); }
 
   /// Local numbers of the corners of marked triangles: a node with another (u,v) is another one.
   void number_corners() {
@@ -196,7 +202,9 @@ class HoleBoundaryMaker {
     std::sort(links_.begin(), links_.end(),
               [](const ChainLink& x, const ChainLink& y) { return std::tie(x.coedge, x.segment) < std::tie(y.coedge, y.segment); });
     for (std::size_t i = 0, end; i < links_.size(); i = end) {
-      for (end = i + 1; end < links_.size() && links_[end].coedge == links_[i].coedge && links_[end].segment == links_[end - 1].segment + 1;) ++end;
+      for (end = i + 1;
+           end < links_.size() && links_[end].coedge == links_[i].coedge && links_[end].segment == links_[end - 1].segment + 1;)
+        ++end;
       replace_run(links_[i], links_[end - 1]);
     }
   }
@@ -209,7 +217,8 @@ class HoleBoundaryMaker {
     const EdgeMesh& m = numbering_.update.edges;
     std::int32_t previous = boundary_node(first.start);
     for (std::int32_t k = from + 1; k < to; ++k) {
-      result_.nodes.push_back({pcurve(first.coedge).point(m.node_t[k]), m.node_xyz[k], m.node_size[k], numbering_.boundary.edge_node(e, k - begin), false});
+      result_.nodes.push_back(
+          {pcurve(first.coedge).point(m.node_t[k]), m.node_xyz[k], m.node_size[k], numbering_.boundary.edge_node(e, k - begin), false});
       const auto next = static_cast<std::int32_t>(result_.nodes.size()) - 1;
       result_.segments.push_back({previous, next});
       previous = next;
@@ -319,14 +328,16 @@ HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
   for (NodeId n = m.inner_begin[0]; n < n_nodes; ++n) of_node[n] = inner(n);
 }
 
-FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
-                                const SizeField& field) {
-  const auto begin = marks.triangle.begin() + numbering.mesh.face_begin[face], end = marks.triangle.begin() + numbering.mesh.face_begin[face + 1];
+FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks,
+                                const HoleNumbering& numbering, const SizeField& field) {
+  const auto begin = marks.triangle.begin() + numbering.mesh.face_begin[face],
+             end = marks.triangle.begin() + numbering.mesh.face_begin[face + 1];
   if (std::find(begin, end, 0) == end) return make_face_boundary(model, surface, face, numbering.boundary);
   return HoleBoundaryMaker(model, surface, face, marks, numbering, field).run();
 }
 
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary, const FaceMesh* fill) {
+FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary,
+                          const FaceMesh* fill) {
   const HoleMesh& cad = numbering.mesh;
   const SurfaceMesh& m = cad.mesh;
   PatchNodes nodes(numbering.inner(cad.inner_begin[face]), cad.inner_begin[face + 1] - cad.inner_begin[face]);

@@ -40,7 +40,8 @@ class Marker {
     const ModelTables& t = cad_.tables;
     std::vector<char> is_free(t.n_edges(), 1);
     for (FaceId f = 0; f < t.n_faces(); ++f)
-      for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; keeps(f) && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
+      for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; keeps(f) && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
+           ++c)
         is_free[t.coedge_edge[c]] = 0;
     return is_free;
   }
@@ -61,6 +62,7 @@ class Marker {
   }
 
   void mark_triangles() {
+    for (TriangleId t : options_.redo) marks_.triangle[t] = !keeps(mesh_.triangle_face[t]);
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const NodeId* n = mesh_.triangles[i].n;
       if (keeps(mesh_.triangle_face[i])) continue;
@@ -103,8 +105,8 @@ class Marker {
   std::span<const double> wanted_;
   const HoleMarkOptions& options_;
   HoleMarks marks_;
-  std::vector<char> on_run_;         // nodes of marked segments
-  std::vector<FaceId> face_at_;      // last face in which a marked triangle was seen at the node
+  std::vector<char> on_run_;     // nodes of marked segments
+  std::vector<FaceId> face_at_;  // last face in which a marked triangle was seen at the node
 };
 
 }  // namespace

@@ -9,23 +9,24 @@
 namespace st {
 
 struct HoleMarkOptions {
-  double too_long = 1.4;     ///< times the requested length, > 1
-  double too_short = 0.7;    ///< likewise, in (0, 1)
-  double change = 0.1;       ///< relative: where the request changed by less, edges are good whatever their length
-  int layers = 2;            ///< triangles around a marked one that are marked with it, >= 1
+  double too_long = 1.4;              ///< times the requested length, > 1
+  double too_short = 0.7;             ///< likewise, in (0, 1)
+  double change = 0.1;                ///< relative: where the request changed by less, edges are good whatever their length
+  int layers = 2;                     ///< triangles around a marked one that are marked with it, >= 1
   std::vector<char> keep_face = {};   ///< [n_faces] 1: nothing of it changes; empty: none
+  std::vector<TriangleId> redo = {};  ///< marked whatever their edges, unless kept
 };
 
 /// 1: to be redone.
 struct HoleMarks {
-  std::vector<char> triangle;   ///< [n_triangles]
-  std::vector<char> segment;    ///< [edges.node_t] by CadSegment::index; all triangles that touch an inner node of a run of these are marked
+  std::vector<char> triangle;  ///< [n_triangles]
+  std::vector<char> segment;   ///< [edges.node_t] by CadSegment::index; all triangles that touch an inner node of a run of these are marked
   std::int64_t n_triangles() const;
 };
 
-/// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size stored with the mesh; with it
-/// its triangles, and `layers` around them within their face (over a CAD edge where its segments are marked); segments between marked ones and triangles
-/// with marked ones at all corners follow. Local, pure.
+/// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size stored with the mesh;
+/// with it its triangles, and `layers` around them within their face (over a CAD edge where its segments are marked); segments between
+/// marked ones and triangles with marked ones at all corners follow. Local, pure.
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
 
 /// Grows the marks within one face by `layers`; segments stay. False when nothing was left to mark.

@@ -99,9 +99,8 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t) : mesh(m), tables
 
 std::span<const CadSegment> HoleMesh::segments_between(NodeId a, NodeId b) const {
   const auto [low, high] = std::minmax(a, b);
-  const auto first = std::lower_bound(segments.begin(), segments.end(), std::pair(low, high), [](const CadSegment& s, const auto& key) {
-    return std::pair(s.low, s.high) < key;
-  });
+  const auto first = std::lower_bound(segments.begin(), segments.end(), std::pair(low, high),
+                                      [](const CadSegment& s, const auto& key) { return std::pair(s.low, s.high) < key; });
   auto last = first;
   while (last != segments.end() && last->low == low && last->high == high) ++last;
   return {first, last};

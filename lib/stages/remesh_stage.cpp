@@ -1,15 +1,18 @@
 #include "stages/remesh_stage.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/log.h"
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
+#include "mesh/merge.h"
 #include "stages/model_mesher.h"
 #include "stages/patches_result.h"
 #include "stages/remesher.h"
@@ -20,6 +23,13 @@ namespace {
 void require_valid(const RemeshStageOptions& o) {
   if (!(o.too_long > 1)) throw Error(ExitCode::kUsage, fmt::format("--too-long {}: must be larger than 1", o.too_long));
   if (!(o.too_short > 0 && o.too_short < 1)) throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
+}
+
+/// Arrays of megabytes follow each other; fresh pages for each cost as much as the work on them.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_TOP_PAD, 1 << 26);
 }
 
 /// Faces of the group that stays, [n_faces]; empty when none does.
@@ -38,13 +48,22 @@ nlohmann::json counts(const Remesher& r, const HoleMesh& mesh) {
           {"triangles_redone", r.n_marked_triangles},
           {"segments_redone", r.n_marked_segments},
           {"triangles_before", mesh.mesh.n_triangles()},
-          {"faces", mesh.tables.n_faces()}};
+          {"faces", mesh.tables.n_faces()},
+          {"holes_grown", r.n_grown},
+          {"rounds", r.n_rounds},
+          {"crossing_pairs", r.n_crossing_pairs},
+          {"refinements", r.n_refinements},
+          {"seconds_analysis", r.seconds_analysis},
+          {"seconds_edges", r.seconds_edges},
+          {"seconds_faces", r.seconds_faces},
+          {"seconds_insert", r.seconds_merge},
+          {"seconds_crossing", r.seconds_crossing}};
 }
 
 StageSummary dry_run_summary(const Remesher& r, const HoleMesh& mesh) {
   StageSummary s;
-  s.line = fmt::format("{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written", r.n_marked_triangles,
-                       mesh.mesh.n_triangles(), r.dirty_faces.size(), mesh.tables.n_faces(), r.n_marked_segments);
+  s.line = fmt::format("{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
+                       r.n_marked_triangles, mesh.mesh.n_triangles(), r.dirty_faces.size(), mesh.tables.n_faces(), r.n_marked_segments);
   nlohmann::json json = counts(r, mesh);
   json["tool"] = "st-remesh";
   s.json = json.dump();
@@ -55,7 +74,8 @@ StageSummary dry_run_summary(const Remesher& r, const HoleMesh& mesh) {
 void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
   after.node_previous.assign(after.node_t.size(), kNone);
   for (std::size_t e = 0; e + 1 < after.edge_offsets.size(); ++e) {
-    const std::int32_t a = before.edge_offsets[e], n = before.edge_offsets[e + 1] - a, b = after.edge_offsets[e], m = after.edge_offsets[e + 1] - b;
+    const std::int32_t a = before.edge_offsets[e], n = before.edge_offsets[e + 1] - a, b = after.edge_offsets[e],
+                       m = after.edge_offsets[e + 1] - b;
     if (n == 0 || m == 0) continue;
     const bool is_same = n == m && std::equal(before.node_t.begin() + a, before.node_t.begin() + a + n, after.node_t.begin() + b);
     for (std::int32_t i = 0; is_same && i < n; ++i) after.node_previous[b + i] = before.node_previous[a + i];
@@ -64,32 +84,108 @@ void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
   }
 }
 
-/// Faces whose holes could not be filled are meshed again as wholes, in rounds as st-mesh does.
-void redo_failed_faces(ModelMesher& mesher, Remesher& r) {
-  if (r.failed_faces.empty()) {
-    mesher.edges = std::move(r.edges);
-    mesher.patches = std::move(r.patches);
-    return;
-  }
+/// Collective. Faces whose holes could not be filled are meshed again as wholes, in rounds as st-mesh does; the edges keep their nodes.
+void redo_failed_faces(const SizeField& field, Remesher& r, ModelMesher& mesher) {
   const EdgeMesh before = r.edges;
-  mesher.run_from(std::move(r.edges), std::move(r.patches), r.failed_faces);
+  mesher.run_from(r.edges, r.all_patches(), r.failed_faces);
   carry_previous(before, mesher.edges);
   for (FacePatch& p : mesher.patches) {
     p.inner_previous.resize(p.inner_xyz.size(), kNone);
     p.triangle_previous.resize(p.triangles.size(), kNone);
   }
+  store_requests(field, mesher);
 }
 
-/// Nodes that stay although all their triangles are new were asked for by the new sizes as well.
-void renew_surrounded_nodes(const SurfaceMesh& old, const SizeField& field, ModelMesher& m) {
-  std::vector<char> is_held(old.node_xyz.size(), 0);
-  for (const FacePatch& p : m.patches)
-    for (TriangleId t : p.triangle_previous)
-      for (int k = 0; t != kNone && k < 3; ++k) is_held[old.triangles[t].n[k]] = 1;
-  if (m.edges.node_request.empty()) m.edges.node_request = m.edges.node_size;
-  int hint = 0;
-  for (std::size_t i = 0; i < m.edges.node_t.size(); ++i)
-    if (const NodeId n = m.edges.node_previous[i]; n != kNone && !is_held[n]) m.edges.node_request[i] = field.size(m.edges.node_xyz[i], hint);
+/// What is read once and used by all steps.
+struct RemeshInput {
+  MeshArtifact old;
+  ArtifactHeader geometry;
+  Model model;
+  MappedSizing sizing;
+};
+
+RemeshInput read_input(const RemeshStageOptions& o) {
+  MeshArtifact old = read_mesh(o.mesh);
+  if (!old.is_complete)
+    throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  MappedSizing sizing = map_sizing(o.sizing);
+  require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
+  require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
+  ArtifactHeader header = geometry.header;
+  return {std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)), std::move(sizing)};
+}
+
+ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const Remesher& r) {
+  ArtifactHeader header;
+  header.tool = "st-remesh";
+  header.tool_version = ST_VERSION;
+  header.options_json =
+      nlohmann::json{{"too_long", o.too_long}, {"too_short", o.too_short}, {"keep", o.keep}, {"faces_redone", r.dirty_faces.size()}}.dump();
+  header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), in.old.header.content_hash},
+                   {"geometry", std::filesystem::path(o.geometry).filename().string(), in.geometry.content_hash},
+                   {"sizing", std::filesystem::path(o.sizing).filename().string(), in.sizing.header.content_hash}};
+  return header;
+}
+
+/// Local, on rank 0.
+SurfaceMesh merged_mesh(const Model& model, Remesher& r, const ModelMesher* mesher) {
+  if (!mesher) return std::move(r.mesh);
+  const ModelTables& t = model.tables();
+  OrientationReport report;
+  std::vector<FacePatch> patches = mesher->patches;
+  std::erase_if(patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  return merge_patches({mesher->edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
+}
+
+/// Local, on rank 0. Writes the merged mesh.
+StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, const ModelMesher* mesher,
+                          const RunFacts& facts) {
+  MeshArtifact artifact;
+  artifact.header = output_header(o, in, r);
+  artifact.header.unit = in.geometry.unit;
+  artifact.header.unit_in_m = in.geometry.unit_in_m;
+  artifact.header.geometry_hash = in.geometry.content_hash;
+  artifact.mesh = merged_mesh(in.model, r, mesher);
+  artifact.mesh.face_name = in.old.mesh.face_name;
+  artifact.mesh.group_name = in.old.mesh.group_name;
+  if (mesher && !mesher->failures.empty())
+    throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
+                                                   in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
+  if (r.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
+  const Timer timer;
+  const std::string hash = write_mesh(o.merged, artifact);
+  const double write_seconds = timer.seconds(), seconds = facts.timer.seconds();
+  StageSummary s;
+  s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(), artifact.mesh.n_nodes(),
+                       seconds, facts.n_ranks);
+  s.json = nlohmann::json{{"tool", "st-remesh"},
+                          {"output", o.merged},
+                          {"hash", hash},
+                          {"triangles", artifact.mesh.n_triangles()},
+                          {"nodes", artifact.mesh.n_nodes()},
+                          {"ranks", facts.n_ranks},
+                          {"seconds", seconds},
+                          {"seconds_load", facts.load_seconds},
+                          {"seconds_write", write_seconds}}
+               .dump();
+  return s;
+}
+
+/// Local, on rank 0. Writes patches for st-merge.
+StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, ModelMesher& mesher, const RunFacts& facts) {
+  if (r.failed_faces.empty()) {
+    mesher.patches = r.all_patches();
+    mesher.edges = std::move(r.edges);
+    if (mesher.edges.node_request == mesher.edges.node_size) mesher.edges.node_request.clear();
+  }
+  mesher.times.edges += r.seconds_edges;
+  mesher.times.faces += r.seconds_faces;
+  mesher.times.crossing += r.seconds_crossing;
+  mesher.n_crossing_pairs += r.n_crossing_pairs;
+  mesher.n_refinements += r.n_refinements;
+  mesher.n_rounds += r.n_rounds;
+  return write_patches_result(o.output, in.model.tables(), in.geometry, output_header(o, in, r), mesher, facts);
 }
 
 }  // namespace
@@ -97,46 +193,31 @@ void renew_surrounded_nodes(const SurfaceMesh& old, const SizeField& field, Mode
 StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
   require_valid(o);
-  if (comm.is_root() && !o.dry_run) require_writable(o.output);
-  const MeshArtifact old = read_mesh(o.mesh);
-  if (!old.is_complete)
-    throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
-  GeometryArtifact geometry = read_geometry(o.geometry);
-  const MappedSizing sizing = map_sizing(o.sizing);
-  require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
-  require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  const ArtifactHeader geometry_header = geometry.header;
-  const Model model(std::move(geometry.tables), std::move(geometry.brep));
-  const HoleMesh mesh(old.mesh, model.tables());
+  keep_freed_memory();
+  if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
+  const RemeshInput in = read_input(o);
+  const HoleMesh mesh(in.old.mesh, in.model.tables());
   RemesherOptions options;
   options.mark.too_long = o.too_long;
   options.mark.too_short = o.too_short;
-  options.mark.keep_face = kept_faces(o, model.tables());
-  Remesher remesher(model, mesh, *sizing.field, options, comm);
+  options.mark.keep_face = kept_faces(o, in.model.tables());
+  Remesher remesher(in.model, mesh, *in.sizing.field, options, comm);
+  const double load_seconds = timer.seconds();
   remesher.analyse();
   if (o.dry_run) return dry_run_summary(remesher, mesh);
-  const double load_seconds = timer.seconds();
   remesher.run();
-  ModelMesher mesher(model, *sizing.field, sizing.face_weight, {}, comm);
-  redo_failed_faces(mesher, remesher);
+  std::optional<ModelMesher> mesher;
+  if (!remesher.failed_faces.empty() || o.merged.empty())
+    mesher.emplace(in.model, *in.sizing.field, in.sizing.face_weight, ModelMesherOptions{}, comm);
+  if (!remesher.failed_faces.empty()) redo_failed_faces(*in.sizing.field, remesher, *mesher);
   if (!comm.is_root()) return {};
-  renew_surrounded_nodes(old.mesh, *sizing.field, mesher);
-  store_requests(*sizing.field, mesher);
-  mesher.times.edges += remesher.seconds_edges;
-  mesher.times.faces += remesher.seconds_faces;
-
-  ArtifactHeader header;
-  header.tool = "st-remesh";
-  header.options_json = nlohmann::json{{"too_long", o.too_long}, {"too_short", o.too_short}, {"keep", o.keep}, {"faces_redone", remesher.dirty_faces.size()}}.dump();
-  header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), old.header.content_hash},
-                   {"geometry", std::filesystem::path(o.geometry).filename().string(), geometry_header.content_hash},
-                   {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.header.content_hash}};
-  StageSummary summary = write_patches_result(o.output, model.tables(), geometry_header, header, mesher, {timer, load_seconds, comm.size()});
+  const RunFacts facts{timer, load_seconds, comm.size()};
+  StageSummary summary = o.merged.empty() ? write_patches_of(o, in, remesher, *mesher, facts)
+                                          : write_merged(o, in, remesher, mesher ? &*mesher : nullptr, facts);
   nlohmann::json json = nlohmann::json::parse(summary.json);
   json.update(counts(remesher, mesh));
-  json["holes_grown"] = remesher.n_grown;
   summary.json = json.dump();
-  summary.line += fmt::format("; {} of {} triangles redone", remesher.n_marked_triangles, old.mesh.n_triangles());
+  summary.line += fmt::format("; {} of {} triangles redone", remesher.n_marked_triangles, in.old.mesh.n_triangles());
   return summary;
 }
 

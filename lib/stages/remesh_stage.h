@@ -10,14 +10,15 @@
 namespace st {
 
 struct RemeshStageOptions {
-  std::string mesh;                     ///< mesh artifact
-  std::string geometry;                 ///< geometry artifact the mesh was made on
-  std::string sizing;                   ///< new sizing artifact
+  std::string mesh;      ///< mesh artifact
+  std::string geometry;  ///< geometry artifact the mesh was made on
+  std::string sizing;    ///< new sizing artifact
   std::string output = "patches.hdf";
-  double too_long = 1.4;                ///< where the sizes changed, an edge longer than this times the requested length is redone, > 1
-  double too_short = 0.7;               ///< likewise shorter than, (0, 1)
-  std::string keep;                     ///< group of which nothing changes; empty: none
-  bool dry_run = false;                 ///< say how much would change, write nothing
+  std::string merged;      ///< mesh artifact to write instead of `output`, merged already; empty: none
+  double too_long = 1.4;   ///< where the sizes changed, an edge longer than this times the requested length is redone, > 1
+  double too_short = 0.7;  ///< likewise shorter than, (0, 1)
+  std::string keep;        ///< group of which nothing changes; empty: none
+  bool dry_run = false;    ///< say how much would change, write nothing
 };
 
 /// Collective. Throws Error.

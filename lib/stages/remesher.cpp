@@ -1,18 +1,25 @@
 #include "stages/remesher.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "comm/packer.h"
+#include "meshing/hole_crossing.h"
+#include "meshing/hole_merger.h"
+#include "meshing/refined_field.h"
 
 namespace st {
 namespace {
 
 constexpr std::int32_t kNodesPerTask = 1 << 16;
 constexpr std::int32_t kRunsPerTask = 64;
-constexpr int kGrowth[] = {2, 6};        // layers by which a hole grows when it cannot be filled; then the whole face is done again
+constexpr int kGrowth[] = {2, 6};                // layers by which a hole grows when it cannot be filled; then the whole face is done again
+constexpr double kCrossingFloor = 1.0 / 8;       // of the requested length: refinement of crossing facets ends there
+constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
+constexpr double kWorthwhile = 0.95;             // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> in_order(std::size_t n) {
   std::vector<std::int32_t> order(n);
@@ -65,13 +72,15 @@ void unpack(Unpacker& u, FacePatch& f) {
 
 }  // namespace
 
-Remesher::Remesher(const Model& model, const HoleMesh& mesh, const SizeField& field, const RemesherOptions& options, const Communicator& comm)
-    : model_(model), mesh_(mesh), field_(field), options_(options), comm_(comm) {}
+Remesher::Remesher(const Model& model, const HoleMesh& mesh, const SizeField& field, const RemesherOptions& options,
+                   const Communicator& comm)
+    : model_(model), old_(mesh), field_(field), options_(options), comm_(comm) {}
 
 void Remesher::analyse() {
-  const auto n_nodes = static_cast<std::int32_t>(mesh_.mesh.node_xyz.size());
+  const Timer timer;
+  const auto n_nodes = static_cast<std::int32_t>(old_.mesh.node_xyz.size());
   const std::int32_t n_tasks = (n_nodes + kNodesPerTask - 1) / kNodesPerTask;
-  std::vector<double> wanted(n_nodes);
+  wanted_.resize(n_nodes);
   const auto begin = [&](std::int32_t task) { return task * kNodesPerTask; };
   const auto end = [&](std::int32_t task) { return std::min(n_nodes, (task + 1) * kNodesPerTask); };
   comm_.run_tasks(
@@ -79,7 +88,7 @@ void Remesher::analyse() {
       [&](std::int32_t task) {
         std::vector<double> sizes;
         int hint = 0;
-        for (std::int32_t n = begin(task); n < end(task); ++n) sizes.push_back(field_.size(mesh_.mesh.node_xyz[n], hint));
+        for (std::int32_t n = begin(task); n < end(task); ++n) sizes.push_back(field_.size(old_.mesh.node_xyz[n], hint));
         Packer p;
         p.add(sizes);
         return p.take();
@@ -87,47 +96,78 @@ void Remesher::analyse() {
       [&](std::int32_t task, Bytes&& result) {
         std::vector<double> sizes;
         Unpacker(result).get(sizes);
-        std::copy(sizes.begin(), sizes.end(), wanted.begin() + begin(task));
+        std::copy(sizes.begin(), sizes.end(), wanted_.begin() + begin(task));
       });
-  share(comm_, wanted);
-  marks = mark_holes(mesh_, wanted, options_.mark);
+  share(comm_, wanted_);
+  mark();
   n_marked_triangles = marks.n_triangles();
   n_marked_segments = std::count(marks.segment.begin(), marks.segment.end(), 1);
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-    if (std::find(marks.triangle.begin() + mesh_.face_begin[f], marks.triangle.begin() + mesh_.face_begin[f + 1], 1) !=
-        marks.triangle.begin() + mesh_.face_begin[f + 1])
-      dirty_faces.push_back(f);
+  seconds_analysis = timer.seconds();
+}
+
+void Remesher::mark() {
+  std::vector<double> wanted = wanted_;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    for (std::size_t n = 0; n < wanted.size(); ++n)
+      if (const double d = distance(old_.mesh.node_xyz[n], points_[i].x); d < point_reach_[i])
+        wanted[n] = std::min(wanted[n], points_[i].length + kRefinementSlope * d);
+  marks = mark_holes(old_, wanted, options_.mark);
+  dirty_faces.clear();
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+    const auto first = marks.triangle.begin() + old_.face_begin[f], last = marks.triangle.begin() + old_.face_begin[f + 1];
+    if (std::find(first, last, 1) != last) dirty_faces.push_back(f);
+  }
 }
 
 void Remesher::run() {
-  Timer timer;
-  redo_curves();
-  seconds_edges = timer.seconds();
-  timer = Timer();
-  patches.resize(model_.tables().n_faces());
+  for (;;) {
+    ++n_rounds;
+    Timer timer;
+    redo_curves();
+    seconds_edges += timer.seconds();
+    timer = Timer();
+    redo_holes();
+    seconds_faces += timer.seconds();
+    edges = update_.edges;
+    if (!failed_faces.empty()) return;
+    timer = Timer();
+    if (comm_.is_root()) {
+      renew_surrounded_nodes();
+      mesh = insert_patches(*numbering_, patches);
+    }
+    seconds_merge += timer.seconds();
+    timer = Timer();
+    const bool again = refine_crossings();
+    seconds_crossing += timer.seconds();
+    if (!again) return;
+    mark();
+  }
+}
+
+std::vector<FacePatch> Remesher::all_patches() const {
+  std::vector<FacePatch> all = patches;
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
+    if (all[f].triangles.empty()) all[f] = make_hole_patch(f, marks, *numbering_, nullptr, nullptr);
+  return all;
+}
+
+void Remesher::redo_holes() {
+  patches.assign(model_.tables().n_faces(), {});
   std::vector<FaceId> faces = dirty_faces;
   for (int layers : kGrowth) {
     faces = fill(faces);
-    for (FaceId f : faces) grow_hole(mesh_, f, layers, marks);
+    for (FaceId f : faces) grow_hole(old_, f, layers, marks);
     n_grown += static_cast<int>(faces.size());
   }
   faces = fill(faces);
-  for (FaceId f : faces) std::fill(marks.triangle.begin() + mesh_.face_begin[f], marks.triangle.begin() + mesh_.face_begin[f + 1], 1);
+  for (FaceId f : faces) std::fill(marks.triangle.begin() + old_.face_begin[f], marks.triangle.begin() + old_.face_begin[f + 1], 1);
   failed_faces = fill(faces);
-  seconds_faces = timer.seconds();
-  edges = update_.edges;
-  if (!comm_.is_root()) return;
-  const HoleNumbering numbering(mesh_, update_);
-  std::vector<char> is_dirty(patches.size(), 0);
-  for (FaceId f : dirty_faces) is_dirty[f] = 1;
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-    if (!is_dirty[f]) patches[f] = make_hole_patch(f, marks, numbering, nullptr, nullptr);
 }
 
 void Remesher::redo_curves() {
-  runs_ = marked_runs(mesh_, marks);
+  const std::vector<SegmentRun> runs = marked_runs(old_, marks);
   const std::vector<int> least = min_segments_per_edge(model_.tables());
-  const auto n_runs = static_cast<std::int32_t>(runs_.size());
+  const auto n_runs = static_cast<std::int32_t>(runs.size());
   const std::int32_t n_tasks = (n_runs + kRunsPerTask - 1) / kRunsPerTask;
   std::vector<CurveNodes> fresh(n_runs);
   const auto first = [&](std::int32_t task) { return task * kRunsPerTask; };
@@ -135,8 +175,11 @@ void Remesher::redo_curves() {
   const auto compute = [&](std::int32_t task) {
     Packer p;
     for (std::int32_t r = first(task); r < last(task); ++r) {
+      Box3 box;
+      for (std::int32_t i = runs[r].first; i <= runs[r].last; ++i) box.add(old_.edges.node_xyz[i]);
+      const RefinedField field(field_, points_near(box));
       const CurveNodes n =
-          discretise_run(mesh_, runs_[r], *model_.curve(runs_[r].edge), field_, {options_.max_turning_deg, least[runs_[r].edge]});
+          discretise_run(old_, runs[r], *model_.curve(runs[r].edge), field, {options_.max_turning_deg, least[runs[r].edge]});
       p.add(n.t);
       p.add(n.x);
       p.add(n.h);
@@ -154,22 +197,37 @@ void Remesher::redo_curves() {
       u.get(fresh[r].h);
     }
   }
-  update_ = update_edges(mesh_, runs_, fresh);
+  update_ = update_edges(old_, runs, fresh);
+  request_curve_lengths();
+  numbering_.emplace(old_, update_);
+}
+
+/// New nodes were asked for by the field, whatever was refined.
+void Remesher::request_curve_lengths() {
+  int hint = 0;
+  EdgeMesh& e = update_.edges;
+  for (std::size_t i = 0; i < e.node_t.size(); ++i)
+    if (e.node_previous[i] == kNone) e.node_request[i] = field_.size(e.node_xyz[i], hint);
 }
 
 Bytes Remesher::compute_face(FaceId f) const {
   FacePatch patch;
   patch.face = f;
   try {
-    const HoleNumbering numbering(mesh_, update_);
+    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[f]);
+    const RefinedField refined(field_, near);
+    const SizeField& field = near.empty() ? field_ : refined;
     const auto surface = model_.surface(f);
-    const FaceBoundary boundary = make_hole_boundary(model_, *surface, f, marks, numbering, field_);
+    const FaceBoundary boundary = make_hole_boundary(model_, *surface, f, marks, *numbering_, field);
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
-    const FaceMesh mesh = mesh_face(*surface, boundary, field_, options);
-    if (mesh.cause.empty() && mesh.n_folds == 0) patch = make_hole_patch(f, marks, numbering, &boundary, &mesh);
+    const FaceMesh filled = mesh_face(*surface, boundary, field, options);
+    if (filled.cause.empty() && filled.n_folds == 0) patch = make_hole_patch(f, marks, *numbering_, &boundary, &filled);
   } catch (const Error&) {  // no triangles: the hole grows
   }
+  int hint = 0;
+  for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i)
+    if (patch.inner_previous[i] == kNone) patch.inner_size[i] = field_.size(patch.inner_xyz[i], hint);
   Packer packer;
   pack(packer, patch);
   return packer.take();
@@ -180,7 +238,7 @@ std::vector<FaceId> Remesher::fill(const std::vector<FaceId>& faces) {
   if (faces.empty()) return {};
   std::vector<std::int64_t> weight;
   for (FaceId f : faces)
-    weight.push_back(std::count(marks.triangle.begin() + mesh_.face_begin[f], marks.triangle.begin() + mesh_.face_begin[f + 1], 1));
+    weight.push_back(std::count(marks.triangle.begin() + old_.face_begin[f], marks.triangle.begin() + old_.face_begin[f + 1], 1));
   std::vector<std::int32_t> order = in_order(faces.size());
   std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
   std::vector<FaceId> failed;
@@ -194,6 +252,74 @@ std::vector<FaceId> Remesher::fill(const std::vector<FaceId>& faces) {
   std::sort(failed.begin(), failed.end());
   share(comm_, failed);
   return failed;
+}
+
+/// Nodes that stay although all their triangles are new were asked for by the new sizes as well.
+void Remesher::renew_surrounded_nodes() {
+  std::vector<char> is_held(old_.inner_begin[0], 0);
+  const auto hold = [&](TriangleId t) {
+    for (NodeId n : old_.mesh.triangles[t].n)
+      if (n < old_.inner_begin[0]) is_held[n] = 1;
+  };
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+    if (patches[f].triangles.empty())
+      for (TriangleId t = old_.face_begin[f]; t < old_.face_begin[f + 1]; ++t) hold(t);
+    for (TriangleId t : patches[f].triangle_previous)
+      if (t != kNone) hold(t);
+  }
+  int hint = 0;
+  for (std::size_t i = 0; i < edges.node_t.size(); ++i)
+    if (const NodeId n = edges.node_previous[i]; n != kNone && !is_held[n]) edges.node_request[i] = field_.size(edges.node_xyz[i], hint);
+  update_.edges.node_request = edges.node_request;
+}
+
+std::vector<RefinementPoint> Remesher::points_near(const Box3& box) const {
+  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
+  std::vector<RefinementPoint> near;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3 p = points_[i].x;
+    if (norm(Vec3{out(box.lo.x, box.hi.x, p.x), out(box.lo.y, box.hi.y, p.y), out(box.lo.z, box.hi.z, p.z)}) <= point_reach_[i])
+      near.push_back(points_[i]);
+  }
+  return near;
+}
+
+/// False when the place is as fine already, or cannot become finer.
+bool Remesher::accept(const RefinementPoint& point) {
+  Box3 at;
+  at.add(point.x);
+  const double request = field_.size(point.x), length = std::max(point.length, kCrossingFloor * request);
+  if (length > kWorthwhile * RefinedField(field_, points_near(at)).size(point.x)) return false;
+  points_.push_back({point.x, length});
+  point_reach_.push_back(std::max(0.0, (request - length) / kRefinementSlope));
+  ++n_refinements;
+  return true;
+}
+
+/// Triangles that cross a new one: both are asked to be half as large and done again. False when there are none, or no help.
+bool Remesher::refine_crossings() {
+  std::vector<RefinementPoint> places;
+  if (comm_.is_root()) {
+    n_crossing_pairs = 0;
+    for (const TrianglePair& pair : find_new_crossings(mesh, model_.tables().face_shell)) {
+      ++n_crossing_pairs;
+      for (TriangleId t : {pair.a, pair.b}) {
+        if (places.size() >= kMaxCrossingPlaces) break;
+        Vec3 x[3];
+        for (int k = 0; k < 3; ++k) x[k] = mesh.node_xyz[mesh.triangles[t].n[k]];
+        places.push_back(
+            {(x[0] + x[1] + x[2]) / 3, 0.5 * std::sqrt(std::max({norm2(x[0] - x[1]), norm2(x[1] - x[2]), norm2(x[2] - x[0])}))});
+        if (mesh.triangle_previous[t] != kNone) options_.mark.redo.push_back(mesh.triangle_previous[t]);
+      }
+    }
+  }
+  share(comm_, places);
+  if (places.empty() || n_rounds > options_.max_crossing_rounds) return false;
+  bool any = false;
+  for (const RefinementPoint& p : places) any |= accept(p);
+  share(comm_, options_.mark.redo);
+  if (any && comm_.is_root()) log_info("refining where new triangles cross others");
+  return any;
 }
 
 }  // namespace st

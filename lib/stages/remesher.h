@@ -1,6 +1,7 @@
-// Redoes the marked parts of a mesh on all ranks: curves, then holes, face by face.
+// Redoes the marked parts of a mesh on all ranks: curves, then holes, face by face; what crosses is refined and done again.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "comm/communicator.h"
@@ -12,8 +13,9 @@ namespace st {
 
 struct RemesherOptions {
   HoleMarkOptions mark;
-  double max_turning_deg = 30;   ///< as ModelMesherOptions
+  double max_turning_deg = 30;  ///< as ModelMesherOptions
   int enhance_rounds = 3;
+  int max_crossing_rounds = 4;  ///< refinements of crossing facets
 };
 
 class Remesher {
@@ -25,31 +27,45 @@ class Remesher {
   void analyse();
   /// Collective. Redoes it.
   void run();
+  /// Local, on rank 0. Patches of all faces, those that stay included.
+  std::vector<FacePatch> all_patches() const;
 
-  HoleMarks marks;                     ///< after analyse(), on every rank
-  std::int64_t n_marked_triangles = 0, n_marked_segments = 0;   ///< by analyse(): holes that cannot be filled grow later
-  std::vector<FaceId> dirty_faces;     ///< faces with a marked triangle, ascending, on every rank
+  HoleMarks marks;                                             ///< after analyse(), on every rank
+  std::int64_t n_marked_triangles = 0, n_marked_segments = 0;  ///< by analyse(): holes that cannot be filled grow later
+  std::vector<FaceId> dirty_faces;                             ///< faces with a marked triangle, ascending, on every rank
 
-  // results, complete on rank 0 only (edges on every rank)
+  // results, complete on rank 0 only (edges on every rank); new nodes have the length that the field requests as node_request, inner_size
   EdgeMesh edges;
-  std::vector<FacePatch> patches;      ///< by face
-  std::vector<FaceId> failed_faces;    ///< whose holes could not be filled, whole face or not: on every rank
-  int n_grown = 0;                     ///< holes that had to grow
-  double seconds_edges = 0, seconds_faces = 0;
+  std::vector<FacePatch> patches;    ///< by face; without triangles: the face is as it was, or failed
+  SurfaceMesh mesh;                  ///< the whole; empty when a face failed
+  std::vector<FaceId> failed_faces;  ///< whose holes could not be filled, whole face or not: on every rank
+  int n_grown = 0;                   ///< holes that had to grow
+  int n_crossing_pairs = 0;          ///< of which one triangle at least is new
+  int n_refinements = 0, n_rounds = 0;
+  double seconds_analysis = 0, seconds_edges = 0, seconds_faces = 0, seconds_crossing = 0, seconds_merge = 0;
 
  private:
   void redo_curves();
+  void request_curve_lengths();
+  void redo_holes();
   std::vector<FaceId> fill(const std::vector<FaceId>& faces);
   Bytes compute_face(FaceId f) const;
-  void share_edges();
+  void renew_surrounded_nodes();
+  bool refine_crossings();
+  bool accept(const RefinementPoint& point);
+  std::vector<RefinementPoint> points_near(const Box3& box) const;
+  void mark();
 
   const Model& model_;
-  const HoleMesh& mesh_;
+  const HoleMesh& old_;
   const SizeField& field_;
   RemesherOptions options_;
   const Communicator& comm_;
-  std::vector<SegmentRun> runs_;
+  std::vector<double> wanted_;           // [n_nodes] requested lengths
+  std::vector<RefinementPoint> points_;  // refinements of crossings so far
+  std::vector<double> point_reach_;
   EdgeUpdate update_;
+  std::optional<HoleNumbering> numbering_;  // of update_
 };
 
 }  // namespace st

@@ -6,6 +6,8 @@
 
 #include "base/log.h"
 #include "io/artifact.h"
+#include "io/sizing_artifact.h"
+#include "mesh/checks.h"
 #include "stages/import_stage.h"
 #include "stages/merge_stage.h"
 #include "stages/mesh_stage.h"
@@ -184,6 +186,75 @@ TEST_F(Remesh, limits_decide_what_is_redone) {
   EXPECT_NE(run_remesh(o, one_rank()).json.find("\"faces_redone\":0"), std::string::npos);
   o.too_long = 1.05;
   EXPECT_NE(run_remesh(o, one_rank()).json.find("\"faces_redone\":7"), std::string::npos);
+}
+
+/// Old nodes inside a face that bound the holes of a remeshing: of triangles that stay and of such that go. `rest`: those of triangles that stay only.
+std::vector<NodeId> nodes_around_holes(const SurfaceMesh& old, const SurfaceMesh& remeshed, std::vector<NodeId>& rest) {
+  std::vector<char> stays(old.triangles.size(), 0), at_kept(old.node_xyz.size(), 0), at_gone(old.node_xyz.size(), 0);
+  for (TriangleId t : remeshed.triangle_previous)
+    if (t != kNone) stays[t] = 1;
+  for (std::size_t i = 0; i < old.triangles.size(); ++i)
+    for (NodeId n : old.triangles[i].n) (stays[i] ? at_kept : at_gone)[n] = 1;
+  std::vector<NodeId> around;
+  for (std::size_t n = 0; n < at_kept.size(); ++n)
+    if (at_kept[n] && old.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace)) (at_gone[n] ? around : rest).push_back(static_cast<NodeId>(n));
+  return around;
+}
+
+TEST_F(Remesh, grows_a_hole_that_cannot_be_filled) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 6);
+  RemeshStageOptions o = options("finer.hdf");
+  o.merged = dir_ / "merged.hdf";
+  EXPECT_NE(run_remesh(o, one_rank()).json.find("\"holes_grown\":0"), std::string::npos);
+  MeshArtifact old = read_mesh(o.mesh);
+  std::vector<NodeId> rest;
+  const std::vector<NodeId> around = nodes_around_holes(old.mesh, read_mesh(o.merged).mesh, rest);
+  ASSERT_FALSE(around.empty());
+  ASSERT_FALSE(rest.empty());
+  for (std::size_t c = 0; c < old.mesh.corner_uv.size(); ++c)  // the loop around the hole crosses itself
+    if (old.mesh.triangles[c / 3].n[c % 3] == around[0]) old.mesh.corner_uv[c] = old.mesh.corner_uv[c] + 1.5 * (old.mesh.corner_uv[c] - Vec2{30, 20});
+  write_mesh(o.mesh, old);
+  const StageSummary s = run_remesh(o, one_rank());
+  EXPECT_EQ(s.json.find("\"holes_grown\":0"), std::string::npos);
+  const MeshArtifact after = read_mesh(o.merged);
+  EXPECT_TRUE(check_topology(after.mesh).passes());
+  EXPECT_TRUE(check_shape(after.mesh).passes());
+  EXPECT_TRUE(check_crossings(after.mesh).passes());
+}
+
+TEST_F(Remesh, redoes_old_triangles_that_new_ones_cross) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 6);
+  RemeshStageOptions o = options("finer.hdf");
+  o.merged = dir_ / "merged.hdf";
+  run_remesh(o, one_rank());
+  MeshArtifact old = read_mesh(o.mesh);
+  std::vector<NodeId> rest;
+  nodes_around_holes(old.mesh, read_mesh(o.merged).mesh, rest);
+  old.mesh.node_xyz[rest[0]] = {30, 25, 21};  // through the new triangles of the top
+  old.mesh.node_size[rest[0]] = map_sizing(o.sizing).field->size(old.mesh.node_xyz[rest[0]]);  // no reason to redo it
+  write_mesh(o.mesh, old);
+  const StageSummary s = run_remesh(o, one_rank());
+  EXPECT_NE(s.json.find("\"crossing_pairs\":0"), std::string::npos) << s.json;
+  EXPECT_EQ(s.json.find("\"refinements\":0"), std::string::npos) << s.json;
+  const MeshArtifact after = read_mesh(o.merged);
+  EXPECT_TRUE(check_topology(after.mesh).passes());
+  EXPECT_TRUE(check_crossings(after.mesh).passes());
+}
+
+TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 6);
+  RemeshStageOptions o = options("finer.hdf");
+  run_remesh(o, one_rank());
+  const MeshArtifact expected = merge("remeshed.hdf", "by_merge.hdf");
+  o.merged = dir_ / "merged.hdf";
+  run_remesh(o, one_rank());
+  const MeshArtifact merged = read_mesh(o.merged);
+  EXPECT_EQ(merged.header.content_hash, expected.header.content_hash);
+  EXPECT_EQ(merged.mesh.node_previous, expected.mesh.node_previous);
+  EXPECT_EQ(merged.mesh.triangle_previous, expected.mesh.triangle_previous);
 }
 
 }  // namespace
