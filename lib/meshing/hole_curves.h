@@ -18,12 +18,13 @@ struct SegmentRun {
 std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks);
 
 /// Nodes of a run; the first and the last are the nodes that stay, to the bit. `min_segments` of the whole edge are left. Local, pure.
-CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
+CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
+                          const CurveMeshOptions& options);
 
 /// The edges with new nodes in their runs.
 struct EdgeUpdate {
-  EdgeMesh edges;                          ///< node_request (of nodes that stay: the old) and node_previous (mesh node, or kNone) filled
-  std::vector<std::int32_t> old_to_new;    ///< [old edges.node_t] into edges.node_*; kNone: inside a run
+  EdgeMesh edges;                        ///< node_request (of nodes that stay: the old) and node_previous (mesh node, or kNone) filled
+  std::vector<std::int32_t> old_to_new;  ///< [old edges.node_t] into edges.node_*; kNone: inside a run
 };
 
 /// `fresh` [runs]: what discretise_run gave for each.

@@ -20,16 +20,17 @@ struct HoleNumbering {
   const EdgeUpdate& update;
   BoundaryNumbering boundary;
   std::int32_t first_inner;
-  std::vector<std::int32_t> of_node;   ///< [n_nodes of the mesh] its number; kNone: replaced on its edge
+  std::vector<std::int32_t> of_node;  ///< [n_nodes of the mesh] its number; kNone: replaced on its edge
 };
 
-/// Boundary of all holes of a face: sides between marked triangles and others, and the face's own loops with the new nodes. Seams appear twice, poles
-/// get their segments; nothing is ordered, segments count by parity. A face without an unmarked triangle has the loops of make_face_boundary.
-/// Throws Error(kInternal) when marks and runs do not fit.
-FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
-                                const SizeField& field);
+/// Boundary of all holes of a face: sides between marked triangles and others, and the face's own loops with the new nodes. Seams appear
+/// twice, poles get their segments; nothing is ordered, segments count by parity. A face without an unmarked triangle has the loops of
+/// make_face_boundary. Throws Error(kInternal) when marks and runs do not fit.
+FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks,
+                                const HoleNumbering& numbering, const SizeField& field);
 
 /// The face's patch: unmarked triangles as they were, then those of `fill` (null: there is no hole).
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary, const FaceMesh* fill);
+FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary,
+                          const FaceMesh* fill);
 
 }  // namespace st

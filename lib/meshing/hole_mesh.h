@@ -14,7 +14,7 @@ namespace st {
 struct CadSegment {
   NodeId low = kNone, high = kNone;  ///< mesh nodes, low < high
   EdgeId edge = kNone;
-  std::int32_t index = kNone;        ///< into EdgeMesh::node_*; also the segment's number
+  std::int32_t index = kNone;  ///< into EdgeMesh::node_*; also the segment's number
 };
 
 /// The mesh with its relation to the model's entities. The mesh and the tables outlive it.
@@ -24,14 +24,14 @@ struct HoleMesh {
 
   const SurfaceMesh& mesh;
   const ModelTables& tables;
-  EdgeMesh edges;                        ///< as st-mesh made it; edges of which a vertex has no node have none
-  std::vector<NodeId> edge_node;         ///< [edges.node_t] mesh node of each
-  std::vector<CadSegment> segments;      ///< sorted by (low, high, index)
-  std::vector<NodeId> vertex_node;       ///< [n_vertices] kNone: none
-  std::vector<std::int32_t> node_on_edge;   ///< [n_nodes] into edges.node_*, for nodes inside an edge; else kNone
-  std::vector<TriangleId> face_begin;    ///< [n_faces+1]
-  std::vector<NodeId> inner_begin;       ///< [n_faces+1] nodes inside face f: [inner_begin[f], inner_begin[f+1])
-  std::vector<char> face_is_turned;      ///< [n_faces] 1: its triangles run clockwise in (u,v)
+  EdgeMesh edges;                          ///< as st-mesh made it; edges of which a vertex has no node have none
+  std::vector<NodeId> edge_node;           ///< [edges.node_t] mesh node of each
+  std::vector<CadSegment> segments;        ///< sorted by (low, high, index)
+  std::vector<NodeId> vertex_node;         ///< [n_vertices] kNone: none
+  std::vector<std::int32_t> node_on_edge;  ///< [n_nodes] into edges.node_*, for nodes inside an edge; else kNone
+  std::vector<TriangleId> face_begin;      ///< [n_faces+1]
+  std::vector<NodeId> inner_begin;         ///< [n_faces+1] nodes inside face f: [inner_begin[f], inner_begin[f+1])
+  std::vector<char> face_is_turned;        ///< [n_faces] 1: its triangles run clockwise in (u,v)
 
   TriangleId face_size(FaceId f) const { return face_begin[f + 1] - face_begin[f]; }
   /// All segments between two mesh nodes; several where edges of one segment share both vertices.
