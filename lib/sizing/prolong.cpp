@@ -34,6 +34,18 @@ class StepWeights {
   std::array<std::array<float, kLargestStep2 + 1>, kMaxLevel + 1> weight_;
 };
 
+/// Slopes of sites where they differ.
+struct SiteSlopes {
+  std::span<const float> cell_slope;  // [n_leaves]
+  const Blanking* blanking;
+
+  float at(std::int32_t site) const {
+    const auto n = static_cast<std::int32_t>(cell_slope.size());
+    return cell_slope[site < n ? site : blanking->split_leaf[site - n]];
+  }
+  float between(std::int32_t a, std::int32_t b) const { return 0.5F * (at(a) + at(b)); }
+};
+
 /// Cells to be looked at, in rising order of length in steps of 1/8 octave. The order is for speed only: the result does not depend on it.
 class LengthBuckets {
  public:
@@ -50,10 +62,13 @@ class LengthBuckets {
 };
 
 /// Label-correcting shortest paths: start from every cell with a stored length, pass length + slope * distance on until nothing changes.
-void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking* blanking, double slope, CellLengths& cells) {
+void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking* blanking, const ProlongOptions& options,
+                  CellLengths& cells) {
   const auto [smallest, largest] = std::minmax_element(cells.length.begin(), cells.length.end());
   LengthBuckets buckets(*smallest, *largest);
-  const StepWeights weight(root_edge, slope);
+  const bool is_uniform = options.cell_slope.empty();
+  const StepWeights weight(root_edge, is_uniform ? options.slope : 1);
+  const SiteSlopes slopes{options.cell_slope, blanking};
   std::vector<std::uint8_t> is_waiting(cells.length.size(), 0);
   for (std::size_t leaf = 0; leaf < cells.length.size(); ++leaf)
     if (cells.cause[leaf] != kNone) {
@@ -69,7 +84,8 @@ void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking
       const std::int32_t cause = cells.cause[leaf];
       for_each_link(blanking, neighbours, leaf, [&](std::int32_t other, const CellStep& step) {
         const std::size_t o = static_cast<std::size_t>(other);
-        const float limit = length + weight(step);
+        const float rise = is_uniform ? weight(step) : weight(step) * slopes.between(leaf, other);
+        const float limit = length + rise;
         if (limit > cells.length[o] || (limit == cells.length[o] && cause >= cells.cause[o])) return;
         if (limit == cells.length[o] && cells.cause[o] == kNone) return;  // nothing won over the largest length
         cells.length[o] = limit;
@@ -106,7 +122,7 @@ struct FitInput {
   const Neighbours& neighbours;
   const Blanking* blanking;
   std::span<const float> lengths;  // [n_sites]
-  double slope;
+  const ProlongOptions& options;
 
   bool is_blanked(std::int32_t site) const { return site < octree.n_leaves() && blanking->colour[site] == CellColour::kBlanked; }
   /// Lengths pass from flow to blanked cells, which must not be seen from the flow.
@@ -131,7 +147,8 @@ CellLength fit_cell(const FitInput& in, std::int32_t site) {
   });
   CellLength cell{static_cast<float>(length), {0, 0, 0}, static_cast<float>(largest)};
   if (!(length > smallest)) return cell;
-  const double edge = in.octree.cell_edge(level), slope = in.slope;
+  const double edge = in.octree.cell_edge(level);
+  const double slope = in.options.cell_slope.empty() ? in.options.slope : static_cast<double>(in.options.cell_slope[leaf]);
   Vec3 gradient = fit.solve() / edge;
   const double steepness = norm(gradient);
   if (steepness > slope) gradient = gradient * (slope / steepness);
@@ -171,9 +188,9 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
   if (blanking) add_second_parts(*blanking, lengths);
   const Neighbours neighbours(octree);
-  pass_lengths(octree.edge, neighbours, blanking, options.slope, lengths);
+  pass_lengths(octree.edge, neighbours, blanking, options, lengths);
   ProlongedLengths result;
-  const FitInput input{octree, neighbours, blanking, lengths.length, options.slope};
+  const FitInput input{octree, neighbours, blanking, lengths.length, options};
   const std::int32_t n = octree.n_leaves(), n_sites = static_cast<std::int32_t>(lengths.length.size());
   result.cells.resize(static_cast<std::size_t>(n));
   for (std::int32_t leaf = 0; leaf < n; ++leaf) result.cells[leaf] = fit_cell(input, leaf);
@@ -184,6 +201,27 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
   result.second_cause.assign(lengths.cause.begin() + n, lengths.cause.end());
   lengths.cause.resize(static_cast<std::size_t>(n));
   result.cause = std::move(lengths.cause);
+  return result;
+}
+
+// The label that goes with the lengths is the slope of their origin instead of their cause.
+std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length, std::span<const float> seed_slope,
+                                 const ProlongOptions& options, const Blanking* blanking) {
+  std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
+  for (float& slope : kinds)
+    if (!(slope > 0)) slope = static_cast<float>(options.slope);
+  const std::vector<float> cell_slope = kinds;
+  std::sort(kinds.begin(), kinds.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  std::vector<std::int32_t> label;
+  for (const float slope : cell_slope)
+    label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));
+  CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
+  if (blanking) add_second_parts(*blanking, lengths);
+  pass_lengths(octree.edge, Neighbours(octree), blanking, {options.slope, options.max_length}, lengths);
+  std::vector<float> result;
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
+    result.push_back(lengths.cause[leaf] == kNone ? static_cast<float>(options.slope) : kinds[lengths.cause[leaf]]);
   return result;
 }
 

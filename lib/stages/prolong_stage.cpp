@@ -13,6 +13,7 @@
 #include "io/sizing_artifact.h"
 #include "stages/blank_input.h"
 #include "stages/size_report.h"
+#include "stages/slope_input.h"
 #include "stages/source_input.h"
 
 namespace st {
@@ -30,12 +31,14 @@ void require_valid(const ProlongStageOptions& o) {
     throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
+  parse_slopes(o.slope_of);
   if (o.target_triangles && o.scale != 1) throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
 /// Resolved options; file names stand among the inputs.
 std::string options_json(const ProlongStageOptions& o, double scale) {
   Json json = {{"slope", o.slope}, {"scale", scale}};
+  if (!o.slope_of.empty()) json["slope_of"] = o.slope_of;
   if (!o.blank.empty()) json["blank_side"] = o.blank_side;
   if (!o.transform.empty()) json["transform"] = o.transform;
   if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
@@ -83,8 +86,16 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
     sizing.blanking = blank_cells(octree, Neighbours(octree), blank.view(), blank.side);
     input.files.push_back(blank.file);
   }
-  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, {o.slope, raster.numbers.far_length},
-                           o.blank.empty() ? nullptr : &sizing.blanking);
+  const Blanking* blanking = o.blank.empty() ? nullptr : &sizing.blanking;
+  ProlongOptions options{o.slope, raster.numbers.far_length};
+  std::vector<float> cell_slope;
+  if (const std::vector<NamedSlope> slopes = parse_slopes(o.slope_of); !slopes.empty()) {
+    const std::vector<float> seeds = seed_slopes(slopes, raster, raster_shape.view(), octree);
+    cell_slope = spread_slopes(octree, raster.octree.stored_length, seeds, options, blanking);
+    options.cell_slope = cell_slope;
+    for (const NamedSlope& s : slopes) sizing.slope = std::max(sizing.slope, s.slope);  // what the field as a whole promises
+  }
+  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
   sizing.shape = std::move(raster.octree.shape);
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);

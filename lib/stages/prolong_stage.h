@@ -13,6 +13,7 @@ struct ProlongStageOptions {
   std::string raster;  ///< raster artifact
   std::string output = "sizing.hdf";
   double slope = 0.2;                   ///< largest change of length per distance, (0, 2]
+  std::string slope_of;                 ///< "WING=0.1, FLAP=0.15": slope where lengths come from faces of these names; empty: none
   double scale = 1.0;                   ///< multiplies every length, > 0
   std::vector<std::string> sources;     ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same name
   std::string background;               ///< background mesh (.bac, .ba3, .msh); empty: none

@@ -64,6 +64,22 @@ class Sizes(ToolTest):
             self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
 
 
+class Slopes(ToolTest):
+    def test_a_named_part_has_its_own_slope(self):
+        folder = artifacts_of("assembly")
+        (self.folder / "p.csv").write_text("".join(f"{x},{y},{z}\n" for x in range(0, 160, 4) for y in range(0, 45, 4) for z in range(0, 21, 4)))
+        lengths = {}
+        for slope in ("", "pin_mantle=0.02"):
+            must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", slope, "--sample", self.folder / "p.csv",
+                 "--sample-output", self.folder / "o.csv")
+            lengths[slope] = [float(r["length"]) for r in csv.DictReader((self.folder / "o.csv").read_text().splitlines())]
+        self.assertTrue(all(b <= a * 1.05 for a, b in zip(*lengths.values(), strict=True)))
+        self.assertTrue(any(b < 0.8 * a for a, b in zip(*lengths.values(), strict=True)))
+
+    def test_a_name_that_no_face_has_is_refused(self):
+        self.expect_error(USAGE, "st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", "WING=0.1", says="WING")
+
+
 class Blanking(ToolTest):
     def test_a_mesh_blanks_its_inside_or_its_outside(self):
         box = artifacts_of("box")

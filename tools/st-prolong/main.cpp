@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   tool.input("raster", o.raster, "raster artifact");
   tool.output(o.output);
   tool.number("--slope", o.slope, "(0, 2]", "largest change of length per distance");
+  tool.text("--slope-of", o.slope_of, "NAME=S,...", "slope where lengths come from faces of this name, such as WING=0.1");
   tool.number("--scale", o.scale, "(0, 1e6]", "multiplies every length");
   tool.number("--target-triangles", o.target_triangles, "[4, 2e9]", "scale all lengths to about this many triangles");
   tool.optional_inputs("--sources", o.sources, "sources: TOML, .bac or .ba3; repeatable");

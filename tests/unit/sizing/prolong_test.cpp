@@ -104,5 +104,31 @@ TEST(Prolong, gradient_never_exceeds_the_slope_nor_leaves_the_neighbours_range) 
   }
 }
 
+/// Two spots; where lengths come from the second, another slope holds.
+TEST(Prolong, slope_of_a_region_holds_where_lengths_come_from_it) {
+  const std::vector<RasterBox> boxes{{{0.2, 0.5, 0.5}, 0.005F, 0.005F, pack_cause(CauseKind::kFace, 0)},
+                                     {{0.8, 0.5, 0.5}, 0.005F, 0.005F, pack_cause(CauseKind::kFace, 1)}};
+  const RasterOctree raster = build_octree(test::kUnitBox, boxes);
+  const OctreeView view = raster.shape.view();
+  ProlongOptions options{0.2, 10};
+  std::vector<float> seeds(raster.stored_cause.size(), 0);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    if (raster.stored_cause[i] == boxes[1].cause) seeds[i] = 0.05F;
+  const std::vector<float> slopes = spread_slopes(view, raster.stored_length, seeds, options);
+  options.cell_slope = slopes;
+  const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, options);
+  const auto at = [&](Vec3 x) { return view.find_leaf(morton::encode(view.grid_point(x))); };
+  const auto expect_growth = [&](Vec3 from, Vec3 to, double slope) {
+    const std::int32_t leaf = at(to);
+    const double d = distance(from, view.leaf_center(leaf)), edge = view.cell_edge(view.leaf_levels[leaf]);
+    EXPECT_NEAR(cells.cells[leaf].length, 0.005 + slope * d, slope * edge + 0.1 * slope * d);
+    EXPECT_EQ(slopes[leaf], static_cast<float>(slope));
+  };
+  expect_growth({0.2, 0.5, 0.5}, {0.05, 0.5, 0.5}, 0.2);
+  expect_growth({0.2, 0.5, 0.5}, {0.2, 0.8, 0.5}, 0.2);
+  expect_growth({0.8, 0.5, 0.5}, {0.95, 0.5, 0.5}, 0.05);
+  expect_growth({0.8, 0.5, 0.5}, {0.8, 0.5, 0.9}, 0.05);
+}
+
 }  // namespace
 }  // namespace st

@@ -1,0 +1,76 @@
+#include "stages/slope_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const std::size_t from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
+  return from == std::string_view::npos ? "" : std::string(text.substr(from, to - from + 1));
+}
+
+NamedSlope parse_slope(const std::string& item) {
+  const std::size_t equals = item.rfind('=');
+  NamedSlope result;
+  if (equals != std::string::npos) {
+    result.name = trimmed(std::string_view(item).substr(0, equals));
+    const std::string number = trimmed(std::string_view(item).substr(equals + 1));
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.slope);
+    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() && result.slope > 0 && result.slope <= 2)
+      return result;
+  }
+  throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': NAME=S with S in (0, 2] expected, such as WING=0.1", item));
+}
+
+/// Smallest slope that a face's name is given; 0: none.
+std::vector<double> face_slopes(const std::vector<NamedSlope>& slopes, const std::vector<std::string>& face_name) {
+  std::vector<double> result(face_name.size(), 0);
+  for (const NamedSlope& s : slopes) {
+    bool is_used = false;
+    for (std::size_t f = 0; f < face_name.size(); ++f) {
+      if (face_name[f] != s.name) continue;
+      is_used = true;
+      result[f] = result[f] > 0 ? std::min(result[f], s.slope) : s.slope;
+    }
+    if (!is_used)
+      throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face has this name; st-info geometry.hdf lists them", s.name));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<NamedSlope> parse_slopes(const std::string& text) {
+  std::vector<NamedSlope> result;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    result.push_back(parse_slope(text.substr(from, to - from)));
+    from = to + 1;
+  }
+  return result;
+}
+
+std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster, const OctreeView& raster_octree,
+                               const OctreeView& octree) {
+  const std::vector<double> of_face = face_slopes(slopes, raster.names.face);
+  std::vector<float> seed(octree.leaf_keys.size(), 0);
+  for (std::int32_t f = 0; f < raster.faces.n_faces(); ++f) {
+    const auto slope = static_cast<float>(of_face[f]);
+    if (!(slope > 0)) continue;
+    for (std::int64_t i = raster.faces.offsets[f]; i < raster.faces.offsets[f + 1]; ++i) {
+      const std::int32_t cell = raster.faces.leaf[i];
+      const std::uint64_t key = raster_octree.leaf_keys[cell], n = 1ull << (3 * (kMaxLevel - raster_octree.leaf_levels[cell]));
+      for (std::int32_t leaf = octree.find_leaf(key), end = octree.find_leaf(key + n - 1); leaf <= end; ++leaf)
+        seed[leaf] = seed[leaf] > 0 ? std::min(seed[leaf], slope) : slope;
+    }
+  }
+  return seed;
+}
+
+}  // namespace st

@@ -1,0 +1,113 @@
+// Size fields of whole models: what they promise at every point.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "base/log.h"
+#include "io/sizing_artifact.h"
+#include "sizing/neighbours.h"
+#include "stages/import_stage.h"
+#include "stages/prolong_stage.h"
+#include "stages/raster_stage.h"
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+struct FieldCase {
+  const char* shape;
+  bool has_source;
+};
+void PrintTo(const FieldCase& c, std::ostream* out) { *out << c.shape << (c.has_source ? " with a source" : ""); }
+
+class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
+ protected:
+  void SetUp() override {
+    set_verbosity(Verbosity::kQuiet);
+    test::write_brep(GetParam().shape, dir_ / "m.brep");
+    ImportStageOptions import;
+    import.model = dir_ / "m.brep";
+    import.output = dir_ / "g.hdf";
+    run_import(import);
+    RasterStageOptions raster;
+    raster.geometry = dir_ / "g.hdf";
+    raster.output = dir_ / "r.hdf";
+    run_raster(raster, Communicator());
+    ProlongStageOptions prolong;
+    prolong.raster = dir_ / "r.hdf";
+    prolong.output = dir_ / "s.hdf";
+    if (GetParam().has_source) {
+      std::ofstream(dir_ / "s.toml") << "[[source]]\ntype = \"point\"\nat = [1, 2, 3]\nlength = \"0.1%\"\nradius = \"2%\"\n";
+      prolong.sources = {dir_ / "s.toml"};
+    }
+    run_prolong(prolong);
+    sizing_ = read_sizing(dir_ / "s.hdf");
+    field_ = std::make_unique<OctreeField>(sizing_.field_data(), nullptr);
+  }
+
+  double edge_at(int leaf) const { return sizing_.shape.view().cell_edge(sizing_.shape.leaf_levels[leaf]); }
+  Vec3 random_point() {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const OctreeView octree = sizing_.shape.view();
+    const auto leaf = static_cast<std::int32_t>(random_() % sizing_.shape.leaf_keys.size());  // as many in fine cells as in coarse ones
+    const double edge = edge_at(leaf);
+    return octree.leaf_center(leaf) + edge * Vec3{uniform(random_) - 0.5, uniform(random_) - 0.5, uniform(random_) - 0.5};
+  }
+
+  TemporaryDirectory dir_;
+  SizingArtifact sizing_;
+  std::unique_ptr<OctreeField> field_;
+  std::mt19937_64 random_{11};
+};
+
+INSTANTIATE_TEST_SUITE_P(Models, SizeFieldOfModel,
+                         testing::Values(FieldCase{"torus", false}, FieldCase{"drilled_block", true}, FieldCase{"thin_plate", false}));
+
+TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr int kPairs = 350'000;  // on each of three models
+  double worst = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    int leaf_a = 0, leaf_b = 0;
+    const Vec3 a = random_point();
+    const double h_a = field_->size(a, leaf_a);
+    Vec3 b = random_point();
+    if (i % 2) b = a + 2 * edge_at(leaf_a) * Vec3{uniform(random_), uniform(random_), uniform(random_)};
+    const double h_b = field_->size(b, leaf_b);
+    const double bound = sizing_.slope * (distance(a, b) + edge_at(leaf_a) + edge_at(leaf_b)) * 1.15;
+    worst = std::max(worst, std::abs(h_a - h_b) / bound);
+  }
+  EXPECT_LE(worst, 1);
+}
+
+TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
+  const Neighbours neighbours(sizing_.shape.view());
+  for (int i = 0; i < 200'000; ++i) {
+    int leaf = 0;
+    const double h = field_->size(random_point(), leaf);
+    double lo = sizing_.lengths.cells[leaf].length, hi = lo;
+    neighbours.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+      lo = std::min<double>(lo, sizing_.lengths.cells[other].length);
+      hi = std::max<double>(hi, sizing_.lengths.cells[other].length);
+    });
+    ASSERT_GE(h, lo * (1 - 1e-6));
+    ASSERT_LE(h, hi * (1 + 1e-6));
+  }
+}
+
+TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
+  const RasterArtifact raster = read_raster(dir_ / "r.hdf");
+  const OctreeView octree = raster.octree.shape.view();
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
+    if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
+    ASSERT_LE(static_cast<const SizeField&>(*field_).size(octree.leaf_center(leaf)), raster.octree.stored_length[leaf] * (1 + 1e-6));
+  }
+}
+
+}  // namespace
+}  // namespace st
