@@ -10,6 +10,7 @@
 #include "geometry/model.h"
 #include "geometry/model_impl.h"
 #include "geometry/model_tables.h"
+#include "geometry/pcurve_repair.h"
 #include "geometry/sewing.h"
 #include "geometry/shape_repair.h"
 #include "geometry/topology_report.h"
@@ -81,6 +82,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportedShape model = occt::collect_parts(file, path);
   occt::sew_if_open(model, file.resolution_mm, result.findings);
   occt::repair_loops(model, result.findings);
+  occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units)
     result.findings.push_back({"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});

@@ -4,30 +4,100 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <ShapeFix_ShapeTolerance.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <map>
+#include <optional>
 
 namespace st::occt {
 namespace {
 
 constexpr double kSewRelative[] = {1e-6, 1e-5, 1e-4};  // of the diagonal, first that closes the model wins
 
-/// Face of the sewn shape that stands for a face of old.
-TopoDS_Shape image_of(const BRepBuilderAPI_Sewing& sewing, const TopoDS_Shape& face) {
-  return sewing.IsModifiedSubShape(face) ? sewing.ModifiedSubShape(face) : face;
+constexpr double kToleranceGrowth = 10;  // of the sewing tolerance and of what the file had: edges further apart are no partners
+
+/// A sewn shape and the images in it of faces (first) and named edges of the original.
+struct Sewn {
+  TopoDS_Shape shape;
+  std::vector<TopoDS_Shape> images;
+  int n_free = 0;
+  double tolerance = 0;       ///< that it was sewn with
+  double edge_tolerance = 0;  ///< largest of its edges
+};
+
+bool keeps_faces(const Sewn& sewn, int n_faces) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
+  if (faces.Extent() != n_faces) return false;
+  for (int i = 0; i < n_faces; ++i)
+    if (!faces.Contains(sewn.images[i])) return false;
+  return true;
 }
 
-bool keeps_faces(const BRepBuilderAPI_Sewing& sewing, const TopoDS_Shape& sewn, const TopTools_IndexedMapOfShape& originals) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(sewn, TopAbs_FACE, faces);
-  if (faces.Extent() != originals.Extent()) return false;
-  for (int i = 1; i <= originals.Extent(); ++i)
-    if (!faces.Contains(image_of(sewing, originals(i)))) return false;
-  return true;
+/// Sews what `before` has; nothing when OpenCASCADE fails.
+std::optional<Sewn> sew(const Sewn& before, const std::vector<TopoDS_Shape>& parts, double tolerance) {
+  try {
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    for (const TopoDS_Shape& part : parts) sewing.Add(part);
+    sewing.Perform();
+    Sewn after = before;
+    after.shape = sewing.SewedShape();
+    after.tolerance = tolerance;
+    if (after.shape.IsNull()) return std::nullopt;
+    for (TopoDS_Shape& image : after.images)
+      if (sewing.IsModifiedSubShape(image)) image = sewing.ModifiedSubShape(image);
+    return after;
+  } catch (const Standard_Failure&) {
+    return std::nullopt;
+  }
+}
+
+/// Faces of one component: those of a part, and of single-face parts those of one name.
+std::vector<std::vector<int>> components(const ImportedShape& model) {
+  std::map<std::int32_t, int> part_faces;
+  for (const FaceAttributes& a : model.attributes) ++part_faces[a.part_index];
+  std::map<std::pair<std::int32_t, std::string>, std::vector<int>> groups;
+  for (std::size_t i = 0; i < model.attributes.size(); ++i) {
+    const FaceAttributes& a = model.attributes[i];
+    groups[{part_faces.size() > 1 && part_faces[a.part_index] > 1 ? a.part_index : -1, a.name.empty() ? a.part : a.name}].push_back(
+        static_cast<int>(i));
+  }
+  std::vector<std::vector<int>> result;
+  for (auto& [key, faces] : groups) result.push_back(std::move(faces));
+  return result;
+}
+
+/// Partners are sought inside each component first: coincident edges of two components are joined only where nothing else is left.
+std::optional<Sewn> sew_by_component(const ImportedShape& model, const Sewn& before, double tolerance) {
+  const std::vector<std::vector<int>> groups = components(model);
+  if (groups.size() < 2) return std::nullopt;
+  std::optional<Sewn> state = before;
+  std::vector<TopoDS_Shape> parts;
+  for (const std::vector<int>& group : groups) {
+    std::vector<TopoDS_Shape> members;
+    for (int i : group) members.push_back(state->images[i]);
+    state = sew(*state, members, tolerance);
+    if (!state) return std::nullopt;
+    parts.push_back(state->shape);
+  }
+  return sew(*state, parts, tolerance);
+}
+
+/// Fewer free edges first, then smaller edge tolerance; a result whose tolerance has grown beyond reason only when there is no other.
+bool is_better(const Sewn& a, const Sewn& b, double reasonable) {
+  const bool wild_a = a.edge_tolerance > reasonable, wild_b = b.edge_tolerance > reasonable;
+  if (wild_a != wild_b) return wild_b;
+  if (a.n_free != b.n_free) return a.n_free < b.n_free;
+  return a.edge_tolerance < 0.5 * b.edge_tolerance;
 }
 
 /// The shell with its faces in ascending order of `rank(face)`.
@@ -90,45 +160,80 @@ TopoDS_Shape ordered_solids(const TopoDS_Shape& sewn, const std::vector<TopoDS_S
   return compound;
 }
 
+double vertex_gap(const TopoDS_Edge& edge, const TopoDS_Vertex& vertex) {
+  double t0 = 0, t1 = 0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+  if (curve.IsNull()) return 0;
+  const gp_Pnt p = BRep_Tool::Pnt(vertex);
+  return std::min(p.Distance(curve->Value(t0)), p.Distance(curve->Value(t1)));
+}
+
+/// Sewing measures at equal parameters: where partners run at different speeds it leaves tolerances as long as the edge. Edges above
+/// `limit` get the sewing tolerance, their vertices what their curves need; repair_pcurves() then compares, projects anew and raises what
+/// must be.
+void tighten_tolerances(const TopoDS_Shape& shape, double sewing_tolerance, double limit) {
+  const ShapeFix_ShapeTolerance setter;
+  TopTools_IndexedDataMapOfShapeListOfShape vertex_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_VERTEX, TopAbs_EDGE, vertex_edges);
+  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
+    if (BRep_Tool::Tolerance(TopoDS::Edge(e.Current())) > limit) setter.SetTolerance(e.Current(), sewing_tolerance, TopAbs_EDGE);
+  for (int i = 1; i <= vertex_edges.Extent(); ++i) {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(vertex_edges.FindKey(i));
+    if (BRep_Tool::Tolerance(vertex) <= limit) continue;
+    double needed = sewing_tolerance;
+    for (const TopoDS_Shape& edge : vertex_edges(i))
+      needed = std::max({needed, BRep_Tool::Tolerance(TopoDS::Edge(edge)), 1.01 * vertex_gap(TopoDS::Edge(edge), vertex)});
+    setter.SetTolerance(vertex, needed, TopAbs_VERTEX);
+  }
+}
+
+/// The sewn shape takes the model's place; what was done is said.
+void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
+  const int n_faces = model.faces.Extent();
+  const std::vector<TopoDS_Shape> face_images(sewn.images.begin(), sewn.images.begin() + n_faces);
+  for (std::size_t k = 0; k < model.edge_names.size(); ++k) model.edge_names[k].first = sewn.images[n_faces + k];
+  const TopTools_IndexedMapOfShape originals = model.faces;
+  model.replace(ordered_solids(sewn.shape, face_images),
+                [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
+  findings.push_back({"sewn: " + std::to_string(original.n_free) + " free edges before, " + std::to_string(sewn.n_free) + " after",
+                      "",
+                      {},
+                      sewn.tolerance,
+                      true});
+  const double reasonable = kToleranceGrowth * std::max(sewn.tolerance, original.edge_tolerance);
+  if (sewn.edge_tolerance <= reasonable) return;
+  tighten_tolerances(model.shape, sewn.tolerance, reasonable);
+  findings.push_back(
+      {"sewing left tolerances far above its own; trimming curves there are compared anew", "", {}, sewn.edge_tolerance, true});
+}
+
 }  // namespace
 
 void sew_if_open(ImportedShape& model, double stated_resolution, std::vector<ImportFinding>& findings) {
-  int best_free = count_free_edges(model.shape);
-  if (best_free == 0) return;
-  const int free_before = best_free;
+  Sewn original;
+  original.shape = model.shape;
+  original.n_free = count_free_edges(model.shape);
+  if (original.n_free == 0) return;
+  for (int i = 1; i <= model.faces.Extent(); ++i) original.images.push_back(model.faces(i));
+  for (const auto& [edge, name] : model.edge_names) original.images.push_back(edge);
+  original.edge_tolerance = max_edge_tolerance(model.shape);
   const double diagonal = rough_box(model.shape).diagonal();
-  const double base = std::max(2 * max_edge_tolerance(model.shape), stated_resolution);
-  TopoDS_Shape best;
-  std::vector<TopoDS_Shape> best_images;
-  double best_tolerance = 0;
+  const double base = std::max(2 * original.edge_tolerance, stated_resolution);
+  std::optional<Sewn> best;
   for (double relative : kSewRelative) {
     const double tolerance = std::max(relative * diagonal, relative == kSewRelative[0] ? std::min(base, 1e-4 * diagonal) : 0.0);
-    BRepBuilderAPI_Sewing sewing(tolerance);
-    sewing.Add(model.shape);
-    try {
-      sewing.Perform();
-    } catch (const Standard_Failure&) {
-      continue;
+    const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
+    for (const bool by_component : {false, true}) {
+      std::optional<Sewn> sewn = by_component ? sew_by_component(model, original, tolerance) : sew(original, {model.shape}, tolerance);
+      if (!sewn || !keeps_faces(*sewn, model.faces.Extent())) continue;
+      sewn->n_free = count_free_edges(sewn->shape);
+      sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+      if (sewn->n_free < original.n_free && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
+      if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) break;
     }
-    const TopoDS_Shape sewn = sewing.SewedShape();
-    if (sewn.IsNull()) continue;
-    const int n_free = count_free_edges(sewn);
-    if (n_free >= best_free || !keeps_faces(sewing, sewn, model.faces)) continue;
-    best_free = n_free;
-    best = sewn;
-    best_tolerance = tolerance;
-    best_images.clear();
-    for (int i = 1; i <= model.faces.Extent(); ++i) best_images.push_back(image_of(sewing, model.faces(i)));
-    if (n_free == 0) break;
+    if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) break;
   }
-  if (best.IsNull()) return;
-  const TopTools_IndexedMapOfShape originals = model.faces;
-  model.replace(ordered_solids(best, best_images), [&](const TopoDS_Shape& face) { return best_images[originals.FindIndex(face) - 1]; });
-  findings.push_back({"sewn: " + std::to_string(free_before) + " free edges before, " + std::to_string(best_free) + " after",
-                      "",
-                      {},
-                      best_tolerance,
-                      true});
+  if (best) adopt(model, original, *best, findings);
 }
 
 }  // namespace st::occt

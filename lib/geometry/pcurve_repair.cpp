@@ -1,0 +1,185 @@
+#include "geometry/pcurve_repair.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2dAPI_Interpolate.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <ShapeConstruct_ProjectCurveOnSurface.hxx>
+#include <Standard_Failure.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <memory>
+
+#include "geometry/occt_evaluators.h"
+
+namespace st::occt {
+namespace {
+
+constexpr int kFewSamples = 17, kManySamples = 1025;  // to look, to judge
+constexpr double kExcess = 2.0;                       // of the tolerance: readers leave distances just above it
+constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
+
+/// A use of an edge by a face, with what is needed to compare its curves.
+struct Use {
+  TopoDS_Edge edge;
+  TopoDS_Face face;
+  Handle(Geom_Curve) curve;
+  Handle(Geom_Surface) surface;
+  double t0 = 0, t1 = 0;
+};
+
+struct Gap {
+  double distance = 0;
+  Vec3 xyz;  ///< on the space curve
+};
+
+Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_samples) {
+  Gap gap;
+  for (int k = 0; k < n_samples; ++k) {
+    const double s = 0.5 - 0.5 * std::cos(kPi * k / (n_samples - 1));  // closer at the ends: there curves part
+    const double t = use.t0 + (use.t1 - use.t0) * s;
+    const gp_Pnt p = use.curve->Value(t);
+    const gp_Pnt2d uv = pcurve->Value(t);
+    const double d = p.Distance(use.surface->Value(uv.X(), uv.Y()));
+    if (d > gap.distance) gap = {d, vec(p)};
+  }
+  return gap;
+}
+
+Handle(Geom2d_Curve) interpolated(const std::map<double, Vec2>& points) {
+  const int n = static_cast<int>(points.size());
+  Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
+  Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
+  int i = 1;
+  for (const auto& [t, uv] : points) {
+    poles->SetValue(i, {uv.x, uv.y});
+    parameters->SetValue(i++, t);
+  }
+  try {
+    Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-12);
+    maker.Perform();
+    Handle(Geom2d_Curve) curve;
+    if (maker.IsDone()) curve = maker.Curve();
+    return curve;
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+}
+
+/// Trimming curve by projection; null when that fails.
+Handle(Geom2d_Curve) projected(const Use& use) {
+  try {
+    ShapeConstruct_ProjectCurveOnSurface projector;
+    projector.Init(use.surface, 1e-7);
+    Handle(Geom_Curve) curve = use.curve;
+    Handle(Geom2d_Curve) result;
+    if (!projector.Perform(curve, use.t0, use.t1, result)) return {};
+    return result;
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+}
+
+/// Cubic through the projections of points of the space curve, more of them where it leaves the edge by more than `target`; null when a
+/// point has no projection near.
+Handle(Geom2d_Curve) resampled(const Use& use, const Handle(Geom2d_Curve) & old, double target) {
+  constexpr int kFirstPoints = 33, kMaxPoints = 1000, kRounds = 8;
+  UvBounds bounds{};
+  BRepTools::UVBounds(use.face, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
+  const std::unique_ptr<Surface> surface = make_surface(use.surface, bounds);
+  std::map<double, Vec2> points;
+  const auto add = [&](double t) {
+    const gp_Pnt2d guess = old->Value(t);
+    const auto uv = project_near(*surface, vec(use.curve->Value(t)), {guess.X(), guess.Y()});
+    if (uv) points[t] = *uv;
+    return uv.has_value();
+  };
+  for (int k = 0; k < kFirstPoints; ++k)
+    if (!add(use.t0 + (use.t1 - use.t0) * k / (kFirstPoints - 1))) return {};
+  Handle(Geom2d_Curve) curve;
+  for (int round = 0; round < kRounds; ++round) {
+    curve = interpolated(points);
+    if (curve.IsNull() || points.size() > kMaxPoints) return curve;
+    std::vector<double> finer;
+    for (auto p = points.begin(); std::next(p) != points.end(); ++p) {
+      const double t = 0.5 * (p->first + std::next(p)->first);
+      const gp_Pnt2d uv = curve->Value(t);
+      if (use.curve->Value(t).Distance(use.surface->Value(uv.X(), uv.Y())) > target) finer.push_back(t);
+    }
+    if (finer.empty()) break;
+    for (double t : finer)
+      if (!add(t)) return curve;
+  }
+  return curve;
+}
+
+std::string entity(int edge, int face) { return "edge " + std::to_string(edge) + " in face " + std::to_string(face); }
+
+/// The edge's tolerance covers `distance`, its vertices' the edge's.
+void raise_tolerance(const TopoDS_Edge& edge, double distance) {
+  BRep_Builder builder;
+  builder.UpdateEdge(edge, distance);
+  for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next()) builder.UpdateVertex(TopoDS::Vertex(v.Current()), distance);
+}
+
+void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string& name, std::vector<ImportFinding>& findings) {
+  const Gap before = largest_gap(use, old, kManySamples);
+  const bool is_seam = BRep_Tool::IsClosed(use.edge, use.face);
+  Handle(Geom2d_Curve) better;
+  Gap after = before;
+  const auto consider = [&](const Handle(Geom2d_Curve) & candidate) {
+    if (candidate.IsNull()) return;
+    const Gap gap = largest_gap(use, candidate, kManySamples);
+    if (gap.distance < 0.5 * after.distance) after = gap, better = candidate;
+  };
+  if (!is_seam) consider(projected(use));
+  if (!is_seam && after.distance > BRep_Tool::Tolerance(use.edge)) consider(resampled(use, old, 0.5 * BRep_Tool::Tolerance(use.edge)));
+  if (!better.IsNull()) {
+    BRep_Builder().UpdateEdge(use.edge, better, use.face, BRep_Tool::Tolerance(use.edge));
+    BRep_Builder().Range(use.edge, use.face, use.t0, use.t1);
+    findings.push_back(
+        {"trimming curve off its edge, projected anew (" + format_number(after.distance / before.distance) + " of the distance is left)",
+         name, before.xyz, before.distance, true});
+  } else {
+    findings.push_back({"trimming curve off its edge, tolerance of the edge raised", name, before.xyz, before.distance, true});
+  }
+  const double left = std::min(before.distance, after.distance);
+  if (left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);
+}
+
+}  // namespace
+
+void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const double harmless = kHarmless * rough_box(model.shape).diagonal();
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  for (int f = 1; f <= model.faces.Extent(); ++f) {
+    Use use;
+    use.face = TopoDS::Face(model.faces(f).Oriented(TopAbs_FORWARD));
+    use.surface = BRep_Tool::Surface(use.face);
+    if (GeomAdaptor_Surface(use.surface).GetType() == GeomAbs_Plane) continue;
+    for (TopExp_Explorer e(use.face, TopAbs_EDGE); e.More(); e.Next()) {
+      use.edge = TopoDS::Edge(e.Current());
+      if (BRep_Tool::Degenerated(use.edge)) continue;
+      double p0 = 0, p1 = 0;
+      const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(use.edge, use.face, p0, p1);
+      use.curve = BRep_Tool::Curve(use.edge, use.t0, use.t1);
+      if (pcurve.IsNull() || use.curve.IsNull()) continue;
+      if (largest_gap(use, pcurve, kFewSamples).distance <= std::max(harmless, kExcess * BRep_Tool::Tolerance(use.edge))) continue;
+      repair(use, pcurve, entity(edges.FindIndex(use.edge), f), findings);
+    }
+  }
+}
+
+}  // namespace st::occt
