@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace st {
 namespace {
 
 constexpr int kMaxOrder = 26;  // OpenCASCADE's largest degree is 25
 constexpr int kBucketsPerSpan = 2;
+constexpr double kKnotRoundings = 4;  // epsilons by which a parameter may miss a knot
+constexpr double kNoPiece = 1e-12;    // of the bounds: shorter pieces at their ends are rounding
 
 // Power coefficients in s of the degree+1 basis functions that act on [knots[k], knots[k+1]]; t = middle + half * s.
 // Cox-de Boor recursion carried out on polynomials.
@@ -41,14 +44,17 @@ KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double p
   const int order = degree + 1, n_poles = static_cast<int>(flat_knots.size()) - order;
   lo_ = flat_knots[degree];
   hi_ = flat_knots[n_poles];
+  rounding_ = kKnotRoundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(lo_), std::abs(hi_));
   for (int k = degree; k < n_poles; ++k) {
     const double a = flat_knots[k], b = flat_knots[k + 1];
     if (!(b > a)) continue;
-    spans_.push_back({a, b, 0.5 * (a + b), 2.0 / (b - a)});
+    spans_.push_back({a - rounding_, b - rounding_, 0.5 * (a + b), 2.0 / (b - a)});
+    knots_.push_back(a);
     first_pole_.push_back(k - degree);
     basis_.resize(basis_.size() + order * order);
     basis_polynomials(flat_knots, k, degree, 0.5 * (a + b), 0.5 * (b - a), &basis_[basis_.size() - order * order]);
   }
+  knots_.push_back(hi_);
   for (int k = degree + 1; k < n_poles;) {
     int multiplicity = 1;
     while (k + multiplicity < n_poles && flat_knots[k + multiplicity] == flat_knots[k]) ++multiplicity;
@@ -64,7 +70,7 @@ KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double p
 }
 
 int KnotSpans::find(double& t) const {
-  if (period_ > 0 && (t < lo_ || t > hi_)) t -= period_ * std::floor((t - lo_) / period_);
+  if (period_ > 0 && (t < lo_ - rounding_ || t > hi_ + rounding_)) t -= period_ * std::floor((t - lo_) / period_);
   const double bucket = (t - lo_) * buckets_per_t_;
   const auto n_buckets = static_cast<double>(bucket_span_.size());
   int k = bucket_span_[bucket > 0 ? static_cast<std::size_t>(std::min(bucket, n_buckets - 1)) : 0];
@@ -73,21 +79,15 @@ int KnotSpans::find(double& t) const {
   return k;
 }
 
-std::vector<double> KnotSpans::distinct_knots() const {
-  std::vector<double> knots;
-  for (const Span& span : spans_) knots.push_back(span.start);
-  knots.push_back(hi_);
-  return knots;
-}
-
 std::vector<double> KnotSpans::knots_between(double lo, double hi) const {
   std::vector<double> knots;
+  const double rounding = kNoPiece * (hi - lo);
   const int first = period_ > 0 ? static_cast<int>(std::floor((lo - lo_) / period_)) : 0;
   const int last = period_ > 0 ? static_cast<int>(std::floor((hi - lo_) / period_)) : 0;
   for (int turn = first; turn <= last; ++turn)
-    for (std::size_t k = 0; k < spans_.size(); ++k) {
-      const double t = spans_[k].start + turn * period_;
-      if ((k > 0 || turn > first) && t > lo && t < hi) knots.push_back(t);
+    for (std::size_t k = turn == first ? 1 : 0; k < spans_.size(); ++k) {
+      const double t = knots_[k] + turn * period_;
+      if (t > lo + rounding && t < hi - rounding) knots.push_back(t);
     }
   return knots;
 }

@@ -39,20 +39,22 @@ class KnotSpans {
   /// Interior knots where the spline is only C0 (multiplicity >= degree), ascending.
   const std::vector<double>& c0_knots() const { return c0_knots_; }
   /// Different knots from first to last, ascending: n_spans() + 1 values.
-  std::vector<double> distinct_knots() const;
-  /// Different knots strictly between `lo` and `hi`, ascending, repeated along the period.
+  const std::vector<double>& distinct_knots() const { return knots_; }
+  /// Different knots between `lo` and `hi`, ascending, repeated along the period; none that misses an end by rounding only.
   std::vector<double> knots_between(double lo, double hi) const;
 
  private:
   struct Span {
-    double start, end, middle, rate;
+    double start, end;  ///< a few roundings below the knots: a bound that misses a kink by rounding gets the derivatives of its inside
+    double middle, rate;
   };
   /// Span that holds `t`, which is wrapped on return.
   int find(double& t) const;
 
   int degree_;
-  double period_, lo_, hi_, buckets_per_t_;
+  double period_, lo_, hi_, rounding_, buckets_per_t_;
   std::vector<Span> spans_;
+  std::vector<double> knots_;              // [n_spans + 1]
   std::vector<std::int32_t> bucket_span_;  // the span at the start of each of as many equal parts of the range
   std::vector<int> first_pole_;
   std::vector<double> basis_;

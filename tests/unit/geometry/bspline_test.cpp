@@ -80,7 +80,8 @@ TEST(KnotSpans, finds_spans_of_very_different_lengths) {
   const std::vector<double> knots = k.distinct_knots();
   ASSERT_EQ(knots.size(), inner.size() + 2);
   for (int i = 0; i < k.n_spans(); ++i)
-    for (double t : {knots[i], 0.5 * (knots[i] + knots[i + 1]), std::nextafter(knots[i + 1], 0.0)}) {
+    for (double share : {0.0, 0.5, 0.99}) {
+      const double t = knots[i] + share * (knots[i + 1] - knots[i]);
       int last = (i + 3) % k.n_spans();
       double s;
       EXPECT_EQ(k.locate(t, last, s), i) << t;
@@ -94,6 +95,19 @@ TEST(KnotSpans, lists_its_knots_along_the_period) {
   EXPECT_EQ(once.knots_between(1, 3.5), std::vector<double>{3});
   EXPECT_EQ(round.knots_between(-2, 5.5), (std::vector<double>{-1, 0, 1, 3, 4, 5}));
   EXPECT_EQ(round.knots_between(0, 4), (std::vector<double>{1, 3}));
+}
+
+TEST(KnotSpans, takes_a_parameter_that_misses_a_knot_by_rounding_for_the_knot) {
+  const KnotSpans k(2, clamped_knots(2, {kPi, kPi}, 6), 0);
+  int last = 0;
+  double s;
+  EXPECT_EQ(k.locate(std::nextafter(kPi, 0.0), last, s), 1);
+  EXPECT_EQ(k.locate(kPi - 1e-13, last, s), 0);
+  EXPECT_TRUE(k.knots_between(std::nextafter(kPi, 0.0), 6).empty());
+  const KnotSpans round(2, clamped_knots(2, {2}, 4), 4);  // a seam at 0 that is missed by rounding is no turn
+  EXPECT_EQ(round.locate(-1e-16, last, s), 0);
+  EXPECT_EQ(round.locate(4 + 1e-15, last, s), 1);
+  EXPECT_EQ(round.locate(-1e-9, last, s), 1);
 }
 
 TEST(KnotSpans, knows_its_kinks) {
