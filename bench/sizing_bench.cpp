@@ -1,6 +1,7 @@
 // Times of the sizing layer: sampling a CAD model, building and prolonging its octree, and queries.
 //   sizing_bench MODEL [LMAX_PERCENT]     a CAD file, sampled at default options
-//   sizing_bench --cells MILLIONS         synthetic octree: growth and query times
+//   sizing_bench --cells MILLIONS         synthetic octree: growth, blanking and query times
+//   sizing_bench --open SIZING            opening a sizing artifact
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@
 
 #include "base/log.h"
 #include "geometry/model.h"
+#include "io/sizing_artifact.h"
+#include "sizing/blanking.h"
 #include "sizing/face_cells.h"
 #include "sizing/model_limits.h"
 #include "sizing/octree_field.h"
@@ -124,11 +127,47 @@ void bench_model(const std::string& path, double lmax_percent) {
   time_octree(t.box(), boxes, limits.far_length);
 }
 
+/// A sphere of radius 0.3 in the unit box, in n rings of 2n sectors.
+void time_blanking(const Box3& root, const std::vector<RasterBox>& boxes, int n) {
+  std::vector<Vec3> points{{0, 0, 0.3}, {0, 0, -0.3}};
+  std::vector<Triangle> triangles;
+  const auto node = [n](int i, int j) { return 2 + (i - 1) * 2 * n + (j % (2 * n)); };
+  for (int i = 1; i < n; ++i)
+    for (int j = 0; j < 2 * n; ++j) {
+      const double theta = kPi * i / n, phi = kPi * j / n;
+      points.push_back(0.3 * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+      if (i == 1) triangles.push_back({{0, node(1, j), node(1, j + 1)}});
+      if (i == n - 1) triangles.push_back({{1, node(i, j + 1), node(i, j)}});
+      if (i + 1 == n) continue;
+      triangles.push_back({{node(i, j), node(i + 1, j), node(i + 1, j + 1)}});
+      triangles.push_back({{node(i, j), node(i + 1, j + 1), node(i, j + 1)}});
+    }
+  const RasterOctree raster = build_octree(root, boxes);
+  const OctreeView octree = raster.shape.view();
+  const Timer timer;
+  const Blanking blanking = blank_cells(octree, Neighbours(octree), {points, triangles}, BlankSide::kInside);
+  const double seconds = timer.seconds();
+  const auto n_cut = std::count(blanking.colour.begin(), blanking.colour.end(), CellColour::kCut);
+  report("blank   {} cells with {} triangles: {:.3f} s, {} cut ({:.1f} us each)\n", octree.n_leaves(), triangles.size(), seconds, n_cut,
+         1e6 * seconds / static_cast<double>(n_cut));
+}
+
+void time_opening(const std::string& path) {
+  double best = 1e300;
+  std::int32_t n = 0;
+  for (int i = 0; i < 5; ++i) {
+    const Timer timer;
+    n = map_sizing(path).field->data().octree.n_leaves();
+    best = std::min(best, timer.seconds());
+  }
+  report("open    {} cells in {:.1f} ms (checksums verified)\n", n, 1e3 * best);
+}
+
 /// Boxes on a sphere as raster_face would place them, face after face, so many that the octree has about `millions` cells.
 void bench_cells(double millions) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
-  const double smallest = 0.0018 / std::sqrt(millions), spacing = 1.3;  // in lengths
+  const double smallest = 0.00119 / std::sqrt(millions), spacing = 1.3;  // in lengths
   std::vector<RasterBox> boxes;
   constexpr int kBands = 64;
   for (int band = 0; band < kBands; ++band) {
@@ -140,7 +179,10 @@ void bench_cells(double millions) {
       boxes.push_back({0.4 * Vec3{r * std::cos(a), r * std::sin(a), z}, own, own, pack_cause(CauseKind::kFace, band)});
     }
   }
-  time_octree({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}, boxes, 0.1);
+  const Box3 root{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+  time_octree(root, boxes, 0.1);
+  for (RasterBox& box : boxes) box.center = 0.75 * box.center;  // onto the sphere that blanks
+  time_blanking(root, boxes, 300);
 }
 
 }  // namespace
@@ -149,8 +191,10 @@ int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == "--cells" && argc > 2)
     bench_cells(std::atof(argv[2]));
+  else if (first == "--open" && argc > 2)
+    time_opening(argv[2]);
   else if (!first.empty())
     bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
   else
-    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS\n");
+    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING\n");
 }

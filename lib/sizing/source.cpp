@@ -22,7 +22,7 @@ double length_at(const SourceSpacing& s, double slope, double r) {
 
 /// What the source asks for at the point of it that is nearest to a place, and how far that is.
 struct Nearest {
-  double distance = 0;
+  double distance = 0;  // negative inside volumes
   SourceSpacing spacing;
 };
 
@@ -55,20 +55,24 @@ Nearest nearest_on_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::arr
   return best;
 }
 
+/// Negative inside, as below: how far from the surface.
 double distance_to_box(Vec3 x, const SourceSpec& s) {
-  double d2 = 0;
+  double d2 = 0, deepest = -kInfinity;
   for (const Vec3& axis : s.half_axis) {
     const double half = norm(axis), outside = std::abs(dot(x - s.point[0], axis)) / half - half;
     if (outside > 0) d2 += outside * outside;
+    deepest = std::max(deepest, outside);
   }
-  return std::sqrt(d2);
+  return deepest < 0 ? deepest : std::sqrt(d2);
 }
 
 /// `axis`: unit vector from one end to the other, `height` away; a disc has no height.
 double distance_to_cylinder(Vec3 x, Vec3 a, Vec3 axis, double height, double radius) {
   const Vec3 r = x - a;
   const double along = dot(r, axis), across = norm(r - along * axis);
-  return std::hypot(std::max({-along, along - height, 0.0}), std::max(across - radius, 0.0));
+  const double lengthwise = std::max(-along, along - height), sideways = across - radius;
+  if (lengthwise < 0 && sideways < 0) return std::max(lengthwise, sideways);
+  return std::hypot(std::max(lengthwise, 0.0), std::max(sideways, 0.0));
 }
 
 class ShapeSource final : public SizeSource {
@@ -114,7 +118,7 @@ class ShapeSource final : public SizeSource {
       case SourceKind::kCylinder:
         return {distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent), spec_.spacing[0]};
       case SourceKind::kSphere:
-        return {std::max(0.0, distance(x, p[0]) - spec_.extent), spec_.spacing[0]};
+        return {distance(x, p[0]) - spec_.extent, spec_.spacing[0]};
       case SourceKind::kDisc:
         return {distance_to_cylinder(x, p[0], normalized(spec_.half_axis[0]), 0, spec_.extent), spec_.spacing[0]};
     }

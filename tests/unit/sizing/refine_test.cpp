@@ -104,8 +104,8 @@ TEST(RefineOctree, follows_the_sources_in_space) {
 TEST(RefineOctree, keeps_cells_inside_a_core_larger_than_their_length) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
   const Refined r = refine_and_prolong(raster, make_all({sphere_source({0.5, 0.5, 0.5}, 0.45, 0.01)}));
-  EXPECT_LT(r.octree.shape.leaf_keys.size(), 300000u);
-  EXPECT_GT(r.field->explain({0.52, 0.51, 0.53}).cell_edge, 0.01);
+  EXPECT_LT(r.octree.shape.leaf_keys.size(), 80000u);  // those at its surface
+  EXPECT_GT(r.field->explain({0.52, 0.51, 0.53}).cell_edge, 0.06);
   EXPECT_FLOAT_EQ(static_cast<float>(size_at(*r.field, {0.52, 0.51, 0.53})), 0.01F);
 }
 
