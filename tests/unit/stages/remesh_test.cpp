@@ -255,6 +255,12 @@ TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
   EXPECT_EQ(merged.header.content_hash, expected.header.content_hash);
   EXPECT_EQ(merged.mesh.node_previous, expected.mesh.node_previous);
   EXPECT_EQ(merged.mesh.triangle_previous, expected.mesh.triangle_previous);
+  const SurfaceMesh old = read_mesh(o.mesh).mesh;
+  for (std::size_t i = 0; i < merged.mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (const TriangleId t = merged.mesh.triangle_previous[i]; t != kNone) {
+        EXPECT_TRUE(merged.mesh.node_xyz[merged.mesh.triangles[i].n[k]] == old.node_xyz[old.triangles[t].n[k]]) << "triangle " << t;
+      }
 }
 
 }  // namespace
