@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/hash.h"
+#include "io/stl_file.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
 
@@ -53,9 +55,15 @@ void require_blank_side(const std::string& side) {
 BlankInput read_blank(const std::string& path, const std::string& side) {
   require_blank_side(side);
   BlankInput input;
-  MeshArtifact artifact = read_mesh(path);
-  input.mesh = std::move(artifact.mesh);
-  input.file = {"blank", std::filesystem::path(path).filename().string(), artifact.header.content_hash};
+  input.file = {"blank", std::filesystem::path(path).filename().string(), ""};
+  if (std::string suffix = std::filesystem::path(path).extension().string(); suffix == ".stl" || suffix == ".STL") {
+    input.mesh = read_stl(path);
+    input.file.hash = hash_hex(input.mesh.node_xyz.data(), input.mesh.node_xyz.size() * sizeof(Vec3));
+  } else {
+    MeshArtifact artifact = read_mesh(path);
+    input.mesh = std::move(artifact.mesh);
+    input.file.hash = artifact.header.content_hash;
+  }
   orient_outward(input.mesh);
   require_closed(path, input.mesh);
   input.side = parse_side(side, input.mesh);

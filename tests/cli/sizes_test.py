@@ -1,6 +1,7 @@
 """What a size specification says of itself: the length at a point and why, lengths at many points, the background meshes of other programs."""
 import csv
 import re
+import struct
 import sys
 import unittest
 from pathlib import Path
@@ -92,6 +93,25 @@ class Blanking(ToolTest):
         self.assertEqual(said["inside"]["blanked_cells"] + said["outside"]["blanked_cells"] + said["inside"]["cut_cells"], said["inside"]["cells"])
         must("st-export", self.folder / "s.hdf", "-o", self.folder / "s.vtu")
         self.assertIn(b'Name="colour"', (self.folder / "s.vtu").read_bytes())
+
+    def test_an_stl_blanks_like_the_mesh_it_was_exported_from(self):
+        tube = artifacts_of("tube_with_rod")
+        must("st-export", tube / "mesh.hdf", "-o", self.folder / "m.stl")
+        triangles = (self.folder / "m.stl").read_bytes()[84:]
+        text = ["solid tube"]
+        for i in range(0, len(triangles), 50):
+            xyz = struct.unpack("<12f", triangles[i : i + 48])
+            text += ["facet normal 0 0 0", "outer loop", *(f"vertex {xyz[k]!r} {xyz[k + 1]!r} {xyz[k + 2]!r}" for k in (3, 9, 6)), "endloop", "endfacet"]
+        (self.folder / "ascii.stl").write_text("\n".join([*text, "endsolid tube"]))  # inside out
+        said = {}
+        for mesh in (tube / "mesh.hdf", self.folder / "m.stl", self.folder / "ascii.stl"):
+            said[mesh] = must("st-prolong", tube / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", mesh, "--json").json()
+            self.assertGreater(said[mesh]["blanked_cells"], 0)
+        counts = [(s["blanked_cells"], s["cut_cells"]) for s in said.values()]
+        self.assertEqual(counts[1], counts[2])
+        self.assertLess(abs(counts[0][0] - counts[1][0]), 5)
+        (self.folder / "bad.stl").write_text("solid x\nvertex 1 2 three\n")
+        self.expect_error(INPUT, "st-prolong", tube / "raster.hdf", "-o", self.folder / "t.hdf", "--blank", self.folder / "bad.stl", says="three")
 
     def test_an_open_mesh_is_refused_with_the_places_of_its_edges(self):
         (self.folder / "out").mkdir()
