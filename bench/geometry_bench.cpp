@@ -32,11 +32,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "geometry/edit_model.h"
 #include "geometry/model.h"
 #include "geometry/occt_evaluators.h"
 
@@ -123,6 +125,19 @@ double sum(const T& a) {
   return a.X() + a.Y() + a.Z();
 }
 
+/// evaluate_batch() over all parameters at once.
+void add_batch(const std::string& name, std::shared_ptr<Surface> own, std::vector<Vec2> uv) {
+  benchmark::RegisterBenchmark(name.c_str(), [own = std::move(own), uv = std::move(uv)](benchmark::State& state) {
+    std::vector<SurfacePoint> out(uv.size());
+    for (auto _ : state) {
+      own->evaluate_batch(uv, out);
+      benchmark::DoNotOptimize(out.data());
+      benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(uv.size()));
+  });
+}
+
 void add_surface(const std::string& name, const Handle(Geom_Surface) & geometry, const occt::UvBounds& b) {
   const std::shared_ptr<Surface> own = occt::make_surface(geometry, b);
   const auto adaptor = std::make_shared<GeomAdaptor_Surface>(geometry);
@@ -142,6 +157,7 @@ void add_surface(const std::string& name, const Handle(Geom_Surface) & geometry,
       surface.D1(p.x, p.y, x, u, v);
       return sum(x) + sum(u) + sum(v);
     };
+    add_batch(id("d1", "batch"), own, uv);
     add(id("d1", "occt"), uv, [adaptor, d1](Vec2 p) { return d1(*adaptor, p); });
     add(id("d1", "geom"), uv, [geometry, d1](Vec2 p) { return d1(*geometry, p); });
     add(id("d2", "own"), uv, [own](Vec2 p) {
@@ -222,6 +238,15 @@ void add_synthetic() {
   add_surface("extrusion", new Geom_SurfaceOfLinearExtrusion(wavy_curve(3, 30, false), gp_Dir(0, 1, 0.2)), {0, 1, 0, 10});
 }
 
+/// One face of the model as a model of its own, face after face.
+void add_extraction(const std::string& name, ModelTables tables, std::vector<std::byte> brep) {
+  const auto model = std::make_shared<Model>(std::move(tables), std::move(brep));
+  std::vector<FaceId> faces(static_cast<std::size_t>(model->tables().n_faces()));
+  std::iota(faces.begin(), faces.end(), 0);
+  add(name + "/extract/one face/own", faces,
+      [model](FaceId f) { return double(extract(*model, std::span(&f, 1)).model.tables().n_edges()); });
+}
+
 /// The face with most poles of a corpus model.
 void add_corpus_face(const std::filesystem::path& path) {
   const ImportResult r = import_model(path.string(), {});
@@ -237,6 +262,7 @@ void add_corpus_face(const std::filesystem::path& path) {
     best = f;
     most_poles = s->NbUPoles() * s->NbVPoles();
   }
+  add_extraction(path.stem().string(), r.tables, r.brep);
   if (best == 0) return;
   const double* b = &r.tables.face_uv_bounds[4 * static_cast<std::size_t>(best - 1)];
   const Handle(Geom_Surface) s = BRep_Tool::Surface(TopoDS::Face(faces(best)));
@@ -260,11 +286,15 @@ class RatioReporter : public benchmark::ConsoleReporter {
     }
   }
   void Finalize() override {
-    GetOutputStream() << fmt::format("\n{:<44} {:>9} {:>9} {:>9} {:>7}\n", "ns per point", "own", "adaptor", "Geom", "ratio");
+    GetOutputStream() << fmt::format("\n{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "ns per point", "own", "batch", "adaptor", "Geom",
+                                     "ratio");
+    const auto ns = [](const std::map<std::string, double>& t, const char* who) {
+      return t.contains(who) ? fmt::format("{:.1f}", t.at(who)) : "";
+    };
     for (const auto& [name, t] : times_) {
-      if (!t.contains("own") || !t.contains("occt")) continue;
-      GetOutputStream() << fmt::format("{:<44} {:9.1f} {:9.1f} {:>9} {:6.1f}x\n", name, t.at("own"), t.at("occt"),
-                                       t.contains("geom") ? fmt::format("{:.1f}", t.at("geom")) : "", t.at("occt") / t.at("own"));
+      const std::string ratio = t.contains("own") && t.contains("occt") ? fmt::format("{:.1f}x", t.at("occt") / t.at("own")) : "";
+      GetOutputStream() << fmt::format("{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", name, ns(t, "own"), ns(t, "batch"), ns(t, "occt"),
+                                       ns(t, "geom"), ratio);
     }
   }
 
@@ -279,7 +309,8 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   add_synthetic();
   if (const char* corpus = std::getenv("ST_CORPUS"); corpus && *corpus)
-    for (const char* name : {"aero_d150_wing_body_half.brep", "aero_onera_m6_sharpte.brep", "mech_occt_linkrods.step"})
+    for (const char* name :
+         {"aero_d150_wing_body_half.brep", "aero_onera_m6_sharpte.brep", "mech_occt_linkrods.step", "mech_geouned_scdr.stp"})
       if (const auto path = std::filesystem::path(corpus) / name; std::filesystem::exists(path)) add_corpus_face(path);
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -4,7 +4,10 @@
 #include <BRep_Builder.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -120,6 +123,24 @@ std::vector<std::int32_t> ids_of(const TopoDS_Shape& part, TopAbs_ShapeEnum kind
   return ids;
 }
 
+/// Ids in the whole of the vertices of `part`, found through its edges; through all vertices of the whole only for one on no edge.
+std::vector<VertexId> vertex_ids(const TopoDS_Shape& part, const std::vector<EdgeId>& edges, const ModelTables& t,
+                                 const Model::Impl& whole) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(part, TopAbs_VERTEX, map);
+  std::vector<VertexId> ids(map.Extent(), kNone);
+  for (const EdgeId e : edges) {
+    TopoDS_Vertex ends[2];
+    TopExp::Vertices(TopoDS::Edge(whole.edges(e + 1).Oriented(TopAbs_FORWARD)), ends[0], ends[1], false);
+    for (int end = 0; end < 2; ++end)
+      if (!ends[end].IsNull()) ids[map.FindIndex(ends[end]) - 1] = t.edge_vertices[2 * static_cast<std::size_t>(e) + end];
+  }
+  if (std::find(ids.begin(), ids.end(), kNone) == ids.end()) return ids;
+  TopTools_IndexedMapOfShape all;
+  TopExp::MapShapes(whole.shape, TopAbs_VERTEX, all);
+  return ids_of(part, TopAbs_VERTEX, all);
+}
+
 gp_Trsf similarity(const AffineMap& m) {
   const double scale = norm(m.a[0]);
   double worst = scale > 0 ? 0 : 1;
@@ -205,10 +226,8 @@ SubModel extract(const Model& model, std::span<const FaceId> wanted) {
   std::vector<TopoDS_Shape> shapes;
   for (const FaceId f : faces) shapes.push_back(whole.faces(f + 1).Oriented(t.face_is_reversed[f] ? TopAbs_REVERSED : TopAbs_FORWARD));
   const TopoDS_Compound part = compound_of(shapes);
-  TopTools_IndexedMapOfShape vertex_map;
-  TopExp::MapShapes(whole.shape, TopAbs_VERTEX, vertex_map);
   std::vector<EdgeId> edges = ids_of(part, TopAbs_EDGE, whole.edges);
-  std::vector<VertexId> vertices = ids_of(part, TopAbs_VERTEX, vertex_map);
+  std::vector<VertexId> vertices = vertex_ids(part, edges, t, whole);
   ModelTables out;
   select_faces(t, faces, out);
   select_edges(t, edges, vertices, out);
