@@ -51,6 +51,7 @@ class Blanker {
 
   Blanking run() {
     cut_ = find_cut_cells(octree_, surface_);
+    box_triangles();
     colour_cut_cells();
     colour_the_rest();
     find_parts();
@@ -94,16 +95,32 @@ class Blanker {
     }
   }
 
-  bool is_open(Vec3 p, Vec3 q, std::span<const TriangleId> triangles) const {
-    Box3 box;
-    box.add(p);
-    box.add(q);
-    for (const TriangleId t : triangles) {
-      const Vec3 a = surface_.corner(t, 0), b = surface_.corner(t, 1), c = surface_.corner(t, 2);
-      if (std::max({a.x, b.x, c.x}) < box.lo.x || std::min({a.x, b.x, c.x}) > box.hi.x || std::max({a.y, b.y, c.y}) < box.lo.y ||
-          std::min({a.y, b.y, c.y}) > box.hi.y || std::max({a.z, b.z, c.z}) < box.lo.z || std::min({a.z, b.z, c.z}) > box.hi.z)
+  /// Boxes of the triangles in cut cells, one after the other: most are passed over by them.
+  void box_triangles() {
+    constexpr float kBig = std::numeric_limits<float>::max();
+    const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kBig); };
+    const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kBig); };
+    boxes_.reserve(cut_.triangle.size());
+    for (const TriangleId t : cut_.triangle) {
+      Box3 box;
+      for (int k = 0; k < 3; ++k) box.add(surface_.corner(t, k));
+      boxes_.push_back({below(box.lo.x), below(box.lo.y), below(box.lo.z), above(box.hi.x), above(box.hi.y), above(box.hi.z)});
+    }
+  }
+
+  /// Whether no triangle of the leaf meets the segment pq.
+  bool is_open(Vec3 p, Vec3 q, std::int32_t leaf) const {
+    const std::int32_t cut = cut_index_[leaf];
+    if (cut == kNone) return true;
+    Box3 way;
+    way.add(p);
+    way.add(q);
+    for (std::int64_t i = cut_.offsets[cut]; i < cut_.offsets[cut + 1]; ++i) {
+      const TriangleBox& b = boxes_[i];
+      if (b.lo_x > way.hi.x || b.hi_x < way.lo.x || b.lo_y > way.hi.y || b.hi_y < way.lo.y || b.lo_z > way.hi.z || b.hi_z < way.lo.z)
         continue;
-      if (segment_meets_triangle(p, q, a, b, c)) return false;
+      const TriangleId t = cut_.triangle[i];
+      if (segment_meets_triangle(p, q, surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2))) return false;
     }
     return true;
   }
@@ -123,7 +140,7 @@ class Blanker {
   CellParts parts_of(std::int32_t i) {
     const Cube cell = cube(cut_.leaf[i]);
     clip(i, cell);
-    const std::array<int, kSamples> group = connect_samples(cell, cut_.triangles(i));
+    const std::array<int, kSamples> group = connect_samples(cell, cut_.leaf[i]);
     std::array<int, kSamples> vote{}, count{};
     for (int s = 0; s < kSamples; ++s) {
       vote[group[s]] += sign_at(cell.sample(s));
@@ -163,11 +180,11 @@ class Blanker {
   }
 
   /// For each sample the lowest one that it is connected with along the cell's edges and diagonals.
-  std::array<int, kSamples> connect_samples(const Cube& cell, std::span<const TriangleId> triangles) const {
+  std::array<int, kSamples> connect_samples(const Cube& cell, std::int32_t leaf) const {
     std::array<int, kSamples> group;
     std::iota(group.begin(), group.end(), 0);
     const auto join = [&](int a, int b) {
-      if (group[a] == group[b] || !is_open(cell.sample(a), cell.sample(b), triangles)) return;
+      if (group[a] == group[b] || !is_open(cell.sample(a), cell.sample(b), leaf)) return;
       const auto [low, high] = std::minmax(group[a], group[b]);
       const int from = high, to = low;
       for (int& g : group)
@@ -291,7 +308,7 @@ class Blanker {
   /// Through a point that both cells have, so that each leg stays in its cell.
   bool is_way(std::int32_t a, Vec3 from, std::int32_t b, Vec3 to, const Cube& cube_a, const Cube& cube_b) const {
     const Vec3 common = cube_b.closest(cube_a.closest(0.5 * (from + to)));
-    return is_open(from, common, triangles_of(a)) && is_open(common, to, triangles_of(b));
+    return is_open(from, common, a) && is_open(common, to, b);
   }
 
   /// Of the samples of a part, but `without`, the one nearest to x; in an uncut cell any point.
@@ -312,10 +329,9 @@ class Blanker {
     return nearest;
   }
 
-  std::span<const TriangleId> triangles_of(std::int32_t leaf) const {
-    return is_cut(leaf) ? cut_.triangles(cut_index_[leaf]) : std::span<const TriangleId>{};
-  }
-
+  struct TriangleBox {
+    float lo_x, lo_y, lo_z, hi_x, hi_y, hi_z;
+  };
   struct Piece {
     TriangleId triangle = kNone;
     ClippedTriangle polygon;
@@ -327,6 +343,7 @@ class Blanker {
   const SurfaceView& surface_;
   const int flow_sign_;  // +1: the flow lies where the normals point to
   CutCells cut_;
+  std::vector<TriangleBox> boxes_;       // [cut_.triangle.size()]
   std::vector<std::int32_t> cut_index_;  // [n_leaves] kNone: not cut
   std::vector<CellParts> parts_;         // [n_cut]
   std::vector<Piece> pieces_;            // of the cell at hand
