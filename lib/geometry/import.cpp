@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/length.h"
+#include "geometry/duplicate_faces.h"
 #include "geometry/import_shape.h"
 #include "geometry/model.h"
 #include "geometry/model_impl.h"
@@ -13,6 +14,7 @@
 #include "geometry/pcurve_repair.h"
 #include "geometry/sewing.h"
 #include "geometry/shape_repair.h"
+#include "geometry/shell_repair.h"
 #include "geometry/topology_report.h"
 
 namespace st {
@@ -80,6 +82,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportResult result;
   result.format = file.format;
   ImportedShape model = occt::collect_parts(file, path);
+  occt::remove_duplicates(model, result.findings);
   occt::sew_if_open(model, file.resolution_mm, result.findings);
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
@@ -87,6 +90,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (file.has_mixed_units)
     result.findings.push_back({"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});
   occt::ModelOfFile tables = occt::make_tables(model, path);
+  if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;

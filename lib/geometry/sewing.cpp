@@ -1,8 +1,6 @@
 #include "geometry/sewing.h"
 
-#include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeFix_ShapeTolerance.hxx>
@@ -114,20 +112,8 @@ TopoDS_Shape in_original_order(const TopoDS_Shape& shell, const Rank& rank) {
   return ordered;
 }
 
-TopoDS_Shape outward_solid(const TopoDS_Shell& shell) {
-  try {
-    BRepBuilderAPI_MakeSolid maker(shell);
-    if (!maker.IsDone()) return shell;
-    TopoDS_Solid solid = maker.Solid();
-    BRepLib::OrientClosedSolid(solid);
-    return solid;
-  } catch (const Standard_Failure&) {
-    return shell;
-  }
-}
-
-/// Sewing permutes faces and drops solids: shells and faces in the order of their first original face, closed shells as outward solids.
-TopoDS_Shape ordered_solids(const TopoDS_Shape& sewn, const std::vector<TopoDS_Shape>& images) {
+/// Sewing permutes faces and drops solids: shells and faces in the order of their first original face.
+TopoDS_Shape in_order(const TopoDS_Shape& sewn, const std::vector<TopoDS_Shape>& images) {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(sewn, TopAbs_FACE, faces);
   std::vector<int> first_original(faces.Extent(), 0);
@@ -146,8 +132,8 @@ TopoDS_Shape ordered_solids(const TopoDS_Shape& sewn, const std::vector<TopoDS_S
       first = std::min(first, first_original[faces.FindIndex(members(i)) - 1]);
       in_shell.Add(members(i));
     }
-    TopoDS_Shape piece = in_original_order(e.Current(), [&](const TopoDS_Shape& f) { return first_original[faces.FindIndex(f) - 1]; });
-    if (count_free_edges(piece) == 0) piece = outward_solid(TopoDS::Shell(piece));
+    const TopoDS_Shape piece =
+        in_original_order(e.Current(), [&](const TopoDS_Shape& f) { return first_original[faces.FindIndex(f) - 1]; });
     pieces.push_back({first, piece});
   }
   for (int i = 1; i <= faces.Extent(); ++i)
@@ -193,8 +179,7 @@ void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::ve
   const std::vector<TopoDS_Shape> face_images(sewn.images.begin(), sewn.images.begin() + n_faces);
   for (std::size_t k = 0; k < model.edge_names.size(); ++k) model.edge_names[k].first = sewn.images[n_faces + k];
   const TopTools_IndexedMapOfShape originals = model.faces;
-  model.replace(ordered_solids(sewn.shape, face_images),
-                [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
+  model.replace(in_order(sewn.shape, face_images), [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
   findings.push_back({"sewn: " + std::to_string(original.n_free) + " free edges before, " + std::to_string(sewn.n_free) + " after",
                       "",
                       {},

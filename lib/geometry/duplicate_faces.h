@@ -1,0 +1,14 @@
+// Faces that are there twice. Included inside lib/geometry only.
+#pragma once
+
+#include <vector>
+
+#include "geometry/import_shape.h"
+
+namespace st::occt {
+
+/// Removes faces at the place of an earlier one: same vertices, box, area and surface within the tolerances. Faces of solids stay: parts
+/// that touch have coincident faces by right.
+void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings);
+
+}  // namespace st::occt

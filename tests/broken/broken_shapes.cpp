@@ -1,0 +1,151 @@
+#include "broken/broken_shapes.h"
+
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom2d_BezierCurve.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <functional>
+#include <gp_Pln.hxx>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+namespace st::test {
+namespace {
+
+TopoDS_Shape compound(const std::vector<TopoDS_Shape>& parts) {
+  BRep_Builder builder;
+  TopoDS_Compound result;
+  builder.MakeCompound(result);
+  for (const TopoDS_Shape& part : parts) builder.Add(result, part);
+  return result;
+}
+
+TopoDS_Shape box(double x, double y, double z) { return BRepPrimAPI_MakeBox(x, y, z).Shape(); }
+TopoDS_Shape centred_cube(double side) { return BRepPrimAPI_MakeBox(gp_Pnt(-side / 2, -side / 2, -side / 2), side, side, side).Shape(); }
+TopoDS_Shape shell_of(const TopoDS_Shape& solid) { return TopExp_Explorer(solid, TopAbs_SHELL).Current(); }
+
+std::vector<TopoDS_Shape> loose_faces_of(const TopoDS_Shape& solid) {
+  std::vector<TopoDS_Shape> faces;
+  for (TopExp_Explorer f(solid, TopAbs_FACE); f.More(); f.Next()) faces.push_back(BRepBuilderAPI_Copy(f.Current()).Shape());
+  return faces;
+}
+
+TopoDS_Shape doubled_face() {
+  std::vector<TopoDS_Shape> faces = loose_faces_of(box(60, 40, 20));
+  faces.push_back(BRepBuilderAPI_Copy(faces[2]).Shape());
+  return compound(faces);
+}
+
+TopoDS_Shape polygon_face(const std::vector<gp_Pnt>& points) {
+  BRepBuilderAPI_MakePolygon polygon;
+  for (const gp_Pnt& p : points) polygon.Add(p);
+  polygon.Close();
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), polygon.Wire(), false).Shape();
+}
+
+TopoDS_Shape off_pcurve() {
+  TColgp_Array2OfPnt poles(1, 4, 1, 4);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) poles(i + 1, j + 1) = gp_Pnt(10 * i, 10 * j, (i * j) % 3);
+  const Handle(Geom_BezierSurface) surface = new Geom_BezierSurface(poles);
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(surface, 0, 1, 0, 1, 1e-7).Face();
+  BRep_Builder builder;
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    double t0, t1;
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+    const gp_Pnt2d a = old->Value(t0), b = old->Value(t1);
+    if (std::abs(a.Y()) > 1e-9 || std::abs(b.Y()) > 1e-9) continue;
+    TColgp_Array1OfPnt2d bulge(1, 3);
+    bulge(1) = a;
+    bulge(2) = gp_Pnt2d(0.5, 0.03);
+    bulge(3) = b;
+    builder.UpdateEdge(edge, new Geom2d_BezierCurve(bulge), face, 1e-7);
+    builder.SameParameter(edge, true);
+    break;
+  }
+  return face;
+}
+
+/// A rectangle [0,10] x [y0,y1] whose side on y = 0 runs as x = 10 t^power.
+TopoDS_Shape rectangle_with_side(double y, int power) {
+  TColgp_Array1OfPnt poles(1, power + 1);
+  for (int i = 0; i <= power; ++i) poles(i + 1) = gp_Pnt(i == power ? 10 : 0, 0, 0);
+  TColStd_Array1OfReal knots(1, 2);
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  knots(1) = 0, knots(2) = 1;
+  multiplicities(1) = multiplicities(2) = power + 1;
+  const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(new Geom_BSplineCurve(poles, knots, multiplicities, power)).Edge();
+  BRepBuilderAPI_MakeWire wire(side);
+  for (const auto& [a, b] : {std::pair{gp_Pnt(10, 0, 0), gp_Pnt(10, y, 0)}, std::pair{gp_Pnt(10, y, 0), gp_Pnt(0, y, 0)},
+                             std::pair{gp_Pnt(0, y, 0), gp_Pnt(0, 0, 0)}})
+    wire.Add(BRepBuilderAPI_MakeEdge(a, b).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Shape();
+}
+
+TopoDS_Shape bare_sphere() {
+  TopoDS_Face face;
+  BRep_Builder().MakeFace(face, new Geom_SphericalSurface(gp_Ax3(), 10), 1e-7);
+  return face;
+}
+
+const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
+  static const std::map<std::string, std::function<TopoDS_Shape()>> all{
+      {"doubled_face", doubled_face},
+      {"touching_boxes",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 10, 10).Shape()});
+       }},
+      {"inside_out", [] { return compound({box(60, 40, 20).Reversed()}); }},
+      {"loose_shell", [] { return compound({shell_of(box(60, 40, 20)).Reversed()}); }},
+      {"nested_shells",
+       [] {
+         return compound({shell_of(centred_cube(40)), shell_of(centred_cube(60)), shell_of(centred_cube(20))});
+       }},
+      {"off_pcurve", off_pcurve},
+      {"bow_tie",
+       [] {
+         return polygon_face({{0, 0, 0}, {10, 10, 0}, {10, 0, 0}, {0, 10, 0}});
+       }},
+      {"sliver",
+       [] {
+         return polygon_face({{0, 0, 0}, {100, 0, 0}, {100, 0.001, 0}, {0, 0.001, 0}});
+       }},
+      {"short_edge",
+       [] {
+         return polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 0.0001, 0}, {10, 10, 0}, {0, 10, 0}});
+       }},
+      {"bare_sphere", bare_sphere},
+      {"speeds",
+       [] {
+         return compound({rectangle_with_side(5, 1), rectangle_with_side(-5, 3)});
+       }},
+  };
+  return all;
+}
+
+}  // namespace
+
+void write_broken(const std::string& name, const std::string& path) {
+  const auto it = factories().find(name);
+  if (it == factories().end()) throw std::runtime_error("no broken shape '" + name + "'");
+  BRepTools::Write(it->second(), path.c_str());
+}
+
+}  // namespace st::test

@@ -1,0 +1,22 @@
+// Small B-Reps with one defect each, as BREP files. No OpenCASCADE type is visible.
+#pragma once
+
+#include <string>
+
+namespace st::test {
+
+/// Writes the shape `name` to `path`; an unknown name throws std::runtime_error.
+///   doubled_face     the six loose faces of a box 60 x 40 x 20, one of them twice
+///   touching_boxes   two solids side by side that share a place, not a face
+///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
+///   loose_shell      the shell of that box, inward, no solid
+///   nested_shells    shells of boxes of 60, 40 and 20 around one centre, no solid
+///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
+///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
+///   sliver           a plane face of 100 x 0.001
+///   short_edge       a plane face with an edge of 0.0001
+///   bare_sphere      a spherical face without loops
+///   speeds           two rectangles whose common side both run at different speeds
+void write_broken(const std::string& name, const std::string& path);
+
+}  // namespace st::test

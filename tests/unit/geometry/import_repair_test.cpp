@@ -1,0 +1,174 @@
+// What import_model() finds wrong with a model, and what it repairs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "broken/broken_shapes.h"
+#include "geometry/model.h"
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+ImportResult import_broken(const std::string& shape, const ImportOptions& options = {}) {
+  const TemporaryDirectory dir;
+  test::write_broken(shape, dir / "model.brep");
+  return import_model(dir / "model.brep", options);
+}
+
+std::vector<ImportFinding> findings_of(const ImportResult& r, const std::string& start) {
+  std::vector<ImportFinding> found;
+  std::copy_if(r.findings.begin(), r.findings.end(), std::back_inserter(found),
+               [&](const ImportFinding& f) { return f.what.find(start) == 0; });
+  return found;
+}
+
+/// The largest distance between a coedge's space curve and its trimming curve on the surface.
+double largest_gap(const Model& model, FaceId f) {
+  const ModelTables& t = model.tables();
+  const auto surface = model.surface(f);
+  double gap = 0;
+  for (std::int32_t c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c) {
+    const EdgeId e = t.coedge_edge[c];
+    const auto curve = model.curve(e);
+    const auto pcurve = model.pcurve(f, c);
+    for (int k = 0; k <= 100; ++k) {
+      const double at = t.edge_range[2 * e] + 0.01 * k * (t.edge_range[2 * e + 1] - t.edge_range[2 * e]);
+      gap = std::max(gap, distance(curve->point(at), surface->point(pcurve->point(at))));
+    }
+  }
+  return gap;
+}
+
+TEST(ImportRepair, removes_a_face_that_is_there_twice) {
+  const ImportResult r = import_broken("doubled_face");
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.n_nonmanifold_edges, 0);
+  EXPECT_NEAR(r.volume, 48000, 1e-6);
+  const auto found = findings_of(r, "duplicated face");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].is_repair);
+  EXPECT_EQ(found[0].entity, "face 7 of the file");
+}
+
+TEST(ImportRepair, keeps_faces_of_solids_that_touch) {
+  const ImportResult r = import_broken("touching_boxes");
+  EXPECT_EQ(r.tables.n_faces(), 12);
+  EXPECT_EQ(r.n_repairs, 0);
+}
+
+TEST(ImportRepair, turns_a_solid_that_is_inside_out) {
+  const ImportResult r = import_broken("inside_out");
+  EXPECT_NEAR(r.volume, 48000, 1e-6);
+  EXPECT_EQ(findings_of(r, "solid inside out").size(), 1u);
+  const Model model(r.tables, r.brep);
+  for (FaceId f = 0; f < 6; ++f) {
+    const auto s = model.surface(f);
+    const Vec2 uv{0.5 * (s->u_min() + s->u_max()), 0.5 * (s->v_min() + s->v_max())};
+    const double sign = r.tables.face_is_reversed[f] ? -1 : 1;
+    EXPECT_GT(sign * dot(surface_normal(*s, uv), s->point(uv) - Vec3{30, 20, 10}), 0) << f;
+  }
+}
+
+TEST(ImportRepair, makes_a_closed_shell_an_outward_solid) {
+  const ImportResult r = import_broken("loose_shell");
+  EXPECT_EQ(r.tables.n_solids, 1);
+  EXPECT_NEAR(r.volume, 48000, 1e-6);
+  EXPECT_EQ(findings_of(r, "closed shell made a solid").size(), 1u);
+}
+
+TEST(ImportRepair, makes_shells_inside_shells_voids_and_solids_in_turn) {
+  const ImportResult r = import_broken("nested_shells");
+  EXPECT_EQ(r.tables.n_solids, 2);
+  EXPECT_EQ(r.tables.n_shells, 3);
+  EXPECT_NEAR(r.volume, 216000 - 64000 + 8000, 1e-6);
+}
+
+TEST(ImportRepair, projects_a_trimming_curve_that_leaves_its_edge) {
+  const ImportResult r = import_broken("off_pcurve");
+  const auto found = findings_of(r, "trimming curve off its edge, projected anew");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_GT(found[0].size, 0.1);
+  EXPECT_LE(largest_gap(Model(r.tables, r.brep), 0), 1e-5);
+  for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-5);
+}
+
+TEST(ImportRepair, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at_different_speeds) {
+  const ImportResult r = import_broken("speeds");
+  EXPECT_EQ(r.n_free_edges, 6);
+  EXPECT_EQ(findings_of(r, "sewn").size(), 1u);
+  for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-3);
+  const Model model(r.tables, r.brep);
+  for (FaceId f = 0; f < 2; ++f) EXPECT_LE(largest_gap(model, f), 1e-3) << f;
+}
+
+TEST(ImportRepair, bounds_a_face_without_loops) {
+  const ImportResult r = import_broken("bare_sphere");
+  EXPECT_EQ(r.tables.n_loops(), 1);
+  EXPECT_NEAR(r.area, 400 * kPi, 1e-3);
+  EXPECT_GE(r.n_repairs, 1);
+}
+
+TEST(ImportReport, lists_a_loop_that_crosses_itself_with_its_place) {
+  const auto found = findings_of(import_broken("bow_tie"), "loop crosses");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LE(distance(found[0].xyz, {5, 5, 0}), 1e-9);
+  EXPECT_FALSE(found[0].is_repair);
+  EXPECT_TRUE(findings_of(test::import_shape("plate_with_hole"), "loop crosses").empty());
+}
+
+TEST(ImportReport, lists_sliver_faces_with_their_width) {
+  const ImportResult r = import_broken("sliver");
+  const auto found = findings_of(r, "sliver face");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].size, 0.001, 1e-9);
+  EXPECT_NEAR(r.tables.face_width[0], 0.001, 1e-9);
+  EXPECT_NEAR(test::import_shape("strip").tables.face_width[0], 0.2, 1e-9);
+  EXPECT_NEAR(test::import_shape("square").tables.face_width[0], 10, 1e-6);
+}
+
+TEST(ImportReport, lists_short_edges_below_the_length_asked_for) {
+  ImportOptions options;
+  const auto found = findings_of(import_broken("short_edge", options), "short edge");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].size, 1e-4, 1e-9);
+  options.small = "0.00005";
+  EXPECT_TRUE(findings_of(import_broken("short_edge", options), "short edge").empty());
+}
+
+TEST(ImportReport, names_invalid_faces_when_asked) {
+  ImportOptions options;
+  EXPECT_TRUE(findings_of(import_broken("bow_tie", options), "invalid face").empty());
+  options.check_only = true;
+  EXPECT_EQ(findings_of(import_broken("bow_tie", options), "invalid face").size(), 1u);
+}
+
+TEST(ImportReport, boxes_touch_the_faces_and_not_their_poles) {
+  const Box3 sphere = test::import_shape("sphere").tables.box();
+  EXPECT_LE(distance(sphere.hi, {10, 10, 10}), 1e-5);
+  for (const char* shape : {"wave", "closed_tube", "torus", "sphere_octant"}) {
+    const ImportResult r = test::import_shape(shape);
+    const Model model(r.tables, r.brep);
+    Box3 samples;
+    const auto s = model.surface(0);
+    for (int i = 0; i <= 200; ++i)
+      for (int j = 0; j <= 200; ++j)
+        samples.add(s->point({s->u_min() + 0.005 * i * (s->u_max() - s->u_min()), s->v_min() + 0.005 * j * (s->v_max() - s->v_min())}));
+    const Box3 box = r.tables.face_box[0];
+    const double slack = 0.02 * samples.diagonal(), rounding = 1e-6 * samples.diagonal();
+    for (const auto& [outer, inner] : {std::pair{box, samples}}) {
+      EXPECT_TRUE(outer.lo.x <= inner.lo.x + rounding && outer.lo.y <= inner.lo.y + rounding && outer.lo.z <= inner.lo.z + rounding)
+          << shape;
+      EXPECT_TRUE(outer.hi.x >= inner.hi.x - rounding && outer.hi.y >= inner.hi.y - rounding && outer.hi.z >= inner.hi.z - rounding)
+          << shape;
+    }
+    EXPECT_LE(distance(box.lo, samples.lo), slack) << shape;
+    EXPECT_LE(distance(box.hi, samples.hi), slack) << shape;
+  }
+}
+
+}  // namespace
+}  // namespace st
