@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/log.h"
 #include "io/artifact.h"
+#include "io/node_array.h"
 #include "io/sizing_artifact.h"
 #include "mesh/merge.h"
+#include "sizing/node_field.h"
 #include "stages/model_mesher.h"
 #include "stages/patches_result.h"
 #include "stages/remesher.h"
@@ -23,6 +26,16 @@ namespace {
 void require_valid(const RemeshStageOptions& o) {
   if (!(o.too_long > 1)) throw Error(ExitCode::kUsage, fmt::format("--too-long {}: must be larger than 1", o.too_long));
   if (!(o.too_short > 0 && o.too_short < 1)) throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
+}
+
+/// The sizing's field, or the one on the nodes that takes its place.
+std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh, double slope) {
+  if (o.sizes_on_nodes.empty()) return nullptr;
+  const std::size_t colon = o.sizes_on_nodes.rfind(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == o.sizes_on_nodes.size())
+    throw Error(ExitCode::kUsage, fmt::format("--sizes-on-nodes '{}': not of the form FILE:ARRAY", o.sizes_on_nodes));
+  return std::make_unique<NodeField>(
+      mesh, read_node_lengths(o.sizes_on_nodes.substr(0, colon), o.sizes_on_nodes.substr(colon + 1), mesh.node_xyz.size()), slope);
 }
 
 /// Arrays of megabytes follow each other; fresh pages for each cost as much as the work on them.
@@ -120,8 +133,12 @@ ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in,
   ArtifactHeader header;
   header.tool = "st-remesh";
   header.tool_version = ST_VERSION;
-  header.options_json =
-      nlohmann::json{{"too_long", o.too_long}, {"too_short", o.too_short}, {"keep", o.keep}, {"faces_redone", r.dirty_faces.size()}}.dump();
+  header.options_json = nlohmann::json{{"too_long", o.too_long},
+                                       {"too_short", o.too_short},
+                                       {"keep", o.keep},
+                                       {"sizes_on_nodes", std::filesystem::path(o.sizes_on_nodes).filename().string()},
+                                       {"faces_redone", r.dirty_faces.size()}}
+                            .dump();
   header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), in.old.header.content_hash},
                    {"geometry", std::filesystem::path(o.geometry).filename().string(), in.geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), in.sizing.header.content_hash}};
@@ -201,15 +218,17 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   options.mark.too_long = o.too_long;
   options.mark.too_short = o.too_short;
   options.mark.keep_face = kept_faces(o, in.model.tables());
-  Remesher remesher(in.model, mesh, *in.sizing.field, options, comm);
+  const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.sizing.field->slope());
+  const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  Remesher remesher(in.model, mesh, field, options, comm);
   const double load_seconds = timer.seconds();
   remesher.analyse();
   if (o.dry_run) return dry_run_summary(remesher, mesh);
   remesher.run();
   std::optional<ModelMesher> mesher;
   if (!remesher.failed_faces.empty() || o.merged.empty())
-    mesher.emplace(in.model, *in.sizing.field, in.sizing.face_weight, ModelMesherOptions{}, comm);
-  if (!remesher.failed_faces.empty()) redo_failed_faces(*in.sizing.field, remesher, *mesher);
+    mesher.emplace(in.model, field, in.sizing.face_weight, ModelMesherOptions{}, comm);
+  if (!remesher.failed_faces.empty()) redo_failed_faces(field, remesher, *mesher);
   if (!comm.is_root()) return {};
   const RunFacts facts{timer, load_seconds, comm.size()};
   StageSummary summary = o.merged.empty() ? write_patches_of(o, in, remesher, *mesher, facts)

@@ -18,6 +18,7 @@ struct RemeshStageOptions {
   double too_long = 1.4;   ///< where the sizes changed, an edge longer than this times the requested length is redone, > 1
   double too_short = 0.7;  ///< likewise shorter than, (0, 1)
   std::string keep;        ///< group of which nothing changes; empty: none
+  std::string sizes_on_nodes;           ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's; empty: none
   bool dry_run = false;    ///< say how much would change, write nothing
 };
 

@@ -87,6 +87,50 @@ class LocalChange(ToolTest):
         self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
         self.assertIn("drift of quality", done.stdout)
 
+    def node_sizes(self, values):
+        """A .vtu with these lengths as point data; only that part of it is read."""
+        text = "\n".join(str(v) for v in values)
+        path = self.folder / "lengths.vtu"
+        path.write_text(f'<VTKFile><PointData><DataArray type="Float64" Name="h" format="ascii">{text}</DataArray></PointData></VTKFile>')
+        return f"{path}:h"
+
+    def remesh_on_nodes(self, lengths):
+        mesh = self.folder / "on_nodes.hdf"
+        run = Run("st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "--merged", mesh, "--sizes-on-nodes", lengths, "--json")
+        return run, mesh
+
+    def test_lengths_on_nodes_refine_and_coarsen(self):
+        before = must("st-check", self.chain / "mesh.hdf", "--json").json()
+        n_nodes, n = before["nodes"], before["triangles"]
+        mean = (before["area"] / n * 4 / 3**0.5) ** 0.5  # side of the mean triangle
+        for factor in (0.5, 2):
+            run, mesh = self.remesh_on_nodes(self.node_sizes([factor * mean] * n_nodes))
+            self.assertEqual(run.code, OK, str(run))
+            after = must("st-check", mesh, "--geometry", self.geometry, "--json").json()
+            self.assertLess(after["triangles"] * factor**2 / n, 1.6)
+            self.assertGreater(after["triangles"] * factor**2 / n, 0.7)
+
+    def test_the_stored_lengths_of_the_mesh_change_nothing(self):
+        must("st-export", self.chain / "mesh.hdf", "-o", self.folder / "mesh.vtu")
+        for file in (self.folder / "mesh.vtu", self.chain / "mesh.hdf"):
+            run, mesh = self.remesh_on_nodes(f"{file}:size")
+            self.assertEqual(run.code, OK, str(run))
+            self.assertEqual(run.json()["triangles_redone"], 0)
+
+    def test_bad_lengths_on_nodes_are_refused_and_nothing_is_written(self):
+        n = must("st-check", self.chain / "mesh.hdf", "--json").json()["nodes"]
+        good = [1.0] * n
+        for bad, expected in [(good[1:], f"has {n - 1} values"), (["nan"] + good[1:], "is nan at node 0"), (good[1:] + [-1], f"is -1 at node {n - 1}"),
+                              (good[1:] + ["inf"], "is inf")]:
+            run, mesh = self.remesh_on_nodes(self.node_sizes(bad))
+            self.assertEqual(run.code, INPUT, str(run))
+            self.assertIn(expected, run.err)
+            self.assertFalse(mesh.exists())
+        for lengths, code in [("lengths.vtu", USAGE), (f"{self.chain / 'mesh.hdf'}:nothing", INPUT), (f"{self.folder / 'missing.vtu'}:h", INPUT)]:
+            run, mesh = self.remesh_on_nodes(lengths)
+            self.assertEqual(run.code, code, str(run))
+            self.assertFalse(mesh.exists())
+
 
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 AIRCRAFT = "aero_d150_wing_body_half.brep"

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
               "an edge longer than this times the requested length is redone where the sizes changed");
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
   tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
+  tool.text("--sizes-on-nodes", o.sizes_on_nodes, "FILE:ARRAY", "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
   tool.flag("--dry-run", o.dry_run, "say how much would change, write nothing");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
 }

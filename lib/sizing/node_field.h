@@ -1,0 +1,37 @@
+// Lengths given on the nodes of a surface mesh, as a solver's adaptation asks for them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// Linear within the triangle of the nearest node that is closest; between the nodes the length grows no faster than a slope: larger ones
+/// are reduced. Where two walls are closer than a node's neighbours, a point may get the length of the other wall.
+class NodeField : public SizeField {
+ public:
+  /// `size` [n_nodes] > 0, finite. `slope` > 0: change of length per distance along mesh edges. `mesh` outlives it. n log n.
+  NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope);
+  using SizeField::size;
+  double size(Vec3 xyz, int& hint) const override;
+  double min_size() const override { return min_size_; }
+  double slope() const override { return slope_; }
+
+ private:
+  void find_triangles();
+  void limit_growth();
+  void build_tree(std::size_t begin, std::size_t end, int axis);
+  void find_nearest(Vec3 x, std::size_t begin, std::size_t end, int axis, NodeId& best, double& best2) const;
+
+  const SurfaceMesh& mesh_;
+  std::vector<double> size_;
+  double slope_, min_size_ = 0;
+  std::vector<std::int32_t> first_;   // [n_nodes+1] into triangle_
+  std::vector<TriangleId> triangle_;  // of each node
+  std::vector<NodeId> tree_;          // nodes as a balanced tree: the middle of a range divides it along an axis
+};
+
+}  // namespace st
