@@ -55,6 +55,7 @@ class Unpacker {
     values.resize(n);
     read(values.data(), n * sizeof(T));
   }
+  bool is_empty() const { return position_ == bytes_.size(); }
   void get(std::string& text) {
     std::vector<char> chars;
     get(chars);

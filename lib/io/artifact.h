@@ -52,6 +52,7 @@ struct PatchesArtifact {
   std::vector<VertexId> edge_vertices;  ///< [2*n_edges]
   std::vector<FacePatch> patches;       ///< by face id
   std::vector<FaceFailure> failures;
+  MergedFeatures merged;
   std::vector<std::string> face_name, group_name;
   std::vector<std::int32_t> face_group;
   std::vector<std::int32_t> face_shell;

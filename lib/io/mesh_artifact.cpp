@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "io/artifact_checks.h"
+#include "io/merged_features.h"
 
 namespace st {
 namespace {
@@ -86,6 +87,7 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   w.write_strings("/st/group/name", m.group_name);
   w.write("/st/node/t", m.node_t);
   w.write("/st/triangle/corner_uv", m.corner_uv);
+  write_merged(w, m.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
   return w.commit();
 }
@@ -110,6 +112,7 @@ MeshArtifact read_mesh(const std::string& path) {
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));
   require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.group_name.size());
   m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());
+  m.merged = read_merged(r, kAnyEdge, m.face_name.size());
   if (r.has("/VTKHDF/PointData/previous_id")) {
     m.node_previous = r.read_rows<std::int32_t>("/VTKHDF/PointData/previous_id", n_nodes);
     m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", m.triangles.size());

@@ -1,5 +1,6 @@
 // patches.hdf: docs/artifacts.md
 #include "io/artifact_checks.h"
+#include "io/merged_features.h"
 
 namespace st {
 namespace {
@@ -188,6 +189,7 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   write_patch_arrays(w, a.patches);
   write_previous(w, a);
   write_failures(w, a.failures);
+  write_merged(w, a.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{a.is_complete});
   return w.commit();
 }
@@ -201,6 +203,7 @@ PatchesArtifact read_patches(const std::string& path) {
   a.patches = read_patch_arrays(r, a);
   read_previous(r, a);
   a.failures = read_failures(r);
+  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.face_group.size());
   a.is_complete = r.int_attribute("/st", "is_complete") != 0;
   return a;
 }

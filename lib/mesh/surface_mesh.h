@@ -45,6 +45,19 @@ struct FacePatch {
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 };
 
+/// CAD features far below the requested lengths, merged for meshing only (virtual topology). All ids 0-based, ascending by edge and by face.
+struct MergedFeatures {
+  std::vector<EdgeId> edge;                     ///< drawn together to one node each
+  std::vector<FaceId> strip_face;               ///< [n_strips] a face between two long edges, closed where it is narrow
+  std::vector<EdgeId> strip_kept, strip_closed; ///< [n_strips] these: where closed, both have the nodes of `kept`
+  std::vector<std::uint8_t> strip_is_opposed;   ///< [n_strips] 1: they run against each other
+  bool empty() const { return edge.empty() && strip_face.empty(); }
+  bool operator==(const MergedFeatures&) const = default;
+};
+
+/// Faces of strips that are closed all along, so that they have no triangles: both long edges have nodes, all of them common. Ascending.
+std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges, const std::vector<VertexId>& edge_vertices);
+
 /// Why a face has no complete patch.
 struct FaceFailure {
   FaceId face = kNone;
@@ -65,6 +78,7 @@ struct SurfaceMesh {
   std::vector<std::int32_t> triangle_group;  ///< index into group_name
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
+  MergedFeatures merged;
   std::vector<NodeId> node_previous;          ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone: new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 

@@ -9,14 +9,15 @@ namespace {
 
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
-constexpr double kGoodQuality = 0.995;      // nodes whose triangles are all better stay where they are
-constexpr double kShortEdge = 0.55;        // of the requested length: collapsed where that does no harm
-constexpr double kLongEdge = 1.45;         // of the requested length: no collapse makes such an edge
+constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
+constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
+constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
 constexpr double kHalfSqrt3 = 0.8660254037844386;
-constexpr double kWeightBase = 1.3;           // minus a triangle's quality: its weight in the smoothing
+constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
+constexpr double kStill = 0.02;      // of the requested length: a shorter move wakes no neighbours
 constexpr double kSwapGain = 1e-3;
-constexpr double kSwapBelow = 0.9;         // pairs of triangles that are both better are left alone
-constexpr double kRelaxLeast = 0.55;       // no triangle worse than this is made for the sake of the valence
+constexpr double kSwapBelow = 0.9;    // pairs of triangles that are both better are left alone
+constexpr double kRelaxLeast = 0.55;  // no triangle worse than this is made for the sake of the valence
 
 class Enhancer {
  public:
@@ -37,6 +38,7 @@ class Enhancer {
   void start() {
     quality_.resize(m_.triangles.size());
     degree_.assign(m_.nodes.size(), 0);
+    is_active_.assign(m_.nodes.size(), 1);
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
       if (!is_inside(m_.triangles[i])) continue;
       update(static_cast<std::int32_t>(i));
@@ -78,7 +80,8 @@ class Enhancer {
     }
   }
 
-  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment, the rim, or the edge's second visit.
+  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment, the rim, or the edge's
+  /// second visit.
   struct Quad {
     std::int32_t t, o, a, b, c, d;
   };
@@ -102,6 +105,7 @@ class Enhancer {
 
   void swap(const Quad& q, int k) {
     m_.swap(q.t, k);
+    for (const std::int32_t n : {q.a, q.b, q.c, q.d}) is_active_[n] = 1;
     update(q.t);
     update(q.o);
     --degree_[q.a];
@@ -142,8 +146,11 @@ class Enhancer {
 
   void smooth_sweep() {
     const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
-    for (std::int32_t i = first; i < n; ++i)
-      if (m_.triangle_at(i) != kNone) smooth(i);
+    for (std::int32_t i = first; i < n; ++i) {
+      if (!is_active_[i] || m_.triangle_at(i) == kNone) continue;
+      is_active_[i] = 0;
+      smooth(i);
+    }
   }
 
   double ring_quality(const MeshNode& centre, double& mean) const {
@@ -191,8 +198,12 @@ class Enhancer {
       double mean_after;
       const double after = ring_quality(moved, mean_after);
       if (after > before + 1e-4 || (after > 0.6 && after > before - 0.05 && mean_after > mean_before + 1e-4)) {
+        const bool is_far = norm2(moved.x - old.x) > kStill * kStill * old.h * old.h;
         m_.nodes[i] = moved;
         for (std::int32_t t : tris_) update(t);
+        if (!is_far) return;
+        is_active_[i] = 1;
+        for (const std::int32_t j : around_) is_active_[j] = 1;
         return;
       }
     }
@@ -233,6 +244,7 @@ class Enhancer {
     --degree_[around_[(best + 1) % n]];
     --degree_[around_[(best + n - 1) % n]];
     degree_[around_[best]] += n - 4;
+    for (const std::int32_t j : around_) is_active_[j] = 1;
     m_.collapse(i, best, around_, tris_);
     for (std::int32_t t : tris_)
       if (m_.triangles[t].state != kDead) update(t);
@@ -263,6 +275,7 @@ class Enhancer {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<float> quality_;           // of each inside triangle, kept up to date
+  std::vector<std::uint8_t> is_active_;  // nodes to be smoothed: something about them changed
   std::vector<std::int32_t> degree_;     // triangles at each node
   std::vector<std::int32_t> around_, tris_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace st {
 namespace {
@@ -17,9 +18,10 @@ struct End {
 class BoundaryMaker {
  public:
   BoundaryMaker(const Model& model, const Surface& surface, FaceId face, const BoundaryNumbering& numbering)
-      : model_(model), t_(model.tables()), surface_(surface), face_(face), numbering_(numbering) {}
+      : model_(model), t_(numbering.tables), surface_(surface), face_(face), numbering_(numbering) {}
 
   FaceBoundary run() {
+    if (const std::int32_t strip = numbering_.strip_of(face_); strip != kNone && add_strip(strip)) return std::move(result_);
     for (LoopId l = t_.face_loop_offsets[face_]; l < t_.face_loop_offsets[face_ + 1]; ++l) add_loop(l);
     return std::move(result_);
   }
@@ -28,13 +30,46 @@ class BoundaryMaker {
   void add_loop(LoopId l) {
     const std::int32_t first = static_cast<std::int32_t>(result_.nodes.size());
     for (CoedgeId c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) {
-      const bool is_first = static_cast<std::int32_t>(result_.nodes.size()) == first;
-      if (t_.edge_is_degenerate[t_.coedge_edge[c]])
-        add_pole(c, is_first);
-      else
-        add_coedge(c, is_first);
+      add_whole(c, static_cast<std::int32_t>(result_.nodes.size()) == first);
     }
     close_loop(first);
+  }
+
+  /// A loop for each part of a strip that is not closed; false when no node of it is.
+  bool add_strip(std::int32_t strip) {
+    const EdgeId kept = numbering_.merged.strip_kept[strip];
+    const LoopId l = t_.face_loop_offsets[face_];
+    std::vector<CoedgeId> coedges(t_.loop_coedge_offsets[l + 1] - t_.loop_coedge_offsets[l]);
+    std::iota(coedges.begin(), coedges.end(), t_.loop_coedge_offsets[l]);
+    std::rotate(coedges.begin(), std::find_if(coedges.begin(), coedges.end(), [&](CoedgeId c) { return t_.coedge_edge[c] == kept; }), coedges.end());
+    const auto other = std::find_if(coedges.begin(), coedges.end(),
+                                    [&](CoedgeId c) { return t_.coedge_edge[c] == numbering_.merged.strip_closed[strip]; });
+    const std::int32_t n = numbering_.edges.edge_offsets[kept + 1] - numbering_.edges.edge_offsets[kept];
+    std::vector<char> is_closed(n);  // in the direction of the loop
+    for (std::int32_t i = 0; i < n; ++i) is_closed[t_.coedge_is_reversed[coedges[0]] ? n - 1 - i : i] = numbering_.is_closed(strip, i);
+    if (std::count(is_closed.begin(), is_closed.end(), 1) == 0) return false;
+    for (std::int32_t first = 0, last; first < n; first = last + 1) {
+      last = first;
+      if (is_closed[first]) continue;
+      while (last + 1 < n && !is_closed[last + 1]) ++last;
+      const std::int32_t from = std::max(first - 1, 0), to = std::min(last + 1, n - 1);
+      const std::int32_t begin = static_cast<std::int32_t>(result_.nodes.size());
+      add_nodes(coedges[0], from, to, false);
+      if (last == n - 1)
+        for (auto c = coedges.begin() + 1; c != other; ++c) add_whole(*c, false);
+      add_nodes(*other, n - 1 - to, n - 1 - from, true);
+      if (first == 0)
+        for (auto c = other + 1; c != coedges.end(); ++c) add_whole(*c, false);
+      close_loop(begin);
+    }
+    return true;
+  }
+
+  void add_whole(CoedgeId c, bool is_first) {
+    if (t_.edge_is_degenerate[t_.coedge_edge[c]])
+      add_pole(c, is_first);
+    else
+      add_coedge(c, is_first);
   }
 
   void add_node(Vec2 uv, std::int32_t id, Vec3 x, double h, bool is_pole, bool joins_previous) {
@@ -59,14 +94,20 @@ class BoundaryMaker {
 
   void add_coedge(CoedgeId c, bool is_first) {
     const EdgeId e = t_.coedge_edge[c];
+    const std::int32_t n = numbering_.edges.edge_offsets[e + 1] - numbering_.edges.edge_offsets[e];
+    if (n >= 2) add_nodes(c, 0, n - 1, !is_first);
+  }
+
+  /// Nodes [from, to] of a coedge, in its direction.
+  void add_nodes(CoedgeId c, std::int32_t from, std::int32_t to, bool joins_previous) {
+    const EdgeId e = t_.coedge_edge[c];
     const EdgeMesh& m = numbering_.edges;
     const std::int32_t begin = m.edge_offsets[e], n = m.edge_offsets[e + 1] - begin;
-    if (n < 2) return;
     const auto pcurve = model_.pcurve(face_, c);
-    for (std::int32_t i = 0; i < n; ++i) {
+    for (std::int32_t i = from; i <= to; ++i) {
       const std::int32_t k = t_.coedge_is_reversed[c] ? n - 1 - i : i;
       add_node(pcurve->point(m.node_t[begin + k]), numbering_.edge_node(e, k), m.node_xyz[begin + k], m.node_size[begin + k], false,
-               i == 0 && !is_first);
+               i == from && joins_previous);
     }
   }
 
@@ -161,16 +202,42 @@ class BoundaryMaker {
 
 }  // namespace
 
-BoundaryNumbering::BoundaryNumbering(const ModelTables& t, const EdgeMesh& e) : tables(t), edges(e) {
+const MergedFeatures& BoundaryNumbering::no_merged_features() {
+  static const MergedFeatures none;
+  return none;
+}
+
+BoundaryNumbering::BoundaryNumbering(const ModelTables& t, const EdgeMesh& e, const MergedFeatures& m) : tables(t), edges(e), merged(m) {
   first_inner.push_back(t.n_vertices());
   for (EdgeId i = 0; i < t.n_edges(); ++i) first_inner.push_back(first_inner.back() + std::max(0, e.edge_offsets[i + 1] - e.edge_offsets[i] - 2));
+  strip_of_closed_.assign(merged.strip_closed.empty() ? 0 : t.n_edges(), kNone);
+  for (std::size_t s = 0; s < merged.strip_closed.size(); ++s) strip_of_closed_[merged.strip_closed[s]] = static_cast<std::int32_t>(s);
 }
 
 std::int32_t BoundaryNumbering::edge_node(EdgeId e, std::int32_t index) const {
   const std::int32_t n = edges.edge_offsets[e + 1] - edges.edge_offsets[e];
   if (index == 0) return tables.edge_vertices[2 * e];
   if (index == n - 1) return tables.edge_vertices[2 * e + 1];
+  if (const std::int32_t s = strip_of_closed_.empty() ? kNone : strip_of_closed_[e]; s != kNone) {
+    const std::int32_t twin = merged.strip_is_opposed[s] ? n - 1 - index : index;
+    if (is_closed(s, twin)) return edge_node(merged.strip_kept[s], twin);
+  }
   return first_inner[e] + index - 1;
+}
+
+std::int32_t BoundaryNumbering::strip_of(FaceId f) const {
+  const auto it = std::lower_bound(merged.strip_face.begin(), merged.strip_face.end(), f);
+  return it != merged.strip_face.end() && *it == f ? static_cast<std::int32_t>(it - merged.strip_face.begin()) : kNone;
+}
+
+bool BoundaryNumbering::is_closed(std::int32_t strip, std::int32_t index) const {
+  const EdgeId kept = merged.strip_kept[strip], closed = merged.strip_closed[strip];
+  const std::int32_t n = edges.edge_offsets[kept + 1] - edges.edge_offsets[kept];
+  if (edges.edge_offsets[closed + 1] - edges.edge_offsets[closed] != n) return false;
+  const bool opposed = merged.strip_is_opposed[strip];
+  if (index == 0 || index == n - 1)
+    return tables.edge_vertices[2 * kept + (index != 0)] == tables.edge_vertices[2 * closed + ((index != 0) != opposed)];
+  return edges.node_xyz[edges.edge_offsets[kept] + index] == edges.node_xyz[edges.edge_offsets[closed] + (opposed ? n - 1 - index : index)];
 }
 
 BoundaryNumbering::Entity BoundaryNumbering::entity(std::int32_t id) const {

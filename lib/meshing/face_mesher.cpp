@@ -177,13 +177,7 @@ class FaceMesher {
     return false;
   }
 
-  struct EdgeUse {
-    std::int64_t key;
-    Vec3 x;
-    double length;
-    bool is_boundary;
-    bool operator<(const EdgeUse& o) const { return key < o.key; }
-  };
+  using NodePair = std::pair<std::int64_t, std::int64_t>;  // node_key(), the smaller first
 
   std::int64_t node_key(std::int32_t corner) const {
     const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
@@ -196,8 +190,7 @@ class FaceMesher {
 
   /// Every edge used twice (boundary segments as often as the loops use them), no triangle with a repeated node, no repeated triangle.
   void validate(FaceMesh& r) const {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> uses;  // (smaller key, larger key) of edges between boundary nodes only
-    std::map<std::pair<std::int64_t, std::int64_t>, int> count;
+    std::vector<NodePair> uses, loop_uses;  // of edges with a boundary node
     const auto ordered = [](std::int64_t a, std::int64_t b) { return a < b ? std::pair{a, b} : std::pair{b, a}; };
     const auto refine = [&](Vec3 x, double length) {
       if (r.refinement.size() < 64) r.refinement.push_back({x, length});
@@ -205,39 +198,46 @@ class FaceMesher {
     const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
     for (std::size_t i = 0; i < r.corners.size(); i += 3) {
       const std::int32_t* c = &r.corners[i];
+      if (c[0] == kNone || c[1] == kNone || c[2] == kNone) {
+        r.cause = "a triangle reaches outside its loops";
+        return;
+      }
       const std::int64_t key[3] = {node_key(c[0]), node_key(c[1]), node_key(c[2])};
       for (int k = 0; k < 3; ++k) {
-        if (c[k] == kNone) {
-          r.cause = "a triangle reaches outside its loops";
-          return;
-        }
         const int l = (k + 1) % 3;
         if (key[k] == key[l]) {
           r.cause = "too few nodes around a narrow part";
           refine(position(r, c[k]), 0.5 * distance(position(r, c[0]), position(r, c[1])) + 0.25 * distance(position(r, c[1]), position(r, c[2])));
           break;
         }
-        if (c[k] < n_boundary || c[l] < n_boundary) ++count[ordered(key[k], key[l])];
+        if (c[k] < n_boundary || c[l] < n_boundary) uses.push_back(ordered(key[k], key[l]));
       }
     }
-    std::map<std::pair<std::int64_t, std::int64_t>, int> loop_uses;
     for (const auto& [a, b] : boundary_.segments)
-      if (boundary_.nodes[a].id != boundary_.nodes[b].id) ++loop_uses[ordered(boundary_.nodes[a].id, boundary_.nodes[b].id)];
-    for (const auto& [segment, uses_in_loops] : loop_uses)
-      if (count[segment] != uses_in_loops) {
-        r.cause = "a boundary segment is not used as often as the loops use it";
-        report_edge(r, segment, refine);
-      }
-    for (const auto& [edge, n] : count)
-      if (!loop_uses.count(edge) && n != 2) {
-        r.cause = "too few nodes around a narrow part";
-        report_edge(r, edge, refine);
-      }
+      if (boundary_.nodes[a].id != boundary_.nodes[b].id) loop_uses.push_back(ordered(boundary_.nodes[a].id, boundary_.nodes[b].id));
+    std::sort(uses.begin(), uses.end());
+    std::sort(loop_uses.begin(), loop_uses.end());
+    compare_uses(r, uses, loop_uses, refine);
     check_folds(r);
   }
 
+  /// Walks both sorted lists: an edge of the loops is used as often as they use it, any other twice.
   template <class Refine>
-  void report_edge(const FaceMesh& r, const std::pair<std::int64_t, std::int64_t>& edge, const Refine& refine) const {
+  void compare_uses(FaceMesh& r, const std::vector<NodePair>& uses, const std::vector<NodePair>& loop_uses, const Refine& refine) const {
+    std::size_t i = 0, j = 0;
+    while (i < uses.size() || j < loop_uses.size()) {
+      const NodePair edge = j == loop_uses.size() || (i < uses.size() && uses[i] < loop_uses[j]) ? uses[i] : loop_uses[j];
+      std::size_t n_used = 0, n_wanted = 0;
+      for (; i < uses.size() && uses[i] == edge; ++i) ++n_used;
+      for (; j < loop_uses.size() && loop_uses[j] == edge; ++j) ++n_wanted;
+      if (n_used == (n_wanted ? n_wanted : 2)) continue;
+      r.cause = n_wanted ? "a boundary segment is not used as often as the loops use it" : "too few nodes around a narrow part";
+      report_edge(r, edge, refine);
+    }
+  }
+
+  template <class Refine>
+  void report_edge(const FaceMesh& r, const NodePair& edge, const Refine& refine) const {
     for (std::size_t i = 0; i < r.corners.size(); ++i) {
       const std::size_t j = i % 3 == 2 ? i - 2 : i + 1;
       const std::int64_t a = node_key(r.corners[i]), b = node_key(r.corners[j]);

@@ -64,6 +64,7 @@ Check check_faces(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   for (const double a : tables.face_area) total += a;
   std::vector<std::uint8_t> has_triangle(tables.n_faces(), 0);
   for (const FaceId f : mesh.triangle_face) has_triangle[f] = 1;
+  for (const FaceId f : mesh.merged.strip_face) has_triangle[f] = 1;
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (!has_triangle[f] && tables.face_area[f] > kNoArea * total) c.defects.add({tables.face_box[f].center(), f, kNone});
   c.note = fmt::format("mesh area / CAD area {:.6f}", total > 0 ? measure.area / total : 0.0);
@@ -79,6 +80,7 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     const double cad = tables.face_area[f], difference = std::fabs(measure.face_area[f] - cad);
+    if (std::binary_search(mesh.merged.strip_face.begin(), mesh.merged.strip_face.end(), f)) continue;  // partly or wholly closed
     if (difference > tolerance * cad + chords.area[f] && measure.face_area[f] > 0) c.defects.add({place[f], f, kNone});
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }

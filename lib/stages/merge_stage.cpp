@@ -29,6 +29,7 @@ std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
   std::vector<std::uint8_t> is_meshed(patches.face_name.size(), 0);
   for (const FacePatch& p : patches.patches)
     if (p.face >= 0 && static_cast<std::size_t>(p.face) < is_meshed.size()) is_meshed[p.face] = 1;
+  for (const FaceId f : closed_faces(patches.merged, patches.edges, patches.edge_vertices)) is_meshed[f] = 1;
   std::vector<FaceId> missing;
   for (std::size_t f = 0; f < is_meshed.size(); ++f)
     if (!is_meshed[f]) missing.push_back(static_cast<FaceId>(f));
@@ -72,6 +73,9 @@ EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& pa
 /// Parts of one model that were meshed apart, as one.
 void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& path_all, const std::string& path) {
   require_same_geometry(path_all, all.header, path, part.header);
+  if (!(all.merged == part.merged))
+    throw Error(ExitCode::kMismatch,
+                fmt::format("{} and {} merge other small features of the CAD; mesh the second part with --edges {}", path_all, path, path_all));
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
   for (FacePatch& p : part.patches) {
     const auto same = std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
@@ -145,6 +149,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.mesh = merge_patches({patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
   artifact.mesh.face_name = std::move(patches.face_name);
   artifact.mesh.group_name = std::move(patches.group_name);
+  artifact.mesh.merged = std::move(patches.merged);
   return artifact;
 }
 

@@ -22,6 +22,7 @@ namespace {
 void require_valid(const MeshStageOptions& o) {
   if (o.enhance_rounds < 0 || o.enhance_rounds > 10)
     throw Error(ExitCode::kUsage, fmt::format("--enhance-rounds {}: not in [0, 10]", o.enhance_rounds));
+  if (!(o.merge_below >= 0 && o.merge_below <= 0.2)) throw Error(ExitCode::kUsage, fmt::format("--merge-below {}: not in [0, 0.2]", o.merge_below));
   if (!(o.max_turning_deg > 0 && o.max_turning_deg <= 60))
     throw Error(ExitCode::kUsage, fmt::format("--max-turning {}: not in (0, 60] degrees", o.max_turning_deg));
 }
@@ -73,15 +74,19 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   ModelMesherOptions options;
   options.enhance_rounds = o.enhance_rounds;
   options.max_turning_deg = o.max_turning_deg;
-  ModelMesher mesher(model, *sizing.field, sizing.face_weight, options, comm);
-  const double load_seconds = timer.seconds();
+  options.merge_below = o.merge_below;
   const std::vector<FaceId> faces = select_faces(o, model.tables());
   EdgeMesh fixed;
+  MergedFeatures merged;
   if (!o.edges.empty()) {
     PatchesArtifact earlier = read_patches(o.edges);
     require_same_geometry(o.geometry, geometry_header, o.edges, earlier.header);
     fixed = std::move(earlier.edges);
+    merged = std::move(earlier.merged);
+    options.merged = &merged;
   }
+  ModelMesher mesher(model, *sizing.field, sizing.face_weight, options, comm);
+  const double load_seconds = timer.seconds();
   if (faces.empty() && o.edges.empty()) {
     mesher.run();
   } else {
@@ -94,7 +99,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
 
   ArtifactHeader header;
   header.tool = "st-mesh";
-  header.options_json = nlohmann::json{{"faces", o.faces}, {"group", o.group}, {"enhance_rounds", o.enhance_rounds}, {"max_turning", o.max_turning_deg}}.dump();
+  header.options_json = nlohmann::json{{"faces", o.faces}, {"group", o.group}, {"enhance_rounds", o.enhance_rounds}, {"merge_below", o.merge_below}, {"max_turning", o.max_turning_deg}}.dump();
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry_header.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.header.content_hash}};
   return write_patches_result(o.output, model.tables(), geometry_header, header, mesher, {timer, load_seconds, comm.size()});

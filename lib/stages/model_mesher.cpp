@@ -6,11 +6,9 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "comm/packer.h"
 #include "mesh/patch_crossing.h"
-#include "meshing/curve_discretiser.h"
-#include "meshing/face_boundary.h"
 #include "meshing/refined_field.h"
+#include "meshing/small_features.h"
 
 namespace st {
 namespace {
@@ -52,6 +50,13 @@ void unpack(Unpacker& u, FacePatch& f) {
   u.get(f.inner_size);
   u.get(f.triangles);
   u.get(f.corner_uv);
+}
+
+void pack(Packer& p, EdgeId e, const CurveNodes& nodes) {
+  p.add(e);
+  p.add(nodes.t);
+  p.add(nodes.x);
+  p.add(nodes.h);
 }
 
 double box_distance(const Box3& b, Vec3 p) {
@@ -109,9 +114,10 @@ struct JoinedPatches {
   }
 };
 
-JoinedPatches join_patches(const ModelTables& t, const EdgeMesh& edges, const std::vector<FacePatch>& patches) {
+JoinedPatches join_patches(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches) {
   JoinedPatches m;
-  const BoundaryNumbering numbering(t, edges);
+  const ModelTables& t = numbering.tables;
+  const EdgeMesh& edges = numbering.edges;
   std::size_t n_points = numbering.first_inner.back(), n_triangles = 0;
   for (const FacePatch& p : patches) n_points += p.inner_xyz.size(), n_triangles += p.triangles.size();
   m.points.reserve(n_points);
@@ -141,7 +147,8 @@ JoinedPatches join_patches(const ModelTables& t, const EdgeMesh& edges, const st
 ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
                          const Communicator& comm)
     : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), comm_(comm) {
-  const ModelTables& t = model.tables();
+  find_small_features(options.merged);
+  const ModelTables& t = tables_;
   min_segments_ = min_segments_per_edge(t);
   if (static_cast<std::int32_t>(face_weight_.size()) != t.n_faces()) face_weight_ = t.face_area;
   patches.resize(t.n_faces());
@@ -155,6 +162,19 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
   face_in_scope_.assign(t.n_faces(), 1);
 }
 
+/// The same on every rank.
+void ModelMesher::find_small_features(const MergedFeatures* given) {
+  const ModelTables& t = model_.tables();
+  merged = given ? *given : find_merged_features(model_, field_, options_.merge_below);
+  tables_ = with_merged_edges(t, merged);
+  strip_of_kept_.assign(t.n_edges(), kNone);
+  kept_of_closed_.assign(t.n_edges(), kNone);
+  for (std::size_t s = 0; s < merged.strip_face.size(); ++s) {
+    strip_of_kept_[merged.strip_kept[s]] = static_cast<std::int32_t>(s);
+    kept_of_closed_[merged.strip_closed[s]] = merged.strip_kept[s];
+  }
+}
+
 void ModelMesher::limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in) {
   std::fill(edge_in_scope_.begin(), edge_in_scope_.end(), 0);
   std::fill(face_in_scope_.begin(), face_in_scope_.end(), 0);
@@ -164,20 +184,22 @@ void ModelMesher::limit_scope(const std::vector<EdgeId>& edges_in, const std::ve
 
 void ModelMesher::run() {
   std::vector<EdgeId> all_edges;
-  for (EdgeId e = 0; e < model_.tables().n_edges(); ++e)
-    if (!model_.tables().edge_is_degenerate[e]) all_edges.push_back(e);
-  std::vector<FaceId> all_faces(model_.tables().n_faces());
+  for (EdgeId e = 0; e < tables_.n_edges(); ++e)
+    if (!tables_.edge_is_degenerate[e]) all_edges.push_back(e);
+  std::vector<FaceId> all_faces(tables_.n_faces());
   std::iota(all_faces.begin(), all_faces.end(), 0);
   rounds(std::move(all_edges), std::move(all_faces));
 }
 
 void ModelMesher::run_part(const std::vector<FaceId>& faces, EdgeMesh fixed) {
-  const ModelTables& t = model_.tables();
+  const ModelTables& t = tables_;
   if (!fixed.edge_offsets.empty()) edges = std::move(fixed);
   std::vector<char> used(t.n_edges(), 0);
   for (FaceId f : faces)
     for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
       used[t.coedge_edge[c]] = 1;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (used[e] && kept_of_closed_[e] != kNone) used[kept_of_closed_[e]] = 1;
   std::vector<EdgeId> dirty;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (used[e] && !t.edge_is_degenerate[e] && edges.edge_offsets[e] == edges.edge_offsets[e + 1]) dirty.push_back(e);
@@ -188,15 +210,15 @@ void ModelMesher::run_part(const std::vector<FaceId>& faces, EdgeMesh fixed) {
 void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patches, const std::vector<FaceId>& faces_to_redo) {
   edges = std::move(old_edges);
   patches = std::move(old_patches);
-  patches.resize(model_.tables().n_faces());
-  std::vector<char> redo(model_.tables().n_faces(), 0);
+  patches.resize(tables_.n_faces());
+  std::vector<char> redo(tables_.n_faces(), 0);
   for (FaceId f : faces_to_redo) redo[f] = 1;
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> faces;
-  model_.tables().edge_faces(offsets, faces);
+  tables_.edge_faces(offsets, faces);
   std::vector<EdgeId> dirty;
-  for (EdgeId e = 0; e < model_.tables().n_edges(); ++e) {
-    bool all = !model_.tables().edge_is_degenerate[e] && offsets[e + 1] > offsets[e];
+  for (EdgeId e = 0; e < tables_.n_edges(); ++e) {
+    bool all = !tables_.edge_is_degenerate[e] && offsets[e + 1] > offsets[e];
     for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && redo[faces[i]];
     if (all) dirty.push_back(e);
   }
@@ -222,7 +244,7 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     if (n_crossing_rounds++ >= options_.max_crossing_rounds || !accept(wanted, kCrossingFloor, dirty_edges, dirty_faces)) break;
   }
   if (!comm_.is_root()) return;
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     folds.insert(folds.end(), face_fold_places_[f].begin(), face_fold_places_[f].end());
     if (!face_cause_[f].empty())
       failures.push_back({f, face_cause_[f], "repair the face in the CAD system, or ask for smaller sizes there", face_cause_xyz_[f]});
@@ -234,7 +256,7 @@ double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0,
 /// New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none changes anything.
 bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges,
                          std::vector<FaceId>& dirty_faces) {
-  const ModelTables& t = model_.tables();
+  const ModelTables& t = tables_;
   std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
   int n_accepted = 0;
   for (RefinementPoint p : points) {
@@ -252,6 +274,8 @@ bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floo
   }
   if (n_accepted == 0) return false;
   n_refinements += n_accepted;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (kept_of_closed_[e] != kNone) edge_dirty[e] = edge_dirty[kept_of_closed_[e]] |= edge_dirty[e];
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l)
       for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
@@ -274,9 +298,10 @@ std::vector<RefinementPoint> ModelMesher::points_near(const Box3& box) const {
 }
 
 Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
-  const ModelTables& t = model_.tables();
+  const ModelTables& t = tables_;
   Packer packer;
   for (EdgeId e : batch) {
+    if (kept_of_closed_[e] != kNone) continue;
     const auto curve = model_.curve(e);
     Box3 box;
     const int n_samples = 32;
@@ -288,17 +313,25 @@ Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
     CurveNodes nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
     nodes.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
     nodes.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
-    packer.add(e);
-    packer.add(nodes.t);
-    packer.add(nodes.x);
-    packer.add(nodes.h);
+    pack(packer, e, nodes);
+    if (strip_of_kept_[e] != kNone) add_mirrored(e, *curve, nodes, packer);
   }
   return packer.take();
 }
 
+/// The nodes of a strip's other edge follow those of the kept one.
+void ModelMesher::add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const {
+  const std::int32_t strip = strip_of_kept_[kept];
+  const EdgeId closed = merged.strip_closed[strip];
+  CurveNodes mirrored = mirror_nodes(curve, nodes, *model_.curve(closed), merged.strip_is_opposed[strip], options_.merge_below);
+  mirrored.x.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed]];
+  mirrored.x.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed + 1]];
+  pack(packer, closed, mirrored);
+}
+
 void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
   const std::int32_t n_tasks = (static_cast<std::int32_t>(dirty.size()) + kEdgesPerTask - 1) / kEdgesPerTask;
-  const std::int32_t n_edges = model_.tables().n_edges();
+  const std::int32_t n_edges = tables_.n_edges();
   std::vector<CurveNodes> fresh(n_edges);
   std::vector<std::int32_t> order(n_tasks);
   std::iota(order.begin(), order.end(), 0);
@@ -309,9 +342,9 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
   };
   comm_.run_tasks(
       n_tasks, order, [&](std::int32_t task) { return compute_edges(batch_of(task)); },
-      [&](std::int32_t task, Bytes&& result) {
+      [&](std::int32_t, Bytes&& result) {
         Unpacker u(result);
-        for (std::size_t i = 0; i < batch_of(task).size(); ++i) {
+        while (!u.is_empty()) {
           EdgeId e;
           u.get(e);
           u.get(fresh[e].t);
@@ -338,6 +371,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
     edges = std::move(next);
   }
   broadcast_edges();
+  numbering_.emplace(tables_, edges, merged);
 }
 
 void ModelMesher::broadcast_edges() {
@@ -361,22 +395,24 @@ void ModelMesher::broadcast_edges() {
 }
 
 Bytes ModelMesher::compute_face(FaceId f) const {
-  const BoundaryNumbering numbering(model_.tables(), edges);
   FaceMesh mesh;
   FacePatch patch;
   patch.face = f;
   try {
     const auto surface = model_.surface(f);
-    const FaceBoundary boundary = make_face_boundary(model_, *surface, f, numbering);
+    const FaceBoundary boundary = make_face_boundary(model_, *surface, f, *numbering_);
+    const bool is_closed_strip = boundary.nodes.empty() && numbering_->strip_of(f) != kNone;
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
-    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[f]);
-    if (near.empty()) {
+    const std::vector<RefinementPoint> near = points_near(tables_.face_box[f]);
+    if (is_closed_strip) {
+      // no triangles: its neighbours share its nodes
+    } else if (near.empty()) {
       mesh = mesh_face(*surface, boundary, field_, options);
     } else {
       mesh = mesh_face(*surface, boundary, RefinedField(field_, near), options);
     }
-    if (mesh.cause.empty()) patch = make_patch(model_.tables(), f, boundary, mesh, numbering);
+    if (mesh.cause.empty()) patch = make_patch(tables_, f, boundary, mesh, *numbering_);
   } catch (const Error& e) {
     mesh.cause = e.what();
   }
@@ -405,7 +441,7 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
         u.get(wanted[task]);
         u.get(face_folds_[f]);
         face_fold_places_[f] = face_folds_[f] ? wanted[task] : std::vector<RefinementPoint>();
-        face_cause_xyz_[f] = wanted[task].empty() ? model_.tables().face_box[f].center() : wanted[task][0].x;
+        face_cause_xyz_[f] = wanted[task].empty() ? tables_.face_box[f].center() : wanted[task][0].x;
         progress.update(static_cast<double>(++n_done));
       });
   std::vector<RefinementPoint> all;
@@ -426,9 +462,9 @@ std::vector<RefinementPoint> ModelMesher::find_crossings() {
   std::vector<RefinementPoint> places;
   Bytes bytes;
   if (comm_.is_root()) {
-    const JoinedPatches m = join_patches(model_.tables(), edges, patches);
+    const JoinedPatches m = join_patches(*numbering_, patches);
     std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
-    for (const TrianglePair& p : find_crossing_patches({m.points, m.triangles, m.face_begin, model_.tables().face_shell, face_is_fresh_})) {
+    for (const TrianglePair& p : find_crossing_patches({m.points, m.triangles, m.face_begin, tables_.face_shell, face_is_fresh_})) {
       if (p.n_shared == 1) continue;  // two common nodes: folded flat onto each other
       const FaceId a = m.face_of(p.a), b = m.face_of(p.b);
       crossing_pairs_.push_back({a, b, p.a - m.face_begin[a], p.b - m.face_begin[b]});

@@ -1,11 +1,15 @@
 // Meshes the edges and faces of a model on all ranks, in rounds: what cannot be meshed, folds or crosses is refined and done again.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "comm/communicator.h"
+#include "comm/packer.h"
 #include "geometry/model.h"
 #include "mesh/surface_mesh.h"
+#include "meshing/curve_discretiser.h"
+#include "meshing/face_boundary.h"
 #include "meshing/face_mesher.h"
 #include "sizing/size_field.h"
 
@@ -16,6 +20,8 @@ struct ModelMesherOptions {
   double max_turning_deg = 30;      ///< of a CAD edge along one segment
   int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
   int max_crossing_rounds = 4;      ///< refinements of crossing facets
+  double merge_below = 0.05;        ///< of the requested length: shorter edges and narrower strips are merged for meshing; 0: none
+  const MergedFeatures* merged = nullptr;   ///< of an earlier mesh: taken over instead of looking for them
 };
 
 /// Where the time went, seconds on rank 0.
@@ -41,6 +47,9 @@ class ModelMesher {
   EdgeMesh edges;
   std::vector<FacePatch> patches;           ///< by face; without triangles where the face failed
   std::vector<FaceFailure> failures;        ///< by face
+  MergedFeatures merged;                    ///< on every rank
+  /// The model's tables with merged edges, on every rank.
+  const ModelTables& tables() const { return tables_; }
   std::vector<RefinementPoint> folds;       ///< places where a triangle is still turned against the surface
   int n_rounds = 0, n_crossing_pairs = 0, n_refinements = 0;
   ModelMesherTimes times;
@@ -52,6 +61,8 @@ class ModelMesher {
     std::int32_t index_a, index_b;
     auto operator<=>(const FacetPair&) const = default;
   };
+  void find_small_features(const MergedFeatures* given);
+  void add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const;
   void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
   void limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in);
   void mesh_edges(const std::vector<EdgeId>& dirty);
@@ -66,6 +77,9 @@ class ModelMesher {
 
   const Model& model_;
   const SizeField& field_;
+  ModelTables tables_;                       // the model's, with merged edges
+  std::vector<std::int32_t> strip_of_kept_, kept_of_closed_;   // [n_edges], kNone where none
+  std::optional<BoundaryNumbering> numbering_;                 // of the present edges
   std::vector<double> face_weight_;
   ModelMesherOptions options_;
   const Communicator& comm_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace st {
@@ -9,6 +10,34 @@ namespace {
 
 nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
   return {{"face", f.face + 1}, {"name", t.face_name[f.face]}, {"cause", f.cause}, {"remedy", f.remedy}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
+}
+
+/// Where the first of them is, for the one line on standard error.
+std::string first_of(const ModelTables& t, const MergedFeatures& m) {
+  const auto at = [](const std::string& label, Vec3 x) { return fmt::format("; first {} near ({:.6g}, {:.6g}, {:.6g})", label, x.x, x.y, x.z); };
+  if (!m.strip_face.empty()) return at(t.face_label(m.strip_face[0]), t.face_box[m.strip_face[0]].center());
+  return at(t.edge_label(m.edge[0]), t.vertex_xyz[t.edge_vertices[2 * m.edge[0]]]);
+}
+
+/// Ids 1-based, as in messages.
+nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const std::vector<FaceId>& closed) {
+  nlohmann::json edges = nlohmann::json::array(), strips = nlohmann::json::array();
+  for (const EdgeId e : m.edge) {
+    const Vec3 x = t.vertex_xyz[t.edge_vertices[2 * e]];
+    edges.push_back({{"edge", e + 1}, {"name", t.edge_name[e]}, {"length", t.edge_length[e]}, {"xyz", {x.x, x.y, x.z}}});
+  }
+  for (std::size_t s = 0; s < m.strip_face.size(); ++s) {
+    const FaceId f = m.strip_face[s];
+    const Vec3 x = t.face_box[f].center();
+    strips.push_back({{"face", f + 1},
+                      {"name", t.face_name[f]},
+                      {"mean_width", t.face_area[f] / t.edge_length[m.strip_kept[s]]},
+                      {"kept_edge", m.strip_kept[s] + 1},
+                      {"closed_edge", m.strip_closed[s] + 1},
+                      {"whole_face", std::binary_search(closed.begin(), closed.end(), f)},
+                      {"xyz", {x.x, x.y, x.z}}});
+  }
+  return {{"edges", edges}, {"strips", strips}};
 }
 
 }  // namespace
@@ -36,7 +65,8 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.header = header;
   out.edges = std::move(m.edges);
   out.vertex_xyz = t.vertex_xyz;
-  out.edge_vertices = t.edge_vertices;
+  out.edge_vertices = m.tables().edge_vertices;
+  out.merged = m.merged;
   out.patches = std::move(m.patches);
   out.failures = m.failures;
   out.face_name = t.face_name;
@@ -45,7 +75,8 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;
   std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });
-  out.is_complete = static_cast<std::int32_t>(out.patches.size()) == t.n_faces();
+  const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
+  out.is_complete = static_cast<std::int32_t>(out.patches.size() + closed.size()) == t.n_faces();
   std::size_t n_triangles = 0, n_nodes = 0;
   for (const FacePatch& p : out.patches) {
     n_triangles += p.triangles.size();
@@ -64,6 +95,10 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   if (!m.folds.empty()) log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})", m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
   if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
 
+  if (!m.merged.empty())
+    log_info(fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole faces{} (--merge-below 0: none)", m.merged.edge.size(),
+                         m.merged.strip_face.size(), closed.size(), first_of(t, m.merged)));
+
   StageSummary s;
   s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path, n_triangles,
@@ -79,6 +114,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
                           {"failures", failures},
                           {"folds", folds},
                           {"crossing_pairs", m.n_crossing_pairs},
+                          {"merged", merged_json(t, m.merged, closed)},
                           {"rounds", m.n_rounds},
                           {"refinements", m.n_refinements},
                           {"ranks", facts.n_ranks},

@@ -17,6 +17,7 @@
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
+#include "sizing/strip.h"
 
 namespace st {
 namespace {
@@ -66,7 +67,7 @@ std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
 class RasterTasks {
  public:
   RasterTasks(const Model& model, const ModelLimits& limits)
-      : model_(model), limits_(limits), n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
+      : model_(model), limits_(limits), strips_(find_strips(model)), n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
   std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
 
@@ -116,11 +117,15 @@ class RasterTasks {
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
-    if (limits) raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes);
+    if (!limits) return;
+    raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes);
+    const auto strip = std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
+    if (strip != strips_.end() && strip->face == f) raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
   const Model& model_;
   const ModelLimits& limits_;
+  std::vector<Strip> strips_;
   std::int32_t n_batches_;
 };
 

@@ -5,6 +5,9 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -225,6 +228,21 @@ std::vector<TopoDS_Shape> loose_faces() {
 }
 
 /// Three faces on one edge.
+/// A bar of 20 x 4 with a blunt edge along y = 4 whose width grows from 0.02 at x = 0 to 1 at x = 20.
+TopoDS_Shape tapered_bar() {
+  const auto section = [](double x, double width) {
+    BRepBuilderAPI_MakePolygon polygon;
+    for (const gp_Pnt& p : {gp_Pnt(x, 0, 0), gp_Pnt(x, 4, 0), gp_Pnt(x, 4, width), gp_Pnt(x, 0, 3)}) polygon.Add(p);
+    polygon.Close();
+    return polygon.Wire();
+  };
+  BRepOffsetAPI_ThruSections loft(true, true);
+  loft.AddWire(section(0, 0.02));
+  loft.AddWire(section(20, 1));
+  loft.Build();
+  return loft.Shape();
+}
+
 TopoDS_Shape t_junction() {
   BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, true);
   const gp_Dir z(0, 0, 1);
@@ -248,6 +266,10 @@ const std::map<std::string, Factory>& factories() {
       {"drilled_cylinder", drilled_cylinder},
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
+      {"stepped_box",
+       [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
+      {"thin_plate", [] { return box(10, 10, 0.02); }},
+      {"wedge_strip", [] { return tapered_bar(); }},
       {"drilled_block",
        [] {
          const gp_Ax2 axis(gp_Pnt(30, 20, -5), gp_Dir(0, 0, 1));

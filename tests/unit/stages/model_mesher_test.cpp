@@ -32,8 +32,9 @@ struct Meshed {
     merge();
   }
   void merge() {
-    const ModelTables& t = model.tables();
+    const ModelTables& t = mesher.tables();
     mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
+    mesh.merged = mesher.merged;
   }
 };
 

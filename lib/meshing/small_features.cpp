@@ -1,0 +1,210 @@
+#include "meshing/small_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "sizing/arc_table.h"
+#include "sizing/strip.h"
+
+namespace st {
+namespace {
+
+class VertexSets {
+ public:
+  explicit VertexSets(std::int32_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  VertexId root(VertexId v) const {
+    while (parent_[v] != v) v = parent_[v];
+    return v;
+  }
+  void unite(VertexId a, VertexId b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
+
+ private:
+  std::vector<VertexId> parent_;
+};
+
+/// Draws short edges together, the shortest first.
+class EdgeMerger {
+ public:
+  EdgeMerger(const ModelTables& t, const SizeField& field, double below) : t_(t), field_(field), below_(below), sets_(t.n_vertices()) {
+    cluster_.resize(t.n_vertices());
+    for (VertexId v = 0; v < t.n_vertices(); ++v) cluster_[v].add(t.vertex_xyz[v]);
+    edge_loops();
+  }
+
+  std::vector<EdgeId> run() {
+    std::vector<EdgeId> candidates, merged;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (!t_.edge_is_degenerate[e] && t_.edge_length[e] < below_ * field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_))
+        candidates.push_back(e);
+    std::stable_sort(candidates.begin(), candidates.end(), [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
+    for (const EdgeId e : candidates)
+      if (try_merge(e)) merged.push_back(e);
+    std::sort(merged.begin(), merged.end());
+    return merged;
+  }
+
+ private:
+  void edge_loops() {
+    loops_.resize(t_.n_edges());
+    n_long_.assign(t_.n_loops(), 0);
+    at_vertex_.resize(t_.n_vertices());
+    for (LoopId l = 0; l < t_.n_loops(); ++l)
+      for (CoedgeId c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) {
+        if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
+        ++n_long_[l];
+        loops_[t_.coedge_edge[c]].push_back(l);
+      }
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      for (int k = 0; k < 2; ++k)
+        if (!t_.edge_is_degenerate[e]) at_vertex_[t_.edge_vertices[2 * e + k]].push_back(e);
+  }
+
+  bool try_merge(EdgeId e) {
+    const VertexId a = sets_.root(t_.edge_vertices[2 * e]), b = sets_.root(t_.edge_vertices[2 * e + 1]);
+    if (a == b) return false;
+    std::vector<LoopId> loops = loops_[e];
+    std::sort(loops.begin(), loops.end());
+    if (std::adjacent_find(loops.begin(), loops.end()) != loops.end()) return false;  // a seam
+    for (const LoopId l : loops)
+      if (n_long_[l] < 3) return false;
+    Box3 both = cluster_[a];
+    both.add(cluster_[b]);
+    const double limit = below_ * field_.size(both.center(), hint_);
+    if (both.diagonal() > limit || joins_short(a, b, e, 3 * limit)) return false;
+    sets_.unite(a, b);
+    cluster_[std::min(a, b)] = both;
+    auto &to = at_vertex_[std::min(a, b)], &from = at_vertex_[std::max(a, b)];
+    to.insert(to.end(), from.begin(), from.end());
+    for (const LoopId l : loops) --n_long_[l];
+    return true;
+  }
+
+  /// Another edge between the two that is too short to be a loop of its own.
+  bool joins_short(VertexId a, VertexId b, EdgeId except, double limit) const {
+    for (const EdgeId e : at_vertex_[a]) {
+      const VertexId p = sets_.root(t_.edge_vertices[2 * e]), q = sets_.root(t_.edge_vertices[2 * e + 1]);
+      if (e != except && ((p == a && q == b) || (p == b && q == a)) && t_.edge_length[e] < limit) return true;
+    }
+    return false;
+  }
+
+  const ModelTables& t_;
+  const SizeField& field_;
+  double below_;
+  int hint_ = 0;
+  VertexSets sets_;
+  std::vector<Box3> cluster_;               // of each set, at its root
+  std::vector<std::vector<LoopId>> loops_;  // of each edge
+  std::vector<int> n_long_;                 // edges left in each loop
+  std::vector<std::vector<EdgeId>> at_vertex_;
+};
+
+/// Chooses strips that may be closed: no edge belongs to two of them, and the faces on both sides are two that do not already share an edge
+/// at its ends, or triangles in that corner would be the same in both.
+class StripMerger {
+ public:
+  StripMerger(const ModelTables& t, const std::vector<EdgeId>& merged_edges) : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0) {
+    for (const EdgeId e : merged_edges) sets_.unite(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
+    t.edge_faces(offsets_, faces_);
+    for (EdgeId e = 0; e < t.n_edges(); ++e)
+      if (!t.edge_is_degenerate[e] && offsets_[e + 1] - offsets_[e] == 2) add_contact(e, {faces_[offsets_[e]], faces_[offsets_[e] + 1]});
+    std::sort(contacts_.begin(), contacts_.end());
+  }
+
+  bool may_close(const Strip& strip) {
+    const FaceId a = other_face(strip.edges[0], strip.face), b = other_face(strip.edges[1], strip.face);
+    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]]) return false;
+    for (const EdgeId e : strip.edges)
+      for (int k = 0; k < 2; ++k)
+        if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
+    for (const EdgeId e : strip.edges) {
+      taken_[e] = 1;
+      add_contact(e, {a, b});
+    }
+    std::sort(contacts_.begin(), contacts_.end());
+    return true;
+  }
+
+ private:
+  using FacePair = std::pair<FaceId, FaceId>;
+  using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
+  Contact contact(EdgeId e, int k, FacePair f) const {
+    return {sets_.root(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
+  }
+  void add_contact(EdgeId e, FacePair f) {
+    for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, f));
+  }
+  FaceId other_face(EdgeId e, FaceId f) const { return faces_[offsets_[e]] == f ? faces_[offsets_[e] + 1] : faces_[offsets_[e]]; }
+
+  const ModelTables& t_;
+  VertexSets sets_;
+  std::vector<char> taken_;
+  std::vector<std::int32_t> offsets_;
+  std::vector<FaceId> faces_;
+  std::vector<Contact> contacts_;
+};
+
+void require_ids(const std::vector<std::int32_t>& ids, std::int32_t n, const char* what) {
+  for (const std::int32_t id : ids)
+    if (id < 0 || id >= n)
+      throw Error(ExitCode::kMismatch,
+                  std::string("merged ") + what + " " + std::to_string(id + 1) + " is not in the geometry; mesh the model again");
+}
+
+}  // namespace
+
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
+  MergedFeatures merged;
+  if (!(below > 0)) return merged;
+  const ModelTables& t = model.tables();
+  merged.edge = EdgeMerger(t, field, below).run();
+  StripMerger strips(t, merged.edge);
+  int hint = 0;
+  for (const Strip& strip : find_strips(model)) {
+    const bool is_narrow = std::any_of(strip.stations.begin(), strip.stations.end(),
+                                       [&](const Strip::Station& s) { return s.width < below * field.size(s.x, hint); });
+    if (!is_narrow || !strips.may_close(strip)) continue;
+    merged.strip_face.push_back(strip.face);
+    merged.strip_kept.push_back(strip.edges[0]);
+    merged.strip_closed.push_back(strip.edges[1]);
+    merged.strip_is_opposed.push_back(strip.is_opposed);
+  }
+  return merged;
+}
+
+ModelTables with_merged_edges(const ModelTables& tables, const MergedFeatures& merged) {
+  require_ids(merged.edge, tables.n_edges(), "edge");
+  require_ids(merged.strip_kept, tables.n_edges(), "edge");
+  require_ids(merged.strip_closed, tables.n_edges(), "edge");
+  require_ids(merged.strip_face, tables.n_faces(), "face");
+  ModelTables t = tables;
+  VertexSets sets(t.n_vertices());
+  for (const EdgeId e : merged.edge) {
+    sets.unite(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
+    t.edge_is_degenerate[e] = 1;
+  }
+  for (VertexId& v : t.edge_vertices) v = sets.root(v);
+  return t;
+}
+
+CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed, double below) {
+  const ArcTable a(kept), b(closed);
+  const std::size_t n = nodes.t.size();
+  CurveNodes result;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = is_opposed ? n - 1 - k : k;
+    const double share = k == 0 ? 0 : k + 1 == n ? 1 : a.share_at(nodes.t[i]);
+    const double own = is_opposed && k > 0 && k + 1 < n ? 1 - share : share;
+    result.t.push_back(k == 0 ? closed.t_min() : k + 1 == n ? closed.t_max() : b.parameter_at(own));
+    const Vec3 x = closed.point(result.t.back());
+    result.x.push_back(distance(x, nodes.x[i]) < below * nodes.h[i] ? nodes.x[i] : x);
+    result.h.push_back(nodes.h[i]);
+  }
+  return result;
+}
+
+}  // namespace st

@@ -1,0 +1,26 @@
+// Virtual topology for meshing: short edges drawn together, narrow strips closed. The CAD and its ids stay.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model.h"
+#include "mesh/surface_mesh.h"
+#include "meshing/curve_discretiser.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// Edges between two vertices shorter than `below` times the requested length, and strips narrower than that somewhere. An edge is not
+/// drawn together when a loop would be left with fewer than two edges, or several would move a vertex further than that. Deterministic,
+/// local.
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
+
+/// The tables for meshing: merged edges are degenerate ones, their vertices one (the one of the lowest id).
+/// Throws Error(kMismatch) when `merged` names edges or faces that the tables do not have.
+ModelTables with_merged_edges(const ModelTables& tables, const MergedFeatures& merged);
+
+/// Nodes on the other long edge of a strip for those on the kept one: as many, at the same shares of the length, in the other edge's own
+/// direction. Where the strip is narrower than `below` times the requested length they are the kept edge's own points.
+CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed, double below);
+
+}  // namespace st

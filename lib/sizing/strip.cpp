@@ -1,0 +1,90 @@
+#include "sizing/strip.h"
+
+#include <algorithm>
+
+#include "sizing/arc_table.h"
+
+namespace st {
+namespace {
+
+constexpr int kStations = 32;           // intervals of a strip
+constexpr double kNarrow = 0.25;        // of its length: wider faces are no strips
+constexpr double kShortEnd = 0.5;       // of the long edges: all other edges of a strip together are shorter
+constexpr double kWidthsPerLength = 5;  // of the triangles
+constexpr double kResolved = 0.17;      // of the smallest length: narrower strips are not worth resolving
+constexpr double kWorthwhile = 0.9;     // of the largest length: more asks for nothing
+constexpr double kSpacing = 1;          // lengths between two boxes
+constexpr int kMaxBoxes = 20000;        // per strip
+
+/// How often each edge is used by coedges of any face.
+std::vector<int> count_uses(const ModelTables& t) {
+  std::vector<int> uses(t.n_edges(), 0);
+  for (const EdgeId e : t.coedge_edge) ++uses[e];
+  return uses;
+}
+
+/// The two long edges of a face with one loop; false when there are no such two.
+bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, Strip& strip) {
+  const LoopId l = t.face_loop_offsets[f];
+  if (t.face_loop_offsets[f + 1] != l + 1) return false;
+  std::vector<EdgeId> edges(t.coedge_edge.begin() + t.loop_coedge_offsets[l], t.coedge_edge.begin() + t.loop_coedge_offsets[l + 1]);
+  if (edges.size() < 2) return false;
+  std::stable_sort(edges.begin(), edges.end(), [&](EdgeId a, EdgeId b) { return t.edge_length[a] > t.edge_length[b]; });
+  double rest = 0;
+  for (std::size_t i = 2; i < edges.size(); ++i) rest += t.edge_length[edges[i]];
+  for (const EdgeId e : {edges[0], edges[1]})
+    if (t.edge_is_degenerate[e] || t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1] || uses[e] != 2) return false;
+  if (edges[0] == edges[1] || rest > kShortEnd * t.edge_length[edges[1]] || t.edge_length[edges[1]] < 0.8 * t.edge_length[edges[0]])
+    return false;
+  strip.face = f;
+  strip.edges[0] = std::min(edges[0], edges[1]);
+  strip.edges[1] = std::max(edges[0], edges[1]);
+  strip.length = t.edge_length[strip.edges[0]];
+  return t.face_area[f] < kNarrow * strip.length * strip.length;
+}
+
+void measure_strip(const Model& model, Strip& strip) {
+  const ModelTables& t = model.tables();
+  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
+  const auto end = [&](EdgeId e, int k) { return t.vertex_xyz[t.edge_vertices[2 * e + k]]; };
+  strip.is_opposed = distance(end(strip.edges[0], 0), end(strip.edges[1], 1)) + distance(end(strip.edges[0], 1), end(strip.edges[1], 0)) <
+                     distance(end(strip.edges[0], 0), end(strip.edges[1], 0)) + distance(end(strip.edges[0], 1), end(strip.edges[1], 1));
+  const ArcTable a(*kept), b(*closed);
+  for (int i = 0; i <= kStations; ++i) {
+    const double share = static_cast<double>(i) / kStations;
+    const Vec3 x = kept->point(a.parameter_at(share));
+    strip.stations.push_back({x, distance(x, closed->point(b.parameter_at(strip.is_opposed ? 1 - share : share)))});
+  }
+}
+
+}  // namespace
+
+std::vector<Strip> find_strips(const Model& model) {
+  const ModelTables& t = model.tables();
+  const std::vector<int> uses = count_uses(t);
+  std::vector<Strip> strips;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    Strip strip;
+    if (!long_edges(t, f, uses, strip)) continue;
+    measure_strip(model, strip);
+    strips.push_back(std::move(strip));
+  }
+  return strips;
+}
+
+void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
+  double share = 0;
+  for (int n = 0; share <= 1 && n < kMaxBoxes; ++n) {
+    const double at = share * kStations;
+    const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
+    const Strip::Station &a = strip.stations[i], &b = strip.stations[i + 1];
+    const double part = at - static_cast<double>(i), width = a.width + part * (b.width - a.width);
+    const double length = std::clamp(kWidthsPerLength * width, limits.min_length, limits.max_length);
+    if (width > kResolved * limits.min_length && length < kWorthwhile * limits.max_length)
+      boxes.push_back(
+          {a.x + part * (b.x - a.x), static_cast<float>(0.5 * limits.cell_per_length * length), static_cast<float>(length), cause});
+    share += std::max(kSpacing * length / strip.length, 1.0 / kMaxBoxes);
+  }
+}
+
+}  // namespace st

@@ -1,0 +1,109 @@
+// Steps, strips and edges far below the sizes: merged for meshing, the mesh closed and without the small triangles they would force.
+#include "meshing/small_features.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.h"
+#include "mesh/checks.h"
+#include "mesh/merge.h"
+#include "stages/model_mesher.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+const Communicator& one_rank() {
+  static const Communicator comm;
+  return comm;
+}
+
+struct Meshed {
+  Model model;
+  UniformField field;
+  ModelMesher mesher;
+  SurfaceMesh mesh;
+
+  Meshed(const std::string& shape, double length, double merge_below)
+      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options(merge_below), one_rank()) {
+    set_verbosity(Verbosity::kQuiet);
+    mesher.run();
+    OrientationReport orientation;
+    const ModelTables& t = mesher.tables();
+    mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
+  }
+  static ModelMesherOptions options(double merge_below) {
+    ModelMesherOptions o;
+    o.merge_below = merge_below;
+    return o;
+  }
+  double shortest_side() const {
+    double shortest = 1e300;
+    for (const Triangle& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) shortest = std::min(shortest, distance(mesh.node_xyz[t.n[k]], mesh.node_xyz[t.n[(k + 1) % 3]]));
+    return shortest;
+  }
+  std::size_t n_closed() const { return closed_faces(mesher.merged, mesher.edges, mesher.tables().edge_vertices).size(); }
+};
+
+void expect_sound(const Meshed& m, std::int64_t euler) {
+  EXPECT_TRUE(m.mesher.failures.empty());
+  const TopologyReport topology = check_topology(m.mesh);
+  EXPECT_TRUE(topology.passes());
+  EXPECT_EQ(topology.euler, euler);
+  EXPECT_TRUE(check_shape(m.mesh).passes());
+  EXPECT_TRUE(check_crossings(m.mesh).passes());
+}
+
+TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_triangles) {
+  const Meshed m("stepped_box", 1, 0.05);
+  expect_sound(m, 2);
+  EXPECT_EQ(m.mesher.merged.edge.size(), 4u);
+  EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
+  EXPECT_GT(m.shortest_side(), 0.4);
+  EXPECT_NEAR(measure_mesh(m.mesh).volume, 501, 1);
+}
+
+TEST(SmallFeatures, a_step_is_meshed_when_nothing_is_to_be_merged) {
+  const Meshed m("stepped_box", 1, 0);
+  expect_sound(m, 2);
+  EXPECT_TRUE(m.mesher.merged.empty());
+  EXPECT_NEAR(m.shortest_side(), 0.02, 1e-9);
+}
+
+TEST(SmallFeatures, a_step_above_the_bound_is_kept) {
+  const Meshed m("stepped_box", 0.2, 0.05);
+  expect_sound(m, 2);
+  EXPECT_TRUE(m.mesher.merged.empty());
+}
+
+TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
+  const Meshed m("wedge_strip", 1, 0.1);
+  expect_sound(m, 2);
+  ASSERT_EQ(m.mesher.merged.strip_face.size(), 1u);
+  EXPECT_EQ(m.n_closed(), 0u);
+  const FaceId strip = m.mesher.merged.strip_face[0];
+  double from = 1e300;
+  for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t)
+    if (m.mesh.triangle_face[t] == strip)
+      for (const NodeId n : m.mesh.triangles[t].n) from = std::min(from, m.mesh.node_xyz[n].x);
+  EXPECT_NEAR(from, (0.1 - 0.02) / 0.98 * 20, 1.5) << "the strip is 0.1 wide there";
+}
+
+TEST(SmallFeatures, a_plate_thinner_than_the_bound_keeps_its_two_sides) {
+  const Meshed m("thin_plate", 1, 0.05);
+  expect_sound(m, 2);
+  EXPECT_EQ(m.n_closed(), 2u) << "closing neighbouring rims would give both sides the same triangles in the corners";
+}
+
+TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
+  const Model model = test::make_model("box");
+  MergedFeatures merged;
+  merged.edge = {1000};
+  EXPECT_THROW(with_merged_edges(model.tables(), merged), std::exception);
+}
+
+}  // namespace
+}  // namespace st
