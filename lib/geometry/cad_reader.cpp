@@ -259,6 +259,25 @@ void step_units(const Handle(Interface_InterfaceModel)& model, CadFile& file) {
   if (!file.unit_in_mm) file.unit_in_mm = 1.0;
 }
 
+/// Names that XCAF kept no label for, from the STEP entities themselves.
+void name_faces_by_entity(const Handle(XSControl_WorkSession)& session, CadFile& file) {
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  const Handle(Interface_InterfaceModel) model = session->Model();
+  TopTools_IndexedMapOfShape faces;
+  std::vector<std::string> names;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
+    if (entity.IsNull() || entity->Name().IsNull() || is_junk(entity->Name()->ToCString())) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located(TopLoc_Location()))) continue;
+    faces.Add(shape.Located(TopLoc_Location()));
+    names.emplace_back(entity->Name()->ToCString());
+  }
+  for (CadPart& part : file.parts)
+    for (auto& face : part.faces)
+      if (const int k = face.name.empty() ? faces.FindIndex(face.face.Located(TopLoc_Location())) : 0; k > 0) face.name = names[k - 1];
+}
+
 CadFile read_step(const std::string& path) {
   STEPCAFControl_Controller::Init();
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
@@ -273,14 +292,7 @@ CadFile read_step(const std::string& path) {
   step_units(reader.Reader().WS()->Model(), file);
   if (!reader.Transfer(document)) fail(path, "no shape could be made of the STEP file; export the model again");
   file.parts = DocumentReader(document).parts();
-  // names that XCAF kept no label for: from the STEP entity itself
-  const Handle(XSControl_TransferReader) transfer = reader.Reader().WS()->TransferReader();
-  for (CadPart& part : file.parts)
-    for (auto& face : part.faces) {
-      if (!face.name.empty()) continue;
-      const auto item = Handle(StepRepr_RepresentationItem)::DownCast(transfer->EntityFromShapeResult(face.face.Located(TopLoc_Location()), 1));
-      if (!item.IsNull() && !item->Name().IsNull() && !is_junk(item->Name()->ToCString())) face.name = item->Name()->ToCString();
-    }
+  name_faces_by_entity(reader.Reader().WS(), file);
   XCAFApp_Application::GetApplication()->Close(document);
   return file;
 }
