@@ -6,6 +6,7 @@
 #pragma GCC push_options
 #pragma GCC target("avx2")
 #endif
+#define ST_FOUR_WIDE
 #include "geometry/patch_kernels_code.h"
 
 namespace st::detail {

@@ -1,4 +1,5 @@
-// The kernels' code, compiled once per kind of processor by the file that includes it: include nothing here that has code of its own.
+// The kernels' code, compiled once per kind of processor by the file that includes it, with ST_FOUR_WIDE where vectors hold four doubles.
+// Include nothing here that has code of its own.
 #pragma once
 
 #include "geometry/patch_kernels.h"
@@ -8,11 +9,32 @@
 namespace st {
 namespace {
 
+#if defined(ST_FOUR_WIDE)
 typedef double V4 __attribute__((vector_size(32)));
 typedef double V4Anywhere __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline V4 load(const double* p) { return *reinterpret_cast<const V4Anywhere*>(p); }
 inline void store(double* p, const V4& x) { *reinterpret_cast<V4Anywhere*>(p) = x; }
+inline double fourth(const V4& x) { return x[3]; }
+#else
+typedef double V2 __attribute__((vector_size(16)));
+typedef double V2Anywhere __attribute__((vector_size(16), aligned(8), may_alias));
+struct V4 {
+  V2 lo, hi;
+};
+
+inline V4 operator+(const V4& a, const V4& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+inline V4 operator-(const V4& a, const V4& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+inline V4 operator*(const V4& a, double s) { return {a.lo * s, a.hi * s}; }
+inline V4 operator*(double s, const V4& a) { return a * s; }
+inline V4 operator/(const V4& a, double s) { return {a.lo / s, a.hi / s}; }
+inline V4 load(const double* p) { return {*reinterpret_cast<const V2Anywhere*>(p), *reinterpret_cast<const V2Anywhere*>(p + 2)}; }
+inline void store(double* p, const V4& x) {
+  *reinterpret_cast<V2Anywhere*>(p) = x.lo;
+  *reinterpret_cast<V2Anywhere*>(p + 2) = x.hi;
+}
+inline double fourth(const V4& x) { return x.hi[1]; }
+#endif
 
 // kOrder is n_v where it is known to the compiler, 0 where it is not.
 template <int kOrder, int kStride>
@@ -105,7 +127,7 @@ void rational_line_second(const double* c, int n_given, double s, double rate, d
   line_horner<kOrder>(c, n_given, s, p, p1, p2);
   p1 = rate * p1;
   p2 = 2 * rate * rate * p2;
-  const double w = p[3], w1 = p1[3], w2 = p2[3];
+  const double w = fourth(p), w1 = fourth(p1), w2 = fourth(p2);
   const V4 x = p / w, x1 = (p1 - w1 * x) / w;
   store(out, x);
   store(out + 4, x1);
