@@ -14,6 +14,19 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
     min_length = smallest->length;
   }
   min_size_ = min_length * data_.scale;
+  top_.resize(std::size_t{1} << (3 * kTopLevel));
+  fill_top(data.octree.node_children.empty() ? ~0 : 0, 0, 0);
+}
+
+/// Entries from `first` on that lie in `node`, in Morton order.
+void OctreeField::fill_top(std::int32_t node, int level, std::size_t first) {
+  const std::size_t n = std::size_t{1} << (3 * (kTopLevel - level));
+  if (node < 0 || level == kTopLevel) {
+    std::fill_n(top_.begin() + static_cast<std::ptrdiff_t>(first), n, node);
+    return;
+  }
+  for (std::size_t o = 0; o < 8; ++o)
+    fill_top(data_.octree.node_children[8 * static_cast<std::size_t>(node) + o], level + 1, first + o * (n / 8));
 }
 
 /// Finds the leaf; returns xyz (moved into the root cube) from its centre.
@@ -32,7 +45,7 @@ inline Vec3 OctreeField::locate(Vec3 xyz, int& hint) const {
   if (hint >= 0 && hint < octree.n_leaves() && octree.leaf_contains(hint, key))
     level = octree.leaf_levels[hint];
   else
-    hint = octree.find_leaf(key, level);
+    hint = find_leaf(key, level);
   const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
   const double half = 0.5 * extent;
   return {unit_ * (gx - (p.x & mask) - half), unit_ * (gy - (p.y & mask) - half), unit_ * (gz - (p.z & mask) - half)};

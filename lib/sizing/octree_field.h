@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "sizing/blanking.h"
 #include "sizing/octree.h"
@@ -60,7 +61,22 @@ class OctreeField : public SizeField {
   }
   /// Part of a split leaf at d from its centre: kNone the first, or the index of the second.
   std::int32_t find_part(std::int32_t leaf, Vec3 d) const;
+  void fill_top(std::int32_t node, int level, std::size_t first);
+  /// As OctreeView::find_leaf, by way of the table.
+  std::int32_t find_leaf(std::uint64_t key, int& level) const {
+    std::int32_t node = top_[key >> (3 * (kMaxLevel - kTopLevel))];
+    if (node < 0) {
+      level = data_.octree.leaf_levels[~node];
+      return ~node;
+    }
+    for (level = kTopLevel; node >= 0; ++level)
+      node = data_.octree.node_children[8 * static_cast<std::size_t>(node) + ((key >> (3 * (kMaxLevel - 1 - level))) & 7)];
+    return ~node;
+  }
+
+  static constexpr int kTopLevel = 5;
   OctreeFieldData data_;
+  std::vector<std::int32_t> top_;  // [8^kTopLevel] node of that level, or ~leaf: the first steps of every search in one
   std::shared_ptr<const void> owner_;
   double unit_;     // edge of a grid cell
   double to_grid_;  // 1 / unit_
