@@ -2,6 +2,7 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,12 +51,20 @@ void limit(int resource, double value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &r);
 }
 
+/// SIGPROF ends the process after this much processor time.
+void end_after(double cpu_seconds) {
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(cpu_seconds);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (cpu_seconds - std::floor(cpu_seconds))) + 1;
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
 double machine_memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
 
 /// The child: a code, then the text. Never returns.
 [[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits, int fd, const std::string& subject) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, limits.cpu_seconds);
+  if (limits.cpu_seconds > 0) end_after(limits.cpu_seconds);
   limit(RLIMIT_AS, machine_memory());
   limit(RLIMIT_CORE, 0);
   int code = kUnknownFailure;
@@ -80,9 +89,15 @@ double machine_memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * 
   _exit(0);
 }
 
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
 [[noreturn]] void fail(const std::string& subject, int status, const ChildLimits& limits) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    throw Error(ExitCode::kInput, subject + ": not read within " + std::to_string(std::lround(limits.cpu_seconds)) +
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
+    throw Error(ExitCode::kInput, subject + ": not read within " + number(limits.cpu_seconds) +
                                       " s of processor time; the file is damaged, or give it more with --time-limit");
   if (WIFSIGNALED(status))
     throw Error(ExitCode::kInput, subject + ": OpenCASCADE crashed on this file (" + strsignal(WTERMSIG(status)) +

@@ -97,6 +97,7 @@ std::string format_of(const std::string& path) {
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
   if (head.empty()) fail(path, "empty file; export the model again");
+  if (const std::string kind = what_else(head); !kind.empty() && kind != "an STL mesh, ") fail(path, kind + "not a STEP, IGES or BREP file; export the model as STEP");
   if (head.find("ISO-10303-21") != std::string::npos) return "STEP";
   if (head.find("DBRep_DrawableShape") != std::string::npos || head.find("CASCADE Topology V") != std::string::npos) return "BREP";
   if (head.compare(0, 8, "\x89HDF\r\n\x1a\n") == 0) fail(path, "is an HDF5 artifact, not a CAD file; give a STEP, IGES or BREP file");
