@@ -4,10 +4,13 @@
 
 #include <cctype>
 #include <filesystem>
+#include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "io/stl_file.h"
+#include "mesh/adjacency.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
 
@@ -33,16 +36,29 @@ std::string places(const Defects& defects) {
   return text + (defects.count > static_cast<std::int64_t>(defects.first.size()) ? ", ..." : "");
 }
 
+/// Edges along which not as many triangles run one way as the other: one triangle alone (open), an inner wall of three, two that disagree.
+void find_unbalanced_edges(const SurfaceMesh& mesh, Defects& open, Defects& unbalanced) {
+  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId low, NodeId high, std::span<const SideId> sides) {
+    std::ptrdiff_t balance = 0;
+    for (const SideId side : sides) balance += side_start(mesh.triangles, side) == low ? 1 : -1;
+    if (balance == 0) return;
+    (sides.size() == 1 ? open : unbalanced).add({0.5 * (mesh.node_xyz[low] + mesh.node_xyz[high])});
+  });
+}
+
 void require_closed(const std::string& path, const SurfaceMesh& mesh) {
   if (mesh.triangles.empty()) throw Error(ExitCode::kGeometry, path + ": no triangles to blank with");
-  const TopologyReport topology = check_topology(mesh);
-  if (topology.boundary_edges.count > 0)
+  Defects open, unbalanced;
+  find_unbalanced_edges(mesh, open, unbalanced);
+  if (open.count > 0)
     throw Error(ExitCode::kGeometry, fmt::format("{}: open, so it has no inside to blank: {} edges have one triangle only, at {}; close it "
                                                  "there (st-check names the faces)",
-                                                 path, topology.boundary_edges.count, places(topology.boundary_edges)));
-  if (topology.misoriented_edges.count > 0)
-    throw Error(ExitCode::kGeometry, fmt::format("{}: its triangles cannot be oriented alike, at {}; repair it there", path,
-                                                 places(topology.misoriented_edges)));
+                                                 path, open.count, places(open)));
+  if (unbalanced.count > 0)
+    throw Error(ExitCode::kGeometry,
+                fmt::format("{}: has no clear inside to blank: at {} edges triangles meet that are not oriented alike, or "
+                            "that are inner walls, at {}; mesh the parts as one body",
+                            path, unbalanced.count, places(unbalanced)));
 }
 
 }  // namespace
