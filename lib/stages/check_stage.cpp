@@ -124,6 +124,22 @@ Check check_volume(const TopologyReport& topology, const MeshMeasure& measure) {
   return c;
 }
 
+/// The volume enclosed against the CAD's: beyond the tolerance there is what the chords cut off, at most their distance times the area.
+Check check_cad_volume(const TopologyReport& topology, const MeshMeasure& measure, const ModelTables& tables, const ChordError& chords) {
+  constexpr double kTolerance = 0.005;  // relative
+  Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
+  if (!tables.volume || !topology.is_closed() || topology.n_cad_boundary_edges > 0 || topology.n_cad_nonmanifold_edges > 0) {
+    c.note = "open or non-manifold: none";
+    return c;
+  }
+  double explained = 0;
+  for (FaceId f = 0; f < tables.n_faces(); ++f) explained += chords.distance[f] * tables.face_area[f];
+  const double cad = std::fabs(*tables.volume), difference = std::fabs(measure.volume - *tables.volume);
+  if (difference > kTolerance * cad + explained) c.defects.add({});
+  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords explain {:.3g} %)", measure.volume / *tables.volume, 100 * explained / cad);
+  return c;
+}
+
 void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const CheckThresholds& allow, Findings& f) {
   const SurfaceMesh& mesh = artifact.mesh;
   f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
@@ -160,6 +176,7 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.deviation = measure_deviation(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
+  f.checks.push_back(check_cad_volume(f.topology, f.measure, cad.model.tables(), *f.chords));
   f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords));
 }
 
