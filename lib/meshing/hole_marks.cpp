@@ -28,10 +28,17 @@ class Marker {
  private:
   bool keeps(FaceId f) const { return !options_.keep_face.empty() && options_.keep_face[f]; }
 
+  bool has_moved(NodeId a, NodeId b, double length) const {
+    if (options_.earlier_xyz.empty()) return false;
+    const double earlier = distance(options_.earlier_xyz[a], options_.earlier_xyz[b]);
+    return std::abs(length - earlier) > options_.change * earlier;
+  }
+
   bool violates(NodeId a, NodeId b) const {
     const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
-    if (std::abs(size - before) <= options_.change * before) return false;
-    const double ratio = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]) / size;
+    const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
+    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length)) return false;
+    const double ratio = length / size;
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 

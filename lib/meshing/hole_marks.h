@@ -9,11 +9,13 @@
 namespace st {
 
 struct HoleMarkOptions {
-  double too_long = 1.4;              ///< times the requested length, > 1
-  double too_short = 0.7;             ///< likewise, in (0, 1)
-  double change = 0.1;                ///< relative: where the request changed by less, edges are good whatever their length
-  int layers = 2;                     ///< triangles around a marked one that are marked with it, >= 1
-  std::vector<char> keep_face = {};   ///< [n_faces] 1: nothing of it changes; empty: none
+  double too_long = 1.4;             ///< times the requested length, > 1
+  double too_short = 0.7;            ///< likewise, in (0, 1)
+  double change = 0.1;               ///< relative: where the request changed by less, edges are good whatever their length
+  int layers = 2;                    ///< triangles around a marked one that are marked with it, >= 1
+  std::vector<char> keep_face = {};  ///< [n_faces] 1: nothing of it changes; empty: none
+  std::span<const Vec3> earlier_xyz =
+      {};                             ///< empty, or [n_nodes] before the geometry moved: edges that it made longer or shorter count, too
   std::vector<TriangleId> redo = {};  ///< marked whatever their edges, unless kept
 };
 

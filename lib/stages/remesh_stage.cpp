@@ -15,6 +15,8 @@
 #include "io/node_array.h"
 #include "io/sizing_artifact.h"
 #include "mesh/merge.h"
+#include "meshing/hole_reprojector.h"
+#include "meshing/small_features.h"
 #include "sizing/node_field.h"
 #include "stages/model_mesher.h"
 #include "stages/patches_result.h"
@@ -45,14 +47,17 @@ void keep_freed_memory() {
   mallopt(M_TOP_PAD, 1 << 26);
 }
 
-/// Faces of the group that stays, [n_faces]; empty when none does.
-std::vector<char> kept_faces(const RemeshStageOptions& o, const ModelTables& t) {
-  if (o.keep.empty()) return {};
+/// Faces that stay, [n_faces]: of the group, and strips that were closed for meshing; empty when none does.
+std::vector<char> kept_faces(const RemeshStageOptions& o, const ModelTables& t, const MergedFeatures& merged) {
+  std::vector<char> strips(merged.strip_face.empty() ? 0 : t.n_faces(), 0);
+  for (const FaceId f : merged.strip_face) strips[f] = 1;
+  if (o.keep.empty()) return strips;
   const auto group = std::find(t.group_name.begin(), t.group_name.end(), o.keep);
   if (group == t.group_name.end())
     throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group; st-info {} lists them", o.keep, o.geometry));
-  std::vector<char> keep;
-  for (std::int32_t g : t.face_group) keep.push_back(g == group - t.group_name.begin());
+  std::vector<char> keep = strips;
+  keep.resize(t.n_faces(), 0);
+  for (FaceId f = 0; f < t.n_faces(); ++f) keep[f] |= t.face_group[f] == group - t.group_name.begin();
   return keep;
 }
 
@@ -115,7 +120,17 @@ struct RemeshInput {
   ArtifactHeader geometry;
   Model model;
   MappedSizing sizing;
+  std::vector<Vec3> earlier_xyz = {};   ///< of the nodes, before the geometry moved; else empty
+  std::vector<TriangleId> spoilt = {};  ///< by the move
 };
+
+/// Puts the mesh onto the moved geometry.
+void move(RemeshInput& in) {
+  MovedMesh moved = move_mesh(in.old.mesh, in.model);
+  in.earlier_xyz = std::move(in.old.mesh.node_xyz);
+  in.old.mesh = std::move(moved.mesh);
+  in.spoilt = std::move(moved.spoilt);
+}
 
 RemeshInput read_input(const RemeshStageOptions& o) {
   MeshArtifact old = read_mesh(o.mesh);
@@ -123,10 +138,12 @@ RemeshInput read_input(const RemeshStageOptions& o) {
     throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
   MappedSizing sizing = map_sizing(o.sizing);
-  require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
+  if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   ArtifactHeader header = geometry.header;
-  return {std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)), std::move(sizing)};
+  RemeshInput in{std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)), std::move(sizing)};
+  if (o.moved) move(in);
+  return in;
 }
 
 ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const Remesher& r) {
@@ -146,9 +163,9 @@ ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in,
 }
 
 /// Local, on rank 0.
-SurfaceMesh merged_mesh(const Model& model, Remesher& r, const ModelMesher* mesher) {
+SurfaceMesh merged_mesh(Remesher& r, const ModelMesher* mesher) {
   if (!mesher) return std::move(r.mesh);
-  const ModelTables& t = model.tables();
+  const ModelTables& t = mesher->tables();
   OrientationReport report;
   std::vector<FacePatch> patches = mesher->patches;
   std::erase_if(patches, [](const FacePatch& p) { return p.triangles.empty(); });
@@ -163,9 +180,10 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
   artifact.header.unit = in.geometry.unit;
   artifact.header.unit_in_m = in.geometry.unit_in_m;
   artifact.header.geometry_hash = in.geometry.content_hash;
-  artifact.mesh = merged_mesh(in.model, r, mesher);
+  artifact.mesh = merged_mesh(r, mesher);
   artifact.mesh.face_name = in.old.mesh.face_name;
   artifact.mesh.group_name = in.old.mesh.group_name;
+  artifact.mesh.merged = in.old.mesh.merged;
   if (mesher && !mesher->failures.empty())
     throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
                                                    in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
@@ -213,11 +231,14 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
   if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
   const RemeshInput in = read_input(o);
-  const HoleMesh mesh(in.old.mesh, in.model.tables());
+  const ModelTables tables = with_merged_edges(in.model.tables(), in.old.mesh.merged);
+  const HoleMesh mesh(in.old.mesh, tables);
   RemesherOptions options;
   options.mark.too_long = o.too_long;
   options.mark.too_short = o.too_short;
-  options.mark.keep_face = kept_faces(o, in.model.tables());
+  options.mark.keep_face = kept_faces(o, in.model.tables(), in.old.mesh.merged);
+  options.mark.earlier_xyz = in.earlier_xyz;
+  options.mark.redo = in.spoilt;
   const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
   Remesher remesher(in.model, mesh, field, options, comm);
@@ -226,8 +247,9 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   if (o.dry_run) return dry_run_summary(remesher, mesh);
   remesher.run();
   std::optional<ModelMesher> mesher;
-  if (!remesher.failed_faces.empty() || o.merged.empty())
-    mesher.emplace(in.model, field, in.sizing.face_weight, ModelMesherOptions{}, comm);
+  ModelMesherOptions mesher_options;
+  mesher_options.merged = &in.old.mesh.merged;
+  if (!remesher.failed_faces.empty() || o.merged.empty()) mesher.emplace(in.model, field, in.sizing.face_weight, mesher_options, comm);
   if (!remesher.failed_faces.empty()) redo_failed_faces(field, remesher, *mesher);
   if (!comm.is_root()) return {};
   const RunFacts facts{timer, load_seconds, comm.size()};

@@ -19,6 +19,7 @@ struct RemeshStageOptions {
   double too_short = 0.7;  ///< likewise shorter than, (0, 1)
   std::string keep;        ///< group of which nothing changes; empty: none
   std::string sizes_on_nodes;           ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's; empty: none
+  bool moved = false;                   ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
   bool dry_run = false;    ///< say how much would change, write nothing
 };
 

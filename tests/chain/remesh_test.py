@@ -1,5 +1,6 @@
 """st-remesh over the chain: a local change is redone locally, at any number of ranks, and what is kept is kept to the bit."""
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -130,6 +131,37 @@ class LocalChange(ToolTest):
             run, mesh = self.remesh_on_nodes(lengths)
             self.assertEqual(run.code, code, str(run))
             self.assertFalse(mesh.exists())
+
+    def move_end(self, by):
+        """The block with its end at x = 60 moved, and a chain of its own."""
+        def moved(match):
+            x = [float(v) for v in match.group(1).split(",")]
+            return match.group(0) if len(x) != 3 or x[0] < 50 else f"CARTESIAN_POINT('',({x[0] + by!r},{x[1]!r},{x[2]!r}))"
+        model = self.folder / "moved.step"
+        model.write_text(re.sub(r"CARTESIAN_POINT\(''\s*,\s*\(([^)]*)\)\)", moved, (MODELS / "block_with_hole.step").read_text()))
+        return make_chain(model, self.folder / "moved", raster_options=["--lmax", "3%"])
+
+    def test_a_mesh_follows_its_geometry(self):
+        moved = self.move_end(9)
+        inputs = [self.chain / "mesh.hdf", moved / "geometry.hdf", moved / "sizing.hdf"]
+        run = Run("st-remesh", *inputs, "--merged", self.folder / "m.hdf")
+        self.assertEqual(run.code, MISMATCH, str(run))
+        facts = must("st-remesh", *inputs, "--moved", "--merged", self.folder / "m.hdf", "--json").json()
+        self.assertLess(facts["triangles_redone"], 0.5 * facts["triangles_before"])
+        must("st-check", self.folder / "m.hdf", "--geometry", moved / "geometry.hdf", "--sizing", moved / "sizing.hdf", "--min-size-share", "0.95")
+        self.assertEqual(content_hash(self.remesh_moved(self.geometry, self.chain / "sizing.hdf")), content_hash(self.chain / "mesh.hdf"))
+
+    def remesh_moved(self, geometry, sizing):
+        must("st-remesh", self.chain / "mesh.hdf", geometry, sizing, "--moved", "--merged", self.folder / "again.hdf")
+        return self.folder / "again.hdf"
+
+    def test_a_geometry_of_other_topology_is_no_moved_one(self):
+        for model, expected in (("box.step", "6 faces"), ("plate_with_hole.brep", "1 faces")):
+            other = make_chain(MODELS / model, self.folder / model)
+            run = Run("st-remesh", self.chain / "mesh.hdf", other / "geometry.hdf", other / "sizing.hdf", "--moved", "--merged", self.folder / "m.hdf")
+            self.assertEqual(run.code, MISMATCH, str(run))
+            self.assertIn(expected, run.err)
+            self.assertFalse((self.folder / "m.hdf").exists())
 
 
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()

@@ -14,7 +14,7 @@ OPTIONS = {
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
-    "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
+    "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
     "st-check": {
         "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",

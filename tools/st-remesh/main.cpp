@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
   tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
   tool.text("--sizes-on-nodes", o.sizes_on_nodes, "FILE:ARRAY", "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
+  tool.flag("--moved", o.moved, "the geometry is another one of the same topology: put the mesh onto it");
   tool.flag("--dry-run", o.dry_run, "say how much would change, write nothing");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
 }
