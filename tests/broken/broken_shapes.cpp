@@ -127,6 +127,10 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        [] {
          return polygon_face({{0, 0, 0}, {100, 0, 0}, {100, 0.001, 0}, {0, 0.001, 0}});
        }},
+      {"flat",
+       [] {
+         return polygon_face({{0, 0, 0}, {10, 0, 0}, {4, 0, 0}});
+       }},
       {"short_edge",
        [] {
          return polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 0.0001, 0}, {10, 10, 0}, {0, 10, 0}});

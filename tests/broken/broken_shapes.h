@@ -14,6 +14,7 @@ namespace st::test {
 ///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
 ///   sliver           a plane face of 100 x 0.001
+///   flat             a plane face without area: three sides on one line
 ///   short_edge       a plane face with an edge of 0.0001
 ///   bare_sphere      a spherical face without loops
 ///   speeds           two rectangles whose common side both run at different speeds

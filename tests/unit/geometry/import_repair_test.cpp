@@ -130,6 +130,39 @@ TEST(ImportReport, lists_sliver_faces_with_their_width) {
   EXPECT_NEAR(test::import_shape("square").tables.face_width[0], 10, 1e-6);
 }
 
+TEST(ImportReport, lists_a_face_without_area_as_a_sliver_with_its_loop_intact) {
+  const ImportResult r = import_broken("flat");
+  ASSERT_EQ(r.tables.n_faces(), 1);
+  EXPECT_NEAR(r.tables.face_area[0], 0, 1e-9);
+  EXPECT_EQ(r.tables.n_coedges(), 3);
+  const auto found = findings_of(r, "sliver face");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].size, 0, 1e-9);
+}
+
+/// Ends of a coedge in (u,v), in the direction of the loop.
+std::pair<Vec2, Vec2> ends(const Model& model, FaceId f, CoedgeId c) {
+  const ModelTables& t = model.tables();
+  const EdgeId e = t.coedge_edge[c];
+  const auto pcurve = model.pcurve(f, c);
+  Vec2 a = pcurve->point(t.edge_range[2 * e]), b = pcurve->point(t.edge_range[2 * e + 1]);
+  if (t.coedge_is_reversed[c]) std::swap(a, b);
+  return {a, b};
+}
+
+TEST(ImportReport, recovers_loops_of_broken_faces_head_to_tail) {
+  for (const char* shape : {"bow_tie", "sliver", "flat", "short_edge", "bare_sphere", "off_pcurve"}) {
+    const ImportResult r = import_broken(shape);
+    const Model model(r.tables, r.brep);
+    const ModelTables& t = model.tables();
+    for (std::int32_t l = 0; l < t.n_loops(); ++l) {
+      const std::int32_t first = t.loop_coedge_offsets[l], n = t.loop_coedge_offsets[l + 1] - first;
+      for (std::int32_t k = 0; k < n; ++k)
+        EXPECT_LE(norm(ends(model, 0, first + k).second - ends(model, 0, first + (k + 1) % n).first), 1e-5) << shape << " coedge " << k;
+    }
+  }
+}
+
 TEST(ImportReport, lists_short_edges_below_the_length_asked_for) {
   ImportOptions options;
   const auto found = findings_of(import_broken("short_edge", options), "short edge");
