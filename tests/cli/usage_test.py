@@ -13,7 +13,7 @@ OPTIONS = {
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
-    "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--max-turning": "30", "--np": "1"},
+    "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "3", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
     "st-check": {
@@ -36,7 +36,7 @@ REFUSED = {
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
-    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--max-turning": ["0", "61"], "--np": ["0"]},
+    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
     "st-check": {
         "--area-tolerance": ["0", "1.1"],

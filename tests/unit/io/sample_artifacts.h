@@ -89,6 +89,7 @@ inline PatchesArtifact sample_patches() {
   empty.face = 1;
   p.patches = {patch, empty};
   p.failures = {{1, "the boundary crosses itself", "use a smaller lmin", {0.5, 0.5, 0}}};
+  p.merged = {{2}, {1}, {0}, {1}, {1}};
   p.face_name = {"top", ""};
   p.group_name = {"default"};
   p.face_group = {0, 0};
@@ -113,6 +114,7 @@ inline MeshArtifact sample_mesh() {
   for (int i = 0; i < 12; ++i) m.corner_uv.push_back({0.1 * i, -0.1 * i});
   m.node_previous = {0, 2, kNone, 3};
   m.triangle_previous = {kNone, 5, 6, kNone};
+  m.merged = {{5, 7}, {1}, {0}, {1}, {0}};
   m.face_name = {"bottom", "", "Flügel", "a b"};
   m.group_name = {"body", "wing"};
   return artifact;
