@@ -315,7 +315,7 @@ void add_known_nodes(const PatchNodes& nodes, const HoleNumbering& numbering, Fa
 }  // namespace
 
 HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
-    : mesh(m), update(u), boundary(m.tables, u.edges), first_inner(boundary.first_inner.back()) {
+    : mesh(m), update(u), boundary(m.tables, u.edges, m.mesh.merged), first_inner(boundary.first_inner.back()) {
   const auto n_nodes = static_cast<NodeId>(m.mesh.node_xyz.size());
   of_node.assign(n_nodes, kNone);
   for (VertexId v = 0; v < m.tables.n_vertices(); ++v)

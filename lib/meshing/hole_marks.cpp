@@ -42,10 +42,12 @@ class Marker {
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 
-  /// Segments of kept faces stay.
+  /// Segments of kept faces stay, and those of merged strips, which share nodes.
   std::vector<char> free_edges() const {
     const ModelTables& t = cad_.tables;
     std::vector<char> is_free(t.n_edges(), 1);
+    for (const auto& strip : {mesh_.merged.strip_kept, mesh_.merged.strip_closed})
+      for (EdgeId e : strip) is_free[e] = 0;
     for (FaceId f = 0; f < t.n_faces(); ++f)
       for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; keeps(f) && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
            ++c)

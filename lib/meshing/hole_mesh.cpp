@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "meshing/small_features.h"
 
 namespace st {
 namespace {
@@ -48,7 +49,7 @@ double uv_area(const SurfaceMesh& m, TriangleId begin, TriangleId end) {
 
 }  // namespace
 
-HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t) : mesh(m), tables(t) {
+HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t, const Model* model) : mesh(m), tables(t) {
   require_valid(m, t);
   const auto n_nodes = static_cast<NodeId>(m.node_xyz.size());
   vertex_node.assign(t.n_vertices(), kNone);
@@ -65,6 +66,7 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t) : mesh(m), tables
     inner_begin[f] = n;
     while (f < t.n_faces() && n < n_nodes && m.node_entity[n] == f) ++n;
   }
+  const StripNodes strips = closed_strip_nodes(first_on_edge, model);
   edges.edge_offsets.push_back(0);
   const auto add = [&](NodeId node, double at) {
     edges.node_t.push_back(at);
@@ -76,9 +78,16 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t) : mesh(m), tables
     const NodeId first = vertex_node[t.edge_vertices[2 * e]], last = vertex_node[t.edge_vertices[2 * e + 1]];
     if (!t.edge_is_degenerate[e] && first != kNone && last != kNone) {
       add(first, t.edge_range[2 * e]);
-      for (NodeId k = first_on_edge[e]; k < first_on_edge[e + 1]; ++k) {
-        node_on_edge[k] = static_cast<std::int32_t>(edge_node.size());
-        add(k, m.node_t[k]);
+      if (const auto strip = strips.find(e); strip != strips.end()) {
+        for (const auto& [node, at] : strip->second) {
+          if (m.node_entity[node] == e) node_on_edge[node] = static_cast<std::int32_t>(edge_node.size());
+          add(node, at);
+        }
+      } else {
+        for (NodeId k = first_on_edge[e]; k < first_on_edge[e + 1]; ++k) {
+          node_on_edge[k] = static_cast<std::int32_t>(edge_node.size());
+          add(k, m.node_t[k]);
+        }
       }
       add(last, t.edge_range[2 * e + 1]);
       for (std::size_t i = edges.edge_offsets.back() + 1; i < edge_node.size(); ++i) {
@@ -95,6 +104,32 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t) : mesh(m), tables
   for (FaceId f : m.triangle_face) ++face_begin[f + 1];
   for (FaceId f = 0; f < t.n_faces(); ++f) face_begin[f + 1] += face_begin[f];
   for (FaceId f = 0; f < t.n_faces(); ++f) face_is_turned.push_back(uv_area(m, face_begin[f], face_begin[f + 1]) < 0);
+}
+
+/// Nodes inside the closed edges of strips as st-mesh made them: where a strip is closed, those of its kept edge.
+HoleMesh::StripNodes HoleMesh::closed_strip_nodes(const std::vector<NodeId>& first_on_edge, const Model* model) const {
+  StripNodes result;
+  const MergedFeatures& merged = mesh.merged;
+  for (std::size_t s = 0; model && s < merged.strip_face.size(); ++s) {
+    const EdgeId kept = merged.strip_kept[s], closed = merged.strip_closed[s];
+    const NodeId begin = first_on_edge[kept], end = first_on_edge[kept + 1];
+    CurveNodes nodes{{tables.edge_range[2 * kept]}, {{}}, {0}};
+    for (NodeId n = begin; n < end; ++n) nodes.t.push_back(mesh.node_t[n]);
+    nodes.t.push_back(tables.edge_range[2 * kept + 1]);
+    nodes.x.resize(nodes.t.size());
+    nodes.h.resize(nodes.t.size());
+    const CurveNodes mirrored = mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), merged.strip_is_opposed[s], 0);
+    NodeId own = first_on_edge[closed];
+    auto& on_closed = result[closed];
+    for (std::size_t k = 1; k + 1 < mirrored.t.size(); ++k) {
+      const auto i = static_cast<NodeId>(merged.strip_is_opposed[s] ? mirrored.t.size() - 1 - k : k);
+      const bool is_open = own < first_on_edge[closed + 1] && mesh.node_t[own] == mirrored.t[k];
+      on_closed.push_back({is_open ? own++ : begin + i - 1, mirrored.t[k]});
+    }
+    if (own != first_on_edge[closed + 1])
+      fail("does not have the nodes on edge " + std::to_string(closed + 1) + " that go with those on edge " + std::to_string(kept + 1));
+  }
+  return result;
 }
 
 std::span<const CadSegment> HoleMesh::segments_between(NodeId a, NodeId b) const {

@@ -1,7 +1,9 @@
 // A merged mesh seen from the CAD again: which nodes and segments lie on which edge, which triangles on which face.
 #pragma once
 
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/model.h"
@@ -20,7 +22,8 @@ struct CadSegment {
 /// The mesh with its relation to the model's entities. The mesh and the tables outlive it.
 struct HoleMesh {
   /// Linear. Throws Error(kInput) when the mesh is not finite, not in canonical order or names entities that the model does not have.
-  HoleMesh(const SurfaceMesh& mesh, const ModelTables& tables);
+  /// `tables`: with the mesh's merged edges (with_merged_edges); `model` is needed when the mesh has merged strips.
+  HoleMesh(const SurfaceMesh& mesh, const ModelTables& tables, const Model* model = nullptr);
 
   const SurfaceMesh& mesh;
   const ModelTables& tables;
@@ -36,6 +39,10 @@ struct HoleMesh {
   TriangleId face_size(FaceId f) const { return face_begin[f + 1] - face_begin[f]; }
   /// All segments between two mesh nodes; several where edges of one segment share both vertices.
   std::span<const CadSegment> segments_between(NodeId a, NodeId b) const;
+
+ private:
+  using StripNodes = std::map<EdgeId, std::vector<std::pair<NodeId, double>>>;  // inner nodes of closed edges, and their t
+  StripNodes closed_strip_nodes(const std::vector<NodeId>& first_on_edge, const Model* model) const;
 };
 
 }  // namespace st
