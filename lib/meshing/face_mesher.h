@@ -27,7 +27,7 @@ struct FaceBoundary {
 };
 
 struct FaceMeshOptions {
-  int enhance_rounds = 3;
+  int enhance_rounds = 5;
   double max_turning_deg = 60;   ///< largest turning of the normal along one length, where L_min would ask for more
 };
 

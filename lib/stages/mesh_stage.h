@@ -15,7 +15,7 @@ struct MeshStageOptions {
   std::string faces;                    ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
   std::string group;                    ///< mesh the faces of this group only; empty: all
   std::string edges;                    ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
-  int enhance_rounds = 3;               ///< rounds of the enhancer, [0, 10]
+  int enhance_rounds = 5;               ///< rounds of the enhancer, [0, 10]
   double merge_below = 0.05;            ///< of the requested length: shorter edges and narrower strips are merged, [0, 0.2]; 0: none
   double max_turning_deg = 30;          ///< largest turning of a CAD edge along one segment, degrees, (0, 60]
 };

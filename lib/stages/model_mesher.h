@@ -16,7 +16,7 @@
 namespace st {
 
 struct ModelMesherOptions {
-  int enhance_rounds = 3;
+  int enhance_rounds = 5;
   double max_turning_deg = 30;      ///< of a CAD edge along one segment
   int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
   int max_crossing_rounds = 4;      ///< refinements of crossing facets

@@ -14,7 +14,7 @@ namespace st {
 struct RemesherOptions {
   HoleMarkOptions mark;
   double max_turning_deg = 30;  ///< as ModelMesherOptions
-  int enhance_rounds = 3;
+  int enhance_rounds = 5;
   int max_crossing_rounds = 4;  ///< refinements of crossing facets
 };
 
