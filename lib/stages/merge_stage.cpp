@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "io/artifact.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
@@ -157,6 +158,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
 
 StageSummary run_merge(const MergeStageOptions& options) {
   const Timer timer;
+  keep_freed_memory();
   require_outputs(options);
   std::vector<InputRef> inputs;
   PatchesArtifact patches = read_parts(options.patches, inputs);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
 #include "stages/model_mesher.h"
@@ -64,6 +65,7 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
 
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
+  keep_freed_memory();
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
   GeometryArtifact geometry = read_geometry(o.geometry);

@@ -1,7 +1,6 @@
 #include "stages/remesh_stage.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "io/artifact.h"
 #include "io/node_array.h"
 #include "io/sizing_artifact.h"
@@ -38,13 +38,6 @@ std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const Su
     throw Error(ExitCode::kUsage, fmt::format("--sizes-on-nodes '{}': not of the form FILE:ARRAY", o.sizes_on_nodes));
   return std::make_unique<NodeField>(
       mesh, read_node_lengths(o.sizes_on_nodes.substr(0, colon), o.sizes_on_nodes.substr(colon + 1), mesh.node_xyz.size()), slope);
-}
-
-/// Arrays of megabytes follow each other; fresh pages for each cost as much as the work on them.
-void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  mallopt(M_TOP_PAD, 1 << 26);
 }
 
 /// Faces that stay, [n_faces]: of the group, and strips that were closed for meshing; empty when none does.
