@@ -165,9 +165,15 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   StripMerger strips(t, merged.edge);
   int hint = 0;
   for (const Strip& strip : find_strips(model)) {
-    const bool is_narrow = std::any_of(strip.stations.begin(), strip.stations.end(),
-                                       [&](const Strip::Station& s) { return s.width < below * field.size(s.x, hint); });
-    if (!is_narrow || !strips.may_close(strip)) continue;
+    bool is_narrow = false;
+    double width = 0, length = 0;  // sums over the stations
+    for (const Strip::Station& s : strip.stations) {
+      const double h = field.size(s.x, hint);
+      is_narrow |= s.width < below * h;
+      width += s.width;
+      length += h;
+    }
+    if (!is_narrow || width > length || !strips.may_close(strip)) continue;
     merged.strip_face.push_back(strip.face);
     merged.strip_kept.push_back(strip.edges[0]);
     merged.strip_closed.push_back(strip.edges[1]);

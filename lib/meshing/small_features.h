@@ -10,7 +10,8 @@
 
 namespace st {
 
-/// Edges between two vertices shorter than `below` times the requested length, and strips narrower than that somewhere. An edge is not
+/// Edges between two vertices shorter than `below` times the requested length, and strips narrower than that somewhere and
+/// on the mean narrower than the length. An edge is not
 /// drawn together when a loop would be left with fewer than two edges, or several would move a vertex further than that. Deterministic,
 /// local.
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
