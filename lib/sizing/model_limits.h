@@ -7,6 +7,7 @@
 #include "geometry/model.h"
 #include "sizing/face_roles.h"
 #include "sizing/size_limits.h"
+#include "sizing/size_rules.h"
 
 namespace st {
 
@@ -14,11 +15,13 @@ namespace st {
 ///
 /// Walls take the limits as given. A far field takes its own largest length, 1/30 of the diagonal of the face's box (never less than the
 /// walls'): sizes meant for the body would fill it with triangles. A symmetry plane asks for nothing: its sizes come from what it touches.
-/// An edge takes the smallest limits of its faces.
+/// Rules then change faces and the edges of faces, in order; an edge takes the finest of its faces for each limit apart, and after that
+/// what rules say of the edge itself.
 struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
   std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
   SamplingLimits far;                               ///< the walls' limits with max_length = far_length: for what is not sampled but traced
+  double min_length = 0;                            ///< smallest min_length of all
   double far_length = 0;                            ///< largest max_length of all: the length where nothing asks for less
 
   /// Limits at which an edge is traced as part of a loop.
@@ -29,7 +32,9 @@ struct ModelLimits {
 inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
 /// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field there, so that a
-/// domain whose sides all touch it does not fill up with the body's lengths.
-ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall);
+/// domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for a rule that selects nothing or
+/// contradicts itself.
+ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
+                         const std::vector<SizeRule>& rules = {});
 
 }  // namespace st

@@ -37,7 +37,7 @@ class CurveMeasurer {
     const double length = distance(a.x, m.x) + distance(m.x, b.x);
     const double turning = angle_between(a.d1, m.d1) + angle_between(m.d1, b.d1);
     const bool is_long = length > 0.5 * limits_.max_length;
-    const bool is_bent = turning > 0.25 * limits_.alpha && length > 0.25 * limits_.min_length;
+    const bool is_bent = (turning > 0.25 * limits_.alpha || turning * length > 0.5 * limits_.chord) && length > 0.25 * limits_.min_length;
     if ((is_long || is_bent) && depth < kMaxDepth && ta < tm && tm < tb) {
       measure(ta, a, tm, m, depth + 1);
       measure(tm, m, tb, b, depth + 1);
@@ -112,13 +112,32 @@ class PieceWalker {
       std::size_t j = i;
       s = interpolate(table_.turning, table_.s, turning_end, j);
     }
-    return std::clamp(s, s0 + limits_.min_length, s0 + limits_.max_length);
+    s = std::min(s, s0 + limits_.max_length);
+    if (std::isfinite(limits_.chord)) s = chord_stop(s0, s, i);
+    return std::max(s, s0 + limits_.min_length);
+  }
+
+  /// Nearest arc length, at most s1, at which the sagitta of the arc from s0 reaches the limit (a flat arc: length * turning / 8).
+  double chord_stop(double s0, double s1, std::size_t i) const {
+    constexpr int kHalvings = 40;
+    const double turning0 = interpolate_at(table_.s, table_.turning, s0, i);
+    const auto is_low = [&](double s) {
+      return (s - s0) * (interpolate_at(table_.s, table_.turning, s, i) - turning0) <= 8 * limits_.chord;
+    };
+    if (is_low(s1)) return s1;
+    double low = s0, high = s1;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (low + high);
+      (is_low(middle) ? low : high) = middle;
+    }
+    return low;
   }
 
   /// Length that the turning of a last piece, shorter than a segment, allows.
   double rest_length(double s0, double end, std::size_t i) const {
     const double turning = interpolate_at(table_.s, table_.turning, end, i) - interpolate_at(table_.s, table_.turning, s0, i);
-    return turning > 0 ? (end - s0) * limits_.alpha / turning : limits_.max_length;
+    if (!(turning > 0)) return limits_.max_length;
+    return std::min((end - s0) * limits_.alpha / turning, std::sqrt(8 * limits_.chord * (end - s0) / turning));
   }
 
   static double interpolate_at(const std::vector<double>& x, const std::vector<double>& y, double x0, std::size_t i) {

@@ -127,7 +127,8 @@ class FaceRaster {
   // --- lengths
 
   double allowed_length(double curvature) const {
-    const double length = curvature * limits_.max_length > limits_.alpha ? limits_.alpha / curvature : limits_.max_length;
+    double length = curvature * limits_.max_length > limits_.alpha ? limits_.alpha / curvature : limits_.max_length;
+    if (curvature * length * length > 8 * limits_.chord) length = std::sqrt(8 * limits_.chord / curvature);  // sagitta of a flat arc
     return std::max(length, limits_.min_length);
   }
 

@@ -1,16 +1,20 @@
 // The numbers that drive the sampling of curves and surfaces.
 #pragma once
 
+#include <limits>
+
 #include "base/vec.h"
 
 namespace st {
 
-/// How a curve or a face is sampled. Invariants: 0 < min_length <= max_length, 0 < alpha <= pi/2, 1 <= cell_per_length <= 8.
+/// How a curve or a face is sampled. Invariants: 0 < min_length <= max_length, 0 < alpha <= pi/2, 1 <= cell_per_length <= 8,
+/// 0 < chord.
 struct SamplingLimits {
-  double min_length = 0;       ///< smallest sample length, model unit
-  double max_length = 0;       ///< largest sample length, model unit
-  double alpha = radians(10);  ///< largest turning of tangent or normal along one length, radians
-  double cell_per_length = 2;  ///< edge of a raster box over its sample length
+  double min_length = 0;                                   ///< smallest sample length, model unit
+  double max_length = 0;                                   ///< largest sample length, model unit
+  double alpha = radians(10);                              ///< largest turning of tangent or normal along one length, radians
+  double cell_per_length = 2;                              ///< edge of a raster box over its sample length
+  double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry, model unit
 };
 
 }  // namespace st

@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "comm/packer.h"
 #include "io/artifact.h"
+#include "io/size_rule_file.h"
 #include "io/sizing_artifact.h"
 #include "sizing/face_cells.h"
 #include "sizing/model_limits.h"
@@ -49,6 +50,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length
                                      : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
   limits.alpha = radians(o.alpha_deg);
+  if (!o.chord.empty()) limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
   limits.cell_per_length = o.cell_per_length;
   if (limits.min_length > limits.max_length)
     throw Error(ExitCode::kUsage,
@@ -67,7 +69,10 @@ std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
 class RasterTasks {
  public:
   RasterTasks(const Model& model, const ModelLimits& limits)
-      : model_(model), limits_(limits), strips_(find_strips(model)), n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
+      : model_(model),
+        limits_(limits),
+        strips_(find_strips(model)),
+        n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
   std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
 
@@ -175,20 +180,20 @@ SampleCounts report_samples(const CollectedBoxes& collected) {
   return counts;
 }
 
-void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits, ArtifactHeader& header) {
+void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits, const std::string& sizes_hash,
+                 ArtifactHeader& header) {
   header.schema = "raster";
   header.tool = "st-raster";
   header.tool_version = ST_VERSION;
-  header.options_json = nlohmann::json{
-      {"lmin", limits.min_length},
-      {"lmax", limits.max_length},
-      {"alpha", o.alpha_deg},
-      {"cell_per_length",
-       o.cell_per_length}}.dump();
+  nlohmann::json options{
+      {"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}};
+  if (!o.chord.empty()) options["chord"] = limits.chord;
+  header.options_json = options.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
   header.geometry_hash = geometry.content_hash;
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash}};
+  if (!o.sizes.empty()) header.inputs.push_back({"sizes", std::filesystem::path(o.sizes).filename().string(), sizes_hash});
 }
 
 /// Collective: the octree of rank 0 on every rank.
@@ -234,7 +239,8 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   return faces;
 }
 
-StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, double seconds) {
+StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
+                       double seconds) {
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
   summary.line =
@@ -250,6 +256,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"far_length", a.numbers.far_length},
       {"alpha", a.numbers.alpha_deg},
       {"cell_per_length", a.numbers.cell_per_length},
+      {"rules", n_rules},
       {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
       {"seconds",
@@ -267,7 +274,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   const FaceRoles roles = face_roles(geometry.tables);
   if (!roles.guessed.empty()) log_warning(describe_guess(geometry.tables, roles));
   const SamplingLimits wall = resolve_limits(o, geometry.tables, roles.reference_diagonal);
-  const ModelLimits limits = model_limits(geometry.tables, roles, wall);
+  const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
+  const ModelLimits limits = model_limits(geometry.tables, roles, wall, sizes.rules);
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
 
@@ -284,11 +292,11 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   if (!comm.is_root()) return {};
 
-  artifact.numbers = {wall.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
+  artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
-  fill_header(o, geometry_header, wall, artifact.header);
+  fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
-  return summarize(o, artifact, counts, timer.seconds());
+  return summarize(o, artifact, counts, sizes.rules.size(), timer.seconds());
 }
 
 }  // namespace st

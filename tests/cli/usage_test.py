@@ -9,8 +9,8 @@ from chain import *  # noqa: E402,F403
 N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
-    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--time-limit": "", "--check": "", "--require-closed": ""},
-    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--cell-per-length": "2", "--np": "1"},
+    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--time-limit": "", "--check": "", "--require-closed": ""},
+    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
@@ -33,6 +33,7 @@ REFUSED = {
         "--lmax": ["0", "1e999"],
         "--alpha": ["0", "90.5", "-1", "nan", "x"],
         "--cell-per-length": ["0.99", "8.1"],
+        "--chord": ["0", "x"],
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},

@@ -98,6 +98,17 @@ std::string toml_default(const CLI::Option& option) {
   return is_bare ? text : '"' + text + '"';
 }
 
+/// Rules [[size]] stand in the option file itself: the file is then what --sizes names. Tools without that option pass them over.
+bool take_size_rules(const std::string& key, const toml::node& node, const std::string& path, CLI::App& app) {
+  if (key != "size" || !node.is_array_of_tables()) return false;
+  CLI::Option* option = app.get_option_no_throw("--sizes");
+  if (option && option->count() == 0) {
+    option->add_result(path);
+    option->run_callback();
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string option_file_template(const std::string& tool, const std::vector<const CLI::Option*>& options) {
@@ -114,13 +125,15 @@ void apply_option_file(const std::string& path, const std::string& tool, CLI::Ap
   std::map<std::string, const toml::node*> settings;
   for (const auto& [key, node] : file) {
     const std::string name(key.str());
+    if (take_size_rules(name, node, path, app)) continue;
     if (!node.is_table())
       settings[name] = &node;
     else if (!kTools.contains(name))
       fail(position(path, node.source()), "unknown table [" + name + "]; a table is named after a tool, such as [" + tool + "]");
   }
   if (const toml::table* own = file[tool].as_table())
-    for (const auto& [key, node] : *own) settings[std::string(key.str())] = &node;
+    for (const auto& [key, node] : *own)
+      if (!take_size_rules(std::string(key.str()), node, path, app)) settings[std::string(key.str())] = &node;
   for (const auto& [key, node] : settings) apply(key, *node, path, tool, app);
 }
 

@@ -10,6 +10,8 @@ int main(int argc, char** argv) {
   tool.length("--lmin", o.lmin, "lmax/64", "smallest length");
   tool.length("--lmax", o.lmax, "2.5%", "largest length");
   tool.number("--alpha", o.alpha_deg, "(0, 90]", "largest turning of the normal or tangent along one length, degrees");
+  tool.length("--chord", o.chord, "", "largest distance of a length's chord from the geometry");
+  tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

@@ -1,0 +1,41 @@
+// Sizes of parts of a model: rules that change the limits of groups, faces and edges.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/length.h"
+#include "geometry/model.h"
+#include "sizing/size_limits.h"
+
+namespace st {
+
+/// One rule. A rule without selection speaks of the whole model; one with several selections of all that any of them meets.
+struct SizeRule {
+  std::string where;                      ///< for messages: "sizes.toml:12"
+  std::vector<std::string> groups;        ///< glob patterns on group names
+  std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names
+  std::vector<std::string> between;       ///< two glob patterns: the edges between a face of a group of the first and one of the second
+  bool for_surfaces = true;               ///< the insides of the faces selected
+  bool for_curves = true;                 ///< the edges of the faces selected
+  std::optional<bool> is_sampled;         ///< false: asks for nothing
+  std::optional<LengthSpec> lmin, lmax, chord;
+  std::optional<double> alpha_deg;  ///< (0, 90]
+
+  bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty()); }
+};
+
+/// What a rule selects; ids ascending.
+struct RuleTargets {
+  std::vector<FaceId> faces;
+  std::vector<EdgeId> edges;  ///< named as edges, not as edges of faces
+};
+
+/// Throws Error(kUsage) naming the rule for a selection that meets nothing or an id that does not exist.
+RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables);
+
+/// `limits` with what the rule says. `diagonal`: what per cents refer to, model unit. Throws Error(kUsage) when lmin exceeds lmax.
+SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal, std::optional<double> unit_in_m);
+
+}  // namespace st

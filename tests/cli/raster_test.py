@@ -1,0 +1,58 @@
+"""Sizes of parts: rules for groups, faces and edges in an option file, the limit of the chord's error."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+
+class Rules(ToolTest):
+    def raster(self, text, *options, name="assembly", by="--sizes", output="r.hdf"):
+        (self.folder / "sizes.toml").write_text(text)
+        return must("st-raster", artifacts_of(name) / "geometry.hdf", "-o", self.folder / output, by, self.folder / "sizes.toml", *options, "--json").json()
+
+    def refuse(self, text, *says):
+        (self.folder / "sizes.toml").write_text(text)
+        self.expect_error(USAGE, "st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "r.hdf", "--sizes", "sizes.toml", says=list(says),
+                          cwd=self.folder)
+        self.expect_nothing_left(self.folder, "sizes.toml")
+
+    def test_an_option_file_holds_options_and_rules(self):
+        rule = '[[size]]\nfaces = "pin_mantle"\nlmin = 0.02\nlmax = 0.2\n'
+        a = self.raster("alpha = 12\n" + rule + "[[st-raster.size]]\nedges = 1\nlmax = 0.5\n", by="--options")
+        self.assertEqual((a["alpha"], a["rules"]), (12, 2))
+        self.assertEqual(a["lmin"], 0.02)
+        plain = must("st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "p.hdf", "--alpha", "12", "--json").json()
+        self.assertGreater(a["samples"], 2 * plain["samples"])
+
+    def test_the_result_does_not_depend_on_the_number_of_ranks(self):
+        rule = '[[size]]\nfaces = "pin_*"\nlmax = "0.3%"\nchord = "0.01%"\n[[size]]\nfor = "curves"\nsample = false\n'
+        hashes = {self.raster(rule, "--np", n, output=f"r{n}.hdf")["hash"] for n in (1, 2, 3)}
+        self.assertEqual(len(hashes), 1)
+
+    def test_a_chord_error_makes_lengths_shorter(self):
+        geometry = artifacts_of("assembly") / "geometry.hdf"
+        counts = [must("st-raster", geometry, "-o", self.folder / "r.hdf", "--lmin", "0.01", *chord, "--json").json()["samples"]
+                  for chord in ([], ["--chord", "0.05"], ["--chord", "0.001"])]
+        self.assertLess(counts[0] * 1.2, counts[2])
+        self.assertLessEqual(counts[1], counts[2])
+
+    def test_wrong_rules_are_refused_with_file_and_line(self):
+        self.refuse("[[size]]\nlmax = 1\nlmxa = 2\n", "sizes.toml:3", "'lmxa'", "allowed are", "lmin")
+        self.refuse('[[size]]\nlmax = 1\nalpha = 91\n', "sizes.toml:3", "(0, 90]")
+        self.refuse('[[size]]\nlmax = "3pt"\n', "sizes.toml:2", "lmax")
+        self.refuse('[[size]]\nlmax = -1\n', "sizes.toml:2", "positive")
+        self.refuse('[[size]]\nlmax = 1\nfor = "edges"\n', "sizes.toml:3", "curves")
+        self.refuse('[[size]]\nlmax = 1\nbetween = ["A"]\n', "sizes.toml:3", "two")
+        self.refuse('[[size]]\nlmax = 1\ngroups = []\n', "sizes.toml:3", "empty")
+        self.refuse('[[size]]\nlmax = 1\nsample = 1\n', "sizes.toml:3", "true or false")
+        self.refuse('[[size]]\ngroups = "*"\n', "sizes.toml:1", "asks for nothing")
+        self.refuse('\n[[size]]\nlmax = 1\ngroups = "NONE*"\n', "sizes.toml:2", "NONE*", "matches")
+        self.refuse('[[size]]\nlmax = 1\nfaces = 99999\n', "sizes.toml:1", "99999")
+        self.refuse("alpha = 5\n", "sizes.toml", "[[size]]")
+        self.refuse("[[size]]\nlmax = \n", "sizes.toml:2")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,140 @@
+#include "sizing/size_rules.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "sizing/model_limits.h"
+
+namespace st {
+namespace {
+
+const SamplingLimits kWall{0.01, 0.5, radians(10), 2};
+
+/// Faces 0 WING (wall), 1 BODY (wall), 2 SYM (symmetry), 3 FAR (far field). Edges: 0 wing only, 1 wing-body, 2 body-symmetry, 3 degenerate.
+ModelTables wing_body() {
+  ModelTables t;
+  t.group_name = {"WING", "BODY", "SYM", "FAR"};
+  t.group_role = {"wall", "wall", "symmetry", "farfield"};
+  t.face_group = {0, 1, 2, 3};
+  t.face_name = {"wing_upper", "", "", ""};
+  t.face_is_reversed = {0, 0, 0, 0};
+  t.face_box = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 2, 0}}, {{0, 0, 0}, {100, 0, 0}}, {{0, 0, 0}, {0, 0, 300}}};
+  t.edge_length = {1, 1, 1, 0};
+  t.edge_name = {"TE_1", "", "", ""};
+  t.edge_is_degenerate = {0, 0, 0, 1};
+  t.face_loop_offsets = {0, 1, 2, 3, 4};
+  t.loop_coedge_offsets = {0, 3, 5, 6, 6};
+  t.coedge_edge = {0, 1, 3, 1, 2, 2};
+  return t;
+}
+
+LengthSpec length(double value) { return {LengthSpec::Kind::kModelUnit, value, ""}; }
+
+SizeRule rule_of(std::optional<double> lmin, std::optional<double> lmax) {
+  SizeRule rule;
+  rule.where = "sizes.toml:3";
+  if (lmin) rule.lmin = length(*lmin);
+  if (lmax) rule.lmax = length(*lmax);
+  return rule;
+}
+
+ModelLimits limits_of(const std::vector<SizeRule>& rules) {
+  const ModelTables t = wing_body();
+  return model_limits(t, face_roles(t), kWall, rules);
+}
+
+std::string message_of(const SizeRule& rule) {
+  try {
+    limits_of({rule});
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    return e.what();
+  }
+  return "";
+}
+
+TEST(SizeRules, of_a_group_change_its_faces_and_edges_and_the_finest_wins_between_two) {
+  SizeRule rule = rule_of({}, 0.2);
+  rule.groups = {"W*G"};
+  const ModelLimits limits = limits_of({rule});
+  EXPECT_EQ(limits.face[0]->max_length, 0.2);
+  EXPECT_EQ(limits.face[1]->max_length, 0.5);
+  EXPECT_EQ(limits.edge[0]->max_length, 0.2);
+  EXPECT_EQ(limits.edge[1]->max_length, 0.2);
+  EXPECT_EQ(limits.edge[2]->max_length, 0.5);
+  rule.lmax = length(0.8);
+  EXPECT_EQ(limits_of({rule}).edge[1]->max_length, 0.5) << "a coarse group does not coarsen the edges of its neighbour";
+}
+
+TEST(SizeRules, tell_curves_from_surfaces) {
+  SizeRule rule = rule_of({}, 0.2);
+  rule.groups = {"WING"};
+  rule.for_surfaces = false;
+  EXPECT_EQ(limits_of({rule}).face[0]->max_length, 0.5);
+  EXPECT_EQ(limits_of({rule}).edge[0]->max_length, 0.2);
+  rule.for_surfaces = true;
+  rule.for_curves = false;
+  EXPECT_EQ(limits_of({rule}).face[0]->max_length, 0.2);
+  EXPECT_EQ(limits_of({rule}).edge[0]->max_length, 0.5);
+}
+
+TEST(SizeRules, select_faces_and_edges_by_number_and_name) {
+  SizeRule rule = rule_of({}, 0.2);
+  rule.faces = {"wing_*"};
+  rule.edges = {"3", "4"};
+  const ModelLimits limits = limits_of({rule});
+  EXPECT_EQ(limits.face[0]->max_length, 0.2);
+  EXPECT_EQ(limits.edge[2]->max_length, 0.2);
+  EXPECT_FALSE(limits.edge[3]) << "degenerate, whatever is said of it";
+  EXPECT_EQ(limits.face[1]->max_length, 0.5);
+}
+
+TEST(SizeRules, sample_the_curves_between_two_groups_only) {
+  SizeRule none = rule_of({}, {}), root = rule_of(0.002, 0.02);
+  none.is_sampled = false;
+  none.for_surfaces = false;
+  root.between = {"BODY", "WING"};
+  const ModelLimits limits = limits_of({none, root});
+  EXPECT_FALSE(limits.edge[0]);
+  ASSERT_TRUE(limits.edge[1]);
+  EXPECT_EQ(limits.edge[1]->max_length, 0.02);
+  EXPECT_EQ(limits.min_length, 0.002);
+  EXPECT_FALSE(limits.edge[2]);
+  EXPECT_TRUE(limits.face[0]);
+}
+
+TEST(SizeRules, of_the_whole_model_leave_symmetry_and_far_field_alone_but_named_ones_do_not) {
+  SizeRule rule = rule_of({}, 0.2);
+  EXPECT_EQ(limits_of({rule}).face[1]->max_length, 0.2);
+  EXPECT_FALSE(limits_of({rule}).face[2]);
+  EXPECT_DOUBLE_EQ(limits_of({rule}).face[3]->max_length, 10);
+  rule.groups = {"SYM", "FAR"};
+  EXPECT_EQ(limits_of({rule}).face[2]->max_length, 0.2);
+  EXPECT_EQ(limits_of({rule}).face[3]->max_length, 0.2);
+}
+
+TEST(SizeRules, apply_in_order_and_keep_what_they_do_not_name) {
+  SizeRule first = rule_of({}, 0.2), second = rule_of({}, {});
+  second.alpha_deg = 5;
+  const SamplingLimits both = *limits_of({first, second}).face[0];
+  EXPECT_EQ(both.max_length, 0.2);
+  EXPECT_DOUBLE_EQ(both.alpha, radians(5));
+  EXPECT_EQ(limits_of({first, rule_of({}, 0.3)}).face[0]->max_length, 0.3);
+  EXPECT_EQ(limits_of({rule_of({}, 0.001)}).face[0]->min_length, 0.001) << "lmin gives way to a smaller lmax";
+}
+
+TEST(SizeRules, that_select_nothing_or_contradict_themselves_are_refused) {
+  SizeRule rule = rule_of({}, 0.2);
+  rule.groups = {"FLAP"};
+  EXPECT_NE(message_of(rule).find("sizes.toml:3: groups: no group matches 'FLAP'"), std::string::npos) << message_of(rule);
+  rule.groups.clear();
+  rule.edges = {"5"};
+  EXPECT_NE(message_of(rule).find("edges: 5 does not exist, there are 4"), std::string::npos) << message_of(rule);
+  rule.edges.clear();
+  rule.between = {"WING", "SYM"};
+  EXPECT_NE(message_of(rule).find("no edge separates"), std::string::npos) << message_of(rule);
+  EXPECT_NE(message_of(rule_of(0.4, 0.3)).find("lmin 0.4 is larger than lmax 0.3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace st
