@@ -1,0 +1,81 @@
+// Faces between two long edges, the sizes their width asks for, and the nodes their edges share.
+#include "sizing/strip.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshing/small_features.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+SamplingLimits limits(double min_length, double max_length) {
+  SamplingLimits l;
+  l.min_length = min_length;
+  l.max_length = max_length;
+  return l;
+}
+
+Strip tapered_strip() {
+  for (const Strip& s : find_strips(test::make_model("wedge_strip")))
+    if (std::abs(s.stations.front().width - s.stations.back().width) > 0.9 && s.stations.front().width + s.stations.back().width < 1.1)
+      return s;
+  return {};
+}
+
+TEST(Strip, is_no_square_face_nor_one_with_a_seam) {
+  EXPECT_TRUE(find_strips(test::make_model("box")).empty());
+  EXPECT_TRUE(find_strips(test::make_model("cylinder")).empty());
+}
+
+TEST(Strip, knows_its_width_along_its_length) {
+  const Strip strip = tapered_strip();
+  ASSERT_NE(strip.face, kNone);
+  for (const Strip::Station& s : strip.stations) EXPECT_NEAR(s.width, 0.02 + 0.98 * s.x.x / 20, 2e-3);
+}
+
+TEST(Strip, asks_for_five_widths_within_the_limits_and_for_nothing_where_it_is_too_narrow) {
+  const Strip strip = tapered_strip();
+  ASSERT_NE(strip.face, kNone);
+  std::vector<RasterBox> boxes;
+  raster_strip(strip, limits(0.5, 2), 7, boxes);
+  ASSERT_FALSE(boxes.empty());
+  for (const RasterBox& b : boxes) {
+    const double width = 0.02 + 0.98 * b.center.x / 20;
+    EXPECT_NEAR(b.length, std::max(0.5, 5 * width), 0.02);
+    EXPECT_GT(width, 0.5 / 6.5);
+    EXPECT_LT(b.length, 2);
+    EXPECT_EQ(b.cause, 7);
+  }
+  std::vector<double> x;
+  for (const RasterBox& b : boxes) x.push_back(b.center.x);
+  std::sort(x.begin(), x.end());
+  for (std::size_t i = 1; i < x.size(); ++i) EXPECT_LT(x[i] - x[i - 1], 2) << "boxes follow each other at about their lengths";
+}
+
+TEST(Strip, both_edges_get_as_many_nodes_common_ones_where_it_is_narrow) {
+  const Model model = test::make_model("wedge_strip");
+  const Strip strip = tapered_strip();
+  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
+  const UniformField field(1);
+  const CurveNodes nodes = discretise_curve(*kept, field, {});
+  const CurveNodes twin = mirror_nodes(*kept, nodes, *closed, strip.is_opposed, 0.25);
+  const std::size_t n = nodes.t.size();
+  ASSERT_EQ(twin.t.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = strip.is_opposed ? n - 1 - i : i;
+    if (i) {
+      EXPECT_GT(twin.t[i], twin.t[i - 1]);
+    }
+    const double width = 0.02 + 0.98 * nodes.x[k].x / 20;
+    if (std::abs(width - 0.25) > 0.01) {
+      EXPECT_EQ(twin.x[i] == nodes.x[k], width < 0.25) << width;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace st
