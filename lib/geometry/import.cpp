@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "geometry/duplicate_faces.h"
+#include "geometry/half_model.h"
 #include "geometry/import_shape.h"
 #include "geometry/model.h"
 #include "geometry/model_impl.h"
@@ -70,6 +71,31 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
   for (ImportFinding& f : findings) f.xyz = factor * f.xyz, f.size *= factor;
 }
 
+/// What --symmetry and --farfield ask for.
+struct FlowDomain {
+  std::optional<occt::SymmetryPlane> plane;
+  std::optional<occt::FarField> far;
+};
+
+FlowDomain parse_flow_domain(const ImportOptions& options) {
+  FlowDomain domain;
+  if (!options.symmetry.empty()) domain.plane = occt::parse_symmetry(options.symmetry);
+  if (!options.farfield.empty()) domain.far = occt::parse_farfield(options.farfield);
+  return domain;
+}
+
+/// Symmetry plane and far field, with tables made again; new faces need no word on their trimming curves and shells.
+void add_flow_domain(ImportedShape& model, occt::ModelOfFile& tables, const FlowDomain& domain, std::vector<ImportFinding>& findings,
+                     const std::string& path) {
+  if (!domain.plane && !domain.far) return;
+  std::vector<ImportFinding> own;
+  occt::make_flow_domain(model, tables.tables.box(), domain.plane, domain.far, findings, path);
+  occt::repair_loops(model, own);
+  occt::repair_pcurves(model, own);
+  tables = occt::make_tables(model, path);
+  if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
+}
+
 void require_closed(const ImportResult& result, const std::string& path) {
   if (!result.is_closed)
     throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
@@ -77,6 +103,7 @@ void require_closed(const ImportResult& result, const std::string& path) {
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
+  const FlowDomain domain = parse_flow_domain(options);
   const CadFile file = occt::read_cad(path);
   const ModelUnit unit = choose_unit(file, options.unit);
   ImportResult result;
@@ -91,6 +118,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
     result.findings.push_back({"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
+  add_flow_domain(model, tables, domain, result.findings, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;

@@ -115,6 +115,8 @@ StageSummary import_here(const ImportStageOptions& o) {
   ImportOptions options;
   options.unit = o.unit;
   options.small = o.small;
+  options.symmetry = o.symmetry;
+  options.farfield = o.farfield;
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   ImportResult r = import_model(o.model, options);
@@ -130,7 +132,7 @@ StageSummary import_here(const ImportStageOptions& o) {
     g.header.schema = "geometry";
     g.header.tool = "st-import";
     g.header.tool_version = ST_VERSION;
-    g.header.options_json = nlohmann::json{{"unit", o.unit}, {"small", o.small}}.dump();
+    g.header.options_json = nlohmann::json{{"unit", o.unit}, {"small", o.small}, {"symmetry", o.symmetry}, {"farfield", o.farfield}}.dump();
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
