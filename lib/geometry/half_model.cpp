@@ -11,7 +11,6 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <GCPnts_UniformAbscissa.hxx>
 #include <GProp_GProps.hxx>
 #include <ShapeAnalysis_FreeBounds.hxx>
 #include <ShapeFix_Shell.hxx>
@@ -24,7 +23,6 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <cmath>
-#include <cstdlib>
 #include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
 #include <map>
@@ -70,8 +68,15 @@ bool is_in_plane(const TopoDS_Edge& edge, const Cut& cut) {
   return true;
 }
 
+/// All of a face, at 25 points, with its normal across the plane: a narrow strip that stands on the plane is near it, too.
 bool is_in_plane(const TopoDS_Face& face, const Cut& cut) {
   const BRepAdaptor_Surface surface(face);
+  gp_Pnt middle;
+  gp_Vec du, dv;
+  surface.D1(0.5 * (surface.FirstUParameter() + surface.LastUParameter()), 0.5 * (surface.FirstVParameter() + surface.LastVParameter()),
+             middle, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  if (std::fabs(normal * gp_Vec(axis_direction(cut.plane.axis, 1))) < 0.9 * normal.Magnitude()) return false;
   for (int i = 0; i <= 4; ++i)
     for (int k = 0; k <= 4; ++k)
       if (!cut.is_near(surface.Value(surface.FirstUParameter() + 0.25 * i * (surface.LastUParameter() - surface.FirstUParameter()),
@@ -374,43 +379,10 @@ void take(ImportedShape& model, const TopoDS_Shape& shape, const Faces& plane_fa
       if (const int i = model.faces.FindIndex(f); i > 0) model.attributes[i - 1].name = name;
 }
 
-double number_after(const std::string& text, std::size_t start, std::size_t end, const std::string& message) {
-  const std::string digits = text.substr(start, end - start);
-  char* rest = nullptr;
-  const double value = std::strtod(digits.c_str(), &rest);
-  if (digits.empty() || *rest != '\0' || !std::isfinite(value)) throw Error(ExitCode::kUsage, message);
-  return value;
-}
-
 }  // namespace
 
-SymmetryPlane parse_symmetry(const std::string& text) {
-  const std::string message =
-      "--symmetry: '" + text + "' is not a plane; use x=, y= or z= and a number, then + or - for the kept side (y=0, y=0-)";
-  SymmetryPlane plane;
-  if (text.size() < 3 || text[0] < 'x' || text[0] > 'z' || text[1] != '=') throw Error(ExitCode::kUsage, message);
-  plane.axis = text[0] - 'x';
-  plane.side = text.back() == '+' ? 1 : text.back() == '-' ? -1 : 0;
-  plane.value = number_after(text, 2, text.size() - (plane.side != 0), message);
-  return plane;
-}
-
-FarField parse_farfield(const std::string& text) {
-  const std::string message =
-      "--farfield: '" + text + "' is not a far field; use box:20 or sphere:50, in diagonals of the model from 1 to 1000";
-  FarField far;
-  const std::size_t colon = text.find(':');
-  const std::string kind = text.substr(0, colon);
-  if (colon == std::string::npos || (kind != "box" && kind != "sphere")) throw Error(ExitCode::kUsage, message);
-  far.kind = kind == "box" ? FarField::Kind::kBox : FarField::Kind::kSphere;
-  far.size = number_after(text, colon + 1, text.size(), message);
-  if (far.size < 1 || far.size > 1000) throw Error(ExitCode::kUsage, message);
-  return far;
-}
-
-void make_flow_domain(ImportedShape& model, const Box3& box, const std::optional<SymmetryPlane>& plane, const std::optional<FarField>& far,
-                      std::vector<ImportFinding>& findings, const std::string& path) {
-  const double diagonal = box.diagonal();
+void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, const std::optional<SymmetryPlane>& plane,
+                      const std::optional<FarField>& far, std::vector<ImportFinding>& findings, const std::string& path) {
   std::optional<Cut> cut;
   if (plane) {
     cut = Cut{*plane, diagonal};

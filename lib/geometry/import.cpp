@@ -89,7 +89,7 @@ void add_flow_domain(ImportedShape& model, occt::ModelOfFile& tables, const Flow
                      const std::string& path) {
   if (!domain.plane && !domain.far) return;
   std::vector<ImportFinding> own;
-  occt::make_flow_domain(model, tables.tables.box(), domain.plane, domain.far, findings, path);
+  occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), domain.plane, domain.far, findings, path);
   occt::repair_loops(model, own);
   occt::repair_pcurves(model, own);
   tables = occt::make_tables(model, path);

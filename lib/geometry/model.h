@@ -21,39 +21,39 @@ namespace st {
 struct ModelTables {
   // vertices [n_vertices]
   std::vector<Vec3> vertex_xyz;
-  std::vector<double> vertex_tolerance;  ///< model unit
+  std::vector<double> vertex_tolerance;              ///< model unit
   // edges [n_edges]
-  std::vector<VertexId> edge_vertices;  ///< [2*n_edges] vertex at t_min, at t_max; equal for a closed edge
-  std::vector<double> edge_range;       ///< [2*n_edges] t_min, t_max
-  std::vector<double> edge_length;      ///< model unit; 0 for a degenerate edge
+  std::vector<VertexId> edge_vertices;               ///< [2*n_edges] vertex at t_min, at t_max; equal for a closed edge
+  std::vector<double> edge_range;                    ///< [2*n_edges] t_min, t_max
+  std::vector<double> edge_length;                   ///< model unit; 0 for a degenerate edge
   std::vector<double> edge_tolerance;
-  std::vector<std::uint8_t> edge_is_degenerate;  ///< 1: a pole; no space curve, both vertices equal
-  std::vector<std::string> edge_name;            ///< UTF-8, empty when the file has none
+  std::vector<std::uint8_t> edge_is_degenerate;      ///< 1: a pole; no space curve, both vertices equal
+  std::vector<std::string> edge_name;                ///< UTF-8, empty when the file has none
   // faces [n_faces]; loops of face f: [face_loop_offsets[f], face_loop_offsets[f+1]); coedges of loop l likewise
-  std::vector<std::int32_t> face_loop_offsets;    ///< [n_faces+1]; the outer loop comes first
-  std::vector<std::int32_t> loop_coedge_offsets;  ///< [n_loops+1]; coedges in order, head to tail, interior to the left in (u,v)
-  std::vector<EdgeId> coedge_edge;                ///< [n_coedges]
-  std::vector<std::uint8_t> coedge_is_reversed;   ///< [n_coedges] 1: traversed from t_max to t_min
-  std::vector<std::uint8_t> face_is_reversed;     ///< 1: du x dv points into the solid; triangles are flipped at output
+  std::vector<std::int32_t> face_loop_offsets;       ///< [n_faces+1]; the outer loop comes first
+  std::vector<std::int32_t> loop_coedge_offsets;     ///< [n_loops+1]; coedges in order, head to tail, interior to the left in (u,v)
+  std::vector<EdgeId> coedge_edge;                   ///< [n_coedges]
+  std::vector<std::uint8_t> coedge_is_reversed;      ///< [n_coedges] 1: traversed from t_max to t_min
+  std::vector<std::uint8_t> face_is_reversed;        ///< 1: du x dv points into the solid; triangles are flipped at output
   std::vector<SurfaceType> face_type;
-  std::vector<double> face_uv_bounds;  ///< [4*n_faces] u_min, u_max, v_min, v_max
+  std::vector<double> face_uv_bounds;                ///< [4*n_faces] u_min, u_max, v_min, v_max
   std::vector<double> face_tolerance;
-  std::vector<double> face_area;   ///< model unit squared, from the B-Rep
-  std::vector<double> face_width;  ///< model unit; of the rectangle of the same area and perimeter
+  std::vector<double> face_area;                     ///< model unit squared, from the B-Rep
+  std::vector<double> face_width;                    ///< model unit; of the rectangle of the same area and perimeter
   std::vector<Box3> face_box;
-  std::vector<std::string> face_name;    ///< UTF-8, empty when the file has none
-  std::vector<std::int32_t> face_color;  ///< 0xRRGGBB, kNone when the file has none
-  std::vector<std::string> face_layer;   ///< empty when the file has none
-  std::vector<std::int32_t> face_group;  ///< index into group_name
-  std::vector<std::int32_t> face_shell;  ///< index of the shell (connected component of faces), kNone when loose
-  std::vector<std::int32_t> face_solid;  ///< index of the solid, kNone when none
+  std::vector<std::string> face_name;                ///< UTF-8, empty when the file has none
+  std::vector<std::int32_t> face_color;              ///< 0xRRGGBB, kNone when the file has none
+  std::vector<std::string> face_layer;               ///< empty when the file has none
+  std::vector<std::int32_t> face_group;              ///< index into group_name
+  std::vector<std::int32_t> face_shell;              ///< index of the shell (connected component of faces), kNone when loose
+  std::vector<std::int32_t> face_solid;              ///< index of the solid, kNone when none
   // groups (by face name, else part name, else "default")
-  std::vector<std::string> group_name;  ///< UTF-8
-  std::vector<std::string> group_role;  ///< "wall", "symmetry", "farfield": from the name (symmetry, sym, farfield, far_field ...)
+  std::vector<std::string> group_name;               ///< UTF-8
+  std::vector<std::string> group_role;               ///< "wall", "symmetry", "farfield": from the name (symmetry, sym, farfield, far_field ...)
   std::int32_t n_shells = 0, n_solids = 0;
-  std::optional<double> volume;  ///< model unit cubed, of a closed model; negative where normals point inward
+  std::optional<double> volume;                      ///< model unit cubed, of a closed model; negative where normals point inward
   // unit
-  std::string unit;  ///< "mm", "m", "in" ...; empty when the model has none
+  std::string unit;                                  ///< "mm", "m", "in" ...; empty when the model has none
   std::optional<double> unit_in_m;
 
   std::int32_t n_vertices() const { return static_cast<std::int32_t>(vertex_xyz.size()); }
@@ -103,30 +103,30 @@ class Model {
 
 /// One finding of the import: what, where, what was done.
 struct ImportFinding {
-  std::string what;    ///< "free edge", "short edge", "sliver face", "sewn", "scaled" ...
-  std::string entity;  ///< "edge 12 "TE"" or empty
-  Vec3 xyz;            ///< model unit
-  double size = 0;     ///< length, width, tolerance: model unit
+  std::string what;      ///< "free edge", "short edge", "sliver face", "sewn", "scaled" ...
+  std::string entity;    ///< "edge 12 "TE"" or empty
+  Vec3 xyz;              ///< model unit
+  double size = 0;       ///< length, width, tolerance: model unit
   bool is_repair = false;
 };
 
 struct ImportOptions {
-  std::string unit;             ///< target unit name; empty: the file's own
-  std::string small = "0.01%";  ///< length: edges shorter and faces narrower than this are listed
-  bool check_only = false;      ///< also run OpenCASCADE's checker
-  std::string symmetry;         ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
-  std::string farfield;         ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
-  bool require_closed = false;  ///< Error(kGeometry) for a model that is open after repairs
+  std::string unit;                       ///< target unit name; empty: the file's own
+  std::string small = "0.01%";            ///< length: edges shorter and faces narrower than this are listed
+  bool check_only = false;                ///< also run OpenCASCADE's checker
+  std::string symmetry;                   ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
+  std::string farfield;                   ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
+  bool require_closed = false;            ///< Error(kGeometry) for a model that is open after repairs
 };
 
 struct ImportResult {
   ModelTables tables;
   std::vector<std::byte> brep;
   std::vector<ImportFinding> findings;
-  std::string format;      ///< "STEP", "IGES", "BREP"
-  bool is_closed = false;  ///< at least one shell and no free edge
+  std::string format;                     ///< "STEP", "IGES", "BREP"
+  bool is_closed = false;                 ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
-  double area = 0, volume = 0;  ///< model unit squared, cubed (volume 0 when open)
+  double area = 0, volume = 0;            ///< model unit squared, cubed (volume 0 when open)
 };
 
 /// Reads a STEP, IGES or BREP file (recognised by content). Throws Error(kInput) for a missing, empty or unreadable file or a
