@@ -27,7 +27,7 @@ OPTIONS = {
 }
 # Values that each option with a bounded value refuses.
 REFUSED = {
-    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--time-limit": ["0", "-1", "x"]},
+    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
     "st-raster": {
         "--lmin": ["0", "-3", "x", "3pt", "nan"],
         "--lmax": ["0", "1e999"],
