@@ -16,6 +16,7 @@ constexpr int kFirstCuts = 4;         // per direction, on surfaces whose curvat
 constexpr int kDoubts = 6;            // splits (two per halving) granted to a curvature that no angle confirms
 constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as confirmed
 constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
+constexpr double kDiscReach = 0.75;   // of the extent of a patch: half the diagonal of a square
 constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
 constexpr double kCollapsed = 1e-9;   // derivative over the other one, scaled to the ranges, where a side has collapsed
@@ -31,8 +32,8 @@ class FaceRaster {
   using CurvaturePatch = Patch<CurvatureProbe>;
 
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-             std::vector<RasterBox>& boxes)
-      : surface_(surface), loops_(loops), limits_(limits), cause_(cause), boxes_(boxes) {
+             std::vector<RasterBox>& boxes, std::vector<FaceDisc>* discs)
+      : surface_(surface), loops_(loops), limits_(limits), cause_(cause), boxes_(boxes), discs_(discs) {
     range_u_ = surface.u_max() - surface.u_min();
     range_v_ = surface.v_max() - surface.v_min();
     const SurfaceType type = surface.type();
@@ -195,6 +196,9 @@ class FaceRaster {
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
     boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_});
+    const CurvatureProbe& middle = patch.probe[4];
+    if (discs_ && middle.normal != Vec3{})
+      discs_->push_back({middle.x, middle.normal, kDiscReach * size.extent, length, limits_.min_length, cause_});
     report_.area += inside_area(patch);
     ++report_.n_patches;
   }
@@ -204,6 +208,7 @@ class FaceRaster {
   const SamplingLimits& limits_;
   const std::int32_t cause_;
   std::vector<RasterBox>& boxes_;
+  std::vector<FaceDisc>* const discs_;
   FaceRasterReport report_;
   double range_u_ = 1, range_v_ = 1;
   bool is_free_ = true;  // curvature varies freely: not a plane, cylinder, cone, sphere or torus
@@ -212,8 +217,8 @@ class FaceRaster {
 }  // namespace
 
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-                             std::vector<RasterBox>& boxes) {
-  return FaceRaster(surface, loops, limits, cause, boxes).run();
+                             std::vector<RasterBox>& boxes, std::vector<FaceDisc>* discs) {
+  return FaceRaster(surface, loops, limits, cause, boxes, discs).run();
 }
 
 }  // namespace st

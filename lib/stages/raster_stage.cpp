@@ -15,6 +15,7 @@
 #include "io/size_rule_file.h"
 #include "io/sizing_artifact.h"
 #include "sizing/face_cells.h"
+#include "sizing/gap_sizes.h"
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
@@ -68,9 +69,12 @@ std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
 /// The work cut into tasks: first batches of edges, then one task per face.
 class RasterTasks {
  public:
-  RasterTasks(const Model& model, const ModelLimits& limits)
+  enum class Discs { kNone, kWanted };
+
+  RasterTasks(const Model& model, const ModelLimits& limits, Discs discs)
       : model_(model),
         limits_(limits),
+        wants_discs_(discs == Discs::kWanted),
         strips_(find_strips(model)),
         n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
@@ -86,14 +90,16 @@ class RasterTasks {
   /// Local. Boxes of one task, packed, and what went wrong (empty: nothing).
   Bytes compute(std::int32_t task) const {
     std::vector<RasterBox> boxes;
+    std::vector<FaceDisc> discs;
     std::string failure;
     try {
       if (task < n_batches_)
         raster_edges(task, boxes);
       else
-        raster_one_face(task - n_batches_, boxes);
+        raster_one_face(task - n_batches_, boxes, discs);
     } catch (const std::exception& e) {
       boxes.clear();
+      discs.clear();
       failure =
           task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
@@ -101,6 +107,7 @@ class RasterTasks {
     Packer packer;
     packer.add(boxes);
     packer.add(failure);
+    packer.add(discs);
     return packer.take();
   }
 
@@ -120,16 +127,20 @@ class RasterTasks {
     }
   }
 
-  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes) const {
+  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<FaceDisc>& discs) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
-    raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes);
+    raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
+                wants_discs_ ? &discs : nullptr);
+    if (model_.tables().face_is_reversed[f])
+      for (FaceDisc& disc : discs) disc.normal = -1.0 * disc.normal;
     const auto strip = std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
     if (strip != strips_.end() && strip->face == f) raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
   const Model& model_;
   const ModelLimits& limits_;
+  bool wants_discs_;
   std::vector<Strip> strips_;
   std::int32_t n_batches_;
 };
@@ -137,12 +148,18 @@ class RasterTasks {
 /// What rank 0 gathers.
 struct CollectedBoxes {
   std::vector<std::vector<RasterBox>> by_task;
-  std::vector<std::string> failures;  // by task, empty where there is none
+  std::vector<std::string> failures;         // by task, empty where there is none
+  std::vector<std::vector<FaceDisc>> discs;  // by task
 
   std::vector<RasterBox> all() const {
     std::vector<RasterBox> boxes;
     for (const std::vector<RasterBox>& b : by_task) boxes.insert(boxes.end(), b.begin(), b.end());
     return boxes;
+  }
+  std::vector<FaceDisc> all_discs() const {
+    std::vector<FaceDisc> all;
+    for (const std::vector<FaceDisc>& d : discs) all.insert(all.end(), d.begin(), d.end());
+    return all;
   }
 };
 
@@ -151,6 +168,7 @@ CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) 
   CollectedBoxes collected;
   collected.by_task.resize(static_cast<std::size_t>(tasks.count()));
   collected.failures.resize(static_cast<std::size_t>(tasks.count()));
+  collected.discs.resize(static_cast<std::size_t>(tasks.count()));
   Progress progress("sampling", tasks.count());
   std::int32_t n_done = 0;
   comm.run_tasks(
@@ -159,13 +177,14 @@ CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) 
         Unpacker unpacker(result);
         unpacker.get(collected.by_task[task]);
         unpacker.get(collected.failures[task]);
+        unpacker.get(collected.discs[task]);
         progress.update(++n_done);
       });
   return collected;
 }
 
 struct SampleCounts {
-  std::size_t n_boxes = 0, n_failures = 0;
+  std::size_t n_boxes = 0, n_failures = 0, n_gap_boxes = 0;
 };
 
 /// Counts, and warns of what could not be sampled.
@@ -187,6 +206,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   header.tool_version = ST_VERSION;
   nlohmann::json options{
       {"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}};
+  if (o.gap_cells) options["gap_cells"] = *o.gap_cells;
   if (!o.chord.empty()) options["chord"] = limits.chord;
   header.options_json = options.dump();
   header.unit = geometry.unit;
@@ -257,6 +277,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"alpha", a.numbers.alpha_deg},
       {"cell_per_length", a.numbers.cell_per_length},
       {"rules", n_rules},
+      {"gap_samples", counts.n_gap_boxes},
       {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
       {"seconds",
@@ -282,10 +303,14 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   RasterArtifact artifact;
   SampleCounts counts;
   {
-    const CollectedBoxes collected = sample_model(RasterTasks(model, limits), comm);
+    const CollectedBoxes collected =
+        sample_model(RasterTasks(model, limits, o.gap_cells ? RasterTasks::Discs::kWanted : RasterTasks::Discs::kNone), comm);
     if (comm.is_root()) {
       counts = report_samples(collected);
-      artifact.octree = build_octree(model.tables().box(), collected.all());
+      std::vector<RasterBox> boxes = collected.all();
+      if (o.gap_cells) add_gap_boxes(collected.all_discs(), *o.gap_cells, o.cell_per_length, boxes);
+      counts.n_gap_boxes = boxes.size() - counts.n_boxes;
+      artifact.octree = build_octree(model.tables().box(), boxes);
     }
   }
   share_shape(artifact.octree.shape, comm);

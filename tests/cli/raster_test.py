@@ -54,5 +54,26 @@ class Rules(ToolTest):
         self.refuse("[[size]]\nlmax = \n", "sizes.toml:2")
 
 
+class Gaps(ToolTest):
+    def length_in_the_wall(self, *options):
+        """Of a tube whose wall is 0.4 thick, and the raster's summary."""
+        tube = self.folder / "tube.hdf"
+        must("st-import", MODELS / "tube_with_rod.brep", "-o", tube)
+        said = must("st-raster", tube, "-o", self.folder / "r.hdf", "--lmin", "0.15", *options, "--json").json()
+        must("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf")
+        return must("st-info", self.folder / "s.hdf", "--at=-9.8,0,5", "--json").json()["length"], said
+
+    def test_a_thin_wall_gets_the_lengths_asked_for(self):
+        self.assertGreater(self.length_in_the_wall()[0], 0.7)
+        for n in (1, 2):  # flat discs on a curved wall see up to a quarter less than it is thick
+            length = self.length_in_the_wall("--gap-cells", n)[0]
+            self.assertGreater(length, 0.75 * 0.4 / n)
+            self.assertLess(length, 1.05 * 0.4 / n)
+        self.assertAlmostEqual(self.length_in_the_wall("--gap-cells", 4)[0], 0.15, delta=0.02)  # lmin
+
+    def test_the_result_does_not_depend_on_the_number_of_ranks(self):
+        self.assertEqual(len({self.length_in_the_wall("--gap-cells", 1, "--np", n)[1]["hash"] for n in (1, 2, 3)}), 1)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

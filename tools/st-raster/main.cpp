@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   tool.number("--alpha", o.alpha_deg, "(0, 90]", "largest turning of the normal or tangent along one length, degrees");
   tool.length("--chord", o.chord, "", "largest distance of a length's chord from the geometry");
   tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
+  tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps and thin walls, down to lmin");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }
