@@ -132,7 +132,10 @@ StageSummary import_here(const ImportStageOptions& o) {
     g.header.schema = "geometry";
     g.header.tool = "st-import";
     g.header.tool_version = ST_VERSION;
-    g.header.options_json = nlohmann::json{{"unit", o.unit}, {"small", o.small}, {"symmetry", o.symmetry}, {"farfield", o.farfield}}.dump();
+    nlohmann::json used{{"unit", o.unit}, {"small", o.small}};
+    if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
+    if (!o.farfield.empty()) used["farfield"] = o.farfield;
+    g.header.options_json = used.dump();
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
