@@ -30,8 +30,7 @@ TEST(GapSizes, put_n_lengths_between_two_plates_everywhere) {
     for (double x = 0.05; x < 10; x += 0.3)
       for (const double z : {0.0, 0.4}) {
         const auto covers = [&](const RasterBox& b) {
-          return std::abs(b.center.x - x) <= b.half && std::abs(b.center.y - 5.03) <= b.half &&
-                 std::abs(b.center.z - z) <= b.half;
+          return std::abs(b.center.x - x) <= b.half && std::abs(b.center.y - 5.03) <= b.half && std::abs(b.center.z - z) <= b.half;
         };
         EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), covers)) << x << " " << z;
       }

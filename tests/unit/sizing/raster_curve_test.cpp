@@ -68,6 +68,18 @@ TEST(RasterCurve, gives_a_circle_its_radius_times_alpha) {
   }
 }
 
+TEST(RasterCurve, keeps_a_chord_error_where_it_asks_for_less_than_the_angle) {
+  const EllipseCurve circle(kFrame, 2, 2, 0, 2 * kPi);
+  SamplingLimits limits = kLimits;
+  limits.chord = 0.0005;
+  const std::vector<RasterBox> boxes = raster(circle, limits);
+  const double length = 2 * std::sqrt(2 * 2 * limits.chord - limits.chord * limits.chord);
+  for (const RasterBox& b : boxes) EXPECT_NEAR(b.length, length, 0.02 * length);
+  expect_covered(circle, boxes);
+  limits.chord = 0.1;
+  EXPECT_EQ(raster(circle, limits).size(), raster(circle).size());
+}
+
 TEST(RasterCurve, gives_an_arc_too_small_for_alpha_the_smallest_length) {
   for (const double radius : {0.05, 0.001, 1e-6}) {
     const EllipseCurve circle(kFrame, radius, radius, 0, 2 * kPi);

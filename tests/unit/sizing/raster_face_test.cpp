@@ -98,6 +98,15 @@ TEST(RasterFace, gives_a_sphere_its_radius_times_alpha_everywhere) {
   }
 }
 
+TEST(RasterFace, keeps_a_chord_error_where_it_asks_for_less_than_the_angle) {
+  const AxialSurface sphere(SurfaceType::kSphere, kFrame, 2, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  SamplingLimits limits = kLimits;
+  limits.chord = 0.0005;
+  expect_everywhere(sphere, sample(sphere, {}, limits), std::sqrt(8 * 2 * limits.chord), 0.02);
+  limits.chord = 0.1;
+  expect_everywhere(sphere, sample(sphere, {}, limits), 2 * limits.alpha, 0.02);
+}
+
 TEST(RasterFace, gives_a_free_form_sphere_the_same_through_its_poles_and_stretched_lines) {
   // iso-lines crowd by u^3 around one meridian, and the poles are singular
   const FormulaSurface sphere(
