@@ -174,13 +174,21 @@ class TableWriter {
     }
   }
 
+  /// From words of the name: "far field", "Symmetry_1", "sym", "symm-y0"; "symbol" is a wall.
   static std::string role_of(const std::string& name) {
-    std::string s;
-    for (unsigned char c : name)
-      if (std::isalnum(c)) s += static_cast<char>(std::tolower(c));
-    if (s.find("farfield") != std::string::npos) return "farfield";
-    if (s.find("symmetry") != std::string::npos || s.rfind("sym", 0) == 0) return "symmetry";
-    return "wall";
+    std::string letters, word;
+    bool has_sym = false;
+    for (const unsigned char c : name + " ") {
+      if (std::isalpha(c)) {
+        letters += static_cast<char>(std::tolower(c));
+        word += static_cast<char>(std::tolower(c));
+        continue;
+      }
+      has_sym |= word == "sym" || word == "symm" || word == "symplane";
+      word.clear();
+    }
+    if (letters.find("farfield") != std::string::npos) return "farfield";
+    return has_sym || letters.find("symmetry") != std::string::npos ? "symmetry" : "wall";
   }
 
   const ImportedShape& model_;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "geometry/model.h"
 #include "support/shapes.h"
@@ -112,6 +115,27 @@ TEST(Import, finds_roles_in_names) {
   for (std::size_t g = 0; g < t.group_name.size(); ++g) {
     const std::string& name = t.group_name[g];
     EXPECT_EQ(t.group_role[g], name == "symmetry" ? "symmetry" : name == "Far Field" ? "farfield" : "wall") << name;
+  }
+}
+
+TEST(Import, finds_roles_in_whole_words_only) {
+  const TemporaryDirectory dir;
+  test::write_named_loose_box(dir / "box.step");
+  std::ifstream in(dir / "box.step");
+  std::stringstream step;
+  step << in.rdbuf();
+  std::string text = step.str();
+  const std::map<std::string, std::pair<std::string, std::string>> renamed = {
+      {"x_min", {"symbol", "wall"}},        {"x_max", {"Sym-1", "symmetry"}}, {"y_min", {"SYMM", "symmetry"}},
+      {"y_max", {"far_field", "farfield"}}, {"z_min", {"gasym", "wall"}},     {"z_max", {"SymmetryPlane2", "symmetry"}}};
+  for (const auto& [old_name, now] : renamed)
+    for (std::size_t at; (at = text.find("'" + old_name + "'")) != std::string::npos;) text.replace(at + 1, old_name.size(), now.first);
+  std::ofstream(dir / "box.step") << text;
+  const ModelTables t = import_model(dir / "box.step", {}).tables;
+  for (const auto& [old_name, now] : renamed) {
+    const auto group = std::find(t.group_name.begin(), t.group_name.end(), now.first);
+    ASSERT_NE(group, t.group_name.end()) << now.first;
+    EXPECT_EQ(t.group_role[group - t.group_name.begin()], now.second) << now.first;
   }
 }
 
