@@ -259,8 +259,29 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   return faces;
 }
 
+/// Wall time of the stage and of its parts, seconds.
+class PhaseTimes {
+ public:
+  /// The part that ends here, since the last one ended.
+  void end(const char* part) {
+    parts_.emplace_back(part, since_last_.seconds());
+    since_last_ = Timer();
+  }
+  double total() const { return total_.seconds(); }
+  nlohmann::json json() const {
+    nlohmann::json result = nlohmann::json::object();
+    for (const auto& [part, seconds] : parts_) result[part] = seconds;
+    return result;
+  }
+
+ private:
+  Timer total_, since_last_;
+  std::vector<std::pair<const char*, double>> parts_;
+};
+
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
-                       double seconds) {
+                       const PhaseTimes& times) {
+  const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
   summary.line =
@@ -280,15 +301,16 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"gap_samples", counts.n_gap_boxes},
       {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
-      {"seconds",
-       seconds}}.dump();
+      {"seconds", seconds},
+      {"seconds_of",
+       times.json()}}.dump();
   return summary;
 }
 
 }  // namespace
 
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
-  const Timer timer;
+  PhaseTimes times;
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
   GeometryArtifact geometry = read_geometry(o.geometry);
@@ -299,12 +321,14 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   const ModelLimits limits = model_limits(geometry.tables, roles, wall, sizes.rules);
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
+  times.end("opening");
 
   RasterArtifact artifact;
   SampleCounts counts;
   {
     const CollectedBoxes collected =
         sample_model(RasterTasks(model, limits, o.gap_cells ? RasterTasks::Discs::kWanted : RasterTasks::Discs::kNone), comm);
+    times.end("sampling");
     if (comm.is_root()) {
       counts = report_samples(collected);
       std::vector<RasterBox> boxes = collected.all();
@@ -313,15 +337,18 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
       artifact.octree = build_octree(model.tables().box(), boxes);
     }
   }
+  times.end("octree");
   share_shape(artifact.octree.shape, comm);
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
+  times.end("faces");
   if (!comm.is_root()) return {};
 
   artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
-  return summarize(o, artifact, counts, sizes.rules.size(), timer.seconds());
+  times.end("writing");
+  return summarize(o, artifact, counts, sizes.rules.size(), times);
 }
 
 }  // namespace st
