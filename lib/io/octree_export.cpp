@@ -10,6 +10,7 @@
 #include "io/background_export.h"
 #include "io/sizing_artifact.h"
 #include "io/temporary_file.h"
+#include "io/vtu_arrays.h"
 #include "sizing/radix_sort.h"
 
 namespace st {
@@ -44,27 +45,6 @@ std::array<std::uint64_t, 8> leaf_corners(const OctreeView& octree, std::size_t 
     corners[c] = pack_corner({p.x + (c & 1) * extent, p.y + (c >> 1 & 1) * extent, p.z + (c >> 2) * extent});
   return corners;
 }
-
-/// Collects arrays for the appended section of a .vtu and knows their offsets.
-class VtuArrays {
- public:
-  template <class T>
-  std::string add(const std::string& name, const char* type, const std::vector<T>& values, int components = 1) {
-    const std::string header = "        <DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                               std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>\n";
-    const std::uint64_t n = values.size() * sizeof(T);
-    append(&n, sizeof n);
-    append(values.data(), n);
-    return header;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  void append(const void* data, std::size_t n) {
-    if (n) bytes_.append(static_cast<const char*>(data), n);
-  }
-  std::string bytes_;
-};
 
 std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays& arrays) {
   const std::vector<std::int32_t> level(octree.leaf_levels.begin(), octree.leaf_levels.end());

@@ -50,6 +50,7 @@ class FaceMesher {
     advance_front(work_);
     if (work_.mesh.nodes.size() >= work_.max_nodes) {
       result.cause = "the sizes ask for far more nodes than the face's area explains";
+      collect(result);
       return result;
     }
     enhance(work_, options.enhance_rounds);

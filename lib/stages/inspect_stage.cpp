@@ -10,6 +10,7 @@
 
 #include "base/log.h"
 #include "io/artifact.h"
+#include "io/failure_artifact.h"
 #include "io/inspect.h"
 #include "io/octree_export.h"
 
@@ -45,7 +46,8 @@ const std::vector<Count>& counts_of(const std::string& schema) {
         {"patches", "/st/patch/face"},
         {"failures", "/st/failure/face"},
         {"groups", "/st/group/name"}}},
-      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/st/face/name"}, {"groups", "/st/group/name"}}}};
+      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/st/face/name"}, {"groups", "/st/group/name"}}},
+      {"failures", {{"failures", "/st/failure/face"}, {"cells", "/VTKHDF/Types"}}}};
   static const std::vector<Count> none;
   const auto it = counts.find(schema);
   return it == counts.end() ? none : it->second;
@@ -129,9 +131,12 @@ void export_artifact(const std::string& artifact, const std::string& output) {
   } else if (schema == "raster" || schema == "sizing") {
     require_writable(output);
     export_octree(artifact, output);
+  } else if (schema == "failures") {
+    require_writable(output);
+    export_failures(artifact, output);
   } else {
     throw Error(ExitCode::kInput,
-                fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster or sizing artifact", artifact, schema));
+                fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster, sizing or failures artifact", artifact, schema));
   }
 }
 

@@ -249,6 +249,7 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     if (!face_cause_[f].empty())
       failures.push_back({f, face_cause_[f], "repair the face in the CAD system, or ask for smaller sizes there", face_cause_xyz_[f]});
   }
+  for (auto& [f, failed] : failed_faces_) failed_faces.push_back(std::move(failed));
 }
 
 double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
@@ -397,10 +398,11 @@ void ModelMesher::broadcast_edges() {
 Bytes ModelMesher::compute_face(FaceId f) const {
   FaceMesh mesh;
   FacePatch patch;
+  FaceBoundary boundary;
   patch.face = f;
   try {
     const auto surface = model_.surface(f);
-    const FaceBoundary boundary = make_face_boundary(model_, *surface, f, *numbering_);
+    boundary = make_face_boundary(model_, *surface, f, *numbering_);
     const bool is_closed_strip = boundary.nodes.empty() && numbering_->strip_of(f) != kNone;
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
@@ -421,6 +423,7 @@ Bytes ModelMesher::compute_face(FaceId f) const {
   packer.add(mesh.cause);
   packer.add(mesh.refinement);
   packer.add(mesh.n_folds);
+  if (!mesh.cause.empty()) pack(packer, describe_failure(*numbering_, f, boundary, mesh));
   return packer.take();
 }
 
@@ -440,6 +443,8 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
         u.get(face_cause_[f]);
         u.get(wanted[task]);
         u.get(face_folds_[f]);
+        failed_faces_.erase(f);
+        if (!face_cause_[f].empty()) unpack(u, failed_faces_[f]);
         face_fold_places_[f] = face_folds_[f] ? wanted[task] : std::vector<RefinementPoint>();
         face_cause_xyz_[f] = wanted[task].empty() ? tables_.face_box[f].center() : wanted[task][0].x;
         progress.update(static_cast<double>(++n_done));

@@ -1,6 +1,7 @@
 // Meshes the edges and faces of a model on all ranks, in rounds: what cannot be meshed, folds or crosses is refined and done again.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "meshing/face_boundary.h"
 #include "meshing/face_mesher.h"
 #include "sizing/size_field.h"
+#include "stages/failed_face.h"
 
 namespace st {
 
@@ -47,6 +49,7 @@ class ModelMesher {
   EdgeMesh edges;
   std::vector<FacePatch> patches;           ///< by face; without triangles where the face failed
   std::vector<FaceFailure> failures;        ///< by face
+  std::vector<FailedFace> failed_faces;     ///< likewise: boundary and partial state of each
   MergedFeatures merged;                    ///< on every rank
   /// The model's tables with merged edges, on every rank.
   const ModelTables& tables() const { return tables_; }
@@ -89,6 +92,7 @@ class ModelMesher {
   std::vector<double> point_reach_;
   std::vector<int> face_folds_;
   std::vector<std::string> face_cause_;
+  std::map<FaceId, FailedFace> failed_faces_;
   std::vector<Vec3> face_cause_xyz_;
   std::vector<std::vector<RefinementPoint>> face_fold_places_;
   std::vector<char> face_is_fresh_;          // meshed since the last search for crossings

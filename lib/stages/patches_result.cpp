@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/failure_artifact.h"
+
 namespace st {
 namespace {
 
@@ -38,6 +40,17 @@ nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const 
                       {"xyz", {x.x, x.y, x.z}}});
   }
   return {{"edges", edges}, {"strips", strips}};
+}
+
+/// Beside the patches: what the faces that could not be meshed look like; an earlier run's is removed when all were. Returns its path, or "".
+std::string write_failed_faces(const std::string& patches, const ArtifactHeader& header, const ModelTables& t, const ModelMesher& m) {
+  const std::string path = failures_path(patches);
+  if (m.failures.empty()) {
+    remove_failures(path);
+    return "";
+  }
+  write_failures(path, {header, m.failures, m.failed_faces, t.face_name});
+  return path;
 }
 
 }  // namespace
@@ -84,6 +97,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   }
   const Timer write_timer;
   const std::string hash = write_patches(path, out);
+  const std::string failures_file = write_failed_faces(path, header, t, m);
   const double write_seconds = write_timer.seconds(), seconds = facts.timer.seconds();
 
   nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
@@ -91,6 +105,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
     failures.push_back(failure_json(t, f));
     log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause, f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
   }
+  if (!failures_file.empty()) log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
   for (const RefinementPoint& p : m.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
   if (!m.folds.empty()) log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})", m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
   if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
@@ -112,6 +127,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
                           {"faces_meshed", out.patches.size()},
                           {"faces_failed", m.failures.size()},
                           {"failures", failures},
+                          {"failures_file", failures_file},
                           {"folds", folds},
                           {"crossing_pairs", m.n_crossing_pairs},
                           {"merged", merged_json(t, m.merged, closed)},

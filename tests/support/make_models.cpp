@@ -1,6 +1,8 @@
 // Writes the small CAD models of the tests: make_models DIR
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -9,6 +11,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom_Plane.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -27,7 +30,11 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -139,6 +146,31 @@ void write_assembly(const fs::path& path) {
   application->Close(document);
 }
 
+/// A square, and on one of its edges a second face whose boundary crosses itself: nobody can mesh that one.
+TopoDS_Shape crossed_loop() {
+  const gp_Pnt corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, -10, 0}, {10, -10, 0}};
+  TopoDS_Vertex v[6];
+  for (int i = 0; i < 6; ++i) v[i] = BRepBuilderAPI_MakeVertex(corner[i]);
+  const auto line = [&](int a, int b) { return BRepBuilderAPI_MakeEdge(v[a], v[b]).Edge(); };
+  const TopoDS_Edge common = line(0, 1);
+  BRep_Builder builder;
+  const auto face = [&](std::initializer_list<TopoDS_Edge> edges) {
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
+    wire.Closed(true);
+    TopoDS_Face f;
+    builder.MakeFace(f, new Geom_Plane(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))), 1e-7);
+    builder.Add(f, wire);
+    return f;
+  };
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  builder.Add(shell, face({common, line(1, 2), line(2, 3), line(3, 0)}));
+  builder.Add(shell, face({common, line(1, 4), line(4, 5), line(5, 0)}));
+  return shell;
+}
+
 void write_all(const fs::path& dir) {
   fs::create_directories(dir);
   const gp_Ax2 z(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
@@ -157,6 +189,7 @@ void write_all(const fs::path& dir) {
   write_brep(dir / "plate_with_rod.brep", with_rod(box(100, 60, 0.2), gp_Pnt(47, 30, 1.2), gp_Dir(1, 0, 0), 6));
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
+  write_brep(dir / "crossed_loop.brep", crossed_loop());
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ SizingArtifact sample_sizing() {
 }
 
 class ArtifactsDocument : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument, testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh"),
+INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument, testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh", "Failures"),
                          [](const auto& info) { return info.param; });
 
 void write_sample(const std::string& section, const std::string& path) {
@@ -117,6 +117,7 @@ void write_sample(const std::string& section, const std::string& path) {
   if (section == "Sizing") write_sizing(path, sample_sizing());
   if (section == "Patches") write_patches(path, sample_patches());
   if (section == "Mesh") write_mesh(path, sample_mesh());
+  if (section == "Failures") write_failures(path, sample_failures());
 }
 
 TEST_P(ArtifactsDocument, lists_exactly_the_datasets_of_the_file_with_type_and_shape) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/artifact.h"
+#include "io/failure_artifact.h"
 
 namespace st {
 
@@ -118,6 +119,25 @@ inline MeshArtifact sample_mesh() {
   m.face_name = {"bottom", "", "Flügel", "a b"};
   m.group_name = {"body", "wing"};
   return artifact;
+}
+
+/// A bow tie of four segments with two triangles so far, and the place where it crosses itself.
+inline FailureArtifact sample_failures() {
+  FailureArtifact a;
+  a.header = sample_header();
+  FailedFace f;
+  f.face = 1;
+  f.xyz = {{0, 0, 3}, {2, 0, 3}, {0, 2, 3}, {2, 2, 3}, {1, 0.5, 3}};
+  for (const Vec3 x : f.xyz) f.uv.push_back({10 * x.x, 10 * x.y}), f.size.push_back(0.5);
+  f.segment_nodes = {0, 1, 1, 2, 2, 3, 3, 0};
+  f.segment_loop = {0, 0, 0, 0};
+  f.segment_edge = {4, 5, 6, 7};
+  f.triangles = {{{0, 1, 4}}, {{2, 4, 3}}};
+  f.places = {{1, 1, 3}};
+  a.failures = {{1, "its loops cross", "repair it", {1, 1, 3}}};
+  a.faces = {f};
+  a.face_name = {"top", "Flügel"};
+  return a;
 }
 
 }  // namespace st

@@ -1,0 +1,75 @@
+"""A face that nobody can mesh: named, shown in an artifact of its own, whatever the number of ranks; the others are meshed."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+
+class Failures(ToolTest):
+    def sizes_of(self, model):
+        must("st-import", MODELS / model, "-o", self.folder / "geometry.hdf")
+        must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "raster.hdf")
+        must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "sizing.hdf")
+
+    def mesh(self, name="patches.hdf", n_ranks=1, *options):
+        ranks = ["--np", n_ranks] if n_ranks > 1 else []
+        return Run("st-mesh", self.folder / "geometry.hdf", self.folder / "sizing.hdf", "-o", self.folder / name, "--json", *ranks, *options)
+
+    def test_a_crossed_loop_is_named_with_cause_remedy_and_place_and_the_job_goes_on(self):
+        self.sizes_of("crossed_loop.brep")
+        run = self.mesh()
+        self.assertEqual(run.code, INCOMPLETE, run)
+        summary = run.json()
+        self.assertEqual((summary["faces_meshed"], summary["faces_failed"]), (1, 1))
+        failure = summary["failures"][0]
+        self.assertEqual(failure["face"], 2)
+        self.assertIn("cross", failure["cause"])
+        self.assertIn("CAD", failure["remedy"])
+        for k, value in enumerate([5, -5, 0]):
+            self.assertAlmostEqual(failure["xyz"][k], value, delta=0.1)
+        self.assertIn("face 2 not meshed", run.err)
+        self.assertIn("patches.failures.hdf", run.err)
+        self.assertEqual(summary["failures_file"], str(self.folder / "patches.failures.hdf"))
+
+    def test_the_failures_artifact_is_the_same_at_np_1_and_3(self):
+        self.sizes_of("crossed_loop.brep")
+        for n_ranks in (1, 3):
+            self.assertEqual(self.mesh(f"{n_ranks}.hdf", n_ranks).code, INCOMPLETE)
+        a, b = (self.folder / f"{n}.failures.hdf" for n in (1, 3))
+        self.assertEqual(a.read_bytes(), b.read_bytes())
+        self.assertEqual(content_hash(self.folder / "1.hdf"), content_hash(self.folder / "3.hdf"))
+        info = must("st-info", a, "--json").json()
+        self.assertEqual(info["counts"]["failures"], 1)
+        self.assertGreater(info["counts"]["cells"], 4)
+
+    def test_the_boundary_is_shown_in_space_and_exported(self):
+        self.sizes_of("crossed_loop.brep")
+        self.mesh()
+        must("st-export", self.folder / "patches.failures.hdf", "-o", self.folder / "f.vtu")
+        import vtk
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(self.folder / "f.vtu"))
+        reader.Update()
+        grid = reader.GetOutput()
+        edges, length = set(), 0
+        for i in range(grid.GetNumberOfCells()):
+            if grid.GetCell(i).GetCellType() != vtk.VTK_LINE:
+                continue
+            edges.add(grid.GetCellData().GetArray("edge").GetValue(i))
+            length += grid.GetCell(i).GetLength2() ** 0.5
+        self.assertEqual(len(edges), 4, "four CAD edges")
+        self.assertAlmostEqual(length, 20 + 20 * 2 ** 0.5, places=6)
+
+    def test_a_run_without_failures_leaves_no_such_file_and_removes_an_old_one(self):
+        self.sizes_of("crossed_loop.brep")
+        self.mesh()
+        self.assertTrue((self.folder / "patches.failures.hdf").exists())
+        self.sizes_of("box.brep")
+        self.assertEqual(self.mesh().code, OK)
+        self.expect_nothing_left(self.folder, "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
