@@ -10,7 +10,7 @@ namespace {
 constexpr int kStations = 32;           // intervals of a strip
 constexpr double kNarrow = 0.25;        // of its length: wider faces are no strips
 constexpr double kShortEnd = 0.5;       // of the long edges: all other edges of a strip together are shorter
-constexpr double kWidthsPerLength = 5;  // of the triangles
+constexpr double kWidthsPerLength = 1.5;  // of the triangles
 constexpr double kResolved = 0.17;      // of the smallest length: narrower strips are not worth resolving
 constexpr double kWorthwhile = 0.9;     // of the largest length: more asks for nothing
 constexpr double kSpacing = 1;          // lengths between two boxes

@@ -26,7 +26,7 @@ struct Strip {
 /// wide on average, ascending. Local.
 std::vector<Strip> find_strips(const Model& model);
 
-/// Appends boxes along the strip that ask for five times its width (no angle of its triangles below 11 degrees), where the limits allow
+/// Appends boxes along the strip that ask for 1.5 times its width (triangles as good as their neighbours), where the limits allow
 /// that: nothing where it is narrower than a sixth of the smallest length.
 void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes);
 
