@@ -40,6 +40,16 @@ void require_mpi(int status, const char* what) {
   if (status != MPI_SUCCESS) throw Error(ExitCode::kInternal, std::string("MPI failed: ") + what);
 }
 
+constexpr int kTagGather = 4;  // task_farm.cpp has the others
+
+/// Bytes in pieces that MPI can count.
+template <class Transfer>
+void for_each_piece(Bytes& bytes, const Transfer& transfer) {
+  for (std::uint64_t start = 0; start < bytes.size(); start += kMaxMessageBytes)
+    require_mpi(transfer(bytes.data() + start, static_cast<int>(std::min<std::uint64_t>(kMaxMessageBytes, bytes.size() - start))),
+                "the transfer of bytes");
+}
+
 /// Waits for a request asleep.
 void wait_asleep(MPI_Request& request) {
   for (Backoff backoff;; backoff.sleep()) {
@@ -96,9 +106,38 @@ void Communicator::broadcast(Bytes& bytes) const {
   std::uint64_t n = bytes.size();
   require_mpi(MPI_Bcast(&n, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Bcast");
   bytes.resize(n);
-  for (std::uint64_t start = 0; start < n; start += kMaxMessageBytes) {
-    const int count = static_cast<int>(std::min<std::uint64_t>(kMaxMessageBytes, n - start));
-    require_mpi(MPI_Bcast(bytes.data() + start, count, MPI_BYTE, 0, MPI_COMM_WORLD), "MPI_Bcast");
+  for_each_piece(bytes, [](std::byte* piece, int count) { return MPI_Bcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
+}
+
+std::vector<Bytes> Communicator::gather(Bytes own) const {
+  std::vector<Bytes> all;
+  if (impl_->size > 1) barrier();  // whoever comes early waits asleep
+  std::uint64_t n = own.size();
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(impl_->size), n);
+  if (impl_->size > 1) require_mpi(MPI_Gather(&n, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Gather");
+  if (is_root()) {
+    all.push_back(std::move(own));
+    for (int rank = 1; rank < impl_->size; ++rank) {
+      all.emplace_back(counts[static_cast<std::size_t>(rank)]);
+      for_each_piece(all.back(), [&](std::byte* piece, int count) {
+        return MPI_Recv(piece, count, MPI_BYTE, rank, kTagGather, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+      });
+    }
+  } else {
+    for_each_piece(own, [](std::byte* piece, int count) { return MPI_Send(piece, count, MPI_BYTE, 0, kTagGather, MPI_COMM_WORLD); });
+  }
+  return all;
+}
+
+void Communicator::reduce_min(std::vector<std::uint64_t>& values) const {
+  if (impl_->size == 1) return;
+  barrier();  // whoever comes early waits asleep
+  constexpr std::uint64_t kPiece = kMaxMessageBytes / sizeof(std::uint64_t);
+  for (std::uint64_t start = 0; start < values.size(); start += kPiece) {
+    std::uint64_t* piece = values.data() + start;
+    const int count = static_cast<int>(std::min<std::uint64_t>(kPiece, values.size() - start));
+    require_mpi(MPI_Reduce(is_root() ? MPI_IN_PLACE : piece, is_root() ? piece : nullptr, count, MPI_UINT64_T, MPI_MIN, 0, MPI_COMM_WORLD),
+                "MPI_Reduce");
   }
 }
 

@@ -28,6 +28,11 @@ class Communicator {
 
   /// Collective: rank 0's bytes on every rank.
   void broadcast(Bytes& bytes) const;
+  /// Collective: the bytes of every rank on rank 0, by rank; nothing elsewhere.
+  std::vector<Bytes> gather(Bytes own) const;
+  /// Collective: entry by entry the smallest of all ranks' values, on rank 0; the other ranks' are left as they are. Same length
+  /// everywhere.
+  void reduce_min(std::vector<std::uint64_t>& values) const;
   /// Collective: waits for all ranks without burning a core.
   void barrier() const;
   /// Local: ends every rank at once with this exit code (mpirun takes some tenths of a second). Call after the message was printed.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "sizing/octree_nodes.h"
 #include "sizing/radix_sort.h"
@@ -51,10 +54,16 @@ GridBox grid_box(const OctreeShape& shape, const RasterBox& box) {
 }
 
 /// Coarsest level whose cells are not larger than the raster box.
-int required_level(double root_edge, const RasterBox& box) {
+std::uint8_t required_level(double root_edge, const RasterBox& box) {
   int level = 0;
   for (double cell = root_edge; level < kMaxLevel && cell > 2.0 * box.half; cell *= 0.5) ++level;
-  return level;
+  return static_cast<std::uint8_t>(level);
+}
+
+std::vector<std::uint8_t> required_levels(double root_edge, std::span<const RasterBox> boxes) {
+  std::vector<std::uint8_t> levels(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) levels[i] = required_level(root_edge, boxes[i]);
+  return levels;
 }
 
 /// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight per box).
@@ -126,77 +135,98 @@ void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
 
 namespace {
 
-/// Gives each leaf the smallest length of the boxes that meet it. Boxes of fine levels come first, and whole subtrees that hold smaller
-/// lengths already are skipped, so that large boxes do not visit every fine cell inside them.
+/// See PackedLengths. The bits of positive floats order like their values.
+std::uint64_t pack_length(float length, std::int32_t cause) {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(length)} << 32 | static_cast<std::uint32_t>(cause);
+}
+constexpr std::uint64_t kNothing = ~std::uint64_t{0};
+
+/// Gives each leaf the smallest length of the boxes that meet it. A cell that lies in a box as a whole keeps the length for all its leaves.
+/// Boxes of fine levels come first, and whole subtrees that hold smaller lengths already are skipped, so that large boxes do not visit
+/// every fine cell inside them.
 class LengthStore {
  public:
-  explicit LengthStore(RasterOctree& octree)
-      : octree_(octree),
-        view_(octree.shape.view()),
-        subtree_max_(octree.shape.node_children.size() / 8, std::numeric_limits<float>::infinity()) {}
+  explicit LengthStore(const OctreeShape& shape)
+      : shape_(shape),
+        leaf_(shape.leaf_keys.size(), kNothing),
+        node_(shape.node_children.size() / 8, kNothing),
+        largest_(node_.size(), kNothing) {}
 
   void insert(const RasterBox& box) {
-    range_ = grid_box(octree_.shape, box);
+    range_ = grid_box(shape_, box);
     if (range_.is_empty) return;
-    length_ = box.length;
-    cause_ = box.cause;
-    visit(view_.node_children.empty() ? ~0 : 0, {}, kCoordinateEnd / 2);
+    value_ = pack_length(box.length, box.cause);
+    visit(shape_.node_children.empty() ? ~0 : 0, {}, kCoordinateEnd / 2);
   }
 
+  /// Worth its time once as many nodes have been visited; until then the old values are upper bounds.
   void refresh_subtrees() {
-    for (std::size_t node = subtree_max_.size(); node-- > 0;) {
-      float largest = 0;
+    if (n_visits_ < node_.size()) return;
+    n_visits_ = 0;
+    for (std::size_t node = node_.size(); node-- > 0;) {
+      std::uint64_t largest = 0;
       for (std::size_t o = 0; o < 8; ++o) {
-        const std::int32_t child = view_.node_children[8 * node + o];
-        const float length = child >= 0 ? subtree_max_[child] : octree_.stored_length[~child];
-        largest = std::max(largest, length);
+        const std::int32_t child = shape_.node_children[8 * node + o];
+        largest = std::max(largest, child >= 0 ? largest_[child] : leaf_[~child]);
       }
-      subtree_max_[node] = largest;
+      largest_[node] = std::min(largest, node_[node]);
     }
+  }
+
+  PackedLengths take() {
+    for (std::size_t node = 0; node < node_.size(); ++node)  // parents come before their children
+      for (std::size_t o = 0; o < 8; ++o) {
+        const std::int32_t child = shape_.node_children[8 * node + o];
+        std::uint64_t& value = child >= 0 ? node_[child] : leaf_[~child];
+        value = std::min(value, node_[node]);
+      }
+    return std::move(leaf_);
   }
 
  private:
+  /// The node's cell reaches 2*half from `lo`.
   void visit(std::int32_t node, GridPoint lo, std::uint32_t half) {
-    if (node < 0) return store(static_cast<std::size_t>(~node));
-    if (subtree_max_[node] < length_) return;
+    if (node < 0) {
+      leaf_[~node] = std::min(leaf_[~node], value_);
+      return;
+    }
+    ++n_visits_;
+    if (largest_[node] <= value_) return;
+    if (is_inside(lo, 2 * half)) {
+      node_[node] = std::min(node_[node], value_);
+      largest_[node] = value_;
+      return;
+    }
     const GridPoint middle{lo.x + half, lo.y + half, lo.z + half};
-    for (unsigned o = 0; o < 8; ++o) {
-      if ((o & 1 ? range_.hi.x < middle.x : range_.lo.x >= middle.x) || (o & 2 ? range_.hi.y < middle.y : range_.lo.y >= middle.y) ||
-          (o & 4 ? range_.hi.z < middle.z : range_.lo.z >= middle.z))
-        continue;
-      const GridPoint child_lo{o & 1 ? middle.x : lo.x, o & 2 ? middle.y : lo.y, o & 4 ? middle.z : lo.z};
-      visit(view_.node_children[8 * static_cast<std::size_t>(node) + o], child_lo, half / 2);
+    // children on the sides that the range meets, a bit each
+    const unsigned met = side_mask(range_.lo.x, range_.hi.x, middle.x, 0x55, 0xaa) &
+                         side_mask(range_.lo.y, range_.hi.y, middle.y, 0x33, 0xcc) &
+                         side_mask(range_.lo.z, range_.hi.z, middle.z, 0x0f, 0xf0);
+    for (unsigned left = met; left != 0; left &= left - 1) {
+      const auto o = static_cast<unsigned>(std::countr_zero(left));
+      visit(shape_.node_children[8 * static_cast<std::size_t>(node) + o],
+            {o & 1 ? middle.x : lo.x, o & 2 ? middle.y : lo.y, o & 4 ? middle.z : lo.z}, half / 2);
     }
   }
 
-  void store(std::size_t leaf) {
-    float& stored = octree_.stored_length[leaf];
-    std::int32_t& cause = octree_.stored_cause[leaf];
-    if (length_ > stored || (length_ == stored && cause_ >= cause)) return;
-    stored = length_;
-    cause = cause_;
+  static unsigned side_mask(std::uint32_t lo, std::uint32_t hi, std::uint32_t middle, unsigned low, unsigned high) {
+    return (lo < middle ? low : 0u) | (hi >= middle ? high : 0u);
   }
 
-  RasterOctree& octree_;
-  OctreeView view_;
-  std::vector<float> subtree_max_;  // of nodes, as of the last refresh
+  bool is_inside(GridPoint lo, std::uint32_t extent) const {
+    const auto holds = [extent](std::uint32_t a, std::uint32_t first, std::uint32_t last) {
+      return first <= a && a + (extent - 1) <= last;
+    };
+    return holds(lo.x, range_.lo.x, range_.hi.x) && holds(lo.y, range_.lo.y, range_.hi.y) && holds(lo.z, range_.lo.z, range_.hi.z);
+  }
+
+  const OctreeShape& shape_;
+  PackedLengths leaf_, node_;           // smallest so far: of a leaf, of all leaves of a node
+  std::vector<std::uint64_t> largest_;  // upper bound of what the leaves of a node have
+  std::size_t n_visits_ = 0;            // of nodes, since the last refresh
   GridBox range_;
-  float length_ = 0;
-  std::int32_t cause_ = kNone;
+  std::uint64_t value_ = 0;
 };
-
-void store_lengths(std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels, RasterOctree& octree) {
-  octree.stored_length.assign(octree.shape.leaf_keys.size(), std::numeric_limits<float>::infinity());
-  octree.stored_cause.assign(octree.shape.leaf_keys.size(), kNone);
-  std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
-  for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));
-  LengthStore store(octree);
-  for (std::size_t level = kMaxLevel + 1; level-- > 0;) {
-    if (by_level[level].empty()) continue;
-    for (const std::uint32_t i : by_level[level]) store.insert(boxes[i]);
-    store.refresh_subtrees();
-  }
-}
 
 }  // namespace
 
@@ -227,17 +257,59 @@ void octree_root(const Box3& box, Vec3& lo, double& edge) {
   lo = c - Vec3{0.5 * edge, 0.5 * edge, 0.5 * edge};
 }
 
-RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes) {
-  RasterOctree octree;
-  octree_root(root, octree.shape.lo, octree.shape.edge);
-  std::vector<std::uint8_t> levels(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) levels[i] = static_cast<std::uint8_t>(required_level(octree.shape.edge, boxes[i]));
+NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes) {
+  OctreeShape shape;
+  octree_root(root, shape.lo, shape.edge);
   NodeLevels nodes;
-  collect_required_nodes(octree.shape, boxes, levels, nodes);
+  collect_required_nodes(shape, boxes, required_levels(shape.edge, boxes), nodes);
   close_nodes(nodes);
-  link_tree(nodes, octree.shape);
-  store_lengths(boxes, levels, octree);
+  return nodes;
+}
+
+void unite_nodes(NodeLevels& nodes, const NodeLevels& other) {
+  for (std::size_t level = 0; level < nodes.size(); ++level) {
+    std::vector<std::uint64_t> all;
+    all.reserve(nodes[level].size() + other[level].size());
+    std::set_union(nodes[level].begin(), nodes[level].end(), other[level].begin(), other[level].end(), std::back_inserter(all));
+    nodes[level] = std::move(all);
+  }
+}
+
+OctreeShape make_shape(const Box3& root, const NodeLevels& nodes) {
+  OctreeShape shape;
+  octree_root(root, shape.lo, shape.edge);
+  link_tree(nodes, shape);
+  return shape;
+}
+
+PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> boxes) {
+  const std::vector<std::uint8_t> levels = required_levels(shape.edge, boxes);
+  std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
+  for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));
+  LengthStore store(shape);
+  for (std::size_t level = kMaxLevel + 1; level-- > 0;) {
+    if (by_level[level].empty()) continue;
+    for (const std::uint32_t i : by_level[level]) store.insert(boxes[i]);
+    store.refresh_subtrees();
+  }
+  return store.take();
+}
+
+RasterOctree unpack_octree(OctreeShape shape, const PackedLengths& packed) {
+  RasterOctree octree{std::move(shape), std::vector<float>(packed.size(), std::numeric_limits<float>::infinity()),
+                      std::vector<std::int32_t>(packed.size(), kNone)};
+  for (std::size_t leaf = 0; leaf < packed.size(); ++leaf) {
+    if (packed[leaf] == kNothing) continue;
+    octree.stored_length[leaf] = std::bit_cast<float>(static_cast<std::uint32_t>(packed[leaf] >> 32));
+    octree.stored_cause[leaf] = static_cast<std::int32_t>(packed[leaf]);
+  }
   return octree;
+}
+
+RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes) {
+  OctreeShape shape = make_shape(root, split_cells(root, boxes));
+  const PackedLengths packed = store_boxes(shape, boxes);
+  return unpack_octree(std::move(shape), packed);
 }
 
 namespace {

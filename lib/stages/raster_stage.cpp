@@ -10,6 +10,7 @@
 
 #include "base/length.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "comm/packer.h"
 #include "io/artifact.h"
 #include "io/size_rule_file.h"
@@ -20,6 +21,7 @@
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
 #include "sizing/strip.h"
+#include "stages/common_octree.h"
 
 namespace st {
 namespace {
@@ -87,25 +89,25 @@ class RasterTasks {
     return heaviest_first(work);
   }
 
-  /// Local. Boxes of one task, packed, and what went wrong (empty: nothing).
-  Bytes compute(std::int32_t task) const {
-    std::vector<RasterBox> boxes;
+  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty: nothing) and the discs.
+  Bytes compute(std::int32_t task, std::vector<RasterBox>& own_boxes) const {
+    const std::size_t n_before = own_boxes.size();
     std::vector<FaceDisc> discs;
     std::string failure;
     try {
       if (task < n_batches_)
-        raster_edges(task, boxes);
+        raster_edges(task, own_boxes);
       else
-        raster_one_face(task - n_batches_, boxes, discs);
+        raster_one_face(task - n_batches_, own_boxes, discs);
     } catch (const std::exception& e) {
-      boxes.clear();
+      own_boxes.resize(n_before);
       discs.clear();
       failure =
           task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
     }
     Packer packer;
-    packer.add(boxes);
+    packer.add(static_cast<std::uint64_t>(own_boxes.size() - n_before));
     packer.add(failure);
     packer.add(discs);
     return packer.take();
@@ -145,17 +147,13 @@ class RasterTasks {
   std::int32_t n_batches_;
 };
 
-/// What rank 0 gathers.
-struct CollectedBoxes {
-  std::vector<std::vector<RasterBox>> by_task;
-  std::vector<std::string> failures;         // by task, empty where there is none
-  std::vector<std::vector<FaceDisc>> discs;  // by task
+/// The samples: boxes stay on the rank that made them, the rest is gathered on rank 0, by task.
+struct Samples {
+  std::vector<RasterBox> own_boxes;
+  std::vector<std::uint64_t> n_boxes;
+  std::vector<std::string> failures;  // empty where there is none
+  std::vector<std::vector<FaceDisc>> discs;
 
-  std::vector<RasterBox> all() const {
-    std::vector<RasterBox> boxes;
-    for (const std::vector<RasterBox>& b : by_task) boxes.insert(boxes.end(), b.begin(), b.end());
-    return boxes;
-  }
   std::vector<FaceDisc> all_discs() const {
     std::vector<FaceDisc> all;
     for (const std::vector<FaceDisc>& d : discs) all.insert(all.end(), d.begin(), d.end());
@@ -164,23 +162,24 @@ struct CollectedBoxes {
 };
 
 /// Collective.
-CollectedBoxes sample_model(const RasterTasks& tasks, const Communicator& comm) {
-  CollectedBoxes collected;
-  collected.by_task.resize(static_cast<std::size_t>(tasks.count()));
-  collected.failures.resize(static_cast<std::size_t>(tasks.count()));
-  collected.discs.resize(static_cast<std::size_t>(tasks.count()));
+Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
+  Samples samples;
+  const auto n = static_cast<std::size_t>(tasks.count());
+  samples.n_boxes.resize(n);
+  samples.failures.resize(n);
+  samples.discs.resize(n);
   Progress progress("sampling", tasks.count());
   std::int32_t n_done = 0;
   comm.run_tasks(
-      tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task); },
+      tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task, samples.own_boxes); },
       [&](std::int32_t task, Bytes&& result) {
         Unpacker unpacker(result);
-        unpacker.get(collected.by_task[task]);
-        unpacker.get(collected.failures[task]);
-        unpacker.get(collected.discs[task]);
+        unpacker.get(samples.n_boxes[task]);
+        unpacker.get(samples.failures[task]);
+        unpacker.get(samples.discs[task]);
         progress.update(++n_done);
       });
-  return collected;
+  return samples;
 }
 
 struct SampleCounts {
@@ -188,10 +187,10 @@ struct SampleCounts {
 };
 
 /// Counts, and warns of what could not be sampled.
-SampleCounts report_samples(const CollectedBoxes& collected) {
+SampleCounts report_samples(const Samples& samples) {
   SampleCounts counts;
-  for (const std::vector<RasterBox>& boxes : collected.by_task) counts.n_boxes += boxes.size();
-  for (const std::string& failure : collected.failures) {
+  counts.n_boxes = std::accumulate(samples.n_boxes.begin(), samples.n_boxes.end(), std::uint64_t{0});
+  for (const std::string& failure : samples.failures) {
     if (failure.empty()) continue;
     log_warning(failure);
     ++counts.n_failures;
@@ -214,28 +213,6 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   header.geometry_hash = geometry.content_hash;
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash}};
   if (!o.sizes.empty()) header.inputs.push_back({"sizes", std::filesystem::path(o.sizes).filename().string(), sizes_hash});
-}
-
-/// Collective: the octree of rank 0 on every rank.
-void share_shape(OctreeShape& shape, const Communicator& comm) {
-  Bytes bytes;
-  if (comm.is_root()) {
-    Packer packer;
-    packer.add(shape.lo);
-    packer.add(shape.edge);
-    packer.add(shape.leaf_keys);
-    packer.add(shape.leaf_levels);
-    packer.add(shape.node_children);
-    bytes = packer.take();
-  }
-  comm.broadcast(bytes);
-  if (comm.is_root()) return;
-  Unpacker unpacker(bytes);
-  unpacker.get(shape.lo);
-  unpacker.get(shape.edge);
-  unpacker.get(shape.leaf_keys);
-  unpacker.get(shape.leaf_levels);
-  unpacker.get(shape.node_children);
 }
 
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
@@ -311,6 +288,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
 
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   PhaseTimes times;
+  keep_freed_memory();
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
   GeometryArtifact geometry = read_geometry(o.geometry);
@@ -326,19 +304,18 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   RasterArtifact artifact;
   SampleCounts counts;
   {
-    const CollectedBoxes collected =
-        sample_model(RasterTasks(model, limits, o.gap_cells ? RasterTasks::Discs::kWanted : RasterTasks::Discs::kNone), comm);
+    Samples samples = sample_model(RasterTasks(model, limits, o.gap_cells ? RasterTasks::Discs::kWanted : RasterTasks::Discs::kNone), comm);
     times.end("sampling");
     if (comm.is_root()) {
-      counts = report_samples(collected);
-      std::vector<RasterBox> boxes = collected.all();
-      if (o.gap_cells) add_gap_boxes(collected.all_discs(), *o.gap_cells, o.cell_per_length, boxes);
-      counts.n_gap_boxes = boxes.size() - counts.n_boxes;
-      artifact.octree = build_octree(model.tables().box(), boxes);
+      counts = report_samples(samples);
+      const std::size_t n_before = samples.own_boxes.size();
+      if (o.gap_cells) add_gap_boxes(samples.all_discs(), *o.gap_cells, o.cell_per_length, samples.own_boxes);
+      counts.n_gap_boxes = samples.own_boxes.size() - n_before;
+      times.end("gaps");
     }
+    artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, comm);
+    times.end("octree");
   }
-  times.end("octree");
-  share_shape(artifact.octree.shape, comm);
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
   if (!comm.is_root()) return {};

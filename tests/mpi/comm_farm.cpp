@@ -110,6 +110,27 @@ void broadcasts(const Communicator& comm) {
   }
 }
 
+void gathers_the_bytes_of_all_ranks(const Communicator& comm) {
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{20000000}}) {
+    const std::size_t own = n * static_cast<std::size_t>(comm.rank());
+    const std::vector<Bytes> all = comm.gather(Bytes(own, static_cast<std::byte>(comm.rank())));
+    CHECK(all.size() == static_cast<std::size_t>(comm.is_root() ? comm.size() : 0));
+    for (std::size_t rank = 0; rank < all.size(); ++rank) {
+      CHECK(all[rank].size() == n * rank);
+      CHECK(std::all_of(all[rank].begin(), all[rank].end(), [&](std::byte b) { return b == static_cast<std::byte>(rank); }));
+    }
+  }
+}
+
+void finds_the_smallest_values_of_all_ranks(const Communicator& comm) {
+  std::vector<std::uint64_t> values(1000000), none;
+  const auto n = static_cast<std::uint64_t>(comm.size()), rank = static_cast<std::uint64_t>(comm.rank());
+  for (std::uint64_t i = 0; i < values.size(); ++i) values[i] = (i % n == rank ? 0 : std::uint64_t{1} << 63) + i % 7 + rank;
+  comm.reduce_min(none);
+  comm.reduce_min(values);
+  for (std::uint64_t i = 0; comm.is_root() && i < values.size(); ++i) CHECK(values[i] == i % n + i % 7);
+}
+
 void moves_large_results(const Communicator& comm) {
   constexpr std::size_t kBytes = 40000000;
   int n_right = 0;
@@ -196,6 +217,8 @@ int run(int argc, char** argv) {
       {"runs_no_task", runs_no_task},
       {"runs_twice", runs_twice},
       {"broadcasts", broadcasts},
+      {"gathers_the_bytes_of_all_ranks", gathers_the_bytes_of_all_ranks},
+      {"finds_the_smallest_values_of_all_ranks", finds_the_smallest_values_of_all_ranks},
       {"moves_large_results", moves_large_results},
       {"rejects_a_wrong_order", rejects_a_wrong_order},
       {"fails_in_compute", fails_in_compute},

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
+#include "sizing/octree_nodes.h"
 #include "unit/sizing/cases.h"
 
 namespace st {
@@ -87,6 +91,53 @@ TEST(Octree, does_not_depend_on_the_order_of_boxes) {
   EXPECT_EQ(a.shape.node_children, b.shape.node_children);
   EXPECT_EQ(a.stored_length, b.stored_length);
   EXPECT_EQ(a.stored_cause, b.stored_cause);
+}
+
+/// Large boxes over small ones, and a crowd of equal lengths, so that cells keep lengths as a whole and ties decide.
+std::vector<RasterBox> mixed_boxes(std::mt19937& random, int n) {
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < n; ++i) {
+    const float length = 0.004F * static_cast<float>(1 << (random() % 6));
+    boxes.push_back(box_at({uniform(random), uniform(random), 0.3 * uniform(random)}, length, pack_cause(CauseKind::kFace, i % 7)));
+  }
+  return boxes;
+}
+
+TEST(Octree, stores_in_every_cell_the_smallest_length_of_all_boxes_that_meet_it) {
+  std::mt19937 random(11);
+  const std::vector<RasterBox> boxes = mixed_boxes(random, 300);
+  const RasterOctree octree = build_octree(kUnitBox, boxes);
+  for (std::int32_t leaf = 0; leaf < octree.shape.view().n_leaves(); ++leaf) {
+    std::pair<float, std::int32_t> surely{std::numeric_limits<float>::infinity(), kNone}, perhaps = surely;
+    for (const RasterBox& box : boxes) {
+      if (meets(octree, leaf, box, -1e-5)) surely = std::min(surely, {box.length, box.cause});
+      if (meets(octree, leaf, box, 1e-5)) perhaps = std::min(perhaps, {box.length, box.cause});
+    }
+    const std::pair<float, std::int32_t> stored{octree.stored_length[leaf], octree.stored_cause[leaf]};
+    ASSERT_TRUE(stored == surely || stored == perhaps) << "leaf " << leaf << " stores " << stored.first << " of " << stored.second;
+  }
+}
+
+TEST(Octree, of_parts_of_the_boxes_is_that_of_all_boxes) {
+  std::mt19937 random(5);
+  const std::vector<RasterBox> boxes = mixed_boxes(random, 400);
+  std::array<std::vector<RasterBox>, 4> parts;  // one stays empty
+  for (const RasterBox& box : boxes) parts[random() % 3].push_back(box);
+  NodeLevels nodes;
+  for (const auto& part : parts) unite_nodes(nodes, split_cells(kUnitBox, part));
+  OctreeShape shape = make_shape(kUnitBox, nodes);
+  PackedLengths packed = store_boxes(shape, parts[3]);
+  for (const auto& part : parts) {
+    const PackedLengths more = store_boxes(shape, part);
+    for (std::size_t i = 0; i < packed.size(); ++i) packed[i] = std::min(packed[i], more[i]);
+  }
+  const RasterOctree united = unpack_octree(std::move(shape), packed), whole = build_octree(kUnitBox, boxes);
+  EXPECT_EQ(united.shape.leaf_keys, whole.shape.leaf_keys);
+  EXPECT_EQ(united.shape.leaf_levels, whole.shape.leaf_levels);
+  EXPECT_EQ(united.shape.node_children, whole.shape.node_children);
+  EXPECT_EQ(united.stored_length, whole.stored_length);
+  EXPECT_EQ(united.stored_cause, whole.stored_cause);
 }
 
 TEST(Octree, ignores_boxes_outside_and_clips_boxes_that_stick_out) {

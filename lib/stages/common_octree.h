@@ -1,0 +1,16 @@
+// The octree of raster boxes that are spread over the ranks.
+#pragma once
+
+#include <span>
+
+#include "comm/communicator.h"
+#include "sizing/octree.h"
+
+namespace st {
+
+/// Collective. What build_octree makes of the boxes of all ranks: the shape on every rank, the stored lengths complete on rank 0 only. Each
+/// rank looks for the cells that its own boxes split and meet; rank 0 unites them. The result does not depend on which rank has which box.
+/// `root`: the same on every rank.
+RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, const Communicator& comm);
+
+}  // namespace st
