@@ -96,7 +96,8 @@ def read_peers():
 
 
 COLUMNS = ["model", "triangles"] + [f"{s} s" for s in STAGES] + [
-    "not meshed", "open (CAD)", "non-manifold (CAD)", "folds", "crossings", "judge: open/nm/folds/crossings", "min angle", "below 10°", "q mean",
+    "not meshed", "open (CAD)", "non-manifold (CAD)", "folds", "crossings", "judge: open/nm/folds/crossings", "min angle", "below 10°", "forced", "free", "growth free",
+    "q mean",
     "q 1 %", "jump 99.9 %", "sizes %", "inner %", "area error %", "gmsh: triangles", "gmsh s", "gmsh: below 10°", "gmsh: q mean",
     "gmsh: jump 99.9 %", "worse than gmsh"]
 
@@ -111,7 +112,7 @@ def cells_of_check(check, judge):
     crossings = check["crossings"] + check["checks"]["overlaps"]["count"]
     sizes = check.get("sizes", {})
     judged = "/".join(str(judge[k]) for k in ("boundary_edges", "nonmanifold_edges", "folds", "self_intersections")) if judge else ""
-    quality = check["quality"]
+    quality, causes = check["quality"], check.get("causes")
     return {
         "triangles": check["triangles"],
         "not meshed": check["checks"]["faces"]["count"],
@@ -122,6 +123,9 @@ def cells_of_check(check, judge):
         "judge: open/nm/folds/crossings": judged,
         "min angle": f"{quality['min_angle_deg']:.2f}",
         "below 10°": quality.get("below_10_deg", judge["below_10deg"] if judge else ""),
+        "forced": causes["sharp"]["count"] - causes["sharp"]["free"] if causes else "",
+        "free": causes["sharp"]["free"] if causes else "",
+        "growth free": f"{causes['growth']['free']} of {causes['growth']['count']}" if causes else "",
         "q mean": f"{quality['mean']:.4f}",
         "q 1 %": f"{quality['p1']:.3f}",
         "jump 99.9 %": f"{check['jump_p999']:.2f}",
@@ -151,6 +155,16 @@ def cells_of(result, peer):
         if result.get("judge") and peer.get("min_angle"):
             cells["worse than gmsh"] = worse_than(peer, result["judge"])
     return cells
+
+
+def print_free(results, n_places=10):
+    """The worst places of the corpus that no cause in the CAD excuses: sharp triangles, then growth."""
+    for kind, sign in (("sharp", 1), ("growth", -1)):
+        lists = [(r["model"], r["check"]["causes"][kind]) for r in results if (r.get("check") or {}).get("causes")]
+        places = [(sign * w["value"], model, w) for model, found in lists for w in found["worst"] if w["cause"] == "free"]
+        print(f"\n{kind}, free: the worst of {sum(found['free'] for _, found in lists)}\n")
+        for _, model, w in sorted(places, key=lambda p: (p[0], p[1]))[:n_places]:
+            print(f"- {model} face {w['face']} {w['name']!r} at ({w['xyz'][0]:.6g} {w['xyz'][1]:.6g} {w['xyz'][2]:.6g}): {w['value']:.3g}")
 
 
 def print_table(results, layout):
@@ -201,6 +215,8 @@ def main():
         run_all(models, arguments, work)
     results = [json.loads(p.read_text()) for m in models if (p := work / f"{m.name}.json").exists()]
     print_table(results, arguments.format)
+    if arguments.format == "md":
+        print_free(results)
     return OK if len(results) == len(models) and not any("stopped" in r for r in results) else INCOMPLETE
 
 

@@ -94,6 +94,7 @@ void measure_jumps(const SurfaceMesh& mesh, QualityReport& report) {
       const auto [low, high] = std::minmax({area_of(mesh, t), area_of(mesh, sides[i] / 3)});
       if (!(low > 0)) continue;
       jumps.push_back(std::sqrt(high / low));
+      if (jumps.back() > kLargeGrowth) report.large_jumps.push_back({t, sides[i] / 3, jumps.back()});
       for (JumpStats* stats : {&report.jumps, &report.group_jumps[mesh.triangle_group[t]], &report.face_jumps[mesh.triangle_face[t]]})
         stats->add(jumps.back());
     }
@@ -218,7 +219,11 @@ ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function
     const double ratio = distance(p, q) * (inverse[a] + 4 / requested_length(0.5 * (p + q)) + inverse[b]) / 6;
     ratios.push_back(ratio);
     report.model.add(ratio);
-    if (!forced.take(a, b, sides, ratio)) report.free.add(ratio);
+    if (!forced.take(a, b, sides, ratio)) {
+      report.free.add(ratio);
+      if (ratio < kConformityMin || ratio > kConformityMax)
+        report.outside.push_back({a, b, sides[0] / 3, sides.size() > 1 ? sides[1] / 3 : kNone, ratio});
+    }
     const auto face_dim = static_cast<std::uint8_t>(EntityDim::kFace);
     if (mesh.node_entity_dim[a] == face_dim || mesh.node_entity_dim[b] == face_dim) report.inner.add(ratio);
     at(report.groups, mesh.triangle_group[sides[0] / 3]).add(ratio);

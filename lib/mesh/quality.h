@@ -37,13 +37,21 @@ struct JumpStats {
   void add(double ratio);
 };
 
+/// Neighbours that grow more than this are listed.
+inline constexpr double kLargeGrowth = 1.6;
+
 struct QualityReport {
+  struct LargeJump {
+    TriangleId a, b;
+    double ratio;  ///< above kLargeGrowth
+  };
   QualityStats model;
   std::vector<QualityStats> groups;    ///< [n_groups]
   std::vector<QualityStats> faces;     ///< [n_faces]
   double jump_p999 = 1, jump_max = 1;  ///< sqrt of the area ratio of neighbours, 99.9th percentile and largest
   JumpStats jumps;
   std::vector<JumpStats> group_jumps, face_jumps;  ///< [n_groups], [n_faces]; a pair counts for the face of its first triangle
+  std::vector<LargeJump> large_jumps;              ///< by the nodes of their common edge
 };
 
 /// Local, linear. Needs 24 bytes per triangle.
@@ -76,11 +84,17 @@ struct ForcedPlace {
 };
 
 struct ConformityReport {
+  struct OutsideEdge {
+    NodeId a, b;
+    TriangleId triangle, other;  ///< the first two at the edge; `other` kNone at a rim
+    double ratio;
+  };
   ConformityStats model;
   ConformityStats free;                        ///< all edges but those of `forced`
   std::vector<ForcedPlace> forced;             ///< by kind and entity; between two vertices: one each
   ConformityStats inner;                       ///< edges with a node inside a face: nothing of the CAD forces their length
   std::vector<ConformityStats> groups, faces;  ///< an edge counts for the face of its first triangle
+  std::vector<OutsideEdge> outside;            ///< edges of `free` outside [kConformityMin, kConformityMax], by their nodes
   double p1 = 1, p99 = 1;                      ///< percentiles of the ratio
 };
 

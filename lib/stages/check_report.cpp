@@ -61,6 +61,27 @@ std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d) {
                      in_face(d.worst_angle), d.model.mean_angle_deg());
 }
 
+/// "  sharp  5 with an angle below 10 deg: 3 corner, 2 free; worst: 4.5 at ..., ...": free places before those that the CAD forces.
+std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const std::string& what, const CauseList& list) {
+  constexpr std::size_t kShown = 3;
+  if (list.total() == 0) return fmt::format("  {:<20} none {}\n", name, what);
+  std::string counts, places;
+  std::size_t n_shown = 0;
+  for (std::size_t k = 0; k < kNShapeCauses; ++k)
+    if (list.count[k]) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", list.count[k], cause_name(static_cast<ShapeCause>(k)));
+  for (std::size_t k = kNShapeCauses; k-- > 0;)
+    for (const CausePlace& p : list.worst[k])
+      if (n_shown++ < kShown)
+        places += fmt::format("{}{:.4g} at {}", places.empty() ? "" : "; ", p.value, place_text(mesh, {p.xyz, p.face, kNone}));
+  return fmt::format("  {:<20} {} {}: {}; worst: {}\n", name, list.total(), what, counts, places);
+}
+
+std::string cause_lines(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_sizes) {
+  return cause_line(mesh, "sharp", fmt::format("with an angle below {:g} deg", c.angle_deg), c.sharp) +
+         cause_line(mesh, "growth", fmt::format("between neighbours above {}", kLargeGrowth), c.growth) +
+         (has_sizes ? cause_line(mesh, "lengths", fmt::format("more outside {} to {}", kConformityMin, kConformityMax), c.lengths) : "");
+}
+
 /// Handles of all parts together, where the number means something.
 std::optional<std::int64_t> genus_of(const TopologyReport& t) {
   const bool is_manifold = t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
@@ -159,6 +180,27 @@ json sizes_json(const ConformityReport& c, ReportDetail detail) {
   return j;
 }
 
+json cause_json(const SurfaceMesh& mesh, const CauseList& list) {
+  json counts = json::object(), places = json::array();
+  for (std::size_t k = 0; k < kNShapeCauses; ++k) {
+    counts[cause_name(static_cast<ShapeCause>(k))] = list.count[k];
+    for (const CausePlace& p : list.worst[k]) {
+      json entry{{"cause", cause_name(p.cause)}, {"face", p.face + 1}, {"value", p.value}, {"xyz", xyz_json(p.xyz)}};
+      entry["name"] = static_cast<std::size_t>(p.face) < mesh.face_name.size() ? mesh.face_name[p.face] : "";
+      if (p.edge != kNone) entry["edge"] = p.edge + 1;
+      if (p.vertex != kNone) entry["vertex"] = p.vertex + 1;
+      places.push_back(entry);
+    }
+  }
+  return {{"count", list.total()}, {"free", list.free()}, {"by_cause", counts}, {"worst", places}};
+}
+
+json causes_json(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_sizes) {
+  json j{{"below_deg", c.angle_deg}, {"sharp", cause_json(mesh, c.sharp)}, {"growth", cause_json(mesh, c.growth)}};
+  if (has_sizes) j["lengths"] = cause_json(mesh, c.lengths);
+  return j;
+}
+
 /// Deviation of the faces of each group.
 std::vector<DeviationStats> deviation_by_group(const Findings& f) {
   std::vector<DeviationStats> groups(f.quality.groups.size());
@@ -230,6 +272,7 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
   text += quality_lines(mesh, f.quality);
   if (f.conformity) text += conformity_lines(*f.conformity);
   if (f.deviation) text += deviation_line(mesh, *f.deviation);
+  if (f.causes) text += cause_lines(mesh, *f.causes, f.conformity.has_value());
   return text + verdict_line(path, mesh, f, seconds);
 }
 
@@ -269,6 +312,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
   j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
   if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);
   if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
+  if (f.causes) j["causes"] = causes_json(mesh, *f.causes, f.conformity.has_value());
   if (detail == ReportDetail::kFull) j["bins"] = bins_json();
   return j.dump(detail == ReportDetail::kFull ? 1 : -1);
 }

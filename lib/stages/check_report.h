@@ -10,6 +10,7 @@
 #include "mesh/checks.h"
 #include "mesh/quality.h"
 #include "stages/chord_error.h"
+#include "stages/shape_causes.h"
 #include "stages/surface_deviation.h"
 
 namespace st {
@@ -36,6 +37,7 @@ struct Findings {
   std::optional<ConformityReport> conformity;  ///< with a sizing
   std::optional<ChordError> chords;            ///< with a geometry
   std::optional<SurfaceDeviation> deviation;   ///< with a geometry
+  std::optional<ShapeCauses> causes;           ///< with a geometry
   std::vector<double> cad_area;                ///< [n_faces] with a geometry, model unit squared
   std::vector<std::int32_t> face_group;        ///< [n_faces] with a geometry
   std::vector<Check> checks;

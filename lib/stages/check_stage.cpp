@@ -290,6 +290,9 @@ StageSummary run_check(const CheckStageOptions& options) {
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
   if (field) f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
 
+  if (cad)
+    f.causes = find_shape_causes(cad->model, artifact.mesh, f.quality, f.conformity ? &*f.conformity : nullptr, options.list_below_deg);
+
   check_quality(artifact.mesh, options.thresholds, f);
   check_sizes(options.thresholds, f);
   if (cad) check_deviation(options.thresholds, cad->model.tables(), f);

@@ -31,6 +31,7 @@ struct CheckStageOptions {
   double area_tolerance = 0.01;  ///< largest relative difference between mesh and CAD area of a face beyond what chords explain
   CheckThresholds thresholds;
   std::vector<std::string> reports;  ///< JSON files to write: everything, per model, group and face, with histograms
+  double list_below_deg = 10;        ///< triangles with a smaller angle are listed by their cause, (0, 60]; with the geometry
 
   /// Throws Error(kUsage) for a threshold whose geometry or sizing is not given.
   void validate() const;

@@ -19,7 +19,7 @@ OPTIONS = {
     "st-check": {
         "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
         "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
-        "--max-normal-deviation": "",
+        "--max-normal-deviation": "", "--list-below": "10",
     },
     "st-info": {"--hash": "", "--at": ""},
     "st-diff": {"--tolerance": "0"},
@@ -52,6 +52,7 @@ REFUSED = {
         "--min-size-share": ["-0.1", "1.1"],
         "--max-deviation": ["0", "-1", "x"],
         "--max-normal-deviation": ["0", "181"],
+        "--list-below": ["0", "61", "x"],
     },
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
 }

@@ -283,6 +283,19 @@ const std::map<std::string, Factory>& factories() {
       {"disc", disc},
       {"annulus", annulus},
       {"strip", [] { return rectangle(100, 0.2); }},
+      {"sharp_triangle",
+       [] {
+         BRepBuilderAPI_MakePolygon corners(gp_Pnt(0, 0, 0), gp_Pnt(20, 0, 0), gp_Pnt(20, 2, 0), true);
+         return BRepBuilderAPI_MakeFace(corners.Wire(), true).Shape();
+       }},
+      {"l_face",
+       [] {
+         BRepBuilderAPI_MakePolygon corners;
+         for (const gp_Pnt& p : {gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(10, 4, 0), gp_Pnt(4, 4, 0), gp_Pnt(4, 10, 0), gp_Pnt(0, 10, 0)})
+           corners.Add(p);
+         corners.Close();
+         return BRepBuilderAPI_MakeFace(corners.Wire(), true).Shape();
+       }},
       {"plate_with_hole",
        [] { return BRepAlgoAPI_Cut(rectangle(60, 40), moved(BRepPrimAPI_MakeCylinder(8, 10).Shape(), 30, 20, -5)).Shape(); }},
       {"cone_side", [] { return nth_face(BRepPrimAPI_MakeCone(kZ, 10, 0, 20).Shape(), 1); }},

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   tool.optional_input("--sizing", o.sizing, "sizing artifact: conformity of edge lengths to the sizes");
   tool.number("--area-tolerance", o.area_tolerance, "(0, 1]",
               "largest relative difference between mesh and CAD area of a face, beyond what chords explain");
+  tool.number("--list-below", o.list_below_deg, "(0, 60]", "degrees: triangles with a smaller angle are listed by their cause; with --geometry");
   tool.outputs("--report", o.reports, "JSON file to write: everything per model, group and face, with histograms");
   tool.number("--max-folds", t.max_folds, "[0, 1000000000]", "folds accepted");
   tool.number("--max-crossings", t.max_crossings, "[0, 1000000000]", "crossing or overlapping pairs of triangles accepted");
