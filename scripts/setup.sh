@@ -7,7 +7,7 @@ build_packages=(
   g++ cmake ninja-build
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev libocct-data-exchange-dev
   libtbb-dev libfontconfig-dev  # OpenCASCADE's CMake targets name them, its packages do not
-  libhdf5-dev libopenmpi-dev openmpi-bin
+  libhdf5-dev zlib1g-dev libopenmpi-dev openmpi-bin
   libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
 )
 check_packages=(

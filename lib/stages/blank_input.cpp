@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "io/stl_file.h"
+#include "io/triangulation_reader.h"
 #include "mesh/adjacency.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
@@ -72,8 +72,8 @@ BlankInput read_blank(const std::string& path, const std::string& side) {
   require_blank_side(side);
   BlankInput input;
   input.file = {"blank", std::filesystem::path(path).filename().string(), ""};
-  if (std::string suffix = std::filesystem::path(path).extension().string(); suffix == ".stl" || suffix == ".STL") {
-    input.mesh = read_stl(path);
+  if (is_foreign_mesh(path)) {
+    input.mesh = read_triangulation(path);
     input.file.hash = hash_hex(input.mesh.node_xyz.data(), input.mesh.node_xyz.size() * sizeof(Vec3));
   } else {
     MeshArtifact artifact = read_mesh(path);
