@@ -7,11 +7,15 @@
 namespace st {
 namespace {
 
+/// i + 1, around a ring of n.
+std::size_t following(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
+
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
 constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
+constexpr float kNoTriangle = 2;        // quality of what is outside or gone
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
 constexpr double kStill = 0.02;      // of the requested length: a shorter move wakes no neighbours
@@ -36,7 +40,7 @@ class Enhancer {
 
  private:
   void start() {
-    quality_.resize(m_.triangles.size());
+    quality_.assign(m_.triangles.size(), kNoTriangle);
     degree_.assign(m_.nodes.size(), 0);
     is_active_.assign(m_.nodes.size(), 1);
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
@@ -72,7 +76,7 @@ class Enhancer {
     for (int sweep = 0; sweep < 4; ++sweep) {
       std::size_t n_swaps = 0;
       for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
-        if (!is_inside(m_.triangles[i])) continue;
+        if (quality_[i] > kSwapBelow) continue;
         for (int k = 0; k < 3; ++k)
           if (try_swap(static_cast<std::int32_t>(i), k)) ++n_swaps;
       }
@@ -80,15 +84,14 @@ class Enhancer {
     }
   }
 
-  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment, the rim, or the edge's
-  /// second visit.
+  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment or the rim.
   struct Quad {
     std::int32_t t, o, a, b, c, d;
   };
   bool quad_at(std::int32_t t, int k, Quad& q) const {
     const PlaneTriangle& r = m_.triangles[t];
     const std::int32_t o = r.n[k];
-    if (o < t || (r.constrained >> k & 1)) return false;  // each edge once; kNone is negative
+    if (o == kNone || (r.constrained >> k & 1)) return false;
     const PlaneTriangle& s = m_.triangles[o];
     const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
     q = {t, o, r.v[k], r.v[kNext[k]], r.v[kPrev[k]], s.v[kPrev[j]]};
@@ -118,7 +121,6 @@ class Enhancer {
     Quad q;
     if (!quad_at(t, k, q)) return false;
     const double before = std::min(quality_[q.t], quality_[q.o]);
-    if (before > kSwapBelow) return false;
     const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
     if (after <= before + kSwapGain || !may_swap(q, k)) return false;
     swap(q, k);
@@ -135,7 +137,7 @@ class Enhancer {
 
   void try_relax(std::int32_t t, int k) {
     Quad q;
-    if (!quad_at(t, k, q)) return;
+    if (!quad_at(t, k, q) || q.o < q.t) return;  // each edge once
     if (!is_inner(q.a) || !is_inner(q.b) || !is_inner(q.c) || !is_inner(q.d)) return;
     if (degree_[q.a] + degree_[q.b] - degree_[q.c] - degree_[q.d] < 3) return;
     if (degree_[q.a] <= 5 || degree_[q.b] <= 5) return;
@@ -153,38 +155,59 @@ class Enhancer {
     }
   }
 
-  double ring_quality(const MeshNode& centre, double& mean) const {
-    double worst = 2, sum = 0;
+  struct Ring {
+    double worst = 2, mean = 0;  // quality
+    /// Better than before at its worst, or on the mean where the worst stays fair.
+    bool improves(const Ring& before) const {
+      return worst > before.worst + 1e-4 || (worst > before.fair() && mean > before.mean + 1e-4);
+    }
+    double fair() const { return std::max(0.6, worst - 0.05); }
+  };
+
+  Ring ring_before() const {
+    Ring ring;
+    for (std::int32_t t : tris_) {
+      ring.worst = std::min<double>(ring.worst, quality_[t]);
+      ring.mean += quality_[t];
+    }
+    ring.mean /= static_cast<double>(tris_.size());
+    return ring;
+  }
+
+  /// The ring about a moved node, its qualities in ring_quality_; left early where it cannot improve.
+  Ring ring_about(const MeshNode& centre, const Ring& before) {
+    Ring ring;
+    ring_quality_.resize(around_.size());
+    const double least = std::min(before.worst + 1e-4, before.fair());
     const std::size_t n = around_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const double q = quality(centre, m_.nodes[around_[i]], m_.nodes[around_[(i + 1) % n]]);
-      worst = std::min(worst, q);
-      sum += q;
+      const double q = quality(centre, m_.nodes[around_[i]], m_.nodes[around_[following(i, n)]]);
+      ring.worst = std::min(ring.worst, q);
+      if (q <= least) return ring;
+      ring.mean += q;
+      ring_quality_[i] = static_cast<float>(q);
     }
-    mean = sum / static_cast<double>(n);
-    return worst;
+    ring.mean /= static_cast<double>(n);
+    return ring;
   }
 
   void smooth(std::int32_t i) {
     if (!m_.ring_of(i, around_, tris_)) return;
     const MeshNode& old = m_.nodes[i];
-    double before = 2, mean_before = 0;
-    for (std::int32_t t : tris_) {
-      before = std::min<double>(before, quality_[t]);
-      mean_before += quality_[t] / static_cast<double>(tris_.size());
-    }
-    if (before > kGoodQuality) return;
+    const Ring before = ring_before();
+    if (before.worst > kGoodQuality) return;
     // mean of the apexes that would make each triangle of the ring equilateral
-    Vec3 target{};
+    Vec3 middle{}, edge{};
     double weights = 0;
     const std::size_t n = around_.size();
     for (std::size_t j = 0; j < n; ++j) {
-      const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[(j + 1) % n]].x - b;
+      const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[following(j, n)]].x - b;
       const double weight = kWeightBase - quality_[tris_[j]];
-      target += weight * (b + 0.5 * e + kHalfSqrt3 * cross(old.normal, e));
+      middle += weight * (b + 0.5 * e);
+      edge += weight * e;
       weights += weight;
     }
-    target = target / weights;
+    const Vec3 target = (middle + kHalfSqrt3 * cross(old.normal, edge)) / weights;
     const Metric m = metric_of(old.du, old.dv);
     const double det = m.e * m.g - m.f * m.f;
     if (!(det > 0)) return;
@@ -195,12 +218,10 @@ class Enhancer {
       moved.p = old.p + Vec2{(m.g * mu - m.f * mv) / det, (m.e * mv - m.f * mu) / det};
       if (!is_valid_at(moved.p)) continue;
       w_.evaluate(moved);
-      double mean_after;
-      const double after = ring_quality(moved, mean_after);
-      if (after > before + 1e-4 || (after > 0.6 && after > before - 0.05 && mean_after > mean_before + 1e-4)) {
+      if (ring_about(moved, before).improves(before)) {
         const bool is_far = norm2(moved.x - old.x) > kStill * kStill * old.h * old.h;
         m_.nodes[i] = moved;
-        for (std::int32_t t : tris_) update(t);
+        for (std::size_t j = 0; j < n; ++j) quality_[tris_[j]] = ring_quality_[j];
         if (!is_far) return;
         is_active_[i] = 1;
         for (const std::int32_t j : around_) is_active_[j] = 1;
@@ -212,7 +233,7 @@ class Enhancer {
   bool is_valid_at(Vec2 p) const {
     const std::size_t n = around_.size();
     for (std::size_t i = 0; i < n; ++i)
-      if (orient2d(p, m_.nodes[around_[i]].p, m_.nodes[around_[(i + 1) % n]].p) <= 0) return false;
+      if (orient2d(p, m_.nodes[around_[i]].p, m_.nodes[around_[following(i, n)]].p) <= 0) return false;
     return true;
   }
 
@@ -247,7 +268,10 @@ class Enhancer {
     for (const std::int32_t j : around_) is_active_[j] = 1;
     m_.collapse(i, best, around_, tris_);
     for (std::int32_t t : tris_)
-      if (m_.triangles[t].state != kDead) update(t);
+      if (m_.triangles[t].state == kDead)
+        quality_[t] = kNoTriangle;
+      else
+        update(t);
   }
 
   /// Worst quality after moving the node onto ring node c; -2 when invalid.
@@ -274,6 +298,7 @@ class Enhancer {
 
   FaceWork& w_;
   Triangulation& m_;
+  std::vector<float> ring_quality_;
   std::vector<float> quality_;           // of each inside triangle, kept up to date
   std::vector<std::uint8_t> is_active_;  // nodes to be smoothed: something about them changed
   std::vector<std::int32_t> degree_;     // triangles at each node

@@ -16,7 +16,7 @@ constexpr double kSmallStep = 2e-3;        // of the range of (u,v): far less th
 constexpr double kSingular = 0.02;         // of its mean: a derivative shorter than this makes no reliable normal
 constexpr double kFoldCosine = -0.8;        // between the normals of neighbours: folded onto each other
 constexpr int kProbe = 6;                  // grid of the scale of the plane
-constexpr int kAreaProbe = 24;             // grid of the expected number of nodes
+constexpr int kAreaProbe = 10;             // grid of the expected number of nodes
 constexpr double kRunaway = 30;            // times the expected number of nodes
 
 /// Work on one face: the named steps of meshing.

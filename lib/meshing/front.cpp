@@ -269,11 +269,10 @@ void FaceWork::evaluate(MeshNode& n) const {
 
 double FaceWork::edge_length(std::int32_t ia, std::int32_t ib) const {
   const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
-  const double chord = distance(a.x, b.x);
-  const Vec2 e = b.p - a.p;
-  const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
-  const double along = norm(e.x * du + e.y * dv);
-  return along > 2 * chord && !(a.is_pole && b.is_pole) ? along : chord;
+  const double chord2 = norm2(b.x - a.x);
+  const Vec2 e = 0.5 * (b.p - a.p);
+  const double along2 = norm2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv));
+  return std::sqrt(along2 > 4 * chord2 && !(a.is_pole && b.is_pole) ? along2 : chord2);
 }
 
 double FaceWork::circumradius(const PlaneTriangle& t) const {
