@@ -14,10 +14,12 @@
 #include "io/artifact.h"
 #include "io/node_array.h"
 #include "io/sizing_artifact.h"
+#include "io/triangulation_reader.h"
 #include "mesh/merge.h"
 #include "meshing/hole_reprojector.h"
 #include "meshing/small_features.h"
 #include "sizing/node_field.h"
+#include "stages/foreign_mesh.h"
 #include "stages/model_mesher.h"
 #include "stages/patches_result.h"
 #include "stages/remesher.h"
@@ -30,14 +32,22 @@ void require_valid(const RemeshStageOptions& o) {
   if (!(o.too_short > 0 && o.too_short < 1)) throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
 }
 
+std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std::vector<NodeId>& file_node) {
+  std::vector<double> values;
+  for (const NodeId n : file_node) values.push_back(of_file[n]);
+  return values;
+}
+
 /// The sizing's field, or the one on the nodes that takes its place.
-std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh, double slope) {
+std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh, const ForeignMesh* foreign, double slope) {
   if (o.sizes_on_nodes.empty()) return nullptr;
   const std::size_t colon = o.sizes_on_nodes.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == o.sizes_on_nodes.size())
     throw Error(ExitCode::kUsage, fmt::format("--sizes-on-nodes '{}': not of the form FILE:ARRAY", o.sizes_on_nodes));
-  return std::make_unique<NodeField>(
-      mesh, read_node_lengths(o.sizes_on_nodes.substr(0, colon), o.sizes_on_nodes.substr(colon + 1), mesh.node_xyz.size()), slope);
+  std::vector<double> lengths = read_node_lengths(o.sizes_on_nodes.substr(0, colon), o.sizes_on_nodes.substr(colon + 1),
+                                                  foreign ? foreign->n_file_nodes : mesh.node_xyz.size());
+  if (foreign) lengths = in_mesh_order(lengths, foreign->file_node);
+  return std::make_unique<NodeField>(mesh, std::move(lengths), slope);
 }
 
 /// Faces that stay, [n_faces]: of the group, and strips that were closed for meshing; empty when none does.
@@ -115,6 +125,7 @@ struct RemeshInput {
   MappedSizing sizing;
   std::vector<Vec3> earlier_xyz = {};   ///< of the nodes, before the geometry moved; else empty
   std::vector<TriangleId> spoilt = {};  ///< by the move
+  std::optional<ForeignMesh> foreign = std::nullopt;  ///< what `old` was made of
 };
 
 /// Puts the mesh onto the moved geometry.
@@ -125,7 +136,30 @@ void move(RemeshInput& in) {
   in.spoilt = std::move(moved.spoilt);
 }
 
+/// A mesh of another program, put onto the geometry.
+RemeshInput read_foreign_input(const RemeshStageOptions& o) {
+  if (o.moved) throw Error(ExitCode::kUsage, fmt::format("--moved: {} is no mesh artifact, so it lies on no geometry that could have moved", o.mesh));
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  MappedSizing sizing = map_sizing(o.sizing);
+  require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
+  std::optional<MappedSizing> made_for;
+  if (!o.made_for.empty()) {
+    made_for.emplace(map_sizing(o.made_for));
+    require_same_geometry(o.geometry, geometry.header, o.made_for, made_for->header);
+  }
+  Model model(std::move(geometry.tables), std::move(geometry.brep));
+  ForeignMesh foreign = read_foreign_mesh(o.mesh, model, *sizing.field, {o.tolerance, made_for ? made_for->field.get() : nullptr});
+  MeshArtifact old = std::move(foreign.artifact);
+  Model on_nodes = with_vertices_of(old.mesh, std::move(model));
+  RemeshInput in{std::move(old), std::move(geometry.header), std::move(on_nodes), std::move(sizing)};
+  in.foreign = std::move(foreign);
+  return in;
+}
+
 RemeshInput read_input(const RemeshStageOptions& o) {
+  if (is_foreign_mesh(o.mesh)) return read_foreign_input(o);
+  for (const auto& [option, value] : {std::pair("--tolerance", o.tolerance), std::pair("--made-for", o.made_for)})
+    if (!value.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: {} is a mesh artifact, which knows; leave the option out", option, o.mesh));
   MeshArtifact old = read_mesh(o.mesh);
   if (!old.is_complete)
     throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
@@ -165,6 +199,15 @@ SurfaceMesh merged_mesh(Remesher& r, const ModelMesher* mesher) {
   return merge_patches({mesher->edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
 }
 
+/// previous_id of a foreign mesh is the number in its file.
+void number_as_in_file(const RemeshInput& in, std::vector<NodeId>& nodes, std::vector<TriangleId>& triangles) {
+  if (!in.foreign) return;
+  for (NodeId& n : nodes)
+    if (n != kNone) n = in.foreign->file_node[n];
+  for (TriangleId& t : triangles)
+    if (t != kNone) t = in.foreign->file_triangle[t];
+}
+
 /// Local, on rank 0. Writes the merged mesh.
 StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, const ModelMesher* mesher,
                           const RunFacts& facts) {
@@ -174,6 +217,7 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
   artifact.header.unit_in_m = in.geometry.unit_in_m;
   artifact.header.geometry_hash = in.geometry.content_hash;
   artifact.mesh = merged_mesh(r, mesher);
+  number_as_in_file(in, artifact.mesh.node_previous, artifact.mesh.triangle_previous);
   artifact.mesh.face_name = in.old.mesh.face_name;
   artifact.mesh.group_name = in.old.mesh.group_name;
   artifact.mesh.merged = in.old.mesh.merged;
@@ -207,6 +251,9 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
     mesher.edges = std::move(r.edges);
     if (mesher.edges.node_request == mesher.edges.node_size) mesher.edges.node_request.clear();
   }
+  std::vector<TriangleId> none;
+  number_as_in_file(in, mesher.edges.node_previous, none);
+  for (FacePatch& p : mesher.patches) number_as_in_file(in, p.inner_previous, p.triangle_previous);
   mesher.times.edges += r.seconds_edges;
   mesher.times.faces += r.seconds_faces;
   mesher.times.crossing += r.seconds_crossing;
@@ -214,6 +261,14 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
   mesher.n_refinements += r.n_refinements;
   mesher.n_rounds += r.n_rounds;
   return write_patches_result(o.output, in.model.tables(), in.geometry, output_header(o, in, r), mesher, facts);
+}
+
+StageSummary with_association(StageSummary summary, const std::optional<StageSummary>& association) {
+  if (!association || summary.json.empty()) return summary;
+  nlohmann::json json = nlohmann::json::parse(summary.json);
+  json["association"] = nlohmann::json::parse(association->json);
+  summary.json = json.dump();
+  return summary;
 }
 
 }  // namespace
@@ -232,12 +287,15 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   options.mark.keep_face = kept_faces(o, in.model.tables(), in.old.mesh.merged);
   options.mark.earlier_xyz = in.earlier_xyz;
   options.mark.redo = in.spoilt;
-  const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.sizing.field->slope());
+  const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  std::optional<StageSummary> association;
+  if (in.foreign) association = association_summary(o.mesh, in.old.mesh, in.foreign->report);
+  if (association && comm.is_root()) log_info(association->line);
   Remesher remesher(in.model, mesh, field, options, comm);
   const double load_seconds = timer.seconds();
   remesher.analyse();
-  if (o.dry_run) return dry_run_summary(remesher, mesh);
+  if (o.dry_run) return with_association(dry_run_summary(remesher, mesh), association);
   remesher.run();
   std::optional<ModelMesher> mesher;
   ModelMesherOptions mesher_options;
@@ -252,7 +310,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   json.update(counts(remesher, mesh));
   summary.json = json.dump();
   summary.line += fmt::format("; {} of {} triangles redone", remesher.n_marked_triangles, in.old.mesh.n_triangles());
-  return summary;
+  return with_association(std::move(summary), association);
 }
 
 }  // namespace st

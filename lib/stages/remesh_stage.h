@@ -10,7 +10,7 @@
 namespace st {
 
 struct RemeshStageOptions {
-  std::string mesh;      ///< mesh artifact
+  std::string mesh;      ///< mesh artifact, or a triangulation of another program (read_triangulation)
   std::string geometry;  ///< geometry artifact the mesh was made on
   std::string sizing;    ///< new sizing artifact
   std::string output = "patches.hdf";
@@ -20,6 +20,8 @@ struct RemeshStageOptions {
   std::string keep;        ///< group of which nothing changes; empty: none
   std::string sizes_on_nodes;           ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's; empty: none
   bool moved = false;                   ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
+  std::string tolerance;                ///< length: how far nodes of a foreign mesh may lie from the CAD; empty: by its edges
+  std::string made_for;                 ///< sizing artifact that a foreign mesh was made for; empty: unknown
   bool dry_run = false;    ///< say how much would change, write nothing
 };
 

@@ -9,19 +9,19 @@ from chain import *  # noqa: E402,F403
 N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
-    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--time-limit": "", "--check": "", "--require-closed": ""},
+    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
-    "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
+    "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
     "st-check": {
         "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
         "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
         "--max-normal-deviation": "", "--list-below": "10",
     },
-    "st-info": {"--hash": "", "--at": ""},
+    "st-info": {"--hash": "", "--groups": "", "--at": ""},
     "st-diff": {"--tolerance": "0"},
     "st-export": {"--output": ""},
 }

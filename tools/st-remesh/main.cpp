@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
   st::RemeshStageOptions o;
   st::ToolMain tool("st-remesh", "Redoes the triangles of a mesh that no longer respect the sizes.");
-  tool.input("mesh", o.mesh, "mesh artifact");
+  tool.input("mesh", o.mesh, "mesh artifact, or a triangulation of another program (STL, MSH, VTU, FRO)");
   tool.input("geometry", o.geometry, "geometry artifact the mesh was made on");
   tool.input("sizing", o.sizing, "new sizing artifact");
   tool.output(o.output);
@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
   tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
   tool.text("--sizes-on-nodes", o.sizes_on_nodes, "FILE:ARRAY", "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
+  tool.length("--tolerance", o.tolerance, "", "how far nodes of another program's mesh may lie from the CAD");
+  tool.optional_input("--made-for", o.made_for, "sizing artifact that another program's mesh was made for");
   tool.flag("--moved", o.moved, "the geometry is another one of the same topology: put the mesh onto it");
   tool.flag("--dry-run", o.dry_run, "say how much would change, write nothing");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });

@@ -1,0 +1,28 @@
+// The nearest of many points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/vec.h"
+
+namespace st {
+
+/// Points in a k-d tree.
+class NearestNode {
+ public:
+  /// Of `xyz`, which outlives the object, the nodes with something at them (`offsets` [n+1] as in MeshEdges). n log n.
+  NearestNode(std::span<const Vec3> xyz, std::span<const std::int32_t> offsets);
+  /// The nearest, of equally near ones the lowest; kNone when there is no point. About log n.
+  NodeId find(Vec3 x) const;
+
+ private:
+  void build(std::size_t begin, std::size_t end, int axis);
+  void search(Vec3 x, std::size_t begin, std::size_t end, int axis, std::pair<double, NodeId>& best) const;
+
+  std::span<const Vec3> xyz_;
+  std::vector<NodeId> node_;
+};
+
+}  // namespace st

@@ -1,0 +1,40 @@
+// A triangulation of another program as st-remesh takes it. Internal to stages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/model.h"
+#include "io/artifact.h"
+#include "meshing/mesh_association.h"
+#include "sizing/size_field.h"
+#include "stages/summary.h"
+
+namespace st {
+
+struct ForeignMeshOptions {
+  std::string tolerance;                ///< length: how far nodes may lie from the CAD; empty: by the mesh's edges
+  const SizeField* made_for = nullptr;  ///< sizes the mesh was made for; null: its own edge lengths
+};
+
+/// A foreign mesh on its geometry, as if st-merge had written it, and where it comes from.
+struct ForeignMesh {
+  MeshArtifact artifact;                  ///< header: name-independent hash of the triangulation
+  std::vector<NodeId> file_node;          ///< [n_nodes] number in the file, from 0
+  std::vector<TriangleId> file_triangle;  ///< [n_triangles] likewise
+  std::size_t n_file_nodes = 0;
+  AssociationReport report;
+};
+
+/// Reads and associates (associate_mesh). Stored lengths are those of the file (point data "size"), else those the mesh was made for, else
+/// measured: `sizes` where the mean edge at the node is 0.7 to 1.4 of it, that mean elsewhere. Throws Error(kInput), Error(kMismatch)
+/// naming the file, Error(kUsage).
+ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const SizeField& sizes, const ForeignMeshOptions& options);
+
+/// The model with its vertices where the mesh has its nodes on them, so that these stay to the bit.
+Model with_vertices_of(const SurfaceMesh& mesh, Model&& model);
+
+/// "wing.stl: 12 triangles on 6 faces ...", and its JSON object.
+StageSummary association_summary(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& report);
+
+}  // namespace st
