@@ -39,12 +39,15 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "base/error.h"
+#include "base/face_labels.h"
 
 namespace st::occt {
 namespace {
@@ -142,7 +145,9 @@ class DocumentReader {
     std::vector<CadPart> result;
     TDF_LabelSequence free;
     shapes_->GetFreeShapes(free);
-    for (int i = 1; i <= free.Length(); ++i) visit(free.Value(i), TopLoc_Location(), {}, result);
+    visit_all(free, TopLoc_Location(), {}, "", result);
+    for (CadPart& part : result)
+      if (part.name.empty()) part.path.clear();
     return result;
   }
 
@@ -162,7 +167,37 @@ class DocumentReader {
     return inherited;
   }
 
-  void visit(const TDF_Label& label, const TopLoc_Location& location, const Style& inherited, std::vector<CadPart>& result) {
+  /// Name of what a label stands for: of the product, else of the instance.
+  std::string product_name(const TDF_Label& label) const {
+    TDF_Label product;
+    std::string name;
+    if (XCAFDoc_ShapeTool::IsReference(label) && XCAFDoc_ShapeTool::GetReferredShape(label, product)) name = name_of(product);
+    return name.empty() ? name_of(label) : name;
+  }
+
+  /// Names of siblings, each its own: "bolt#1", "bolt#2" where there are several; '/' in them becomes '_'.
+  std::vector<std::string> sibling_names(const TDF_LabelSequence& labels) const {
+    std::vector<std::string> names, result;
+    std::map<std::string, int> n_all, n_before;
+    for (int i = 1; i <= labels.Length(); ++i) {
+      std::string name = product_name(labels.Value(i));
+      std::replace(name.begin(), name.end(), '/', '_');
+      names.push_back(name.empty() ? "unnamed" : name);
+      ++n_all[names.back()];
+    }
+    for (const std::string& name : names)
+      result.push_back(unique_path(n_all[name] > 1 ? name + "#" + std::to_string(++n_before[name]) : name, result));
+    return result;
+  }
+
+  void visit_all(const TDF_LabelSequence& labels, const TopLoc_Location& location, const Style& inherited, const std::string& path,
+                 std::vector<CadPart>& result) {
+    const std::vector<std::string> names = sibling_names(labels);
+    for (int i = 1; i <= labels.Length(); ++i) visit(labels.Value(i), location, inherited, path + names[i - 1], result);
+  }
+
+  void visit(const TDF_Label& label, const TopLoc_Location& location, const Style& inherited, const std::string& path,
+             std::vector<CadPart>& result) {
     Style style = style_of(label, inherited);
     TDF_Label target = label;
     TopLoc_Location place = location;
@@ -177,11 +212,13 @@ class DocumentReader {
     if (XCAFDoc_ShapeTool::IsAssembly(target)) {
       TDF_LabelSequence children;
       XCAFDoc_ShapeTool::GetComponents(target, children);
-      for (int i = 1; i <= children.Length(); ++i) visit(children.Value(i), place, style, result);
+      visit_all(children, place, style, path + "/", result);
       return;
     }
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(target);
-    if (!shape.IsNull()) result.push_back(leaf(target, shape, place, style));
+    if (shape.IsNull()) return;
+    result.push_back(leaf(target, shape, place, style));
+    result.back().path = path;
   }
 
   CadPart leaf(const TDF_Label& label, const TopoDS_Shape& shape, const TopLoc_Location& place, const Style& style) {

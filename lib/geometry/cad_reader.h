@@ -13,6 +13,7 @@ namespace st::occt {
 struct CadPart {
   TopoDS_Shape shape;
   std::string name;                          ///< UTF-8
+  std::string path;                          ///< "assembly/sub#2/bolt#3", unique; empty when neither it nor its assemblies have a name
   struct FaceAttributes {
     TopoDS_Shape face;
     std::string name, layer;

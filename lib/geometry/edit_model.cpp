@@ -79,6 +79,7 @@ void select_faces(const ModelTables& t, const std::vector<FaceId>& f, ModelTable
   out.face_group = gather(t.face_group, f);
   out.face_shell = gather(t.face_shell, f);
   out.face_solid = gather(t.face_solid, f);
+  out.labels = select_labels(t.labels, f);
 }
 
 /// Columns of the edges and vertices of a part.
@@ -165,6 +166,7 @@ std::vector<std::int32_t> merge_groups(ModelTables& to, const ModelTables& secon
     if (k == to.group_name.size()) {
       to.group_name.push_back(second.group_name[g]);
       to.group_role.push_back(second.group_role[g]);
+      to.labels.group_attributes.push_back(g < second.labels.group_attributes.size() ? second.labels.group_attributes[g] : "{}");
     }
     group.push_back(static_cast<std::int32_t>(k));
   }
@@ -193,6 +195,8 @@ void append_topology(ModelTables& t, const ModelTables& s) {
 }
 
 void append_faces(ModelTables& t, const ModelTables& s) {
+  t.labels = append_labels(t.labels, t.n_faces(), s.labels, s.n_faces());
+  t.labels.group_attributes.resize(t.group_name.size(), "{}");
   add_all(t.face_is_reversed, s.face_is_reversed);
   add_all(t.face_type, s.face_type);
   add_all(t.face_uv_bounds, s.face_uv_bounds);
@@ -272,6 +276,7 @@ Model transform(const Model& model, const AffineMap& map) {
   out.face_color = t.face_color;
   out.face_layer = t.face_layer;
   out.face_group = t.face_group;
+  out.labels = t.labels;
   out.group_name = t.group_name;
   out.group_role = t.group_role;
   out.unit = t.unit;

@@ -122,6 +122,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
+  for (const std::string& name : apply_groups(options.groups, result.tables))
+    result.findings.push_back({"optional group without a face", "group \"" + name + "\"", {}, 0, false});
   const double small = resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);

@@ -43,6 +43,7 @@ ImportedShape collect_parts(const CadFile& file, const std::string& path) {
   result.attributes.resize(result.faces.Extent());
   for (std::size_t p = 0; p < file.parts.size(); ++p) {
     const CadPart& part = file.parts[p];
+    result.parts.push_back({part.name, part.path});
     for (const auto& face : part.faces)
       if (const int i = result.faces.FindIndex(face.face); i > 0)
         result.attributes[i - 1] = {face.name, face.layer, part.name, face.color, static_cast<std::int32_t>(p)};

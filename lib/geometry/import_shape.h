@@ -18,11 +18,16 @@
 
 namespace st::occt {
 
+/// A part of the file, or one instance of it.
+struct PartLabel {
+  std::string name, path;  ///< of CadPart
+};
+
 /// What the file says of a face.
 struct FaceAttributes {
   std::string name, layer, part;  ///< UTF-8, empty when the file has none
   std::int32_t color = kNone;     ///< 0xRRGGBB
-  std::int32_t part_index = 0;    ///< of CadFile::parts
+  std::int32_t part_index = kNone;  ///< of ImportedShape::parts; kNone: a face that the import made
 };
 
 /// One shape, its faces in the order of their ids, and what the file said of faces and edges.
@@ -31,6 +36,7 @@ struct ImportedShape {
   TopTools_IndexedMapOfShape faces;        ///< TopExp order of `shape`
   std::vector<FaceAttributes> attributes;  ///< [n_faces]
   std::vector<std::pair<TopoDS_Shape, std::string>> edge_names;
+  std::vector<PartLabel> parts;
 
   /// Takes over `changed`, in which `images(face)` stands for a face of old (any shape with faces in it, or null when it is gone): the
   /// attributes follow. Returns false and changes nothing when `changed` has no face.

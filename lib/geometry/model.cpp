@@ -55,7 +55,7 @@ Box3 ModelTables::box() const {
 Box3 ModelTables::wall_box() const {
   Box3 b;
   for (FaceId f = 0; f < n_faces(); ++f)
-    if (group_role[face_group[f]] == "wall") b.add(face_box[f]);
+    if (!is_outer_role(group_role[face_group[f]])) b.add(face_box[f]);
   return b.is_empty() ? box() : b;
 }
 

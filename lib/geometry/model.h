@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "base/face_labels.h"
 #include "base/ids.h"
 #include "base/vec.h"
 #include "geometry/curve.h"
+#include "geometry/groups.h"
 #include "geometry/surface.h"
 
 namespace st {
@@ -47,9 +49,10 @@ struct ModelTables {
   std::vector<std::int32_t> face_group;              ///< index into group_name
   std::vector<std::int32_t> face_shell;              ///< index of the shell (connected component of faces), kNone when loose
   std::vector<std::int32_t> face_solid;              ///< index of the solid, kNone when none
-  // groups (by face name, else part name, else "default")
+  // groups (by the groups file, else face name, else part name, else "default")
   std::vector<std::string> group_name;               ///< UTF-8
-  std::vector<std::string> group_role;               ///< "wall", "symmetry", "farfield": from the name (symmetry, sym, farfield, far_field ...)
+  std::vector<std::string> group_role;               ///< one of group_roles() (groups.h): from the groups file, else role_of_name()
+  FaceLabels labels;                                 ///< parts, attributes of groups, further tables of groups
   std::int32_t n_shells = 0, n_solids = 0;
   std::optional<double> volume;                      ///< model unit cubed, of a closed model; negative where normals point inward
   // unit
@@ -62,7 +65,7 @@ struct ModelTables {
   std::int32_t n_loops() const { return static_cast<std::int32_t>(loop_coedge_offsets.size()) - 1; }
   std::int32_t n_coedges() const { return static_cast<std::int32_t>(coedge_edge.size()); }
 
-  /// Bounding box of all faces, and of the faces whose group's role is "wall" (all faces when there is none): the reference diagonal.
+  /// Bounding box of all faces, and of the faces whose group's role is no outer one (all faces when there is none): the reference diagonal.
   Box3 box() const;
   Box3 wall_box() const;
   double reference_diagonal() const { return wall_box().diagonal(); }
@@ -117,6 +120,7 @@ struct ImportOptions {
   std::string symmetry;                   ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
   std::string farfield;                   ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
   bool require_closed = false;            ///< Error(kGeometry) for a model that is open after repairs
+  std::vector<GroupRule> groups;          ///< empty: those of the file
 };
 
 struct ImportResult {

@@ -5,7 +5,6 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -27,6 +26,7 @@ class TableWriter {
     fill_edges();
     fill_faces();
     fill_shells_and_solids();
+    fill_parts();
     fill_groups();
     return {std::move(tables_), std::move(measures_)};
   }
@@ -159,6 +159,23 @@ class TableWriter {
     t.n_solids = number(TopAbs_SOLID, t.face_solid);
   }
 
+  /// Parts that have a path, in the order of their first face.
+  void fill_parts() {
+    FaceLabels& labels = tables_.labels;
+    std::vector<std::int32_t> number(model_.parts.size(), kNone);
+    for (const FaceAttributes& face : model_.attributes) {
+      const std::int32_t p = face.part_index;
+      const bool has_part = p != kNone && static_cast<std::size_t>(p) < number.size() && !model_.parts[p].path.empty();
+      if (has_part && number[p] == kNone) {
+        number[p] = static_cast<std::int32_t>(labels.part_name.size());
+        labels.part_name.push_back(model_.parts[p].name);
+        labels.part_path.push_back(model_.parts[p].path);
+      }
+      labels.face_part.push_back(has_part ? number[p] : kNone);
+    }
+    if (labels.part_name.empty()) labels.face_part.clear();
+  }
+
   void fill_groups() {
     ModelTables& t = tables_;
     std::map<std::string, std::int32_t> ids;
@@ -168,27 +185,11 @@ class TableWriter {
       const auto [it, is_new] = ids.emplace(name, static_cast<std::int32_t>(t.group_name.size()));
       if (is_new) {
         t.group_name.push_back(name);
-        t.group_role.push_back(role_of(name));
+        t.group_role.push_back(role_of_name(name));
+        t.labels.group_attributes.push_back("{}");
       }
       t.face_group.push_back(it->second);
     }
-  }
-
-  /// From words of the name: "far field", "Symmetry_1", "sym", "symm-y0"; "symbol" is a wall.
-  static std::string role_of(const std::string& name) {
-    std::string letters, word;
-    bool has_sym = false;
-    for (const unsigned char c : name + " ") {
-      if (std::isalpha(c)) {
-        letters += static_cast<char>(std::tolower(c));
-        word += static_cast<char>(std::tolower(c));
-        continue;
-      }
-      has_sym |= word == "sym" || word == "symm" || word == "symplane";
-      word.clear();
-    }
-    if (letters.find("farfield") != std::string::npos) return "farfield";
-    return has_sym || letters.find("symmetry") != std::string::npos ? "symmetry" : "wall";
   }
 
   const ImportedShape& model_;

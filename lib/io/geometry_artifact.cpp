@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/artifact_checks.h"
+#include "io/face_labels_io.h"
 
 namespace st {
 namespace {
@@ -37,6 +38,7 @@ void write_faces(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/face/solid", t.face_solid);
   w.write_strings("/st/group/name", t.group_name);
   w.write_strings("/st/group/role", t.group_role);
+  write_labels(w, t.labels);
 }
 
 void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
@@ -102,6 +104,7 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
   t.group_role = r.read_string_rows("/st/group/role", t.group_name.size());
   t.face_group = r.read_rows<std::int32_t>("/st/face/group", n);
   require_ids(r, "/st/face/group", t.face_group, t.group_name.size());
+  t.labels = read_labels(r, n, t.group_name.size());
   t.n_shells = static_cast<std::int32_t>(r.int_attribute("/st", "n_shells"));
   t.n_solids = static_cast<std::int32_t>(r.int_attribute("/st", "n_solids"));
   t.face_shell = r.read_rows<std::int32_t>("/st/face/shell", n);

@@ -3,6 +3,8 @@
 
 #include "base/error.h"
 #include "io/artifact_checks.h"
+#include "io/face_labels_io.h"
+#include "io/face_numbers.h"
 #include "io/merged_features.h"
 
 namespace st {
@@ -49,8 +51,10 @@ void write_vtk(Hdf5Writer& w, const SurfaceMesh& m) {
     w.write("/VTKHDF/CellData/previous_id", m.triangle_previous);
     w.write("/VTKHDF/PointData/previous_id", m.node_previous);
   }
+  for (const FaceNumbers& n : face_numbers(m)) w.write("/VTKHDF/CellData/" + n.name, triangle_numbers(m, n));
   if (!m.face_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.face_name);  // VTK complains of empty ones
   if (!m.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.group_name);
+  for (const FaceNumbers& n : face_numbers(m)) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
 }
 
 std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
@@ -85,6 +89,8 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   write_vtk(w, m);
   w.write_strings("/st/face/name", m.face_name);
   w.write_strings("/st/group/name", m.group_name);
+  if (!m.group_role.empty()) w.write_strings("/st/group/role", m.group_role);
+  write_labels(w, m.labels);
   w.write("/st/node/t", m.node_t);
   w.write("/st/triangle/corner_uv", m.corner_uv);
   write_merged(w, m.merged);
@@ -107,6 +113,9 @@ MeshArtifact read_mesh(const std::string& path) {
   m.triangles = read_triangles(r, n_nodes);
   m.face_name = r.read_strings("/st/face/name");
   m.group_name = r.read_strings("/st/group/name");
+  m.group_role = read_roles(r, m.group_name);
+  m.labels = read_labels(r, m.face_name.size(), m.group_name.size());
+  for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made anew of the labels
   m.triangle_face = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/face", m.triangles.size()));
   require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.face_name.size());
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));

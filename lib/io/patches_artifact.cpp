@@ -1,5 +1,6 @@
 // patches.hdf: docs/artifacts.md
 #include "io/artifact_checks.h"
+#include "io/face_labels_io.h"
 #include "io/merged_features.h"
 
 namespace st {
@@ -164,7 +165,9 @@ void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
   a.face_area = r.read_rows<double>("/st/face/area", a.face_group.size());
   a.face_name = r.read_string_rows("/st/face/name", a.face_group.size());
   a.group_name = r.read_strings("/st/group/name");
+  a.group_role = read_roles(r, a.group_name);
   require_ids(r, "/st/face/group", a.face_group, a.group_name.size());
+  a.labels = read_labels(r, a.face_group.size(), a.group_name.size());
 }
 
 }  // namespace
@@ -186,6 +189,8 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   w.write("/st/face/shell", a.face_shell);
   w.write("/st/face/area", a.face_area);
   w.write_strings("/st/group/name", a.group_name);
+  if (!a.group_role.empty()) w.write_strings("/st/group/role", a.group_role);
+  write_labels(w, a.labels);
   write_patch_arrays(w, a.patches);
   write_previous(w, a);
   write_failures(w, a.failures);

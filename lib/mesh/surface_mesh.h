@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/face_labels.h"
 #include "base/ids.h"
 #include "base/vec.h"
 
@@ -78,6 +79,8 @@ struct SurfaceMesh {
   std::vector<std::int32_t> triangle_group;  ///< index into group_name
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
+  std::vector<std::string> group_role;       ///< [n_groups], or empty: those of the names
+  FaceLabels labels;                         ///< parts and further tables of groups
   MergedFeatures merged;
   std::vector<NodeId> node_previous;          ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone: new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]

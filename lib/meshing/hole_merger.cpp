@@ -7,50 +7,50 @@ namespace {
 
 class Inserter {
  public:
-  Inserter(const HoleNumbering& numbering, std::span<const FacePatch> redone)
-      : numbering_(numbering), cad_(numbering.mesh), old_(cad_.mesh), edges_(numbering.update.edges), redone_(redone) {}
+  Inserter(const HoleNumbering& numbering, const HoleMarks& marks, std::span<const std::vector<HoleFill>> fills)
+      : numbering_(numbering), marks_(marks), cad_(numbering.mesh), old_(cad_.mesh), edges_(numbering.update.edges), fills_(fills) {}
 
   SurfaceMesh run() {
     mark_used();
     reserve();
     add_vertices();
     add_edges();
-    for (FaceId f = 0; f < n_faces(); ++f) is_redone(f) ? insert(redone_[f]) : copy(f);
+    for (FaceId f = 0; f < n_faces(); ++f) is_redone(f) ? insert(f) : copy(f);
     mesh_.face_name = old_.face_name;
     mesh_.group_name = old_.group_name;
+    mesh_.group_role = old_.group_role;
+    mesh_.labels = old_.labels;
     return std::move(mesh_);
   }
 
  private:
   FaceId n_faces() const { return cad_.tables.n_faces(); }
-  bool is_redone(FaceId f) const { return !redone_[f].triangles.empty(); }
-  std::int32_t number(const FacePatch& p, std::int32_t i) const {
-    if (p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)) return numbering_.boundary.vertex(p.boundary_entity[i]);
-    return numbering_.boundary.edge_node(p.boundary_entity[i], p.boundary_index[i]);
-  }
+  bool is_redone(FaceId f) const { return !fills_[f].empty(); }
+  bool is_kept(TriangleId i) const { return !is_redone(old_.triangle_face[i]) || !marks_.triangle[i]; }
 
   /// Boundary nodes that have a triangle.
   void mark_used() {
     place_.assign(numbering_.first_inner, kNone);
     for (FaceId f = 0; f < n_faces(); ++f) {
-      if (is_redone(f)) {
-        const FacePatch& p = redone_[f];
-        for (const Triangle& t : p.triangles)
-          for (NodeId n : t.n)
-            if (n < p.n_boundary) place_[number(p, n)] = 0;
-        continue;
-      }
       for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
         for (NodeId n : old_.triangles[i].n)
-          if (n < cad_.inner_begin[0]) place_[numbering_.of_node[n]] = 0;
+          if (n < cad_.inner_begin[0] && is_kept(i)) place_[numbering_.of_node[n]] = 0;
+      for (const HoleFill& fill : fills_[f])
+        for (const Triangle& t : fill.triangles)
+          for (NodeId n : t.n)
+            if (n < static_cast<NodeId>(fill.id.size()) && fill.id[n] < numbering_.first_inner) place_[fill.id[n]] = 0;
     }
   }
 
   void reserve() {
     std::size_t n_nodes = std::count(place_.begin(), place_.end(), 0), n_triangles = 0;
     for (FaceId f = 0; f < n_faces(); ++f) {
-      n_nodes += is_redone(f) ? redone_[f].inner_xyz.size() : cad_.inner_begin[f + 1] - cad_.inner_begin[f];
-      n_triangles += is_redone(f) ? redone_[f].triangles.size() : cad_.face_size(f);
+      n_nodes += cad_.inner_begin[f + 1] - cad_.inner_begin[f];
+      n_triangles += cad_.face_size(f);
+      for (const HoleFill& fill : fills_[f]) {
+        n_nodes += fill.inner.size();
+        n_triangles += fill.triangles.size();
+      }
     }
     mesh_.node_xyz.reserve(n_nodes);
     mesh_.node_entity_dim.reserve(n_nodes);
@@ -121,32 +121,72 @@ class Inserter {
     }
   }
 
-  void insert(const FacePatch& p) {
-    std::vector<NodeId> place(p.n_boundary + p.inner_xyz.size(), kNone);
-    for (const Triangle& t : p.triangles)
+  void insert(FaceId f) {
+    add_kept_nodes(f);
+    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i) {
+      if (marks_.triangle[i]) continue;
+      Triangle t = old_.triangles[i];
+      for (NodeId& n : t.n) n = placed(numbering_.number(n));
+      mesh_.triangles.push_back(t);
+      for (int k = 0; k < 3; ++k) mesh_.corner_uv.push_back(old_.corner_uv[3 * i + k]);
+      mesh_.triangle_previous.push_back(i);
+    }
+    for (const HoleFill& fill : fills_[f]) add_fill(fill, f);
+    const std::size_t n_new = mesh_.triangles.size() - mesh_.triangle_face.size();
+    mesh_.triangle_face.insert(mesh_.triangle_face.end(), n_new, f);
+    mesh_.triangle_group.insert(mesh_.triangle_group.end(), n_new, old_.triangle_group[cad_.face_begin[f]]);
+  }
+
+  /// Nodes inside a redone face that have a triangle.
+  void add_kept_nodes(FaceId f) {
+    first_id_ = numbering_.number(cad_.inner_begin[f]);
+    inner_place_.assign(cad_.inner_begin[f + 1] - cad_.inner_begin[f], kNone);
+    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
+      for (NodeId n : old_.triangles[i].n)
+        if (n >= cad_.inner_begin[f] && !marks_.triangle[i]) inner_place_[n - cad_.inner_begin[f]] = 0;
+    for (const HoleFill& fill : fills_[f])
+      for (const Triangle& t : fill.triangles)
+        for (NodeId n : t.n)
+          if (n < static_cast<NodeId>(fill.id.size()) && numbering_.is_inner(fill.id[n])) inner_place_[fill.id[n] - first_id_] = 0;
+    for (NodeId n = cad_.inner_begin[f]; n < cad_.inner_begin[f + 1]; ++n)
+      if (NodeId& place = inner_place_[n - cad_.inner_begin[f]]; place != kNone)
+        place = add(old_.node_xyz[n], EntityDim::kFace, f, 0, old_.node_size[n], n);
+  }
+
+  NodeId placed(std::int32_t id) const { return numbering_.is_inner(id) ? inner_place_[id - first_id_] : place_[id]; }
+
+  void add_fill(const HoleFill& fill, FaceId f) {
+    const auto n_rim = static_cast<NodeId>(fill.id.size());
+    std::vector<NodeId> place(n_rim + fill.inner.size(), kNone);
+    for (const Triangle& t : fill.triangles)
       for (NodeId n : t.n) place[n] = 0;
-    for (std::int32_t i = 0; i < p.n_boundary; ++i) place[i] = place_[number(p, i)];
-    for (std::size_t i = 0; i < p.inner_xyz.size(); ++i)
-      if (NodeId& n = place[p.n_boundary + i]; n != kNone)
-        n = add(p.inner_xyz[i], EntityDim::kFace, p.face, 0, p.inner_size[i], p.inner_previous[i]);
-    for (const Triangle& t : p.triangles) mesh_.triangles.push_back({{place[t.n[0]], place[t.n[1]], place[t.n[2]]}});
-    mesh_.corner_uv.insert(mesh_.corner_uv.end(), p.corner_uv.begin(), p.corner_uv.end());
-    mesh_.triangle_previous.insert(mesh_.triangle_previous.end(), p.triangle_previous.begin(), p.triangle_previous.end());
-    mesh_.triangle_face.insert(mesh_.triangle_face.end(), p.triangles.size(), p.face);
-    mesh_.triangle_group.insert(mesh_.triangle_group.end(), p.triangles.size(), old_.triangle_group[cad_.face_begin[p.face]]);
+    for (NodeId i = 0; i < n_rim; ++i)
+      if (place[i] != kNone) place[i] = placed(fill.id[i]);
+    for (std::size_t i = 0; i < fill.inner.size(); ++i)
+      if (NodeId& n = place[n_rim + i]; n != kNone) n = add(fill.inner[i].x, EntityDim::kFace, f, 0, fill.inner[i].h, kNone);
+    for (const Triangle& t : fill.triangles) {
+      mesh_.triangles.push_back({{place[t.n[0]], place[t.n[1]], place[t.n[2]]}});
+      for (NodeId n : t.n) mesh_.corner_uv.push_back(n < n_rim ? fill.uv[n] : fill.inner[n - n_rim].uv);
+    }
+    mesh_.triangle_previous.resize(mesh_.triangles.size(), kNone);
   }
 
   const HoleNumbering& numbering_;
+  const HoleMarks& marks_;
   const HoleMesh& cad_;
   const SurfaceMesh& old_;
   const EdgeMesh& edges_;
-  std::span<const FacePatch> redone_;
-  std::vector<NodeId> place_;  // [first_inner] in the new mesh, by number of boundary nodes
+  std::span<const std::vector<HoleFill>> fills_;
+  std::vector<NodeId> place_;        // [first_inner] in the new mesh, by number of boundary nodes
+  std::vector<NodeId> inner_place_;  // likewise of the nodes inside the present face,
+  std::int32_t first_id_ = 0;        // from this number
   SurfaceMesh mesh_;
 };
 
 }  // namespace
 
-SurfaceMesh insert_patches(const HoleNumbering& numbering, std::span<const FacePatch> redone) { return Inserter(numbering, redone).run(); }
+SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks, std::span<const std::vector<HoleFill>> fills) {
+  return Inserter(numbering, marks, fills).run();
+}
 
 }  // namespace st

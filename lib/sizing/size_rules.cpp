@@ -22,7 +22,7 @@ std::string text_of(const Parts&... parts) {
 bool matches(const std::string& pattern, const std::string& name) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; }
 
 [[noreturn]] void fail(const SizeRule& rule, const std::string& what) {
-  throw Error(ExitCode::kUsage, text_of(rule.where, ": ", what, "; st-info geometry.hdf lists names"));
+  throw Error(ExitCode::kUsage, text_of(rule.where, ": ", what, "; st-info geometry.hdf --groups lists names"));
 }
 
 /// A 1-based id as text; nullopt: a name.

@@ -12,6 +12,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "io/artifact.h"
+#include "io/groups_file.h"
 
 namespace st {
 namespace {
@@ -30,6 +31,20 @@ nlohmann::json finding_json(const ImportFinding& f) {
   return {{"what", f.what}, {"entity", f.entity}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}, {"size", f.size}, {"repair", f.is_repair}};
 }
 
+/// Groups with their roles and numbers of faces, table by table, the main one first.
+nlohmann::json tables_json(const ModelTables& t) {
+  nlohmann::json tables = nlohmann::json::array();
+  const auto add = [&](const std::string& name, const auto& groups, const auto& roles, const std::vector<std::int32_t>& face_group) {
+    nlohmann::json entries = nlohmann::json::array();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      entries.push_back({{"name", groups[g]}, {"role", roles[g]}, {"faces", std::count(face_group.begin(), face_group.end(), g)}});
+    tables.push_back({{"table", name}, {"groups", entries}});
+  };
+  add("main", t.group_name, t.group_role, t.face_group);
+  for (const GroupTable& table : t.labels.tables) add(table.name, table.group_name, table.group_role, table.face_group);
+  return tables;
+}
+
 nlohmann::json report(const std::string& model, const ImportResult& r) {
   const ModelTables& t = r.tables;
   const Box3 box = t.box();
@@ -46,6 +61,8 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"edges", t.n_edges()},
           {"vertices", t.n_vertices()},
           {"groups", t.group_name.size()},
+          {"parts", t.labels.part_path.size()},
+          {"tables", tables_json(t)},
           {"free_edges", r.n_free_edges},
           {"nonmanifold_edges", r.n_nonmanifold_edges},
           {"repairs", repairs},
@@ -110,7 +127,7 @@ double time_limit(const ImportStageOptions& o) {
   return unreadable ? kSeconds : kSeconds + kSecondsPerByte * static_cast<double>(bytes);
 }
 
-StageSummary import_here(const ImportStageOptions& o) {
+StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
   ImportOptions options;
   options.unit = o.unit;
@@ -119,6 +136,7 @@ StageSummary import_here(const ImportStageOptions& o) {
   options.farfield = o.farfield;
   options.check_only = o.check;
   options.require_closed = o.require_closed;
+  options.groups = groups.rules;
   ImportResult r = import_model(o.model, options);
   say(o.model, r);
   nlohmann::json json = report(o.model, r);
@@ -135,10 +153,12 @@ StageSummary import_here(const ImportStageOptions& o) {
     nlohmann::json used{{"unit", o.unit}, {"small", o.small}};
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
+    if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = used.dump();
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
+    if (!o.groups.empty()) g.header.inputs.push_back({"groups", std::filesystem::path(o.groups).filename().string(), groups.hash});
     g.findings = r.findings;
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
@@ -157,8 +177,9 @@ StageSummary import_here(const ImportStageOptions& o) {
 // OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps the last word.
 StageSummary run_import(const ImportStageOptions& o) {
   if (!o.check) require_writable(o.output);
+  const GroupsFile groups = o.groups.empty() ? GroupsFile() : read_groups(o.groups);
   const auto work = [&] {
-    const StageSummary s = import_here(o);
+    const StageSummary s = import_here(o, groups);
     return s.line + '\n' + s.json;
   };
   const std::string both = run_in_child(work, {time_limit(o)}, o.model);

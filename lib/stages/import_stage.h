@@ -15,6 +15,7 @@ struct ImportStageOptions {
   std::string small = "0.01%";       ///< length: edges shorter and faces narrower than this are listed
   std::optional<double> time_limit;  ///< s of processor time; absent: 30 and 5 per megabyte of the file
   std::string symmetry, farfield;    ///< of ImportOptions; empty: none
+  std::string groups;                ///< groups file (TOML); empty: the groups of the CAD file
   bool check = false;                ///< report only, write nothing
   bool require_closed = false;       ///< an open model is an error (exit 4)
 };

@@ -150,6 +150,8 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.mesh = merge_patches({patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
   artifact.mesh.face_name = std::move(patches.face_name);
   artifact.mesh.group_name = std::move(patches.group_name);
+  artifact.mesh.group_role = std::move(patches.group_role);
+  artifact.mesh.labels = std::move(patches.labels);
   artifact.mesh.merged = std::move(patches.merged);
   return artifact;
 }

@@ -84,6 +84,8 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.failures = m.failures;
   out.face_name = t.face_name;
   out.group_name = t.group_name;
+  out.group_role = t.group_role;
+  out.labels = t.labels;
   out.face_group = t.face_group;
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;

@@ -220,6 +220,8 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
   number_as_in_file(in, artifact.mesh.node_previous, artifact.mesh.triangle_previous);
   artifact.mesh.face_name = in.old.mesh.face_name;
   artifact.mesh.group_name = in.old.mesh.group_name;
+  artifact.mesh.group_role = in.old.mesh.group_role;
+  artifact.mesh.labels = in.old.mesh.labels;
   artifact.mesh.merged = in.old.mesh.merged;
   if (mesher && !mesher->failures.empty())
     throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",

@@ -2,18 +2,21 @@
 #include <string>
 
 #include "common/tool_main.h"
+#include "stages/group_report.h"
 #include "stages/inspect_stage.h"
 #include "stages/size_report.h"
 
 int main(int argc, char** argv) {
   std::string artifact, at;
-  bool hash = false;
+  bool hash = false, groups = false;
   st::ToolMain tool("st-info", "Says what an artifact is and from what it was made.", st::ToolMain::Kind::kReport);
   tool.input("artifact", artifact, "any artifact");
   tool.flag("--hash", hash, "print the content hash alone");
+  tool.flag("--groups", groups, "list groups, parts and names of faces of a geometry, patches or mesh artifact");
   tool.text("--at", at, "X,Y,Z", "print the length at a point of a sizing artifact, and why");
   return tool.run(argc, argv, [&] {
     if (!at.empty()) return st::run_size_at(artifact, at);
+    if (groups) return st::run_groups(artifact);
     return hash ? st::run_hash(artifact) : st::run_info(artifact);
   });
 }

@@ -18,6 +18,20 @@ inline ArtifactHeader sample_header() {
   return header;
 }
 
+/// Labels of two main groups and `n_faces` faces: two parts of one name, one further table.
+inline FaceLabels sample_labels(std::int32_t n_faces) {
+  FaceLabels labels;
+  labels.group_attributes = {R"({"tolerance":0.1})", "{}"};
+  labels.part_name = {"bolt", "bolt"};
+  labels.part_path = {"Träger/bolt#1", "Träger/bolt#2"};
+  labels.tables = {{"table", {"hot", "cold", "Öl"}, {"wall", "inlet", "wall"}, {"{}", R"({"t":300})", "{}"}, {}}};
+  for (std::int32_t f = 0; f < n_faces; ++f) {
+    labels.face_part.push_back(f % 3 - 1);
+    labels.tables[0].face_group.push_back((f + 2) % 4 - 1);
+  }
+  return labels;
+}
+
 inline GeometryArtifact sample_geometry() {
   GeometryArtifact g;
   g.header = sample_header();
@@ -50,6 +64,7 @@ inline GeometryArtifact sample_geometry() {
   t.face_solid = {0, kNone};
   t.group_name = {"WING", "far field"};
   t.group_role = {"wall", "farfield"};
+  t.labels = sample_labels(2);
   t.n_shells = 1;
   t.n_solids = 1;
   t.volume = 0.125;
@@ -93,6 +108,9 @@ inline PatchesArtifact sample_patches() {
   p.merged = {{2}, {1}, {0}, {1}, {1}};
   p.face_name = {"top", ""};
   p.group_name = {"default"};
+  p.group_role = {"farfield"};
+  p.labels = sample_labels(2);
+  p.labels.group_attributes.pop_back();
   p.face_group = {0, 0};
   p.face_shell = {0, kNone};
   p.face_area = {0.5, 0.6};
@@ -118,6 +136,8 @@ inline MeshArtifact sample_mesh() {
   m.merged = {{5, 7}, {1}, {0}, {1}, {0}};
   m.face_name = {"bottom", "", "Flügel", "a b"};
   m.group_name = {"body", "wing"};
+  m.group_role = {"wall", "symmetry"};
+  m.labels = sample_labels(4);
   return artifact;
 }
 

@@ -1,0 +1,119 @@
+#include "base/face_labels.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace st {
+namespace {
+
+const std::string kNoName;
+
+const std::string& label_of(const FaceLabels& labels, const std::vector<std::string>& names, FaceId f) {
+  if (f < 0 || static_cast<std::size_t>(f) >= labels.face_part.size() || labels.face_part[f] < 0) return kNoName;
+  return names[labels.face_part[f]];
+}
+
+std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values, std::span<const FaceId> faces) {
+  std::vector<std::int32_t> out;
+  if (values.empty()) return out;
+  for (const FaceId f : faces) out.push_back(values[f]);
+  return out;
+}
+
+/// Column `of_second` behind `of_first`, either of them perhaps left out.
+std::vector<std::int32_t> joined(std::vector<std::int32_t> of_first, std::int32_t n_first, const std::vector<std::int32_t>& of_second,
+                                 std::int32_t n_second, const std::vector<std::int32_t>& renumbered) {
+  of_first.resize(n_first, kNone);
+  for (std::int32_t f = 0; f < n_second; ++f) of_first.push_back(of_second.empty() || of_second[f] < 0 ? kNone : renumbered[of_second[f]]);
+  return of_first;
+}
+
+/// Groups of `from` in the numbers of `to`, to which the new ones are added.
+std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
+  std::vector<std::int32_t> number;
+  for (std::size_t g = 0; g < from.group_name.size(); ++g) {
+    std::size_t k = 0;
+    while (k < to.group_name.size() && (to.group_name[k] != from.group_name[g] || to.group_role[k] != from.group_role[g])) ++k;
+    if (k == to.group_name.size()) {
+      to.group_name.push_back(from.group_name[g]);
+      to.group_role.push_back(from.group_role[g]);
+      to.group_attributes.push_back(from.group_attributes[g]);
+    }
+    number.push_back(static_cast<std::int32_t>(k));
+  }
+  return number;
+}
+
+/// Words of a name in small letters: runs of letters, a capital behind a small letter begins a new one. Bytes beyond ASCII are letters.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words(1);
+  bool was_small = false;
+  for (const unsigned char c : name) {
+    if (!std::isalpha(c) && c < 0x80) {
+      words.emplace_back();
+      was_small = false;
+      continue;
+    }
+    if (was_small && std::isupper(c)) words.emplace_back();
+    words.back() += static_cast<char>(std::tolower(c));
+    was_small = std::islower(c);
+  }
+  std::erase(words, "");
+  return words;
+}
+
+}  // namespace
+
+const std::string& FaceLabels::part_of(FaceId f) const { return label_of(*this, part_name, f); }
+const std::string& FaceLabels::path_of(FaceId f) const { return label_of(*this, part_path, f); }
+
+FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces) {
+  FaceLabels out = labels;
+  out.face_part = gather(labels.face_part, faces);
+  for (GroupTable& table : out.tables) table.face_group = gather(table.face_group, faces);
+  return out;
+}
+
+std::string unique_path(const std::string& path, const std::vector<std::string>& taken) {
+  std::string candidate = path;
+  for (int k = 2; std::find(taken.begin(), taken.end(), candidate) != taken.end(); ++k) candidate = path + "#" + std::to_string(k);
+  return candidate;
+}
+
+FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second, std::int32_t n_second) {
+  FaceLabels out = first;
+  std::vector<std::int32_t> part;
+  for (std::size_t p = 0; p < second.part_name.size(); ++p) {
+    part.push_back(static_cast<std::int32_t>(out.part_name.size()));
+    out.part_path.push_back(unique_path(second.part_path[p], out.part_path));
+    out.part_name.push_back(second.part_name[p]);
+  }
+  if (!first.face_part.empty() || !second.face_part.empty())
+    out.face_part = joined(std::move(out.face_part), n_first, second.face_part, n_second, part);
+  for (const GroupTable& table : second.tables)
+    if (std::none_of(out.tables.begin(), out.tables.end(), [&](const GroupTable& t) { return t.name == table.name; }))
+      out.tables.push_back({table.name, {}, {}, {}, {}});
+  for (GroupTable& table : out.tables) {
+    const auto same = std::find_if(second.tables.begin(), second.tables.end(), [&](const GroupTable& t) { return t.name == table.name; });
+    const GroupTable none;
+    const GroupTable& other = same == second.tables.end() ? none : *same;
+    const std::vector<std::int32_t> number = merge_groups(table, other);
+    table.face_group = joined(std::move(table.face_group), n_first, other.face_group, n_second, number);
+  }
+  return out;
+}
+
+std::string role_of_name(const std::string& name) {
+  const std::vector<std::string> words = words_of(name);
+  const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (words[i] == "far" && words[i + 1] == "field") return "farfield";
+  if (has("farfield")) return "farfield";
+  for (const char* word : {"symmetry", "sym", "symm", "symplane", "symmetryplane"})
+    if (has(word)) return "symmetry";
+  return "wall";
+}
+
+bool is_outer_role(const std::string& role) { return role == "farfield" || role == "symmetry"; }
+
+}  // namespace st

@@ -1,0 +1,55 @@
+// What CAD files and users say of faces beyond names and groups: parts, attributes of groups, further tables of groups.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+
+namespace st {
+
+/// A second, third ... division of the faces into groups, beside the main one. Groups count from 0 within their table.
+struct GroupTable {
+  std::string name;                           ///< letters, digits, '_' and '-'; unique
+  std::vector<std::string> group_name;        ///< [n_groups] UTF-8, unique
+  std::vector<std::string> group_role;        ///< [n_groups] as of the main groups
+  std::vector<std::string> group_attributes;  ///< [n_groups] one JSON object each, "{}": none
+  std::vector<std::int32_t> face_group;       ///< [n_faces] kNone: in no group of this table
+  bool operator==(const GroupTable&) const = default;
+};
+
+/// Labels of the faces of a model or mesh, empty where nobody said anything.
+struct FaceLabels {
+  std::vector<std::string> group_attributes;  ///< [n_groups] of the main groups: one JSON object each, "{}": none; or empty
+  std::vector<GroupTable> tables;             ///< in the order of the groups file
+  std::vector<std::string> part_name;         ///< [n_parts] UTF-8; instances of a part have the same name
+  std::vector<std::string> part_path;         ///< [n_parts] "assembly/sub#2/bolt#3": unique; #k is the k-th of that name in its assembly
+  std::vector<std::int32_t> face_part;        ///< [n_faces] kNone: of no part; or empty: no parts
+
+  /// Name and path of the part of a face; empty when it has none.
+  const std::string& part_of(FaceId f) const;
+  const std::string& path_of(FaceId f) const;
+  bool operator==(const FaceLabels&) const = default;
+};
+
+/// Labels of some faces, in this order; groups and parts keep their numbers.
+FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces);
+
+/// Labels of `n_first` faces and, behind them, of `n_second` others. Tables of one name become one, groups of one name and role in them,
+/// too; parts stay apart, those of `second` with a path that `first` has get the next free number. group_attributes stay those of `first`.
+FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second, std::int32_t n_second);
+
+/// `path`, or the first of path#2, path#3 ... that `taken` lacks.
+std::string unique_path(const std::string& path, const std::vector<std::string>& taken);
+
+/// Role that whole words of a name give, whatever their case: "far field", "farfield" -> "farfield"; "symmetry", "sym", "symm",
+/// "SymmetryPlane", "symm-y0" -> "symmetry"; all else, "asymmetry" and "symbol" too, -> "wall". A word is a run of letters; a capital
+/// behind a small letter begins a new one.
+std::string role_of_name(const std::string& name);
+
+/// Whether faces of this role bound the air and not the body: "farfield", "symmetry".
+bool is_outer_role(const std::string& role);
+
+}  // namespace st

@@ -1,0 +1,241 @@
+#include "io/groups_file.h"
+
+#define TOML_HEADER_ONLY 1
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace st {
+namespace {
+
+constexpr const char* kKeys =
+    "name, table, faces, parts, paths, layers, groups, colors, surfaces, inside, touching, role, tolerance, attributes, optional";
+
+std::string read_text(const std::string& path) {
+  std::error_code none;
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (std::filesystem::is_directory(path, none) || !file.is_open() || file.bad())
+    throw Error(ExitCode::kInput, path + ": cannot be read; name a file of groups");
+  return text.str();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
+  return text;
+}
+
+/// One table [[group]].
+class EntryReader {
+ public:
+  EntryReader(const std::string& path, const toml::table& table) : path_(path), table_(table) { rule_.where = where(table); }
+
+  GroupRule run() {
+    for (const auto& [key, node] : table_) read(std::string(key.str()), node);
+    if (rule_.name.empty()) fail(table_, "name: is missing; every [[group]] has a name");
+    return std::move(rule_);
+  }
+
+ private:
+  std::string where(const toml::node& node) const { return path_ + ":" + std::to_string(node.source().begin.line); }
+  [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
+    throw Error(ExitCode::kUsage, where(node) + ": " + what);
+  }
+
+  void read(const std::string& key, const toml::node& node) {
+    if (std::vector<std::string>* list = names_of(key)) {
+      *list = names(key, node, key == "faces");
+    } else if (key == "name") {
+      rule_.name = text(key, node);
+    } else if (key == "table") {
+      read_table_name(node);
+    } else if (key == "colors") {
+      for_each(key, node, [&](const toml::node& n) { rule_.colors.push_back(color(n)); });
+    } else if (key == "surfaces") {
+      for_each(key, node, [&](const toml::node& n) { rule_.surfaces.push_back(surface(n)); });
+    } else if (key == "inside" || key == "touching") {
+      (key == "inside" ? rule_.inside : rule_.touching) = box(key, node);
+    } else if (key == "role") {
+      rule_.role = one_of(key, node, group_roles());
+    } else if (key == "tolerance") {
+      rule_.tolerance = length(key, node);
+    } else if (key == "attributes") {
+      read_attributes(node);
+    } else if (key == "optional") {
+      if (!node.is_boolean()) fail(node, "optional: takes true or false");
+      rule_.is_optional = node.as_boolean()->get();
+    } else {
+      fail(node, "unknown key '" + key + "' of a [[group]]; allowed are " + kKeys);
+    }
+  }
+
+  std::vector<std::string>* names_of(const std::string& key) {
+    return key == "faces"    ? &rule_.faces
+           : key == "parts"  ? &rule_.parts
+           : key == "paths"  ? &rule_.paths
+           : key == "layers" ? &rule_.layers
+           : key == "groups" ? &rule_.groups
+                             : nullptr;
+  }
+
+  /// A single value is a list of one.
+  template <class Function>
+  void for_each(const std::string& key, const toml::node& node, const Function& take) const {
+    const toml::array* list = node.as_array();
+    if (list && list->empty()) fail(node, key + ": an empty list; leave it out to select by other keys");
+    if (!list) return take(node);
+    for (const toml::node& n : *list) take(n);
+  }
+
+  std::string text(const std::string& key, const toml::node& node) const {
+    const auto* s = node.as_string();
+    if (!s || s->get().empty()) fail(node, key + ": takes a text that is not empty");
+    return s->get();
+  }
+
+  std::vector<std::string> names(const std::string& key, const toml::node& node, bool may_be_id) const {
+    std::vector<std::string> result;
+    for_each(key, node, [&](const toml::node& n) {
+      if (const auto* i = n.as_integer(); i && may_be_id)
+        result.push_back(std::to_string(i->get()));
+      else if (const auto* s = n.as_string(); s && !s->get().empty())
+        result.push_back(s->get());
+      else
+        fail(n, key + ": takes a name with * and ?" + (may_be_id ? ", a number, a range \"3-7\"," : "") + " or a list of these");
+    });
+    return result;
+  }
+
+  std::string one_of(const std::string& key, const toml::node& node, const std::vector<std::string>& allowed) const {
+    const std::string word = node.value_or(std::string());
+    if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
+      fail(node, key + ": '" + word + "' is none; takes " + joined(allowed));
+    return word;
+  }
+
+  void read_table_name(const toml::node& node) {
+    const std::string name = text("table", node);
+    const bool is_word = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+    if (!is_word || name.size() > 64) fail(node, "table: '" + name + "' is no name of a table; use up to 64 letters, digits, '_' and '-'");
+    rule_.table = name == "main" ? "" : name;
+  }
+
+  std::int32_t color(const toml::node& node) const {
+    const std::string text = node.value_or(std::string());
+    std::int32_t rgb = 0;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
+    if (text.size() != 7 || text[0] != '#' || text[1] == '-' || error != std::errc() || end != text.data() + 7)
+      fail(node, "colors: takes \"#rrggbb\", such as \"#ff8000\", or a list of these");
+    return rgb;
+  }
+
+  SurfaceType surface(const toml::node& node) const {
+    const std::vector<std::string>& all = surface_type_names();
+    const std::string word = one_of("surfaces", node, all);
+    return static_cast<SurfaceType>(std::find(all.begin(), all.end(), word) - all.begin());
+  }
+
+  BoxSpec box(const std::string& key, const toml::node& node) const {
+    const toml::array* list = node.as_array();
+    if (!list || list->size() != 6) fail(node, key + ": takes six coordinates [x0, y0, z0, x1, y1, z1]");
+    BoxSpec box;
+    for (std::size_t i = 0; i < 6; ++i) box[i] = coordinate(key, *list->get(i));
+    for (std::size_t i = 0; i < 3; ++i)
+      if (box[i].is_in_metres == box[i + 3].is_in_metres && box[i].value > box[i + 3].value)
+        fail(node, key + ": the lower corner comes first: [x0, y0, z0, x1, y1, z1]");
+    return box;
+  }
+
+  CoordinateSpec coordinate(const std::string& key, const toml::node& node) const {
+    const auto bad = [&] { fail(node, key + ": takes coordinates such as 2.5 or \"-30mm\""); };
+    if (const auto value = node.is_number() ? node.value<double>() : std::nullopt) {
+      if (std::isnan(*value)) bad();
+      return {*value, false};
+    }
+    const std::string text = node.value_or(std::string());
+    CoordinateSpec result;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result.value);
+    if (error != std::errc() || !std::isfinite(result.value)) bad();
+    std::string unit(end, text.data() + text.size());
+    unit.erase(0, unit.find_first_not_of(' '));
+    if (unit.empty()) return result;
+    const std::optional<double> in_m = unit_in_metres(unit);
+    if (!in_m) bad();
+    return {result.value * *in_m, true};
+  }
+
+  LengthSpec length(const std::string& key, const toml::node& node) const {
+    if (const auto value = node.is_number() ? node.value<double>() : std::nullopt) {
+      if (!(std::isfinite(*value) && *value > 0)) fail(node, key + ": must be positive");
+      return {LengthSpec::Kind::kModelUnit, *value, std::to_string(*value)};
+    }
+    if (!node.is_string()) fail(node, key + ": takes a length such as 0.2, \"5mm\" or \"0.1%\"");
+    return parse_length(node.as_string()->get(), where(node) + ": " + key);
+  }
+
+  nlohmann::json value_of(const std::string& key, const toml::node& node) const {
+    if (const auto* s = node.as_string()) return s->get();
+    if (const auto* b = node.as_boolean()) return b->get();
+    if (const auto* i = node.as_integer()) return i->get();
+    if (const auto* d = node.as_floating_point(); d && std::isfinite(d->get())) return d->get();
+    if (const toml::array* list = node.as_array()) {
+      nlohmann::json array = nlohmann::json::array();
+      for (const toml::node& n : *list) array.push_back(value_of(key, n));
+      return array;
+    }
+    fail(node, "attributes: " + key + ": takes a text, a number, true, false, or a list of these");
+  }
+
+  void read_attributes(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (!table) fail(node, "attributes: takes a table such as {solver = \"viscous\", y_plus = 1}");
+    nlohmann::json json = nlohmann::json::object();
+    for (const auto& [key, value] : *table) {
+      if (key.str() == "tolerance") fail(value, "attributes: tolerance is a key of [[group]] itself, a length");
+      json[std::string(key.str())] = value_of(std::string(key.str()), value);
+    }
+    rule_.attributes = json.dump();
+  }
+
+  const std::string& path_;
+  const toml::table& table_;
+  GroupRule rule_;
+};
+
+}  // namespace
+
+GroupsFile read_groups(const std::string& path) {
+  const std::string text = read_text(path);
+  GroupsFile file;
+  file.hash = hash_hex(text.data(), text.size());
+  const auto fail = [&](const toml::source_region& place, const std::string& what) {
+    throw Error(ExitCode::kUsage, path + ":" + std::to_string(place.begin.line) + ": " + what);
+  };
+  try {
+    const toml::table table = toml::parse(text, path);
+    for (const auto& [key, node] : table) {
+      const toml::array* list = node.as_array();
+      if (key.str() != "group")
+        fail(node.source(), "unknown key '" + std::string(key.str()) + "'; a groups file has tables [[group]] only");
+      if (!list || !list->is_array_of_tables()) fail(node.source(), "groups are tables [[group]]");
+      for (const toml::node& item : *list) file.rules.push_back(EntryReader(path, *item.as_table()).run());
+    }
+  } catch (const toml::parse_error& e) {
+    fail(e.source(), std::string(e.description()));
+  }
+  if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": no table [[group]] in it; see docs/groups.md");
+  return file;
+}
+
+}  // namespace st

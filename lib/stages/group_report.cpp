@@ -1,0 +1,116 @@
+#include "stages/group_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "base/error.h"
+#include "io/artifact.h"
+
+namespace st {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the three artifacts have in common.
+struct Identity {
+  std::vector<std::string> face_name, group_name, group_role;
+  std::vector<std::int32_t> face_group;
+  FaceLabels labels;
+};
+
+Identity identity_of(const std::string& path) {
+  const std::string schema = read_header(path).schema;
+  if (schema == "geometry") {
+    ModelTables t = read_geometry(path).tables;
+    return {std::move(t.face_name), std::move(t.group_name), std::move(t.group_role), std::move(t.face_group), std::move(t.labels)};
+  }
+  if (schema == "patches") {
+    PatchesArtifact p = read_patches(path);
+    return {std::move(p.face_name), std::move(p.group_name), std::move(p.group_role), std::move(p.face_group), std::move(p.labels)};
+  }
+  if (schema != "mesh")
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: is a {} artifact, which has no groups; give a geometry, patches or mesh artifact", path, schema));
+  SurfaceMesh m = read_mesh(path).mesh;
+  std::vector<std::int32_t> face_group(m.face_name.size(), kNone);
+  for (std::size_t t = 0; t < m.triangles.size(); ++t) face_group[m.triangle_face[t]] = m.triangle_group[t];
+  return {std::move(m.face_name), std::move(m.group_name), std::move(m.group_role), std::move(face_group), std::move(m.labels)};
+}
+
+/// 1-based ids of the faces with this number.
+std::vector<FaceId> faces_with(const std::vector<std::int32_t>& number_of_face, std::size_t number) {
+  std::vector<FaceId> faces;
+  for (std::size_t f = 0; f < number_of_face.size(); ++f)
+    if (number_of_face[f] == static_cast<std::int32_t>(number)) faces.push_back(static_cast<FaceId>(f + 1));
+  return faces;
+}
+
+/// "1-7, 9", as a groups file takes it.
+std::string ranges(std::span<const FaceId> faces) {
+  std::string text;
+  for (std::size_t i = 0, k; i < faces.size(); i = k) {
+    for (k = i + 1; k < faces.size() && faces[k] == faces[k - 1] + 1;) ++k;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", faces[i]);
+    if (k - i > 1) text += fmt::format("-{}", faces[k - 1]);
+  }
+  return text;
+}
+
+Json groups_json(const std::vector<std::string>& name, const std::vector<std::string>& role, const std::vector<std::string>& attributes,
+                 const std::vector<std::int32_t>& face_group) {
+  Json groups = Json::array();
+  for (std::size_t g = 0; g < name.size(); ++g) {
+    Json own = g < attributes.size() ? Json::parse(attributes[g], nullptr, false) : Json::object();
+    groups.push_back({{"name", name[g]}, {"role", role[g]}, {"attributes", own}, {"faces", faces_with(face_group, g)}});
+  }
+  return groups;
+}
+
+Json report(const Identity& id) {
+  Json json = {{"tables", Json::array()}, {"parts", Json::array()}, {"face_names", Json::object()}};
+  const FaceLabels& labels = id.labels;
+  json["tables"].push_back(
+      {{"table", "main"}, {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
+  for (const GroupTable& t : labels.tables)
+    json["tables"].push_back({{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
+  for (std::size_t p = 0; p < labels.part_path.size(); ++p)
+    json["parts"].push_back({{"path", labels.part_path[p]}, {"name", labels.part_name[p]}, {"faces", faces_with(labels.face_part, p)}});
+  for (std::size_t f = 0; f < id.face_name.size(); ++f)
+    if (!id.face_name[f].empty()) json["face_names"][id.face_name[f]].push_back(f + 1);
+  return json;
+}
+
+std::string row(const std::string& name, const Json& faces, const std::string& more) {
+  const std::vector<FaceId> ids = faces.get<std::vector<FaceId>>();
+  return fmt::format("  \"{}\"{}: {} faces{}{}\n", name, more, ids.size(), ids.empty() ? "" : ": ", ranges(ids));
+}
+
+std::string lines(const Json& json) {
+  std::string text;
+  for (const Json& table : json["tables"]) {
+    text += fmt::format("groups, table {}: {}\n", table["table"].get<std::string>(), table["groups"].size());
+    for (const Json& g : table["groups"])
+      text += row(g["name"], g["faces"],
+                  fmt::format(", {}{}{}", g["role"].get<std::string>(), g["attributes"].empty() ? "" : ", ",
+                              g["attributes"].empty() ? "" : g["attributes"].dump()));
+  }
+  text += fmt::format("parts: {}\n", json["parts"].size());
+  for (const Json& p : json["parts"]) text += row(p["path"], p["faces"], "");
+  text += fmt::format("names of faces: {}\n", json["face_names"].size());
+  for (const auto& [name, faces] : json["face_names"].items()) text += row(name, faces, "");
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+StageSummary run_groups(const std::string& artifact) {
+  Json json = {{"tool", "st-info"}, {"artifact", artifact}};
+  json.update(report(identity_of(artifact)));
+  return {lines(json), json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
+}  // namespace st

@@ -1,0 +1,67 @@
+#include "base/face_labels.h"
+
+#include <gtest/gtest.h>
+
+namespace st {
+namespace {
+
+TEST(RoleOfName, knows_whole_words_whatever_their_case_and_separators) {
+  for (const char* name :
+       {"sym", "SYM", "symm", "symmetry", "Symmetry_1", "symmetry_plane", "SymmetryPlane", "symm-y0", "wing symmetry", "symplane", "2sym"})
+    EXPECT_EQ(role_of_name(name), "symmetry") << name;
+  for (const char* name : {"farfield", "far_field", "Far Field", "FARFIELD", "FarField", "far-field 2", "outer farfield sphere"})
+    EXPECT_EQ(role_of_name(name), "farfield") << name;
+}
+
+TEST(RoleOfName, does_not_take_parts_of_words) {
+  for (const char* name :
+       {"asymmetry", "symbol", "symmetric", "Asymmetry plane", "farfields", "nearfarfield", "far", "field far", "", "wall", "ésym"})
+    EXPECT_EQ(role_of_name(name), "wall") << name;
+}
+
+FaceLabels labels() {
+  FaceLabels l;
+  l.part_name = {"bolt", "bolt", "plate"};
+  l.part_path = {"as/bolt#1", "as/bolt#2", "as/plate"};
+  l.face_part = {0, 1, 2, kNone};
+  l.tables = {{"bc", {"hot", "cold"}, {"wall", "inlet"}, {"{}", "{}"}, {1, kNone, 0, 0}}};
+  return l;
+}
+
+TEST(FaceLabels, name_the_part_of_a_face_and_nothing_where_there_is_none) {
+  EXPECT_EQ(labels().part_of(1), "bolt");
+  EXPECT_EQ(labels().path_of(1), "as/bolt#2");
+  EXPECT_EQ(labels().path_of(3), "");
+  EXPECT_EQ(FaceLabels().part_of(0), "");
+}
+
+TEST(FaceLabels, of_selected_faces_come_in_their_order) {
+  const std::vector<FaceId> faces = {2, 0};
+  const FaceLabels some = select_labels(labels(), faces);
+  EXPECT_EQ(some.path_of(0), "as/plate");
+  EXPECT_EQ(some.path_of(1), "as/bolt#1");
+  EXPECT_EQ(some.tables[0].face_group, (std::vector<std::int32_t>{0, 1}));
+}
+
+TEST(FaceLabels, of_two_models_keep_parts_apart_and_join_groups_of_one_name) {
+  FaceLabels second = labels();
+  second.tables[0].group_name = {"cold", "new"};
+  second.tables[0].group_role = {"inlet", "wall"};
+  const FaceLabels both = append_labels(labels(), 4, second, 4);
+  EXPECT_EQ(both.part_path, (std::vector<std::string>{"as/bolt#1", "as/bolt#2", "as/plate", "as/bolt#1#2", "as/bolt#2#2", "as/plate#2"}));
+  EXPECT_EQ(both.face_part, (std::vector<std::int32_t>{0, 1, 2, kNone, 3, 4, 5, kNone}));
+  EXPECT_EQ(both.tables[0].group_name, (std::vector<std::string>{"hot", "cold", "new"}));
+  EXPECT_EQ(both.tables[0].face_group, (std::vector<std::int32_t>{1, kNone, 0, 0, 2, kNone, 1, 1}));
+}
+
+TEST(FaceLabels, of_a_model_that_has_none_are_filled_up) {
+  const FaceLabels both = append_labels(FaceLabels(), 2, labels(), 4);
+  EXPECT_EQ(both.face_part, (std::vector<std::int32_t>{kNone, kNone, 0, 1, 2, kNone}));
+  EXPECT_EQ(both.tables[0].face_group, (std::vector<std::int32_t>{kNone, kNone, 1, kNone, 0, 0}));
+  const FaceLabels turned = append_labels(labels(), 4, FaceLabels(), 1);
+  EXPECT_EQ(turned.face_part, (std::vector<std::int32_t>{0, 1, 2, kNone, kNone}));
+  EXPECT_EQ(turned.tables[0].face_group.size(), 5u);
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,206 @@
+#include "geometry/groups.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "geometry/model.h"
+
+namespace st {
+namespace {
+
+/// Six faces in a row along x, one unit each: two of "wing", one without a name, three of parts.
+ModelTables six_faces() {
+  ModelTables t;
+  t.unit = "mm";
+  t.unit_in_m = 1e-3;
+  t.face_is_reversed.assign(6, 0);
+  t.face_name = {"wing_up", "wing_down", "", "", "", "Flügel"};
+  t.face_color = {0xff0000, 0xff0000, kNone, 0x00ff00, kNone, kNone};
+  t.face_layer = {"1", "2", "", "", "", ""};
+  t.face_type = {SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kPlane,
+                 SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kSphere};
+  t.face_tolerance.assign(6, 1e-7);
+  for (double x = 0; x < 6; ++x) t.face_box.push_back({{x, 0, 0}, {x + 1, 1, 0}});
+  t.group_name = {"wing", "bolt", "symmetry"};
+  t.group_role = {"wall", "wall", "symmetry"};
+  t.face_group = {0, 0, 1, 1, 1, 2};
+  t.labels.part_name = {"bolt", "bolt"};
+  t.labels.part_path = {"as/bolt#1", "as/bolt#2"};
+  t.labels.face_part = {kNone, kNone, 0, 0, 1, kNone};
+  return t;
+}
+
+GroupRule rule(const std::string& name) {
+  GroupRule r;
+  r.where = "g.toml:" + std::to_string(name.size());
+  r.name = name;
+  return r;
+}
+
+BoxSpec box(double x0, double x1) { return {{{x0, false}, {0, false}, {0, false}, {x1, false}, {1, false}, {0, false}}}; }
+
+/// Faces (from 1) of the group "x" that one rule makes.
+std::vector<int> chosen(GroupRule r) {
+  ModelTables t = six_faces();
+  r.name = "x";
+  apply_groups({r}, t);
+  std::vector<int> faces;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (t.group_name[t.face_group[f]] == "x") faces.push_back(f + 1);
+  return faces;
+}
+
+std::string message_of(const std::vector<GroupRule>& rules) {
+  ModelTables t = six_faces();
+  try {
+    apply_groups(rules, t);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Groups, select_faces_by_every_kind_of_selection) {
+  using Ids = std::vector<int>;
+  GroupRule r = rule("x");
+  r.faces = {"3", "5-6"};
+  EXPECT_EQ(chosen(r), (Ids{3, 5, 6}));
+  r = rule("x"), r.faces = {"wing_*", "Fl*"};
+  EXPECT_EQ(chosen(r), (Ids{1, 2, 6}));
+  r = rule("x"), r.parts = {"b?lt"};
+  EXPECT_EQ(chosen(r), (Ids{3, 4, 5}));
+  r = rule("x"), r.paths = {"as/bolt#2"};
+  EXPECT_EQ(chosen(r), (Ids{5}));
+  r = rule("x"), r.layers = {"[12]"};
+  EXPECT_EQ(chosen(r), (Ids{1, 2}));
+  r = rule("x"), r.groups = {"wing"};
+  EXPECT_EQ(chosen(r), (Ids{1, 2}));
+  r = rule("x"), r.colors = {0xff0000, 0x00ff00};
+  EXPECT_EQ(chosen(r), (Ids{1, 2, 4}));
+  r = rule("x"), r.surfaces = {SurfaceType::kCylinder};
+  EXPECT_EQ(chosen(r), (Ids{2, 5}));
+  r = rule("x"), r.inside = box(1, 3);
+  EXPECT_EQ(chosen(r), (Ids{2, 3}));
+  r = rule("x"), r.touching = box(1.5, 2.5);
+  EXPECT_EQ(chosen(r), (Ids{2, 3}));
+}
+
+TEST(Groups, need_every_kind_of_selection_that_is_given) {
+  GroupRule r = rule("x");
+  r.parts = {"bolt"};
+  r.surfaces = {SurfaceType::kPlane};
+  r.touching = box(3.5, 6);
+  EXPECT_EQ(chosen(r), (std::vector<int>{4}));
+}
+
+TEST(Groups, take_boxes_in_other_units_and_refuse_them_without_a_unit) {
+  GroupRule r = rule("x");
+  r.inside = box(0, 0);
+  (*r.inside)[3] = {0.002, true};
+  EXPECT_EQ(chosen(r), (std::vector<int>{1, 2}));
+  ModelTables t = six_faces();
+  t.unit_in_m.reset();
+  EXPECT_THROW(apply_groups({r}, t), Error);
+}
+
+TEST(Groups, keep_the_groups_of_the_file_where_no_rule_speaks_and_count_by_first_face) {
+  GroupRule r = rule("tips");
+  r.faces = {"2", "6"};
+  ModelTables t = six_faces();
+  EXPECT_TRUE(apply_groups({r}, t).empty());
+  EXPECT_EQ(t.group_name, (std::vector<std::string>{"wing", "tips", "bolt"})) << "the group symmetry has no face any more";
+  EXPECT_EQ(t.group_role, (std::vector<std::string>{"wall", "wall", "wall"}));
+  EXPECT_EQ(t.face_group, (std::vector<std::int32_t>{0, 1, 2, 2, 2, 1}));
+}
+
+TEST(Groups, give_roles_and_attributes_to_groups_of_the_file) {
+  GroupRule wing = rule("wing"), symmetry = rule("symmetry");
+  wing.role = "inlet";
+  wing.attributes = R"({"p":1})";
+  wing.tolerance = LengthSpec{LengthSpec::Kind::kAbsolute, 2e-4, "0.2mm"};
+  symmetry.role = "wall";
+  ModelTables t = six_faces();
+  apply_groups({wing, symmetry}, t);
+  EXPECT_EQ(t.group_role, (std::vector<std::string>{"inlet", "wall", "wall"})) << "a role overrides the name's";
+  EXPECT_EQ(t.labels.group_attributes, (std::vector<std::string>{R"({"tolerance":0.2,"p":1})", "{}", "{}"}));
+}
+
+TEST(Groups, have_the_role_of_their_name_when_no_rule_gives_one) {
+  GroupRule far = rule("far field"), asymmetry = rule("asymmetry");
+  far.faces = {"1"};
+  asymmetry.faces = {"2"};
+  ModelTables t = six_faces();
+  apply_groups({far, asymmetry}, t);
+  EXPECT_EQ(t.group_role[0], "farfield");
+  EXPECT_EQ(t.group_role[1], "wall");
+}
+
+TEST(Groups, of_further_tables_leave_the_main_ones_alone) {
+  GroupRule hot = rule("hot"), cold = rule("cold"), more = rule("hot");
+  for (GroupRule* r : {&hot, &cold, &more}) r->table = "bc";
+  hot.faces = {"1"};
+  cold.faces = {"2-3"};
+  more.faces = {"6"};
+  ModelTables t = six_faces();
+  apply_groups({hot, cold, more}, t);
+  EXPECT_EQ(t.group_name, six_faces().group_name);
+  EXPECT_EQ(t.face_group, six_faces().face_group);
+  ASSERT_EQ(t.labels.tables.size(), 1u);
+  EXPECT_EQ(t.labels.tables[0].group_name, (std::vector<std::string>{"hot", "cold"}));
+  EXPECT_EQ(t.labels.tables[0].face_group, (std::vector<std::int32_t>{0, 1, 1, kNone, kNone, 0}));
+}
+
+TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
+  GroupRule r = rule("x");
+  EXPECT_NE(message_of({r}).find("g.toml:1: group \"x\": the CAD file has no group of this name"), std::string::npos) << message_of({r});
+  r.parts = {"bolt", "nut*"};
+  EXPECT_NE(message_of({r}).find("parts: 'nut*' matches nothing"), std::string::npos);
+  r.parts = {"bolt"};
+  r.faces = {"wing*"};
+  EXPECT_NE(message_of({r}).find("no face meets its selection"), std::string::npos);
+  r.is_optional = true;
+  ModelTables t = six_faces();
+  EXPECT_EQ(apply_groups({r}, t), std::vector<std::string>{"x"});
+  EXPECT_EQ(t.group_name, six_faces().group_name);
+  r.faces = {"7"};
+  EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos) << "an id is never optional";
+  r.faces = {"5-3"};
+  EXPECT_NE(message_of({r}), "");
+}
+
+TEST(Groups, that_share_a_face_of_one_table_are_both_named) {
+  GroupRule a = rule("a"), bb = rule("bb");
+  a.faces = {"1-2"};
+  bb.faces = {"2"};
+  const std::string message = message_of({a, bb});
+  for (const char* part : {"g.toml:2", "g.toml:1", "\"a\"", "\"bb\"", "face 2 \"wing_down\""})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  bb.table = "other";
+  EXPECT_EQ(message_of({a, bb}), "");
+}
+
+TEST(Groups, whose_entries_disagree_are_refused) {
+  GroupRule a = rule("a"), again = rule("a");
+  a.faces = {"1"};
+  again.faces = {"2"};
+  a.role = "inlet";
+  again.role = "outlet";
+  EXPECT_NE(message_of({a, again}).find("role"), std::string::npos);
+  again.role.reset();
+  a.attributes = R"({"p":1})";
+  again.attributes = R"({"p":2})";
+  EXPECT_NE(message_of({a, again}).find("attributes"), std::string::npos);
+}
+
+TEST(Groups, of_the_outside_are_left_out_of_the_reference_diagonal) {
+  GroupRule r = rule("tunnel");
+  r.faces = {"3-6"};
+  r.role = "farfield";
+  ModelTables t = six_faces();
+  apply_groups({r}, t);
+  EXPECT_NEAR(t.wall_box().hi.x, 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace st

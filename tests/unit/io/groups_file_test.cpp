@@ -1,0 +1,111 @@
+#include "io/groups_file.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+std::vector<GroupRule> parse(const std::string& text) {
+  TemporaryDirectory dir;
+  write_bytes(dir / "g.toml", text);
+  return read_groups(dir / "g.toml").rules;
+}
+
+TEST(GroupsFile, says_all_that_an_entry_may_say) {
+  const std::vector<GroupRule> rules = parse(R"([[group]]
+name = "Flügel"
+table = "bc"
+faces = [3, "5-7", "WING*"]
+parts = "nut"
+paths = ["a/*", "b"]
+layers = "7"
+groups = "default"
+colors = ["#ff8000", "#0000FF"]
+surfaces = ["plane", "other"]
+inside = [0, -1.5, "-30mm", 1, 2, "1 in"]
+role = "inlet"
+tolerance = "0.1mm"
+attributes = { b = [1, 2.5], a = "x", c = true }
+optional = true
+[[group]]
+name = "rest"
+table = "main"
+)");
+  ASSERT_EQ(rules.size(), 2u);
+  const GroupRule& r = rules[0];
+  EXPECT_EQ(r.where.substr(r.where.rfind('/') + 1), "g.toml:1");
+  EXPECT_EQ(r.name, "Flügel");
+  EXPECT_EQ(r.table, "bc");
+  EXPECT_EQ(r.faces, (std::vector<std::string>{"3", "5-7", "WING*"}));
+  EXPECT_EQ(r.parts, std::vector<std::string>{"nut"});
+  EXPECT_EQ(r.paths, (std::vector<std::string>{"a/*", "b"}));
+  EXPECT_EQ(r.layers, std::vector<std::string>{"7"});
+  EXPECT_EQ(r.groups, std::vector<std::string>{"default"});
+  EXPECT_EQ(r.colors, (std::vector<std::int32_t>{0xff8000, 0x0000ff}));
+  EXPECT_EQ(r.surfaces, (std::vector<SurfaceType>{SurfaceType::kPlane, SurfaceType::kOther}));
+  ASSERT_TRUE(r.inside);
+  EXPECT_EQ((*r.inside)[1].value, -1.5);
+  EXPECT_TRUE((*r.inside)[2].is_in_metres);
+  EXPECT_NEAR((*r.inside)[2].value, -0.03, 1e-15);
+  EXPECT_NEAR((*r.inside)[5].value, 0.0254, 1e-15);
+  EXPECT_EQ(r.role, "inlet");
+  EXPECT_NEAR(r.tolerance->value, 1e-4, 1e-15);
+  EXPECT_EQ(r.attributes, R"({"a":"x","b":[1,2.5],"c":true})");
+  EXPECT_TRUE(r.is_optional);
+  EXPECT_EQ(rules[1].table, "") << "main is the table without a name";
+}
+
+TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"nmae = \"x\"", "unknown key 'nmae'"},
+      {"name = \"\"", "name: takes a text"},
+      {"faces = 3", "name: is missing"},
+      {"name = \"x\"\nfaces = []", "g.toml:3: faces: an empty list"},
+      {"name = \"x\"\nfaces = [1.5]", "faces: takes a name"},
+      {"name = \"x\"\nparts = 3", "parts: takes a name"},
+      {"name = \"x\"\ntable = \"a b\"", "table: 'a b' is no name"},
+      {"name = \"x\"\ncolors = \"red\"", "colors: takes \"#rrggbb\""},
+      {"name = \"x\"\ncolors = \"#-12345\"", "colors: takes"},
+      {"name = \"x\"\nsurfaces = \"blob\"", "surfaces: 'blob' is none; takes plane, cylinder"},
+      {"name = \"x\"\ninside = [1, 2, 3]", "inside: takes six coordinates"},
+      {"name = \"x\"\ninside = [1, 0, 0, 0, 1, 1]", "the lower corner comes first"},
+      {"name = \"x\"\ntouching = [0, 0, 0, \"3parsec\", 1, 1]", "touching: takes coordinates"},
+      {"name = \"x\"\ntouching = [0, 0, nan, 1, 1, 1]", "touching: takes coordinates"},
+      {"name = \"x\"\nrole = \"wal\"", "role: 'wal' is none; takes wall, symmetry"},
+      {"name = \"x\"\ntolerance = -1", "tolerance: must be positive"},
+      {"name = \"x\"\noptional = 1", "optional: takes true or false"},
+      {"name = \"x\"\nattributes = 1", "attributes: takes a table"},
+      {"name = \"x\"\nattributes = {d = 1979-05-27}", "attributes: d: takes"},
+      {"name = \"x", "g.toml:2"},
+  };
+  for (const auto& [text, message] : cases) {
+    TemporaryDirectory dir;
+    write_bytes(dir / "g.toml", std::string("[[group]]\n") + text + "\n");
+    EXPECT_ERROR(read_groups(dir / "g.toml"), kUsage, message);
+  }
+}
+
+TEST(GroupsFile, without_groups_or_with_other_tables_is_refused) {
+  TemporaryDirectory dir;
+  write_bytes(dir / "empty.toml", "");
+  EXPECT_ERROR(read_groups(dir / "empty.toml"), kUsage, "no table [[group]]");
+  write_bytes(dir / "other.toml", "[[group]]\nname = \"x\"\n[[size]]\n");
+  EXPECT_ERROR(read_groups(dir / "other.toml"), kUsage, "unknown key 'size'");
+  write_bytes(dir / "single.toml", "[group]\nname = \"x\"\n");
+  EXPECT_ERROR(read_groups(dir / "single.toml"), kUsage, "groups are tables [[group]]");
+  EXPECT_ERROR(read_groups(dir / "none.toml"), kInput, "none.toml: cannot be read");
+  EXPECT_ERROR(read_groups(dir / "."), kInput, "cannot be read");
+}
+
+TEST(GroupsFile, has_the_hash_of_its_bytes) {
+  TemporaryDirectory dir;
+  write_bytes(dir / "a.toml", "[[group]]\nname = \"x\"\n");
+  write_bytes(dir / "b.toml", "[[group]]\nname = \"x\"\n\n");
+  EXPECT_EQ(read_groups(dir / "a.toml").hash, read_groups(dir / "a.toml").hash);
+  EXPECT_NE(read_groups(dir / "a.toml").hash, read_groups(dir / "b.toml").hash);
+}
+
+}  // namespace
+}  // namespace st
