@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of its difficult places.
 
-usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...]
+usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--at NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -161,14 +161,33 @@ def views(mesh):
     return result
 
 
+def own_view(mesh, text):
+    """NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] as (name, view): any place, seen from there along the surface's normal when no direction is given."""
+    name, _, numbers = text.partition("=")
+    values = [float(v) for v in numbers.split(",")]
+    if len(values) not in (4, 7):
+        sys.exit(f"render: error: --at '{text}': write NAME=X,Y,Z,HALF_HEIGHT or NAME=X,Y,Z,HALF_HEIGHT,DX,DY,DZ")
+    focus, direction = numpy.array(values[:3]), values[4:]
+    if not direction:
+        corners = mesh.points[mesh.triangles]
+        nearest = numpy.argmin(numpy.linalg.norm(corners.mean(axis=1) - focus, axis=1))
+        direction = numpy.cross(corners[nearest, 1] - corners[nearest, 0], corners[nearest, 2] - corners[nearest, 0])
+        direction = direction / numpy.linalg.norm(direction) + 0.05  # not quite along an axis: the picture needs an upright
+    return name, (focus, direction, values[3], numpy.ones(len(mesh.triangles), bool), 1.0)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mesh", help="mesh artifact (.hdf) or its .vtu export with face and group")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     parser.add_argument("--view", action="append", help="only this view (may be repeated)")
+    parser.add_argument("--at", action="append", default=[], metavar="NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ]", help="a place of your own; only these and --view are made")
     options = parser.parse_args()
     mesh = Mesh(options.mesh)
-    all_views = views(mesh)
+    all_views = {} if options.at and not options.view else views(mesh)
+    own = dict(own_view(mesh, text) for text in options.at)
+    all_views.update(own)
+    options.view = (options.view or []) + list(own)
     for name in options.view or []:
         if name not in all_views:
             parser.error(f"unknown view '{name}'; there are: {', '.join(all_views)}")

@@ -116,6 +116,14 @@ Check check_on_surface(const ModelTables& tables, const ChordError& chords) {
   return c;
 }
 
+/// Faces with a node so far off that it cannot belong there: a wrong face id, a misplaced node.
+Check check_off_surface(const ModelTables& tables, const ChordError& chords) {
+  Check c{"off-surface", fmt::format("faces with nodes off the surface by more than {} of their length", kOffSurface), {}, true, ""};
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    if (chords.off_surface[f] > 2 * cad_tolerance(tables, f)) c.defects.add({chords.off_place[f], f, kNone});
+  return c;
+}
+
 Check check_volume(const TopologyReport& topology, const MeshMeasure& measure) {
   Check c{"volume", "closed meshes of no or negative volume", {}, true, ""};
   const bool has_volume = topology.is_closed() && topology.n_cad_boundary_edges == 0;
@@ -178,6 +186,7 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
   f.checks.push_back(check_cad_volume(f.topology, f.measure, cad.model.tables(), *f.chords));
   f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords));
+  f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords));
 }
 
 // --- thresholds --------------------------------------------------------------------------------------------------------------------------

@@ -53,14 +53,19 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
 
+void add_corner(Vec3 on_surface, Vec3 node, double size, FaceId f, ChordError& error) {
+  const double d = distance(on_surface, node), off = d - kOffSurface * size;
+  if (d > error.node_distance[f]) error.node_distance[f] = d, error.node_place[f] = node;
+  if (off > error.off_surface[f]) error.off_surface[f] = off, error.off_place[f] = node;
+}
+
 /// The triangle of the surface's points at its corners, against its four parts with corners on the surface.
-void add_triangle(const Surface& surface, const std::array<Vec3, 3>& node, const std::array<Vec2, 3>& uv, FaceId f, ChordError& error) {
+void add_triangle(const Surface& surface, const std::array<Vec2, 3>& uv, FaceId f, std::array<Vec3, 3>& x, ChordError& error) {
   constexpr double kRichardson = 4.0 / 3.0;
-  std::array<Vec3, 3> x, m;
+  std::array<Vec3, 3> m;
   for (int k = 0; k < 3; ++k) {
     x[k] = surface.point(uv[k]);
     m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
-    if (const double d = distance(x[k], node[k]); d > error.node_distance[f]) error.node_distance[f] = d, error.node_place[f] = node[k];
   }
   for (int k = 0; k < 3; ++k) error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
   const double flat = area_of(x[0], x[1], x[2]);
@@ -76,8 +81,9 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& erro
     if (f != current) surface = model.surface(f);
     current = f;
     const auto& n = mesh.triangles[t].n;
-    add_triangle(*surface, {mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]},
-                 {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f, error);
+    std::array<Vec3, 3> x;
+    add_triangle(*surface, {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f, x, error);
+    for (int k = 0; k < 3; ++k) add_corner(x[k], mesh.node_xyz[n[k]], mesh.node_size[n[k]], f, error);
   }
 }
 
@@ -89,6 +95,8 @@ ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
   error.distance.assign(model.tables().n_faces(), 0);
   error.node_distance.assign(model.tables().n_faces(), 0);
   error.node_place.resize(model.tables().n_faces());
+  error.off_surface.assign(model.tables().n_faces(), 0);
+  error.off_place.resize(model.tables().n_faces());
   add_edges(model, mesh, error);
   add_triangles(model, mesh, error);
   return error;

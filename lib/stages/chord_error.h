@@ -8,12 +8,17 @@
 
 namespace st {
 
+/// Of the requested length: a node farther from its surface belongs to another one.
+inline constexpr double kOffSurface = 0.25;
+
 /// What chords explain, per CAD face.
 struct ChordError {
   std::vector<double> area;           ///< [n_faces] largest difference of area that chords of this length explain, model unit squared
   std::vector<double> distance;       ///< [n_faces] largest distance found between the side of a triangle and the surface, model unit
   std::vector<double> node_distance;  ///< [n_faces] largest distance between a node and the surface at its corner's (u,v), model unit
   std::vector<Vec3> node_place;       ///< [n_faces] where that is
+  std::vector<double> off_surface;    ///< [n_faces] largest part of such a distance beyond kOffSurface of the node's requested length; 0: none
+  std::vector<Vec3> off_place;        ///< [n_faces] where that is
 };
 
 /// Along edges: the segments between trimming curve and chord in (u,v). Inside: triangles against their parts on the surface halved in

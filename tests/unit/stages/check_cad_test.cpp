@@ -234,7 +234,7 @@ TEST_F(CheckCad, finds_a_face_whose_area_and_a_mesh_whose_volume_is_wrong) {
   for (std::size_t n = 40; n < 80; ++n) a.mesh.node_xyz[n].z -= 0.6;  // 2 % of the height
   const StageSummary s = check(a);
   EXPECT_EQ(s.code, ExitCode::kIncomplete);
-  EXPECT_TRUE(says(s, "\"failed\":[\"areas\",\"cad-volume\"]")) << s.json;
+  EXPECT_TRUE(says(s, "\"failed\":[\"areas\",\"cad-volume\",\"off-surface\"]")) << s.json;
   EXPECT_NE(s.line.find("note: 2 faces with nodes off the surface"), std::string::npos) << s.line;
 }
 
