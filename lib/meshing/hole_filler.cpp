@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <tuple>
 
 #include "base/error.h"
@@ -24,23 +23,23 @@ struct ChainLink {
 
 class HoleBoundaryMaker {
  public:
-  HoleBoundaryMaker(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
+  HoleBoundaryMaker(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks, const HoleNumbering& numbering,
                     const SizeField& field)
       : model_(model),
         t_(model.tables()),
         surface_(surface),
-        face_(face),
+        face_(rim.face),
+        rim_(rim),
         marks_(marks),
         numbering_(numbering),
         cad_(numbering.mesh),
-        mesh_(cad_.mesh),
-        field_(field) {}
+        field_(field),
+        number_(rim.nodes.size(), kNone),
+        free_(rim.free_sides) {}
 
   FaceBoundary run() {
-    number_corners();
     find_coedges();
-    collect_sides();
-    cancel_inner_sides();
+    sort_cad_sides();
     close_poles();
     for (const auto& [a, b] : free_) emit(a, b);
     replace_runs();
@@ -51,30 +50,8 @@ class HoleBoundaryMaker {
  private:
   [[noreturn]] void fail(const char* what) const { throw Error(ExitCode::kInternal, t_.face_label(face_) + ": " + what); }
 
-  /// Local numbers of the corners of marked triangles: a node with another (u,v) is another one.
-  void number_corners() {
-    for (TriangleId i = cad_.face_begin[face_]; i < cad_.face_begin[face_ + 1]; ++i)
-      if (marks_.triangle[i])
-        for (int k = 0; k < 3; ++k) corners_.push_back(3 * i + k);
-    const auto key = [&](std::int32_t c) {
-      return std::tuple(mesh_.triangles[c / 3].n[c % 3], mesh_.corner_uv[c].x, mesh_.corner_uv[c].y);
-    };
-    std::vector<std::int32_t> order(corners_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-      const auto ka = key(corners_[a]), kb = key(corners_[b]);
-      return ka < kb || (ka == kb && a < b);
-    });
-    local_.resize(corners_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i == 0 || key(corners_[order[i]]) != key(corners_[order[i - 1]])) first_corner_.push_back(corners_[order[i]]);
-      local_[order[i]] = static_cast<std::int32_t>(first_corner_.size()) - 1;
-    }
-    number_.assign(first_corner_.size(), kNone);
-  }
-
-  NodeId node_of(std::int32_t local) const { return mesh_.triangles[first_corner_[local] / 3].n[first_corner_[local] % 3]; }
-  Vec2 uv_of(std::int32_t local) const { return mesh_.corner_uv[first_corner_[local]]; }
+  NodeId node_of(std::int32_t local) const { return rim_.nodes[local].node; }
+  Vec2 uv_of(std::int32_t local) const { return rim_.nodes[local].uv; }
 
   void find_coedges() {
     for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[face_]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[face_ + 1]]; ++c)
@@ -100,8 +77,7 @@ class HoleBoundaryMaker {
   /// The CAD segment on which a side lies; a seam's two uses are told apart by (u,v), the two sides of a slit by direction.
   bool find_link(std::int32_t a, std::int32_t b, ChainLink& link) {
     const NodeId na = node_of(a), nb = node_of(b);
-    if (cad_.inner_begin[0] <= std::max(na, nb)) return false;
-    const std::int32_t ccw_a = cad_.face_is_turned[face_] ? b : a;
+    const std::int32_t ccw_a = rim_.is_turned ? b : a;
     double best = 1e300;
     bool found = false;
     for (const CadSegment& s : cad_.segments_between(na, nb)) {
@@ -120,35 +96,15 @@ class HoleBoundaryMaker {
     return found;
   }
 
-  void collect_sides() {
-    for (std::size_t i = 0; i < corners_.size(); i += 3)
-      for (int k = 0; k < 3; ++k) {
-        const std::int32_t a = local_[i + k], b = local_[i + (k + 1) % 3];
-        ChainLink link;
-        if (!find_link(a, b, link))
-          free_.push_back({a, b});
-        else if (marks_.segment[link.segment])
-          links_.push_back(link);
-        else
-          emit(a, b);
-      }
-  }
-
-  /// Sides used by two marked triangles are inside the hole.
-  void cancel_inner_sides() {
-    using Side = std::pair<std::int32_t, std::int32_t>;
-    std::sort(free_.begin(), free_.end(), [](const Side& x, const Side& y) {
-      return std::tuple(std::min(x.first, x.second), std::max(x.first, x.second), x.first) <
-             std::tuple(std::min(y.first, y.second), std::max(y.first, y.second), y.first);
-    });
-    std::vector<Side> odd;
-    for (std::size_t i = 0, end; i < free_.size(); i = end) {
-      for (end = i + 1; end < free_.size() && std::min(free_[i].first, free_[i].second) == std::min(free_[end].first, free_[end].second) &&
-                        std::max(free_[i].first, free_[i].second) == std::max(free_[end].first, free_[end].second);)
-        ++end;
-      if ((end - i) % 2) odd.push_back(free_[i]);
+  void sort_cad_sides() {
+    for (const auto& [a, b] : rim_.cad_sides) {
+      ChainLink link;
+      if (!find_link(a, b, link)) fail("a side of a hole is on none of its edges");
+      if (marks_.segment[link.segment])
+        links_.push_back(link);
+      else
+        emit(a, b);
     }
-    free_ = std::move(odd);
   }
 
   /// Triangles with two nodes on one pole were dropped when the face was meshed; they belong to the hole: their pole side bounds it.
@@ -159,7 +115,7 @@ class HoleBoundaryMaker {
       by_nodes.push_back({low, high, i});
     }
     std::sort(by_nodes.begin(), by_nodes.end());
-    std::vector<std::pair<std::int32_t, std::int32_t>> open;
+    std::vector<HoleRim::Side> open;
     for (std::size_t k = 0; k < by_nodes.size(); ++k) {
       const auto [low, high, i] = by_nodes[k];
       const bool twice = k + 1 < by_nodes.size() && std::get<0>(by_nodes[k + 1]) == low && std::get<1>(by_nodes[k + 1]) == high;
@@ -171,7 +127,7 @@ class HoleBoundaryMaker {
     free_ = std::move(open);
   }
 
-  bool close_pole(std::pair<std::int32_t, std::int32_t> x, std::pair<std::int32_t, std::int32_t> y) {
+  bool close_pole(HoleRim::Side x, HoleRim::Side y) {
     std::int32_t p = kNone, q = kNone;
     if (x.first == y.second) p = x.second, q = y.first;
     if (x.second == y.first) p = x.first, q = y.second;
@@ -185,9 +141,10 @@ class HoleBoundaryMaker {
     std::int32_t& number = number_[local];
     if (number == kNone) {
       const NodeId n = node_of(local);
-      if (numbering_.of_node[n] == kNone) fail("a node that goes bounds a hole");
+      if (numbering_.number(n) == kNone) fail("a node that goes bounds a hole");
       number = static_cast<std::int32_t>(result_.nodes.size());
-      result_.nodes.push_back({uv_of(local), mesh_.node_xyz[n], field_.size(mesh_.node_xyz[n], hint_), numbering_.of_node[n], false});
+      const Vec3 x = rim_.nodes[local].x;
+      result_.nodes.push_back({uv_of(local), x, field_.size(x, hint_), numbering_.number(n), false});
     }
     return number;
   }
@@ -248,16 +205,16 @@ class HoleBoundaryMaker {
   const ModelTables& t_;
   const Surface& surface_;
   FaceId face_;
+  const HoleRim& rim_;
   const HoleMarks& marks_;
   const HoleNumbering& numbering_;
   const HoleMesh& cad_;
-  const SurfaceMesh& mesh_;
   const SizeField& field_;
   int hint_ = 0;
-  std::vector<std::int32_t> corners_, local_, first_corner_, number_;
+  std::vector<std::int32_t> number_;  // [rim nodes] in the result
   std::map<EdgeId, std::vector<CoedgeId>> coedges_;
   std::map<CoedgeId, std::unique_ptr<Curve2d>> pcurves_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> free_;
+  std::vector<HoleRim::Side> free_;
   std::vector<ChainLink> links_;
   FaceBoundary result_;
 };
@@ -312,12 +269,29 @@ void add_known_nodes(const PatchNodes& nodes, const HoleNumbering& numbering, Fa
   p.inner_uv.resize(p.inner_xyz.size());
 }
 
+void add_fill(const HoleFill& fill, const PatchNodes& nodes, FacePatch& p) {
+  const auto n_rim = static_cast<std::int32_t>(fill.id.size()), n_known = p.n_boundary + static_cast<std::int32_t>(p.inner_xyz.size());
+  for (const FaceMesh::InnerNode& n : fill.inner) {
+    p.inner_xyz.push_back(n.x);
+    p.inner_uv.push_back(n.uv);
+    p.inner_size.push_back(n.h);
+    p.inner_previous.push_back(kNone);
+  }
+  for (Triangle t : fill.triangles) {
+    for (NodeId& n : t.n) {
+      p.corner_uv.push_back(n < n_rim ? fill.uv[n] : fill.inner[n - n_rim].uv);
+      n = n < n_rim ? nodes.number(fill.id[n]) : n_known + n - n_rim;
+    }
+    p.triangles.push_back(t);
+    p.triangle_previous.push_back(kNone);
+  }
+}
+
 }  // namespace
 
 HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
     : mesh(m), update(u), boundary(m.tables, u.edges, m.mesh.merged), first_inner(boundary.first_inner.back()) {
-  const auto n_nodes = static_cast<NodeId>(m.mesh.node_xyz.size());
-  of_node.assign(n_nodes, kNone);
+  of_node.assign(m.inner_begin[0], kNone);
   for (VertexId v = 0; v < m.tables.n_vertices(); ++v)
     if (m.vertex_node[v] != kNone) of_node[m.vertex_node[v]] = boundary.vertex(v);
   for (NodeId n = 0; n < m.inner_begin[0]; ++n) {
@@ -325,28 +299,38 @@ HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
     const EdgeId e = m.mesh.node_entity[n];
     of_node[n] = boundary.edge_node(e, u.old_to_new[m.node_on_edge[n]] - u.edges.edge_offsets[e]);
   }
-  for (NodeId n = m.inner_begin[0]; n < n_nodes; ++n) of_node[n] = inner(n);
 }
 
-FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks,
+FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks,
                                 const HoleNumbering& numbering, const SizeField& field) {
-  const auto begin = marks.triangle.begin() + numbering.mesh.face_begin[face],
-             end = marks.triangle.begin() + numbering.mesh.face_begin[face + 1];
-  if (std::find(begin, end, 0) == end) return make_face_boundary(model, surface, face, numbering.boundary);
-  return HoleBoundaryMaker(model, surface, face, marks, numbering, field).run();
+  if (rim.is_whole_face) return make_face_boundary(model, surface, rim.face, numbering.boundary);
+  return HoleBoundaryMaker(model, surface, rim, marks, numbering, field).run();
 }
 
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary,
-                          const FaceMesh* fill) {
+HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh) {
+  HoleFill fill;
+  for (const FaceBoundary::Node& n : boundary.nodes) {
+    fill.id.push_back(n.id);
+    fill.uv.push_back(n.uv);
+  }
+  fill.inner = std::move(mesh.inner);
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    const std::int32_t* c = &mesh.corners[i];
+    fill.triangles.push_back({{c[0], c[rim.is_turned ? 2 : 1], c[rim.is_turned ? 1 : 2]}});
+  }
+  return fill;
+}
+
+FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, std::span<const HoleFill> fills) {
   const HoleMesh& cad = numbering.mesh;
   const SurfaceMesh& m = cad.mesh;
-  PatchNodes nodes(numbering.inner(cad.inner_begin[face]), cad.inner_begin[face + 1] - cad.inner_begin[face]);
-  const auto kept = [&](TriangleId i) { return fill == nullptr || !marks.triangle[i]; };
+  const NodeId first = cad.inner_begin[face];
+  PatchNodes nodes(numbering.first_inner + first - cad.inner_begin[0], cad.inner_begin[face + 1] - first);
+  const auto kept = [&](TriangleId i) { return fills.empty() || !marks.triangle[i]; };
   for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
-    for (int k = 0; k < 3 && kept(i); ++k) nodes.add(numbering.of_node[m.triangles[i].n[k]]);
-  const std::int32_t n_local = boundary ? static_cast<std::int32_t>(boundary->nodes.size()) : 0;
-  if (boundary)
-    for (const auto& n : boundary->nodes) nodes.add(n.id);
+    for (int k = 0; k < 3 && kept(i); ++k) nodes.add(numbering.number(m.triangles[i].n[k]));
+  for (const HoleFill& fill : fills)
+    for (std::int32_t id : fill.id) nodes.add(id);
   nodes.number_all();
   FacePatch p;
   p.face = face;
@@ -355,33 +339,14 @@ FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumberi
     if (!kept(i)) continue;
     Triangle t;
     for (int k = 0; k < 3; ++k) {
-      t.n[k] = nodes.number(numbering.of_node[m.triangles[i].n[k]]);
+      t.n[k] = nodes.number(numbering.number(m.triangles[i].n[k]));
       p.corner_uv.push_back(m.corner_uv[3 * i + k]);
       if (t.n[k] >= p.n_boundary) p.inner_uv[t.n[k] - p.n_boundary] = p.corner_uv.back();
     }
     p.triangles.push_back(t);
     p.triangle_previous.push_back(i);
   }
-  if (!fill) return p;
-  const auto n_known = static_cast<std::int32_t>(nodes.ids().size());
-  for (const FaceMesh::InnerNode& n : fill->inner) {
-    p.inner_xyz.push_back(n.x);
-    p.inner_uv.push_back(n.uv);
-    p.inner_size.push_back(n.h);
-    p.inner_previous.push_back(kNone);
-  }
-  for (std::size_t i = 0; i < fill->corners.size(); i += 3) {
-    std::int32_t c[3] = {fill->corners[i], fill->corners[i + 1], fill->corners[i + 2]};
-    if (cad.face_is_turned[face]) std::swap(c[1], c[2]);
-    Triangle t;
-    for (int k = 0; k < 3; ++k) {
-      const bool is_known = c[k] < n_local;
-      t.n[k] = is_known ? nodes.number(boundary->nodes[c[k]].id) : n_known + c[k] - n_local;
-      p.corner_uv.push_back(is_known ? boundary->nodes[c[k]].uv : fill->inner[c[k] - n_local].uv);
-    }
-    p.triangles.push_back(t);
-    p.triangle_previous.push_back(kNone);
-  }
+  for (const HoleFill& fill : fills) add_fill(fill, nodes, p);
   return p;
 }
 

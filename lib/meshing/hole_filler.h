@@ -1,18 +1,21 @@
-// Holes of one face: their boundary in (u,v), and the face's patch once they are filled.
+// A hole's boundary in (u,v), and the face's patch once its holes are filled.
 #pragma once
 
-#include <string>
+#include <span>
 #include <vector>
 
 #include "meshing/face_mesher.h"
 #include "meshing/hole_curves.h"
+#include "meshing/hole_rim.h"
 
 namespace st {
 
 /// Numbers of the nodes that holes are made of: those of BoundaryNumbering for the new edges, then the inner nodes of the old mesh.
 struct HoleNumbering {
+  /// Of `mesh` only the nodes on vertices and edges are used: a mesh cut off after these will do.
   HoleNumbering(const HoleMesh& mesh, const EdgeUpdate& update);
-  std::int32_t inner(NodeId n) const { return first_inner + n - mesh.inner_begin[0]; }
+  /// kNone: replaced on its edge.
+  std::int32_t number(NodeId n) const { return n < mesh.inner_begin[0] ? of_node[n] : first_inner + n - mesh.inner_begin[0]; }
   bool is_inner(std::int32_t id) const { return id >= first_inner; }
   NodeId mesh_node(std::int32_t inner_id) const { return inner_id - first_inner + mesh.inner_begin[0]; }
 
@@ -20,17 +23,27 @@ struct HoleNumbering {
   const EdgeUpdate& update;
   BoundaryNumbering boundary;
   std::int32_t first_inner;
-  std::vector<std::int32_t> of_node;  ///< [n_nodes of the mesh] its number; kNone: replaced on its edge
+  std::vector<std::int32_t> of_node;  ///< [nodes on vertices and edges]
 };
 
-/// Boundary of all holes of a face: sides between marked triangles and others, and the face's own loops with the new nodes. Seams appear
-/// twice, poles get their segments; nothing is ordered, segments count by parity. A face without an unmarked triangle has the loops of
-/// make_face_boundary. Throws Error(kInternal) when marks and runs do not fit.
-FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, FaceId face, const HoleMarks& marks,
+/// Boundary of a hole: its sides to triangles that stay, and the new nodes on CAD edges. Seams appear twice, poles get their segments;
+/// nothing is ordered, segments count by parity. A whole face has the loops of make_face_boundary. Throws Error(kInternal) when marks and
+/// runs do not fit. Of `marks` the segments are used.
+FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks,
                                 const HoleNumbering& numbering, const SizeField& field);
 
-/// The face's patch: unmarked triangles as they were, then those of `fill` (null: there is no hole).
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, const FaceBoundary* boundary,
-                          const FaceMesh* fill);
+/// A filled hole: nodes on its boundary first, then new ones.
+struct HoleFill {
+  std::vector<std::int32_t> id;  ///< [n_boundary] by HoleNumbering
+  std::vector<Vec2> uv;          ///< [n_boundary]
+  std::vector<FaceMesh::InnerNode> inner;
+  std::vector<Triangle> triangles;  ///< of these nodes, oriented as the old mesh; empty: it could not be filled
+};
+
+/// `mesh`: mesh_face of `boundary`.
+HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
+
+/// The face's patch: unmarked triangles as they were, then those of the fills of its holes. Without fills all triangles are as they were.
+FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering, std::span<const HoleFill> fills);
 
 }  // namespace st

@@ -126,20 +126,21 @@ HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const
   return Marker(mesh, wanted, options).run();
 }
 
-bool grow_hole(const HoleMesh& cad, FaceId face, int layers, HoleMarks& marks) {
-  const SurfaceMesh& m = cad.mesh;
+void grow_hole(const HoleMesh& cad, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks) {
+  std::vector<TriangleId> fresh(hole.begin(), hole.end());
   std::vector<NodeId> touched;
-  bool any = false;
   for (int l = 0; l < layers; ++l) {
-    touched.clear();
-    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
-      if (marks.triangle[i]) touched.insert(touched.end(), m.triangles[i].n, m.triangles[i].n + 3);
+    for (const TriangleId i : fresh) touched.insert(touched.end(), cad.mesh.triangles[i].n, cad.mesh.triangles[i].n + 3);
     std::sort(touched.begin(), touched.end());
-    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
-      for (int k = 0; k < 3 && !marks.triangle[i]; ++k)
-        if (std::binary_search(touched.begin(), touched.end(), m.triangles[i].n[k])) marks.triangle[i] = any = true;
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    fresh.clear();
+    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i) {
+      if (marks.triangle[i]) continue;
+      for (const NodeId n : cad.mesh.triangles[i].n)
+        if (std::binary_search(touched.begin(), touched.end(), n)) marks.triangle[i] = 1;
+      if (marks.triangle[i]) fresh.push_back(i);
+    }
   }
-  return any;
 }
 
 }  // namespace st

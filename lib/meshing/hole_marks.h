@@ -31,7 +31,7 @@ struct HoleMarks {
 /// marked ones and triangles with marked ones at all corners follow. Local, pure.
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
 
-/// Grows the marks within one face by `layers`; segments stay. False when nothing was left to mark.
-bool grow_hole(const HoleMesh& mesh, FaceId face, int layers, HoleMarks& marks);
+/// Grows a hole within its face by `layers`; segments stay. `hole`: its triangles.
+void grow_hole(const HoleMesh& mesh, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks);
 
 }  // namespace st

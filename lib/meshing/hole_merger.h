@@ -2,14 +2,14 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "meshing/hole_filler.h"
 
 namespace st {
 
-/// What merge_patches() gives for the patches of all faces, without making patches of the faces that stay: canonical order, the orientation
-/// of the old mesh, node_previous and triangle_previous filled. `redone` [n_faces]: by face, of make_hole_patch; without triangles: the
-/// face is as it was. Local, linear.
-SurfaceMesh insert_patches(const HoleNumbering& numbering, std::span<const FacePatch> redone);
+/// What merge_patches() gives for the patches of all faces, without making patches: canonical order, the orientation of the old mesh,
+/// node_previous and triangle_previous filled. `fills` [n_faces]: of the holes of each face; none: the face is as it was. Local, linear.
+SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks, std::span<const std::vector<HoleFill>> fills);
 
 }  // namespace st

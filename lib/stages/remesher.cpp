@@ -40,34 +40,36 @@ void share(const Communicator& comm, std::vector<T>& values) {
   Unpacker(bytes).get(values);
 }
 
-void pack(Packer& p, const FacePatch& f) {
-  p.add(f.face);
-  p.add(f.n_boundary);
-  p.add(f.boundary_dim);
-  p.add(f.boundary_entity);
-  p.add(f.boundary_index);
-  p.add(f.inner_xyz);
-  p.add(f.inner_uv);
-  p.add(f.inner_size);
-  p.add(f.inner_previous);
-  p.add(f.triangles);
-  p.add(f.corner_uv);
-  p.add(f.triangle_previous);
+void pack(Packer& p, const HoleRim& rim) {
+  p.add(rim.face);
+  p.add(rim.is_whole_face);
+  p.add(rim.is_turned);
+  p.add(rim.nodes);
+  p.add(rim.free_sides);
+  p.add(rim.cad_sides);
 }
 
-void unpack(Unpacker& u, FacePatch& f) {
-  u.get(f.face);
-  u.get(f.n_boundary);
-  u.get(f.boundary_dim);
-  u.get(f.boundary_entity);
-  u.get(f.boundary_index);
-  u.get(f.inner_xyz);
-  u.get(f.inner_uv);
-  u.get(f.inner_size);
-  u.get(f.inner_previous);
-  u.get(f.triangles);
-  u.get(f.corner_uv);
-  u.get(f.triangle_previous);
+void unpack(Unpacker& u, HoleRim& rim) {
+  u.get(rim.face);
+  u.get(rim.is_whole_face);
+  u.get(rim.is_turned);
+  u.get(rim.nodes);
+  u.get(rim.free_sides);
+  u.get(rim.cad_sides);
+}
+
+void pack(Packer& p, const HoleFill& fill) {
+  p.add(fill.id);
+  p.add(fill.uv);
+  p.add(fill.inner);
+  p.add(fill.triangles);
+}
+
+void unpack(Unpacker& u, HoleFill& fill) {
+  u.get(fill.id);
+  u.get(fill.uv);
+  u.get(fill.inner);
+  u.get(fill.triangles);
 }
 
 }  // namespace
@@ -133,7 +135,7 @@ void Remesher::run() {
     timer = Timer();
     if (comm_.is_root()) {
       renew_surrounded_nodes();
-      mesh = insert_patches(*numbering_, patches);
+      mesh = insert_fills(*numbering_, marks, fills_);
     }
     seconds_merge += timer.seconds();
     timer = Timer();
@@ -145,23 +147,52 @@ void Remesher::run() {
 }
 
 std::vector<FacePatch> Remesher::all_patches() const {
-  std::vector<FacePatch> all = patches;
+  std::vector<FacePatch> all;
   for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-    if (all[f].triangles.empty()) all[f] = make_hole_patch(f, marks, *numbering_, nullptr, nullptr);
+    all.push_back(make_hole_patch(f, marks, *numbering_, comm_.is_root() ? fills_[f] : std::vector<HoleFill>()));
   return all;
 }
 
 void Remesher::redo_holes() {
-  patches.assign(model_.tables().n_faces(), {});
+  fills_.assign(model_.tables().n_faces(), {});
   std::vector<FaceId> faces = dirty_faces;
-  for (int layers : kGrowth) {
-    faces = fill(faces);
-    for (FaceId f : faces) grow_hole(old_, f, layers, marks);
-    n_grown += static_cast<int>(faces.size());
+  for (std::size_t step = 0; !faces.empty(); ++step) {
+    const std::vector<HoleRim> rims = find_rims(faces);
+    faces.clear();
+    for (const std::int32_t i : fill(rims)) {
+      if (faces.empty() || faces.back() != rims[i].face) faces.push_back(rims[i].face);
+      if (step > std::size(kGrowth)) continue;
+      ++n_grown;
+      if (comm_.is_root()) grow(rims[i], step);
+    }
+    for (const FaceId f : faces) fills_[f].clear();
+    if (step > std::size(kGrowth)) break;
   }
-  faces = fill(faces);
-  for (FaceId f : faces) std::fill(marks.triangle.begin() + old_.face_begin[f], marks.triangle.begin() + old_.face_begin[f + 1], 1);
-  failed_faces = fill(faces);
+  failed_faces = faces;
+}
+
+/// By layers first, then to the whole face.
+void Remesher::grow(const HoleRim& rim, std::size_t step) {
+  if (step < std::size(kGrowth))
+    grow_hole(old_, rim.face, rim.triangles, kGrowth[step], marks);
+  else
+    std::fill(marks.triangle.begin() + old_.face_begin[rim.face], marks.triangle.begin() + old_.face_begin[rim.face + 1], 1);
+}
+
+/// Collective. By face; on every rank, their triangles on rank 0.
+std::vector<HoleRim> Remesher::find_rims(const std::vector<FaceId>& faces) const {
+  std::vector<HoleRim> rims;
+  if (comm_.is_root())
+    for (const FaceId f : faces)
+      for (HoleRim& rim : find_hole_rims(old_, marks, f)) rims.push_back(std::move(rim));
+  if (comm_.size() == 1) return rims;
+  Packer p;
+  for (const HoleRim& rim : rims) pack(p, rim);
+  Bytes bytes = p.take();
+  comm_.broadcast(bytes);
+  if (comm_.is_root()) return rims;
+  for (Unpacker u(bytes); !u.is_empty();) unpack(u, rims.emplace_back());
+  return rims;
 }
 
 void Remesher::redo_curves() {
@@ -210,46 +241,46 @@ void Remesher::request_curve_lengths() {
     if (e.node_previous[i] == kNone) e.node_request[i] = field_.size(e.node_xyz[i], hint);
 }
 
-Bytes Remesher::compute_face(FaceId f) const {
-  FacePatch patch;
-  patch.face = f;
+HoleFill Remesher::fill_hole(const HoleRim& rim) const {
+  HoleFill fill;
   try {
-    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[f]);
+    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[rim.face]);
     const RefinedField refined(field_, near);
     const SizeField& field = near.empty() ? field_ : refined;
-    const auto surface = model_.surface(f);
-    const FaceBoundary boundary = make_hole_boundary(model_, *surface, f, marks, *numbering_, field);
+    const auto surface = model_.surface(rim.face);
+    const FaceBoundary boundary = make_hole_boundary(model_, *surface, rim, marks, *numbering_, field);
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
-    const FaceMesh filled = mesh_face(*surface, boundary, field, options);
-    if (filled.cause.empty() && filled.n_folds == 0) patch = make_hole_patch(f, marks, *numbering_, &boundary, &filled);
+    FaceMesh filled = mesh_face(*surface, boundary, field, options);
+    if (filled.cause.empty() && filled.n_folds == 0) fill = make_hole_fill(rim, boundary, std::move(filled));
   } catch (const Error&) {  // no triangles: the hole grows
   }
   int hint = 0;
-  for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i)
-    if (patch.inner_previous[i] == kNone) patch.inner_size[i] = field_.size(patch.inner_xyz[i], hint);
-  Packer packer;
-  pack(packer, patch);
-  return packer.take();
+  for (FaceMesh::InnerNode& n : fill.inner) n.h = field_.size(n.x, hint);
+  return fill;
 }
 
-/// Fills the holes of these faces; returns those where it failed (no triangles), ascending.
-std::vector<FaceId> Remesher::fill(const std::vector<FaceId>& faces) {
-  if (faces.empty()) return {};
-  std::vector<std::int64_t> weight;
-  for (FaceId f : faces)
-    weight.push_back(std::count(marks.triangle.begin() + old_.face_begin[f], marks.triangle.begin() + old_.face_begin[f + 1], 1));
-  std::vector<std::int32_t> order = in_order(faces.size());
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
-  std::vector<FaceId> failed;
-  comm_.run_tasks(
-      static_cast<std::int32_t>(faces.size()), order, [&](std::int32_t task) { return compute_face(faces[task]); },
-      [&](std::int32_t task, Bytes&& result) {
-        Unpacker u(result);
-        unpack(u, patches[faces[task]]);
-        if (patches[faces[task]].triangles.empty()) failed.push_back(faces[task]);
-      });
-  std::sort(failed.begin(), failed.end());
+/// Collective. Fills the holes; returns those where it failed, ascending.
+std::vector<std::int32_t> Remesher::fill(const std::vector<HoleRim>& rims) {
+  std::vector<std::int32_t> order = in_order(rims.size()), failed;
+  if (comm_.is_root())
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return rims[a].triangles.size() > rims[b].triangles.size(); });
+  share(comm_, order);
+  std::vector<HoleFill> fills(rims.size());
+  const auto compute = [&](std::int32_t task) {
+    Packer p;
+    pack(p, fill_hole(rims[task]));
+    return p.take();
+  };
+  comm_.run_tasks(static_cast<std::int32_t>(rims.size()), order, compute, [&](std::int32_t task, Bytes&& result) {
+    Unpacker u(result);
+    unpack(u, fills[task]);
+  });
+  for (std::size_t i = 0; comm_.is_root() && i < rims.size(); ++i) {
+    if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
+    fills_[rims[i].face].push_back(std::move(fills[i]));
+  }
   share(comm_, failed);
   return failed;
 }
@@ -261,12 +292,8 @@ void Remesher::renew_surrounded_nodes() {
     for (NodeId n : old_.mesh.triangles[t].n)
       if (n < old_.inner_begin[0]) is_held[n] = 1;
   };
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
-    if (patches[f].triangles.empty())
-      for (TriangleId t = old_.face_begin[f]; t < old_.face_begin[f + 1]; ++t) hold(t);
-    for (TriangleId t : patches[f].triangle_previous)
-      if (t != kNone) hold(t);
-  }
+  for (TriangleId t = 0; t < static_cast<TriangleId>(marks.triangle.size()); ++t)
+    if (!marks.triangle[t]) hold(t);
   int hint = 0;
   for (std::size_t i = 0; i < edges.node_t.size(); ++i)
     if (const NodeId n = edges.node_previous[i]; n != kNone && !is_held[n]) edges.node_request[i] = field_.size(edges.node_xyz[i], hint);

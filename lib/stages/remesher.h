@@ -36,7 +36,6 @@ class Remesher {
 
   // results, complete on rank 0 only (edges on every rank); new nodes have the length that the field requests as node_request, inner_size
   EdgeMesh edges;
-  std::vector<FacePatch> patches;    ///< by face; without triangles: the face is as it was, or failed
   SurfaceMesh mesh;                  ///< the whole; empty when a face failed
   std::vector<FaceId> failed_faces;  ///< whose holes could not be filled, whole face or not: on every rank
   int n_grown = 0;                   ///< holes that had to grow
@@ -48,8 +47,10 @@ class Remesher {
   void redo_curves();
   void request_curve_lengths();
   void redo_holes();
-  std::vector<FaceId> fill(const std::vector<FaceId>& faces);
-  Bytes compute_face(FaceId f) const;
+  std::vector<HoleRim> find_rims(const std::vector<FaceId>& faces) const;
+  std::vector<std::int32_t> fill(const std::vector<HoleRim>& rims);
+  HoleFill fill_hole(const HoleRim& rim) const;
+  void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
   bool refine_crossings();
   bool accept(const RefinementPoint& point);
@@ -65,7 +66,8 @@ class Remesher {
   std::vector<RefinementPoint> points_;  // refinements of crossings so far
   std::vector<double> point_reach_;
   EdgeUpdate update_;
-  std::optional<HoleNumbering> numbering_;  // of update_
+  std::optional<HoleNumbering> numbering_;    // of update_
+  std::vector<std::vector<HoleFill>> fills_;  // [n_faces] on rank 0: of its holes; none: the face is as it was, or failed
 };
 
 }  // namespace st

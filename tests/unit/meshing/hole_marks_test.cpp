@@ -113,17 +113,18 @@ TEST(HoleFiller, fills_a_corner_and_keeps_the_rest_to_the_bit) {
   const EdgeUpdate update = update_edges(holes, runs, fresh);
   const HoleNumbering numbering(holes, update);
   std::vector<FacePatch> patches;
+  std::vector<std::vector<HoleFill>> by_face;
   for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const auto first = marks.triangle.begin() + holes.face_begin[f], last = marks.triangle.begin() + holes.face_begin[f + 1];
-    if (std::find(first, last, 1) == last) {
-      patches.push_back(make_hole_patch(f, marks, numbering, nullptr, nullptr));
-      continue;
+    std::vector<HoleFill> fills;
+    for (const HoleRim& rim : find_hole_rims(holes, marks, f)) {
+      const auto surface = box.model.surface(f);
+      const FaceBoundary boundary = make_hole_boundary(box.model, *surface, rim, marks, numbering, finer);
+      FaceMesh fill = mesh_face(*surface, boundary, finer, {});
+      ASSERT_EQ(fill.cause, "");
+      fills.push_back(make_hole_fill(rim, boundary, std::move(fill)));
     }
-    const auto surface = box.model.surface(f);
-    const FaceBoundary boundary = make_hole_boundary(box.model, *surface, f, marks, numbering, finer);
-    const FaceMesh fill = mesh_face(*surface, boundary, finer, {});
-    ASSERT_EQ(fill.cause, "");
-    patches.push_back(make_hole_patch(f, marks, numbering, &boundary, &fill));
+    patches.push_back(make_hole_patch(f, marks, numbering, fills));
+    by_face.push_back(std::move(fills));
   }
   OrientationReport report;
   const SurfaceMesh after = merge_patches({update.edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
