@@ -2,6 +2,7 @@
 //   sizing_bench MODEL [LMAX_PERCENT]     a CAD file, sampled at default options
 //   sizing_bench --cells MILLIONS         synthetic octree: growth, blanking and query times
 //   sizing_bench --open SIZING            opening a sizing artifact
+//   sizing_bench --accuracy MODEL         cells and errors of the lengths at the samples for cell_per_length 1 to 8
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@
 #include "sizing/prolong.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
+#include "sizing/sample_seeds.h"
 
 namespace {
 
@@ -85,6 +87,68 @@ void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double f
          n / build, sizeof(std::uint64_t) + 1 + 32.0 / 7 + sizeof(CellLength) + sizeof(std::int32_t));
   report("prolong {:.3f} s ({:.2g} cells/s)\n", prolong_seconds, n / prolong_seconds);
   time_queries(OctreeField({octree, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage), boxes);
+}
+
+/// Samples of a model at default options.
+std::vector<RasterBox> sample_boxes(const Model& model, const FaceRoles& roles, double cell_per_length) {
+  SamplingLimits wall;
+  wall.max_length = 0.025 * roles.reference_diagonal;
+  wall.min_length = wall.max_length / 64;
+  wall.cell_per_length = cell_per_length;
+  const ModelLimits limits = model_limits(model.tables(), roles, wall);
+  std::vector<RasterBox> boxes;
+  for (EdgeId e = 0; e < model.tables().n_edges(); ++e)
+    if (limits.edge[e]) raster_curve(*model.curve(e), *limits.edge[e], pack_cause(CauseKind::kEdge, e), boxes);
+  for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+    if (limits.face[f])
+      raster_face(*model.surface(f), loop_polygons(model, f, limits), *limits.face[f], pack_cause(CauseKind::kFace, f), boxes);
+  return boxes;
+}
+
+/// The smallest length + slope * distance of all samples, one by one.
+double exact_length(const std::vector<RasterBox>& boxes, Vec3 x, double largest) {
+  for (const RasterBox& b : boxes) largest = std::min(largest, static_cast<double>(b.length) + kSlope * distance(b.center, x));
+  return largest;
+}
+
+void bench_accuracy(const std::string& path) {
+  constexpr int kPoints = 4000;
+  ImportResult imported = import_model(path, {});
+  const Model model(std::move(imported.tables), std::move(imported.brep));
+  const FaceRoles roles = face_roles(model.tables());
+  const double largest = 0.025 * roles.reference_diagonal;
+  const std::vector<RasterBox> all = sample_boxes(model, roles, 1);
+  std::mt19937_64 random(2);
+  std::vector<Vec3> points;
+  std::vector<double> exact;
+  for (int i = 0; i < kPoints; ++i) {
+    points.push_back(all[random() % all.size()].center);
+    exact.push_back(exact_length(all, points.back(), largest));
+  }
+  for (const double cell_per_length : {1.0, 2.0, 3.0, 4.0, 6.0, 8.0}) {
+    const std::vector<RasterBox> boxes = sample_boxes(model, roles, cell_per_length);
+    const auto storage = std::make_shared<Storage>();
+    storage->raster = build_octree(model.tables().box(), boxes);
+    std::vector<LengthSample> samples;
+    if (cell_per_length > kUsualCellPerLength) samples = sorted_samples(boxes);
+    RasterOctree& raster = storage->raster;
+    seed_lengths(samples, kSlope, raster);
+    storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
+    hold_samples(raster.shape.view(), samples, {}, storage->lengths);
+    const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage);
+    std::vector<double> errors;
+    double bias = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      errors.push_back(std::log(field.SizeField::size(points[i]) / exact[i]));
+      bias += errors.back() / kPoints;
+    }
+    double mean = 0;
+    for (const double e : errors) mean += std::abs(e) / kPoints;
+    std::sort(errors.begin(), errors.end());
+    report("cell_per_length {:1}: {:8} cells, lengths off by {:4.1f} % on the mean ({:+.1f} %), 1 to 99 %: {:.2f} to {:.2f}\n",
+           cell_per_length, field.data().octree.n_leaves(), 100 * mean, 100 * bias, std::exp(errors[kPoints / 100]),
+           std::exp(errors[kPoints * 99 / 100]));
+  }
 }
 
 void bench_model(const std::string& path, double lmax_percent) {
@@ -193,8 +257,10 @@ int main(int argc, char** argv) {
     bench_cells(std::atof(argv[2]));
   else if (first == "--open" && argc > 2)
     time_opening(argv[2]);
+  else if (first == "--accuracy" && argc > 2)
+    bench_accuracy(argv[2]);
   else if (!first.empty())
     bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
   else
-    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING\n");
+    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --accuracy MODEL\n");
 }

@@ -31,7 +31,8 @@ struct Element<CellColour> : Element<std::uint8_t> {};
 
 namespace {
 
-constexpr int kOpenSizingVersion = 2;  // of a sizing without a surface in it
+constexpr int kOpenSizingVersion = 2;   // of a sizing without a surface in it
+constexpr int kPlainRasterVersion = 2;  // of a raster without samples
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kRoot = "/st/octree/root";
 constexpr const char* kLeafKey = "/st/octree/leaf_key";
@@ -39,6 +40,9 @@ constexpr const char* kLeafLevel = "/st/octree/leaf_level";
 constexpr const char* kNodeChild = "/st/octree/node_child";
 constexpr const char* kStoredLength = "/st/octree/stored_length";
 constexpr const char* kStoredCause = "/st/octree/stored_cause";
+constexpr const char* kSamplePoint = "/st/sample/point";
+constexpr const char* kSampleLength = "/st/sample/length";
+constexpr const char* kSampleCause = "/st/sample/cause";
 constexpr const char* kCell = "/st/octree/cell";
 constexpr const char* kCause = "/st/octree/cause";
 constexpr const char* kColour = "/st/octree/colour";
@@ -101,6 +105,29 @@ OctreeShape read_shape(const Hdf5Reader& file) {
                     file.read<std::int32_t>(kNodeChild, 8)};
   require_shape(file, shape.leaf_keys.size(), shape.leaf_levels.size(), shape.node_children.size(), shape.edge);
   return shape;
+}
+
+void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples) {
+  std::vector<float> points, lengths;
+  std::vector<std::int32_t> causes;
+  for (const LengthSample& s : samples) {
+    points.insert(points.end(), s.xyz, s.xyz + 3);
+    lengths.push_back(s.length);
+    causes.push_back(s.cause);
+  }
+  file.write<float>(kSamplePoint, points, 3);
+  file.write<float>(kSampleLength, lengths);
+  file.write<std::int32_t>(kSampleCause, causes);
+}
+
+std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
+  const std::vector<float> lengths = file.read<float>(kSampleLength), points = file.read<float>(kSamplePoint, 3);
+  const std::vector<std::int32_t> causes = file.read_rows<std::int32_t>(kSampleCause, lengths.size());
+  if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
+  std::vector<LengthSample> samples;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, lengths[i], causes[i]});
+  return samples;
 }
 
 FaceCells read_face_cells(const Hdf5Reader& file) {
@@ -189,12 +216,13 @@ std::string cause_text(const CauseNames& names, std::int32_t cause) {
 
 std::string write_raster(const std::string& path, const RasterArtifact& raster) {
   ArtifactHeader header = raster.header;
-  header.schema_version = kRasterVersion;
+  header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
+  if (!raster.samples.empty()) write_samples(file, raster.samples);
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
   file.write<float>(kFaceArea, raster.faces.area);
@@ -206,7 +234,7 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
 
 RasterArtifact read_raster(const std::string& path) {
   const Hdf5Reader file(path, "raster", kRasterVersion);
-  require_version(file, kRasterVersion, "st-raster");
+  require_version(file, kPlainRasterVersion, "st-raster");
   RasterArtifact raster;
   raster.header = file.header();
   raster.numbers = read_numbers(file);
@@ -214,6 +242,7 @@ RasterArtifact read_raster(const std::string& path) {
   const std::size_t n = raster.octree.shape.leaf_keys.size();
   raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
   raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
+  if (file.has(kSamplePoint)) raster.samples = read_samples(file);
   raster.faces = read_face_cells(file);
   raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
   return raster;

@@ -10,11 +10,12 @@
 #include "sizing/octree.h"
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
+#include "sizing/sample_seeds.h"
 
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 2, kSizingVersion = 3;
+inline constexpr int kRasterVersion = 3, kSizingVersion = 3;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -41,7 +42,8 @@ struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  FaceCells faces;  ///< where in the octree each face lies, with its area there
+  std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
+  FaceCells faces;                    ///< where in the octree each face lies, with its area there
   CauseNames names;
 };
 

@@ -35,8 +35,8 @@ struct GridBox {
   bool is_empty = false;
 };
 
-GridBox grid_box(const OctreeShape& shape, const RasterBox& box) {
-  const double scale = kCoordinateEnd / shape.edge, half = box.half;
+GridBox grid_box(const OctreeShape& shape, const RasterBox& box, double half) {
+  const double scale = kCoordinateEnd / shape.edge;
   GridBox result;
   const auto range = [&](double center, double origin, std::uint32_t& lo, std::uint32_t& hi) {
     const double a = std::floor((center - half - origin) * scale), b = std::floor((center + half - origin) * scale);
@@ -72,7 +72,7 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
   std::array<RepeatFilter, kMaxLevel> filters;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (levels[i] == 0) continue;
-    const GridBox range = grid_box(shape, boxes[i]);
+    const GridBox range = grid_box(shape, boxes[i], boxes[i].half);
     if (range.is_empty) continue;
     const int parent = levels[i] - 1, shift = kMaxLevel - parent;
     for (std::uint32_t z = range.lo.z >> shift; z <= range.hi.z >> shift; ++z)
@@ -153,7 +153,7 @@ class LengthStore {
         largest_(node_.size(), kNothing) {}
 
   void insert(const RasterBox& box) {
-    range_ = grid_box(shape_, box);
+    range_ = grid_box(shape_, box, std::min(box.half, box.length));
     if (range_.is_empty) return;
     value_ = pack_length(box.length, box.cause);
     visit(shape_.node_children.empty() ? ~0 : 0, {}, kCoordinateEnd / 2);

@@ -40,4 +40,16 @@ RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> ow
   return unpack_octree(std::move(shape), packed);
 }
 
+std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, const Communicator& comm) {
+  Packer packer;
+  packer.add(own_boxes);
+  std::vector<RasterBox> all;
+  for (const Bytes& bytes : comm.gather(packer.take())) {
+    std::vector<RasterBox> boxes;
+    Unpacker(bytes).get(boxes);
+    all.insert(all.end(), boxes.begin(), boxes.end());
+  }
+  return sorted_samples(all);
+}
+
 }  // namespace st

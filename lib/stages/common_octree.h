@@ -2,9 +2,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "comm/communicator.h"
 #include "sizing/octree.h"
+#include "sizing/sample_seeds.h"
 
 namespace st {
 
@@ -12,5 +14,8 @@ namespace st {
 /// rank looks for the cells that its own boxes split and meet; rank 0 unites them. The result does not depend on which rank has which box.
 /// `root`: the same on every rank.
 RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, const Communicator& comm);
+
+/// Collective. The samples of all ranks with their places, on rank 0; see sorted_samples.
+std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, const Communicator& comm);
 
 }  // namespace st

@@ -81,6 +81,7 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   if (!input.sources.empty())
     raster.octree = refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
   const OctreeView octree = raster.octree.shape.view();
+  seed_lengths(raster.samples, o.slope, raster.octree);
   if (!o.blank.empty()) {
     const BlankInput blank = read_blank(o.blank, o.blank_side);
     sizing.blanking = blank_cells(octree, Neighbours(octree), blank.view(), blank.side);
@@ -96,6 +97,7 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
     for (const NamedSlope& s : slopes) sizing.slope = std::max(sizing.slope, s.slope);  // what the field as a whole promises
   }
   sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
+  hold_samples(octree, raster.samples, sizing.blanking.split_leaf, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);

@@ -314,6 +314,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
       times.end("gaps");
     }
     artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, comm);
+    if (o.cell_per_length > kUsualCellPerLength) artifact.samples = gather_samples(samples.own_boxes, comm);
     times.end("octree");
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);

@@ -80,6 +80,7 @@ RasterArtifact sample_raster() {
   r.octree.shape.node_children.resize(16);
   r.octree.stored_length.resize(15, 1);
   r.octree.stored_cause.resize(15);
+  r.samples.resize(11);
   r.faces.offsets = {0, 3, 6, 7};
   r.faces.leaf.resize(7);
   r.faces.area.resize(7, 1);

@@ -24,6 +24,7 @@ RasterArtifact sample_raster() {
                      0.01F * static_cast<float>(1 + i % 5),
                      pack_cause(CauseKind::kEdge, i)});
   raster.octree = build_octree({{0, 0, 0}, {1, 1, 1}}, boxes);
+  raster.samples = sorted_samples(boxes);
   raster.faces.append_face(std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
   raster.faces.append_face({});
   raster.names = {{"TE", ""}, {"wing", "tip"}, {}};

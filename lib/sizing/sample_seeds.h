@@ -1,0 +1,35 @@
+// Samples with their places, for octrees whose cells are much larger than the lengths they carry.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sizing/octree.h"
+#include "sizing/prolong.h"
+
+namespace st {
+
+/// Up to this cell_per_length lengths are stored by cell; where cells are larger, samples keep their places.
+inline constexpr double kUsualCellPerLength = 2;
+
+/// A raster box without its reach.
+struct LengthSample {
+  float xyz[3] = {0, 0, 0};  ///< model unit
+  float length = 0;          ///< model unit, > 0
+  std::int32_t cause = kNone;
+};
+
+/// The samples of the boxes in an order that does not depend on theirs.
+std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes);
+
+/// Replaces the lengths that edges and faces store by what the samples ask for at the cells' centres: the smallest of length + slope *
+/// distance of the samples within one length of which the cell comes; equal ones take the smaller cause. Without samples nothing changes.
+void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOctree& octree);
+
+/// Lowers cells, and second parts of split leaves (`split_leaf`, see Blanking), in which the linear length at the place of a sample is more
+/// than the sample's. No centre gets below all samples of its cell.
+void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, std::span<const std::int32_t> split_leaf,
+                  ProlongedLengths& lengths);
+
+}  // namespace st

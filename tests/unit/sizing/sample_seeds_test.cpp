@@ -1,0 +1,113 @@
+#include "sizing/sample_seeds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "sizing/octree_field.h"
+#include "unit/sizing/cases.h"
+
+namespace st {
+namespace {
+
+constexpr double kSlope = 0.2, kLargest = 0.2;
+
+struct Prolonged {
+  RasterOctree raster;
+  ProlongedLengths lengths;
+};
+
+/// Samples about one length apart on a sphere of radius 0.4: `finest` at the top, growing by `growth` per distance from there.
+std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_per_length) {
+  std::vector<RasterBox> boxes;
+  for (double theta = 0; theta <= kPi;) {
+    const double length = finest + growth * 0.8 * std::sin(0.5 * theta);
+    const int n = std::max(1, static_cast<int>(2 * kPi * 0.4 * std::sin(theta) / length));
+    for (int i = 0; i < n; ++i) {
+      const double phi = 2 * kPi * i / n;
+      const Vec3 x = Vec3{0.5, 0.5, 0.5} + 0.4 * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+      boxes.push_back({x, static_cast<float>(0.5 * cell_per_length * length), static_cast<float>(length), 1});
+    }
+    theta += length / 0.4;
+  }
+  return boxes;
+}
+
+std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, const std::vector<LengthSample>& samples) {
+  const auto p = std::make_shared<Prolonged>();
+  p->raster = build_octree(test::kUnitBox, boxes);
+  seed_lengths(samples, kSlope, p->raster);
+  p->lengths = prolong(p->raster.shape.view(), p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
+  hold_samples(p->raster.shape.view(), samples, {}, p->lengths);
+  return std::make_unique<OctreeField>(OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSlope, 1}, p);
+}
+
+/// Mean of |log(length / exact length)| at the samples.
+double mean_error(const SizeField& field, const std::vector<RasterBox>& boxes) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < boxes.size(); i += 7, ++n) {
+    double exact = kLargest;
+    for (const RasterBox& b : boxes) exact = std::min(exact, b.length + kSlope * distance(b.center, boxes[i].center));
+    sum += std::abs(std::log(field.size(boxes[i].center) / exact));
+  }
+  return sum / n;
+}
+
+TEST(SampleSeeds, keep_the_length_of_a_sphere_in_cells_many_times_as_large) {
+  for (const double cell_per_length : {4.0, 8.0}) {
+    const std::vector<RasterBox> boxes = graded_sphere(0.01, 0, cell_per_length);
+    const auto field = make_field(boxes, sorted_samples(boxes));
+    for (const RasterBox& b : boxes) ASSERT_NEAR(static_cast<const SizeField&>(*field).size(b.center), 0.01, 0.0002);
+  }
+}
+
+TEST(SampleSeeds, are_as_exact_in_large_cells_as_stored_lengths_in_small_ones) {
+  const std::vector<RasterBox> small = graded_sphere(0.004, 0.1, 1);
+  const auto fine = make_field(small, {});
+  const double fine_error = mean_error(*fine, small);
+  for (const double cell_per_length : {4.0, 8.0}) {
+    const std::vector<RasterBox> boxes = graded_sphere(0.004, 0.1, cell_per_length);
+    const auto field = make_field(boxes, sorted_samples(boxes)), without = make_field(boxes, {});
+    const double error = mean_error(*field, boxes);
+    EXPECT_LT(error, 0.01 * cell_per_length) << "cell_per_length 1 has " << fine_error;
+    EXPECT_LT(error, 0.5 * mean_error(*without, boxes));
+    EXPECT_LT(field->data().octree.n_leaves(), 1.5 / cell_per_length * fine->data().octree.n_leaves());
+  }
+}
+
+TEST(SampleSeeds, never_let_a_sample_have_more_than_its_length) {
+  std::vector<RasterBox> boxes = test::sphere_boxes(3000);
+  for (RasterBox& b : boxes) b.half *= 3;
+  const auto field = make_field(boxes, sorted_samples(boxes));
+  for (const RasterBox& b : boxes) ASSERT_LE(static_cast<const SizeField&>(*field).size(b.center), b.length * (1 + 1e-4));
+}
+
+TEST(SampleSeeds, do_not_depend_on_the_order_of_boxes) {
+  std::vector<RasterBox> boxes = test::sphere_boxes(2000);
+  for (RasterBox& b : boxes) b.half *= 2;
+  const auto a = make_field(boxes, sorted_samples(boxes));
+  std::shuffle(boxes.begin(), boxes.end(), std::mt19937(3));
+  const auto b = make_field(boxes, sorted_samples(boxes));
+  for (std::size_t i = 0; i < a->data().cells.size(); ++i) {
+    ASSERT_EQ(a->data().cells[i].length, b->data().cells[i].length);
+    ASSERT_EQ(a->data().cells[i].gradient[0], b->data().cells[i].gradient[0]);
+    ASSERT_EQ(a->data().cause[i], b->data().cause[i]);
+  }
+}
+
+TEST(SampleSeeds, leave_the_lengths_of_sources_alone) {
+  const std::vector<RasterBox> boxes = {{{0.2, 0.2, 0.2}, 0.1F, 0.02F, pack_cause(CauseKind::kFace, 0)},
+                                        {{0.8, 0.8, 0.8}, 0.1F, 0.01F, pack_cause(CauseKind::kSource, 3)}};
+  RasterOctree octree = build_octree(test::kUnitBox, boxes);
+  const std::int32_t leaf = octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
+  seed_lengths(sorted_samples({boxes.data(), 1}), kSlope, octree);
+  EXPECT_EQ(octree.stored_length[leaf], 0.01F);
+  EXPECT_EQ(octree.stored_cause[leaf], pack_cause(CauseKind::kSource, 3));
+}
+
+}  // namespace
+}  // namespace st
