@@ -247,7 +247,7 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     folds.insert(folds.end(), face_fold_places_[f].begin(), face_fold_places_[f].end());
     if (!face_cause_[f].empty())
-      failures.push_back({f, face_cause_[f], "repair the face in the CAD system, or ask for smaller sizes there", face_cause_xyz_[f]});
+      failures.push_back({f, face_cause_[f], remedy_of(face_cause_[f]), face_cause_xyz_[f]});
   }
   for (auto& [f, failed] : failed_faces_) failed_faces.push_back(std::move(failed));
 }

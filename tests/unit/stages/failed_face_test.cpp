@@ -1,0 +1,113 @@
+// What is kept of a face that could not be meshed.
+#include "stages/failed_face.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "base/log.h"
+#include "stages/model_mesher.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+/// A meshed model, so that its edges have nodes.
+struct Edges {
+  Model model;
+  UniformField field;
+  Communicator one_rank;
+  ModelMesher mesher;
+  BoundaryNumbering numbering;
+
+  explicit Edges(const std::string& shape)
+      : model(test::make_model(shape)), field(2), mesher(model, field, {}, {}, one_rank), numbering(run()) {}
+  BoundaryNumbering run() {
+    set_verbosity(Verbosity::kQuiet);
+    mesher.run();
+    return BoundaryNumbering(mesher.tables(), mesher.edges);
+  }
+};
+
+double length_of(const FailedFace& f) {
+  double length = 0;
+  for (std::size_t s = 0; s < f.segment_loop.size(); ++s)
+    length += distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]);
+  return length;
+}
+
+TEST(FailedFace, has_every_segment_of_its_loops_with_loop_and_edge) {
+  const Edges m("plate_with_hole");
+  const auto surface = m.model.surface(0);
+  const FailedFace f = describe_failure(m.numbering, 0, make_face_boundary(m.model, *surface, 0, m.numbering), {});
+  EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1) << "the rectangle and the hole";
+  EXPECT_EQ(std::set<std::int32_t>(f.segment_loop.begin(), f.segment_loop.end()), (std::set<std::int32_t>{0, 1}));
+  EXPECT_EQ(std::set<EdgeId>(f.segment_edge.begin(), f.segment_edge.end()).size(), 5u);
+  for (std::size_t s = 0; s < f.segment_loop.size(); ++s) {
+    const double t = m.model.tables().edge_length[f.segment_edge[s]];
+    EXPECT_LT(distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]), t) << "a segment of another edge";
+  }
+  for (std::size_t i = 0; i < f.xyz.size(); ++i) EXPECT_LT(distance(surface->point(f.uv[i]), f.xyz[i]), 1e-6);
+}
+
+TEST(FailedFace, has_a_seam_twice) {
+  const Edges m("cylinder");
+  for (FaceId face = 0; face < 3; ++face) {
+    const auto surface = m.model.surface(face);
+    if (surface->type() != SurfaceType::kCylinder) continue;
+    const FailedFace f = describe_failure(m.numbering, face, make_face_boundary(m.model, *surface, face, m.numbering), {});
+    EXPECT_NEAR(length_of(f), 2 * 30 + 2 * 20 * kPi, 2);
+  }
+}
+
+TEST(FailedFace, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) {
+  const Edges m("plate_with_hole");
+  const FailedFace f = describe_failure(m.numbering, 0, {}, {});
+  EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1);
+  for (const Vec2 uv : f.uv) EXPECT_TRUE(std::isnan(uv.x) && std::isnan(uv.y));
+  EXPECT_EQ(f.uv.size(), f.xyz.size());
+}
+
+TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) {
+  const Edges m("square");
+  const auto surface = m.model.surface(0);
+  const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
+  FaceMesh mesh = mesh_face(*surface, boundary, m.field, {});
+  const std::size_t n_triangles = mesh.corners.size() / 3;
+  mesh.corners.insert(mesh.corners.end(), {0, 1, kNone});
+  mesh.refinement.push_back({{1, 2, 3}, 1});
+  const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh);
+  ASSERT_EQ(f.triangles.size(), n_triangles);
+  double area = 0;
+  for (const Triangle& t : f.triangles) area += 0.5 * norm(cross(f.xyz[t.n[1]] - f.xyz[t.n[0]], f.xyz[t.n[2]] - f.xyz[t.n[0]]));
+  EXPECT_NEAR(area, 100, 1e-9);
+  ASSERT_EQ(f.places.size(), 1u);
+  EXPECT_TRUE(f.places[0] == (Vec3{1, 2, 3}));
+}
+
+TEST(FailedFace, survives_the_way_between_ranks) {
+  const Edges m("plate_with_hole");
+  const auto surface = m.model.surface(0);
+  const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
+  const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh_face(*surface, boundary, m.field, {}));
+  Packer packer;
+  pack(packer, f);
+  const Bytes bytes = packer.take();
+  Unpacker unpacker(bytes);
+  FailedFace g;
+  unpack(unpacker, g);
+  EXPECT_TRUE(unpacker.is_empty());
+  EXPECT_EQ(g.segment_nodes, f.segment_nodes);
+  EXPECT_EQ(g.segment_edge, f.segment_edge);
+  EXPECT_EQ(g.size, f.size);
+  EXPECT_EQ(g.triangles.size(), f.triangles.size());
+}
+
+TEST(FailedFace, has_a_remedy_for_its_cause) {
+  EXPECT_NE(remedy_of("its loops cross or touch in (u,v)"), remedy_of("too few nodes around a narrow part"));
+  EXPECT_FALSE(remedy_of("anything else").empty());
+}
+
+}  // namespace
+}  // namespace st
