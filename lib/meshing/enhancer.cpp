@@ -15,6 +15,7 @@ constexpr int kPrev[3] = {2, 0, 1};
 constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
 constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
+constexpr double kSteepCosine = 0.5;     // between a triangle's normal and the surface's: less costs quality
 constexpr float kNoTriangle = 2;        // quality of what is outside or gone
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
@@ -57,16 +58,19 @@ class Enhancer {
 
   bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
 
-  /// 4 sqrt(3) A / sum l^2 in space, negative where the triangle is turned against the surface.
+  /// 4 sqrt(3) A / sum l^2 in space, less where the normal is far off the surface's, negative where it is turned against it.
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
     const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
     const Vec3 n = cross(ab, ac);
     const double sum = norm2(ab) + norm2(ac) + norm2(bc);
     if (!(sum > 0)) return 0;
-    const double q = 3.4641016151377544 * norm(n) / sum;
-    if (dot(n, a.normal) >= 0 && dot(n, b.normal) >= 0 && dot(n, c.normal) >= 0) return q;
+    const double area = norm(n), q = 3.4641016151377544 * area / sum;
+    const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
+    if (least >= kSteepCosine * area) return q;
     const Vec3 mean = a.normal + b.normal + c.normal;
-    return dot(n, mean) > 0.2 * norm(n) * norm(mean) ? 0.5 * q : -1 + q;
+    const double cosine = dot(n, mean) / std::max(area * norm(mean), 1e-300);
+    if (least >= 0) return q * std::clamp(cosine / kSteepCosine, 0.0, 1.0);
+    return cosine > 0.2 ? 0.5 * q : -1 + q;
   }
   double quality(std::int32_t a, std::int32_t b, std::int32_t c) const { return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]); }
 
