@@ -95,8 +95,8 @@ void require_writable(const std::string& path);
 /// Throws Error(kUsage) unless the suffix is one that export_mesh knows.
 void require_export_suffix(const std::string& path);
 
-/// Exports by suffix: .stl (binary, one solid), .vtu (with face, group, size), .obj, .ply. Throws Error(kUsage) for an unknown suffix,
-/// Error(kOutput).
+/// Exports by suffix: .stl (binary, one solid), .ascii.stl (one solid per group), .vtu, .obj, .ply, .msh (Gmsh 4.1), .fro; names of faces,
+/// groups and parts go into all that can hold them (docs/st-export.md). Throws Error(kUsage) for an unknown suffix, Error(kOutput).
 void export_mesh(const std::string& path, const SurfaceMesh& mesh);
 
 }  // namespace st

@@ -1,73 +1,29 @@
-// Meshes for other programs: STL, VTU, OBJ, PLY.
+// Meshes for other programs: STL, VTU, OBJ, PLY, MSH, FRO. VTU, MSH and FRO have files of their own.
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <charconv>
-#include <cstdio>
-#include <cstring>
 #include <map>
-#include <memory>
-#include <span>
-#include <string_view>
 
-#include "base/error.h"
 #include "io/artifact.h"
-#include "io/temporary_file.h"
+#include "io/export_formats.h"
+#include "io/face_numbers.h"
 
 namespace st {
-namespace {
 
 static_assert(std::endian::native == std::endian::little, "the binary formats below are written as they are in memory");
-
-/// A buffered file that appears only when it is complete. All functions throw Error(kOutput).
-class Output {
- public:
-  explicit Output(const std::string& path) : temporary_(path), file_(std::fopen(temporary_.name().c_str(), "wb")) {
-    if (!file_) fail();
-  }
-  ~Output() {
-    if (file_) std::fclose(file_);
-  }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-
-  void text(std::string_view text) { bytes(text.data(), text.size()); }
-  void bytes(const void* data, std::size_t n) {
-    if (n && std::fwrite(data, 1, n, file_) != n) fail();
-  }
-  template <class T>
-  void value(const T& v) {
-    bytes(&v, sizeof v);
-  }
-  template <class T>
-  void values(const std::vector<T>& v) {
-    bytes(v.data(), v.size() * sizeof(T));
-  }
-  void commit() {
-    const int status = std::fclose(std::exchange(file_, nullptr));
-    if (status != 0) fail();
-    temporary_.commit();
-  }
-
- private:
-  [[noreturn]] void fail() const {
-    throw Error(ExitCode::kOutput,
-                temporary_.path() + ": cannot be written (" + std::strerror(errno) + "); free some space or choose another directory");
-  }
-  TemporaryFile temporary_;
-  std::FILE* file_ = nullptr;
-};
-
-/// Shortest text that reads back as the same number.
-std::string number(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 Vec3 triangle_normal(const SurfaceMesh& m, const Triangle& t) {
   const Vec3 a = m.node_xyz[t.n[0]];
   return normalized(cross(m.node_xyz[t.n[1]] - a, m.node_xyz[t.n[2]] - a));
+}
+
+std::string clean_name(std::string name, bool is_word) {
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7f || (is_word && byte == ' ')) c = '_';
+    if (c == '"') c = '\'';
+  }
+  return name;
 }
 
 /// Binary STL: one solid, 32-bit coordinates.
@@ -88,18 +44,51 @@ void export_stl(Output& out, const SurfaceMesh& m) {
   }
 }
 
-/// "face_17_WING_UPPER": one word, whatever the name has in it.
-std::string one_word(const std::string& prefix, FaceId id, const std::vector<std::string>& names) {
-  std::string word = prefix + std::to_string(id + 1);
-  if (id < 0 || static_cast<std::size_t>(id) >= names.size() || names[id].empty()) return word;
-  word += '_';
-  word += names[id];
-  std::replace_if(
-      word.begin(), word.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
-  return word;
+/// ASCII STL: one solid per group, in the order of the groups, shortest text of the coordinates that reads back exactly.
+void export_ascii_stl(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  std::vector<std::vector<TriangleId>> of_group(m.group_name.size());
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) of_group[m.triangle_group[i]].push_back(static_cast<TriangleId>(i));
+  for (std::size_t g = 0; g < of_group.size(); ++g) {
+    const std::string name = clean_name(m.group_name[g], true);
+    text << "solid " << name << "\n";
+    for (const TriangleId t : of_group[g]) {
+      const Vec3 n = triangle_normal(m, m.triangles[t]);
+      text << "facet normal " << n.x << " " << n.y << " " << n.z << "\nouter loop\n";
+      for (const NodeId node : m.triangles[t].n) {
+        const Vec3& p = m.node_xyz[node];
+        text << "vertex " << p.x << " " << p.y << " " << p.z << "\n";
+      }
+      text << "endloop\nendfacet\n";
+    }
+    text << "endsolid " << name << "\n";
+  }
+  text.flush();
 }
 
-/// Wavefront OBJ: one group per CAD face. Triangles of a face follow one another in a canonical mesh.
+/// "face_17_WING_UPPER": one word, whatever the name has in it.
+static std::string one_word(const std::string& prefix, std::int32_t id, const std::vector<std::string>& names) {
+  std::string word = prefix + std::to_string(id + 1);
+  if (id < 0 || static_cast<std::size_t>(id) >= names.size() || names[id].empty()) return word;
+  return word + "_" + clean_name(names[id], true);
+}
+
+/// "face_17_WING_UPPER group_2_WING part_3_as1/bolt" of a triangle.
+static std::string obj_groups(const SurfaceMesh& m, const std::vector<FaceNumbers>& divisions, std::size_t triangle) {
+  const FaceId face = m.triangle_face[triangle];
+  std::string words = one_word("face_", face, m.face_name);
+  const auto add = [&](const std::string& what, std::int32_t number, const std::vector<std::string>& names) {
+    words += ' ';
+    words += one_word(what + "_", number, names);
+  };
+  add("group", m.triangle_group[triangle], m.group_name);
+  for (const FaceNumbers& d : divisions)
+    if ((*d.of_face)[face] != kNone) add(d.name, (*d.of_face)[face], *d.names);
+  return words;
+}
+
+/// Wavefront OBJ: groups of each CAD face, its group, part and groups of further tables. Triangles of a face follow one another in a
+/// canonical mesh.
 void export_obj(Output& out, const SurfaceMesh& m) {
   std::string buffer = "# surface mesh\n";
   const auto flush = [&] {
@@ -111,8 +100,9 @@ void export_obj(Output& out, const SurfaceMesh& m) {
     if (buffer.size() > 60000) flush();
   }
   FaceId last = kNone;
+  const std::vector<FaceNumbers> divisions = face_numbers(m);
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {
-    if (m.triangle_face[i] != last) buffer += "g " + one_word("face_", m.triangle_face[i], m.face_name) + "\n";
+    if (m.triangle_face[i] != last) buffer += "g " + obj_groups(m, divisions, i) + "\n";
     last = m.triangle_face[i];
     buffer += "f";
     for (const NodeId n : m.triangles[i].n) (buffer += ' ') += std::to_string(n + 1);
@@ -122,12 +112,26 @@ void export_obj(Output& out, const SurfaceMesh& m) {
   flush();
 }
 
-/// Binary PLY with the CAD face and the group of each triangle and the requested length of each node.
+/// Binary PLY with the CAD face and the group of each triangle, parts and further tables, and the requested length of each node. Names are
+/// comments: "comment group 2 WING".
 void export_ply(Output& out, const SurfaceMesh& m) {
-  out.text("ply\nformat binary_little_endian 1.0\ncomment surface mesh\nelement vertex " + std::to_string(m.n_nodes()) +
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment surface mesh\n",
+              properties = "property int face\nproperty int group\n";
+  const auto add_names = [&](const std::string& what, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (!names[i].empty()) header += "comment " + what + " " + std::to_string(i + 1) + " " + clean_name(names[i], false) + "\n";
+  };
+  add_names("face", m.face_name);
+  add_names("group", m.group_name);
+  std::vector<std::vector<std::int32_t>> numbers;
+  for (const FaceNumbers& d : face_numbers(m)) {
+    add_names(d.name, *d.names);
+    properties += "property int " + d.name + "\n";
+    numbers.push_back(triangle_numbers(m, d));
+  }
+  out.text(header + "element vertex " + std::to_string(m.n_nodes()) +
            "\nproperty double x\nproperty double y\nproperty double z\nproperty double size\nelement face " +
-           std::to_string(m.n_triangles()) +
-           "\nproperty list uchar int vertex_indices\nproperty int face\nproperty int group\nend_header\n");
+           std::to_string(m.n_triangles()) + "\nproperty list uchar int vertex_indices\n" + properties + "end_header\n");
   for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
     out.value(m.node_xyz[i]);
     out.value(m.node_size[i]);
@@ -137,77 +141,26 @@ void export_ply(Output& out, const SurfaceMesh& m) {
     out.value(m.triangles[i]);
     out.value(m.triangle_face[i] + 1);
     out.value(m.triangle_group[i] + 1);
+    for (const auto& of_triangle : numbers) out.value(of_triangle[i]);
   }
 }
 
-/// VTU arrays, appended raw: the header refers to offsets into the block behind it.
-class VtuArrays {
- public:
-  /// The DataArray element for `values`, which must outlive this object.
-  template <class T>
-  std::string add(const char* type, const char* name, int n_components, const std::vector<T>& values) {
-    const std::string element = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-                                std::to_string(n_components) + "\" format=\"appended\" offset=\"" + std::to_string(n_bytes_) + "\"/>\n";
-    blocks_.emplace_back(values.data(), values.size() * sizeof(T));
-    n_bytes_ += sizeof(std::uint64_t) + blocks_.back().second;
-    return element;
-  }
-  void write(Output& out) const {
-    out.text("<AppendedData encoding=\"raw\">\n_");
-    for (const auto& [data, n] : blocks_) {
-      out.value(std::uint64_t{n});
-      out.bytes(data, n);
-    }
-    out.text("\n</AppendedData>\n");
-  }
-
- private:
-  std::vector<std::pair<const void*, std::size_t>> blocks_;
-  std::size_t n_bytes_ = 0;
-};
-
-std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
-  std::vector<std::int32_t> shifted(ids);
-  for (std::int32_t& id : shifted) ++id;
-  return shifted;
-}
-
-void export_vtu(Output& out, const SurfaceMesh& m) {
-  std::vector<std::int32_t> connectivity;
-  std::vector<std::int64_t> offsets;
-  for (const Triangle& t : m.triangles) {
-    connectivity.insert(connectivity.end(), t.n, t.n + 3);
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-  }
-  const std::vector<std::uint8_t> types(m.triangles.size(), 5);
-  const std::vector<std::int32_t> face = one_based(m.triangle_face), group = one_based(m.triangle_group), entity = one_based(m.node_entity);
-  VtuArrays arrays;
-  out.text(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n");
-  out.text("<Piece NumberOfPoints=\"" + std::to_string(m.n_nodes()) + "\" NumberOfCells=\"" + std::to_string(m.n_triangles()) + "\">\n");
-  out.text("<Points>\n" + arrays.add("Float64", "Points", 3, m.node_xyz) + "</Points>\n");
-  out.text("<Cells>\n" + arrays.add("Int32", "connectivity", 1, connectivity) + arrays.add("Int64", "offsets", 1, offsets) +
-           arrays.add("UInt8", "types", 1, types) + "</Cells>\n");
-  out.text("<CellData>\n" + arrays.add("Int32", "face", 1, face) + arrays.add("Int32", "group", 1, group) + "</CellData>\n");
-  out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) + arrays.add("Int32", "entity_id", 1, entity) +
-           arrays.add("Float64", "size", 1, m.node_size) + "</PointData>\n");
-  out.text("</Piece>\n</UnstructuredGrid>\n");
-  arrays.write(out);
-  out.text("</VTKFile>\n");
-}
+namespace {
 
 using Exporter = void (*)(Output&, const SurfaceMesh&);
 
 Exporter exporter_of(const std::string& path) {
-  static const std::map<std::string, Exporter> exporters = {
-      {".stl", export_stl}, {".vtu", export_vtu}, {".obj", export_obj}, {".ply", export_ply}};
-  const std::size_t dot = path.rfind('.');
-  std::string suffix = dot == std::string::npos || path.find('/', dot) != std::string::npos ? "" : path.substr(dot);
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static const std::map<std::string, Exporter> exporters = {{".stl", export_stl}, {".vtu", export_vtu}, {".obj", export_obj},
+                                                            {".ply", export_ply}, {".msh", export_msh}, {".fro", export_fro}};
+  std::string name = path.substr(path.rfind('/') + 1);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".ascii.stl")) return export_ascii_stl;
+  const std::size_t dot = name.rfind('.');
+  const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
   const auto it = exporters.find(suffix);
   if (it == exporters.end())
-    throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "' for an export; use .stl, .vtu, .obj or .ply");
+    throw Error(ExitCode::kUsage,
+                path + ": unknown suffix '" + suffix + "' for an export; use .stl, .ascii.stl, .vtu, .obj, .ply, .msh or .fro");
   return it->second;
 }
 

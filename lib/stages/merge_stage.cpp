@@ -118,9 +118,7 @@ void require_complete(const PatchesArtifact& patches, const MergeStageOptions& o
 void require_outputs(const MergeStageOptions& options) {
   require_writable(options.output);
   for (const std::string& path : options.exports) {
-    const std::string suffix = std::filesystem::path(path).extension().string();
-    if (suffix != ".stl" && suffix != ".vtu" && suffix != ".obj" && suffix != ".ply")
-      throw Error(ExitCode::kUsage, fmt::format("{}: no export for the suffix \"{}\"; use .stl, .vtu, .obj or .ply", path, suffix));
+    require_export_suffix(path);
     require_writable(path);
   }
 }

@@ -15,9 +15,10 @@ except ImportError as error:
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.2, 1)]
 TRIANGLES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
-CELL_DATA = {"face": [1, 2, 3, 4], "group": [1, 1, 2, 2]}
+CELL_DATA = {"face": [1, 2, 3, 4], "group": [1, 1, 2, 2], "part": [0, 1, 2, 0], "group_table": [2, 3, 0, 1]}
 POINT_DATA = {"entity_dim": [0, 0, 1, 2], "entity_id": [1, 2, 5, 4], "size": [1, 1.5, 1, 2]}
-FIELD_DATA = {"face_name": ["bottom", "", "Flügel", "a b"], "group_name": ["body", "wing"]}
+FIELD_DATA = {"face_name": ["bottom", "", "Flügel", "a b"], "group_name": ["body", "wing"],
+              "part_name": ["Träger/bolt#1", "Träger/bolt#2"], "group_table_name": ["hot", "cold", "Öl"]}
 READERS = {"hdf": vtkHDFReader, "vtu": vtkXMLUnstructuredGridReader, "stl": vtkSTLReader, "obj": vtkOBJReader, "ply": vtkPLYReader}
 
 
@@ -72,14 +73,19 @@ def main():
         if kind in ("hdf", "vtu"):
             assert [mesh.GetPoint(i) for i in range(mesh.GetNumberOfPoints())] == POINTS
             check_data(mesh.GetCellData(), CELL_DATA)
-        if kind == "vtu":
-            check_data(mesh.GetPointData(), POINT_DATA)
-        if kind == "hdf":
             check_data(mesh.GetPointData(), POINT_DATA)
             check_data(mesh.GetFieldData(), FIELD_DATA)
         if kind == "obj":
             assert sum(line.startswith("g face_") for line in open(f"{folder}/mesh.obj")) == 4
-            assert "g face_4_a_b\n" in open(f"{folder}/mesh.obj")
+            assert "g face_4_a_b group_2_wing group_table_1_hot\n" in open(f"{folder}/mesh.obj")
+            assert "g face_3_Flügel group_2_wing part_2_Träger/bolt#2\n" in open(f"{folder}/mesh.obj")
+        if kind == "ply":
+            header = open(f"{folder}/mesh.ply", "rb").read().split(b"end_header")[0].decode()
+            for line in ("comment group 2 wing", "comment face 3 Flügel", "comment part 1 Träger/bolt#1", "property int group_table"):
+                assert line in header, header
+        if kind == "stl":  # in the order of groups, which is that of the triangles here
+            check_geometry(read(f"{folder}/mesh.ascii.stl", kind))
+            assert [line.split()[1] for line in open(f"{folder}/mesh.ascii.stl") if line.startswith("solid")] == ["body", "wing"]
     print(f"{kind}: read as written")
 
 

@@ -11,18 +11,18 @@ namespace {
 
 TEST(Export, knows_formats_by_suffix_whatever_its_case) {
   TemporaryDirectory dir;
-  for (const char* name : {"m.stl", "m.VTU", "m.Obj", "m.ply"}) {
+  for (const char* name : {"m.stl", "m.VTU", "m.Obj", "m.ply", "m.msh", "m.fro", "m.ASCII.stl"}) {
     EXPECT_NO_THROW(require_export_suffix(dir / name));
     export_mesh(dir / name, sample_mesh().mesh);
-    EXPECT_GT(read_bytes(dir / name).size(), 100u) << name;
+    EXPECT_GT(read_bytes(dir / name).size(), 80u) << name;
   }
-  EXPECT_EQ(dir.files().size(), 4u);
+  EXPECT_EQ(dir.files().size(), 7u);
 }
 
 TEST(Export, refuses_unknown_suffixes_before_writing) {
   TemporaryDirectory dir;
   for (const char* name : {"m.xyz", "m", "m.", "m.stl.gz"}) {
-    EXPECT_ERROR(require_export_suffix(dir / name), kUsage, "use .stl, .vtu, .obj or .ply");
+    EXPECT_ERROR(require_export_suffix(dir / name), kUsage, "use .stl, .ascii.stl, .vtu, .obj, .ply, .msh or .fro");
     EXPECT_ERROR(export_mesh(dir / name, sample_mesh().mesh), kUsage, name);
   }
   EXPECT_ERROR(require_export_suffix("folder.stl/m"), kUsage, "unknown suffix ''");
@@ -38,7 +38,7 @@ TEST(Export, leaves_nothing_when_it_cannot_write) {
 
 TEST(Export, writes_equal_meshes_as_equal_bytes) {
   TemporaryDirectory dir;
-  for (const char* suffix : {".stl", ".vtu", ".obj", ".ply"}) {
+  for (const char* suffix : {".stl", ".ascii.stl", ".vtu", ".obj", ".ply", ".msh", ".fro"}) {
     export_mesh(dir / "a" + suffix, sample_mesh().mesh);
     export_mesh(dir / "b" + suffix, sample_mesh().mesh);
     EXPECT_EQ(read_bytes(dir / "a" + suffix), read_bytes(dir / "b" + suffix)) << suffix;
@@ -73,6 +73,44 @@ TEST(Export, writes_obj_coordinates_that_read_back_exactly) {
     EXPECT_TRUE(p == m.node_xyz[n++]);
   }
   EXPECT_EQ(n, m.node_xyz.size());
+}
+
+TEST(Export, writes_a_solid_for_each_group_into_ascii_stl) {
+  TemporaryDirectory dir;
+  MeshArtifact sample = sample_mesh();
+  sample.mesh.group_name[1] = "wing \t\"left\"";
+  sample.mesh.triangle_group = {0, 1, 0, 1};
+  export_mesh(dir / "m.ascii.stl", sample.mesh);
+  const std::string text = read_bytes(dir / "m.ascii.stl");
+  const std::size_t second = text.find("solid wing__'left'\n");
+  ASSERT_NE(second, std::string::npos) << text;
+  EXPECT_EQ(text.find("solid body\n"), 0u);
+  const auto count = [](std::string_view in, std::string_view what) {
+    int n = 0;
+    for (std::size_t at = in.find(what); at != std::string_view::npos; at = in.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(std::string_view(text).substr(0, second), "facet normal"), 2);
+  EXPECT_EQ(count(text, "facet normal"), 4);
+  EXPECT_EQ(count(text, "vertex 0.1 0.2 1\n"), 3);
+}
+
+TEST(Export, writes_every_division_of_the_faces_as_physical_surfaces_of_msh) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.msh", sample_mesh().mesh);
+  const std::string text = read_bytes(dir / "m.msh");
+  EXPECT_NE(text.find("$PhysicalNames\n7\n2 1 \"body\"\n2 2 \"wing\"\n2 3 \"part:Träger/bolt#1\"\n2 4 \"part:Träger/bolt#2\"\n"
+                      "2 5 \"group_table:hot\"\n2 6 \"group_table:cold\"\n2 7 \"group_table:Öl\"\n$End"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("2 0 0 0 1 0.2 1 3 1 3 7 0\n"), std::string::npos) << "face 2 is of body, the first part and Öl: " << text;
+}
+
+TEST(Export, writes_the_cad_face_of_each_triangle_into_fro) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.fro", sample_mesh().mesh);
+  EXPECT_EQ(read_bytes(dir / "m.fro"),
+            "4 4 1 0 0 4 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.1 0.2 1\n1 1 3 2 1\n2 1 2 4 2\n3 2 3 4 3\n4 3 1 4 4\n");
 }
 
 }  // namespace

@@ -1,0 +1,149 @@
+// Gmsh's .msh, version 4.1, text: each CAD face is a surface, groups of all tables and parts are physical surfaces.
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "io/export_formats.h"
+#include "io/face_numbers.h"
+
+namespace st {
+namespace {
+
+constexpr int kTriangle = 2;  // Gmsh's element type
+
+/// Nodes of one entity: a run, since nodes are in the order of their entities.
+struct NodeRun {
+  int dim = 0;
+  std::int32_t entity = 0;
+  std::size_t begin = 0, end = 0;
+};
+
+std::vector<NodeRun> node_runs(const SurfaceMesh& m) {
+  std::vector<NodeRun> runs;
+  for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
+    const int dim = m.node_entity_dim[i];
+    if (runs.empty() || runs.back().dim != dim || runs.back().entity != m.node_entity[i]) runs.push_back({dim, m.node_entity[i], i, i});
+    runs.back().end = i + 1;
+  }
+  return runs;
+}
+
+/// A run of triangles of one face.
+struct TriangleRun {
+  FaceId face = 0;
+  std::size_t begin = 0, end = 0;
+};
+
+std::vector<TriangleRun> triangle_runs(const SurfaceMesh& m) {
+  std::vector<TriangleRun> runs;
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    if (runs.empty() || runs.back().face != m.triangle_face[i]) runs.push_back({m.triangle_face[i], i, i});
+    runs.back().end = i + 1;
+  }
+  return runs;
+}
+
+/// Physical surfaces: names and, for each face, numbers. Main groups first, from 1, then parts and further tables, their names with a
+/// prefix.
+class Physicals {
+ public:
+  explicit Physicals(const SurfaceMesh& m) : divisions_(face_numbers(m)) {
+    for (const std::string& name : m.group_name) names_.push_back(clean_name(name, false));
+    for (const FaceNumbers& d : divisions_) {
+      first_.push_back(static_cast<std::int32_t>(names_.size()) + 1);
+      for (const std::string& name : *d.names) names_.push_back(d.name + ":" + clean_name(name, false));
+    }
+  }
+  const std::vector<std::string>& names() const { return names_; }
+  std::vector<std::int64_t> of_face(FaceId face, std::int32_t group) const {
+    std::vector<std::int64_t> tags = {group + 1};
+    for (std::size_t i = 0; i < divisions_.size(); ++i)
+      if (const std::int32_t number = (*divisions_[i].of_face)[face]; number != kNone) tags.push_back(first_[i] + number);
+    return tags;
+  }
+
+ private:
+  std::vector<FaceNumbers> divisions_;
+  std::vector<std::string> names_;
+  std::vector<std::int32_t> first_;
+};
+
+/// Boxes of the entities of one dimension: their own nodes, and for faces the corners of their triangles.
+std::map<std::int32_t, Box3> entity_boxes(const SurfaceMesh& m, const std::vector<NodeRun>& runs, int dim) {
+  std::map<std::int32_t, Box3> boxes;
+  for (const NodeRun& run : runs)
+    for (std::size_t i = run.begin; run.dim == dim && i < run.end; ++i) boxes[run.entity].add(m.node_xyz[i]);
+  for (std::size_t t = 0; dim == 2 && t < m.triangles.size(); ++t)
+    for (const NodeId n : m.triangles[t].n) boxes[m.triangle_face[t]].add(m.node_xyz[n]);
+  return boxes;
+}
+
+void write_entities(TextBuffer& text, const SurfaceMesh& m, const std::vector<NodeRun>& runs, const Physicals& physicals) {
+  std::array<std::map<std::int32_t, Box3>, 3> boxes;
+  for (int dim = 0; dim < 3; ++dim) boxes[dim] = entity_boxes(m, runs, dim);
+  std::map<FaceId, std::int32_t> group;
+  for (std::size_t t = 0; t < m.triangles.size(); ++t) group.emplace(m.triangle_face[t], m.triangle_group[t]);
+  text << "$Entities\n";
+  for (const auto& of_dim : boxes) text << static_cast<std::int64_t>(of_dim.size()) << " ";
+  text << "0\n";
+  for (int dim = 0; dim < 3; ++dim) {
+    for (const auto& [entity, box] : boxes[dim]) {
+      text << std::int64_t{entity + 1} << " " << box.lo.x << " " << box.lo.y << " " << box.lo.z;
+      if (dim > 0) text << " " << box.hi.x << " " << box.hi.y << " " << box.hi.z;
+      const auto known = group.find(entity);
+      const std::vector<std::int64_t> tags =
+          dim == 2 && known != group.end() ? physicals.of_face(entity, known->second) : std::vector<std::int64_t>();
+      text << " " << static_cast<std::int64_t>(tags.size());
+      for (const std::int64_t tag : tags) text << " " << tag;
+      text << (dim > 0 ? " 0\n" : "\n");
+    }
+  }
+  text << "$EndEntities\n";
+}
+
+void write_nodes(TextBuffer& text, const SurfaceMesh& m, const std::vector<NodeRun>& runs) {
+  text << "$Nodes\n"
+       << static_cast<std::int64_t>(runs.size()) << " " << m.n_nodes() << " " << std::int64_t{m.n_nodes() > 0} << " " << m.n_nodes()
+       << "\n";
+  for (const NodeRun& run : runs) {
+    text << std::int64_t{run.dim} << " " << std::int64_t{run.entity + 1} << " 0 " << static_cast<std::int64_t>(run.end - run.begin) << "\n";
+    for (std::size_t i = run.begin; i < run.end; ++i) text << static_cast<std::int64_t>(i + 1) << "\n";
+    for (std::size_t i = run.begin; i < run.end; ++i) text << m.node_xyz[i].x << " " << m.node_xyz[i].y << " " << m.node_xyz[i].z << "\n";
+  }
+  text << "$EndNodes\n";
+}
+
+void write_elements(TextBuffer& text, const SurfaceMesh& m) {
+  const std::vector<TriangleRun> runs = triangle_runs(m);
+  text << "$Elements\n"
+       << static_cast<std::int64_t>(runs.size()) << " " << m.n_triangles() << " " << std::int64_t{m.n_triangles() > 0} << " "
+       << m.n_triangles() << "\n";
+  for (const TriangleRun& run : runs) {
+    text << "2 " << std::int64_t{run.face + 1} << " " << std::int64_t{kTriangle} << " " << static_cast<std::int64_t>(run.end - run.begin)
+         << "\n";
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      text << static_cast<std::int64_t>(i + 1);
+      for (const NodeId n : m.triangles[i].n) text << " " << std::int64_t{n + 1};
+      text << "\n";
+    }
+  }
+  text << "$EndElements\n";
+}
+
+}  // namespace
+
+void export_msh(Output& out, const SurfaceMesh& m) {
+  const std::vector<NodeRun> runs = node_runs(m);
+  const Physicals physicals(m);
+  TextBuffer text(out);
+  text << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" << static_cast<std::int64_t>(physicals.names().size()) << "\n";
+  for (std::size_t i = 0; i < physicals.names().size(); ++i)
+    text << "2 " << static_cast<std::int64_t>(i + 1) << " \"" << physicals.names()[i] << "\"\n";
+  text << "$EndPhysicalNames\n";
+  write_entities(text, m, runs, physicals);
+  write_nodes(text, m, runs);
+  write_elements(text, m);
+  text.flush();
+}
+
+}  // namespace st
