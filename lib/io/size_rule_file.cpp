@@ -14,7 +14,7 @@
 namespace st {
 namespace {
 
-constexpr const char* kKeys = "groups, faces, edges, between, for, sample, lmin, lmax, alpha, chord";
+constexpr const char* kKeys = "groups, faces, edges, between, for, sample, lmin, lmax, alpha, chord, gap_cells";
 
 std::string read_text(const std::string& path) {
   std::error_code none;
@@ -33,8 +33,8 @@ class RuleReader {
 
   SizeRule run() {
     for (const auto& [key, node] : table_) read(std::string(key.str()), node);
-    const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg;
-    if (!asks) fail(table_, "the rule asks for nothing; give lmin, lmax, alpha, chord or sample");
+    const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg || rule_.gap_cells;
+    if (!asks) fail(table_, "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells or sample");
     return std::move(rule_);
   }
 
@@ -65,6 +65,8 @@ class RuleReader {
       rule_.chord = length(key, node);
     else if (key == "alpha")
       read_alpha(node);
+    else if (key == "gap_cells")
+      rule_.gap_cells = count(key, node);
     else
       fail(node, "unknown key '" + key + "' of a [[size]]; allowed are " + kKeys);
   }
@@ -108,6 +110,12 @@ class RuleReader {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value > 0 && *value <= 90)) fail(node, "alpha: takes degrees in (0, 90]");
     rule_.alpha_deg = *value;
+  }
+
+  int count(const std::string& key, const toml::node& node) const {
+    const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+    if (!value || *value < 0 || *value > 100) fail(node, key + ": takes a whole number in [1, 100], or 0 for off");
+    return static_cast<int>(*value);
   }
 
   LengthSpec length(const std::string& key, const toml::node& node) const {

@@ -1,150 +1,123 @@
 #include "sizing/gap_sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace st {
 namespace {
 
-constexpr double kFacing = -0.71;   // cosine between normals: facing surfaces are below (a V of 60 degrees is no gap)
 constexpr double kTouching = 1e-3;  // of the smallest length: nearer surfaces touch
 constexpr double kFill = 0.9;       // largest side of a tile over the edge of its raster box
-constexpr int kMaxDepth = 10;       // halvings of the square around a disc
-constexpr std::size_t kLeafDiscs = 4;
+constexpr double kLarge = 2.5;      // times this patch: its corners may miss this one
+constexpr int kMaxDepth = 8;        // of tiles in tiles
+constexpr int kMaxParts = 4;        // into which a tile is cut each way at once
+constexpr int kFirstParts = 2;
 
-/// Binary tree of boxes around discs, halved at the median of the longest side.
-class DiscTree {
- public:
-  explicit DiscTree(const std::vector<FaceDisc>& discs) : discs_(discs), order_(discs.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    if (!discs.empty()) build(0, discs.size());
-  }
-
-  /// Distance from x, along +-normal, to the next disc facing `normal`; `reach` when there is none nearer.
-  double gap(const Vec3& x, const Vec3& normal, double nearest, double reach) const {
-    if (!nodes_.empty()) search(0, x, normal, nearest, reach);
-    return reach;
-  }
-
- private:
-  struct Node {
-    Box3 box;
-    std::size_t begin = 0, end = 0;
-    std::size_t right = 0;  // index of the right child, the left one follows its parent; 0: a leaf
-  };
-
-  std::size_t build(std::size_t begin, std::size_t end) {
-    const std::size_t index = nodes_.size();
-    nodes_.push_back({{}, begin, end, 0});
-    Box3 box, centres;
-    for (std::size_t i = begin; i < end; ++i) {
-      const FaceDisc& d = discs_[order_[i]];
-      const Vec3 half{d.radius, d.radius, d.radius};
-      box.add(d.x - half);
-      box.add(d.x + half);
-      centres.add(d.x);
-    }
-    nodes_[index].box = box;
-    if (end - begin <= kLeafDiscs) return index;
-    const Vec3 size = centres.hi - centres.lo;
-    const auto coordinate = [&](std::size_t i) {
-      const Vec3& x = discs_[i].x;
-      return size.x >= size.y && size.x >= size.z ? x.x : size.y >= size.z ? x.y : x.z;
-    };
-    const std::size_t middle = (begin + end) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) {
-      const double xa = coordinate(a), xb = coordinate(b);
-      return xa != xb ? xa < xb : a < b;
-    });
-    build(begin, middle);
-    const std::size_t right = build(middle, end);
-    nodes_[index].right = right;
-    return index;
-  }
-
-  /// Does the segment from x - reach n to x + reach n meet the box?
-  static bool meets(const Box3& box, const Vec3& x, const Vec3& n, double reach) {
-    double t0 = -reach, t1 = reach;
-    const auto clip = [&](double lo, double hi, double at, double direction) {
-      if (std::abs(direction) < 1e-12) return at >= lo && at <= hi;
-      const double a = (lo - at) / direction, b = (hi - at) / direction;
-      t0 = std::max(t0, std::min(a, b));
-      t1 = std::min(t1, std::max(a, b));
-      return t0 <= t1;
-    };
-    return clip(box.lo.x, box.hi.x, x.x, n.x) && clip(box.lo.y, box.hi.y, x.y, n.y) && clip(box.lo.z, box.hi.z, x.z, n.z);
-  }
-
-  void search(std::size_t index, const Vec3& x, const Vec3& normal, double nearest, double& reach) const {
-    const Node& node = nodes_[index];
-    if (!meets(node.box, x, normal, reach)) return;
-    if (node.right) {
-      search(index + 1, x, normal, nearest, reach);
-      search(node.right, x, normal, nearest, reach);
-      return;
-    }
-    for (std::size_t i = node.begin; i < node.end; ++i) {
-      const FaceDisc& d = discs_[order_[i]];
-      const double cosine = dot(d.normal, normal);
-      if (cosine > kFacing) continue;
-      const double t = dot(d.x - x, d.normal) / cosine;
-      if (std::abs(t) > nearest && std::abs(t) < reach && distance(x + t * normal, d.x) <= d.radius) reach = std::abs(t);
-    }
-  }
-
-  const std::vector<FaceDisc>& discs_;
-  std::vector<std::size_t> order_;
-  std::vector<Node> nodes_;
-};
-
-/// Tiles the square around one disc.
+/// Cuts a patch into tiles that are small enough for the gap they see.
 class GapTiler {
  public:
-  GapTiler(const DiscTree& tree, const FaceDisc& disc, int gap_cells, double cell_per_length, std::vector<RasterBox>& boxes)
-      : tree_(tree), disc_(disc), gap_cells_(gap_cells), cell_per_length_(cell_per_length), boxes_(boxes) {
-    const Vec3& n = disc.normal;
-    const Vec3 across = std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    s_ = normalized(cross(n, across));
-    t_ = cross(n, s_);
+  GapTiler(std::span<const GapPatch> patches, const GapPatch& patch, const std::vector<std::int32_t>& facing, double cell_per_length,
+           std::vector<RasterBox>& boxes)
+      : patches_(patches), patch_(patch), facing_(facing), cell_per_length_(cell_per_length), boxes_(boxes) {
+    has_large_ = std::any_of(facing.begin(), facing.end(), [&](std::int32_t id) { return is_large(patches[id]); });
   }
 
-  void run() { tile(disc_.x, disc_.radius, 0); }
+  void run() {
+    const Tile whole{patch_.s_lo, patch_.s_hi, patch_.t_lo, patch_.t_hi};
+    cut(whole, kFirstParts, kFirstParts, 0);
+  }
 
  private:
-  double length_at(const Vec3& x) const {
-    const double gap = tree_.gap(x, disc_.normal, kTouching * disc_.min_length, gap_cells_ * disc_.length);
-    return std::max(gap / gap_cells_, disc_.min_length);
-  }
+  struct Tile {
+    double s_lo, s_hi, t_lo, t_hi;
+  };
 
-  void tile(const Vec3& x, double half, int depth) {
-    double length = length_at(x);
-    for (const double a : {-half, half})
-      for (const double b : {-half, half}) length = std::min(length, length_at(x + a * s_ + b * t_));
-    if (!(length < disc_.length)) return;
-    if (2 * half > kFill * cell_per_length_ * length && depth < kMaxDepth) {
-      for (const double a : {-0.5 * half, 0.5 * half})
-        for (const double b : {-0.5 * half, 0.5 * half}) tile(x + a * s_ + b * t_, 0.5 * half, depth + 1);
-      return;
+  /// The nearest patch that a point sees.
+  struct Sight {
+    double gap;                       // model unit; what the patch does not need to see is further away
+    const GapPatch* other = nullptr;  // none within the gap
+    Vec3 x;                           // where the other patch is met
+  };
+
+  Sight look(double s, double t) const {
+    const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
+    Sight sight{*patch_.gap_cells * patch_.length, nullptr, {}};
+    for (const std::int32_t id : facing_) {
+      const std::optional<double> d = patches_[id].facing_distance(x, n);
+      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap) sight = {std::abs(*d), &patches_[id], x + *d * n};
     }
-    boxes_.push_back({x, static_cast<float>(0.5 * cell_per_length_ * length), static_cast<float>(length), disc_.cause});
+    return sight;
   }
 
-  const DiscTree& tree_;
-  const FaceDisc& disc_;
-  const int gap_cells_;
+  static double asked_length(const GapPatch& patch, double gap) { return std::max(gap / *patch.gap_cells, patch.min_length); }
+  double length_at(double s, double t) const { return asked_length(patch_, look(s, t).gap); }
+
+  /// Cuts the tile into n_s x n_t, and each part again while it is larger than its raster box.
+  void cut(const Tile& tile, int n_s, int n_t, int depth) {
+    const double ds = (tile.s_hi - tile.s_lo) / n_s, dt = (tile.t_hi - tile.t_lo) / n_t;
+    std::array<double, (kMaxParts + 1) * (kMaxParts + 1)> length;
+    for (int j = 0; j <= n_t; ++j)
+      for (int i = 0; i <= n_s; ++i) length[j * (n_s + 1) + i] = length_at(tile.s_lo + i * ds, tile.t_lo + j * dt);
+    for (int j = 0; j < n_t; ++j)
+      for (int i = 0; i < n_s; ++i) {
+        const int k = j * (n_s + 1) + i;
+        const double smallest = std::min({length[k], length[k + 1], length[k + n_s + 1], length[k + n_s + 2]});
+        visit({tile.s_lo + i * ds, tile.s_lo + (i + 1) * ds, tile.t_lo + j * dt, tile.t_lo + (j + 1) * dt}, smallest, depth);
+      }
+  }
+
+  void visit(const Tile& tile, double length, int depth) {
+    if (!(length < patch_.length) || !is_inside(tile)) return;
+    const double room = kFill * cell_per_length_ * length;
+    const auto parts = [&](double width) { return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts); };
+    const int n_s = parts(tile.s_hi - tile.s_lo), n_t = parts(tile.t_hi - tile.t_lo);
+    if (n_s * n_t > 1 && depth < kMaxDepth) return cut(tile, n_s, n_t, depth + 1);
+    const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
+    add_box(patch_.point(s, t), length, patch_.cause);
+    if (has_large_) add_far_box(s, t);
+  }
+
+  void add_box(Vec3 x, double length, std::int32_t cause) {
+    boxes_.push_back({x, static_cast<float>(0.5 * cell_per_length_ * length), static_cast<float>(length), cause});
+  }
+
+  /// Speaks for a patch on the other side that is so large that it may not see this one.
+  void add_far_box(double s, double t) {
+    const Sight sight = look(s, t);
+    if (!sight.other || !sight.other->gap_cells || !is_large(*sight.other)) return;
+    const double length = asked_length(*sight.other, sight.gap);
+    if (length < sight.other->length) add_box(sight.x, length, sight.other->cause);
+  }
+
+  bool is_large(const GapPatch& other) const { return extent(other) > kLarge * extent(patch_); }
+  static double extent(const GapPatch& p) { return std::max(p.s_hi - p.s_lo, p.t_hi - p.t_lo); }
+
+  bool is_inside(const Tile& tile) const {
+    const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
+    return patch_.is_inside(s, t) || patch_.is_inside(tile.s_lo, tile.t_lo) || patch_.is_inside(tile.s_lo, tile.t_hi) ||
+           patch_.is_inside(tile.s_hi, tile.t_lo) || patch_.is_inside(tile.s_hi, tile.t_hi);
+  }
+
+  const std::span<const GapPatch> patches_;
+  const GapPatch& patch_;
+  const std::vector<std::int32_t>& facing_;
   const double cell_per_length_;
   std::vector<RasterBox>& boxes_;
-  Vec3 s_, t_;
+  bool has_large_;
 };
 
 }  // namespace
 
-void add_gap_boxes(const std::vector<FaceDisc>& discs, int gap_cells, double cell_per_length, std::vector<RasterBox>& boxes) {
-  const DiscTree tree(discs);
-  for (const FaceDisc& disc : discs) GapTiler(tree, disc, gap_cells, cell_per_length, boxes).run();
+GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length)
+    : patches_(patches), cell_per_length_(cell_per_length), tree_(patches) {}
+
+void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
+  const GapPatch& patch = patches_[i];
+  if (!patch.gap_cells) return;
+  std::vector<std::int32_t> facing;
+  tree_.find_facing(patch, *patch.gap_cells * patch.length, facing);
+  if (!facing.empty()) GapTiler(patches_, patch, facing, cell_per_length_, boxes).run();
 }
 
 }  // namespace st

@@ -1,26 +1,30 @@
 // Sizes from gaps and thin walls: surfaces that face each other.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sizing/octree.h"
-#include "sizing/size_limits.h"
+#include "sizing/patch_tree.h"
 
 namespace st {
 
-/// A sampled patch of a face as a flat disc.
-struct FaceDisc {
-  Vec3 x;                  ///< centre, model unit
-  Vec3 normal;             ///< unit, out of the solid
-  double radius = 0;       ///< encloses the patch, model unit
-  double length = 0;       ///< that the patch asks for otherwise
-  double min_length = 0;   ///< floor
-  std::int32_t cause = 0;  ///< packed
-};
+/// Finds the gaps of patches, one patch after the other in any order.
+class GapFinder {
+ public:
+  /// `patches` must outlive the object. Cost: O(n log n).
+  GapFinder(std::span<const GapPatch> patches, double cell_per_length);
 
-/// Appends raster boxes with 1/gap_cells of the distance to the next disc that faces the disc (normals opposed by more than 135 degrees),
-/// seen along the normal to either side, where that is less than the disc asks for; never below its min_length. They cover the square
-/// around each disc. Surfaces that touch make no gap. Cost: a ray per box and side through a tree of discs.
-void add_gap_boxes(const std::vector<FaceDisc>& discs, int gap_cells, double cell_per_length, std::vector<RasterBox>& boxes);
+  /// Appends raster boxes with 1/gap_cells of the distance, along the patch's normal to either side, to the next patch that faces it
+  /// (normals opposed by more than 135 degrees), where that is less than the patch asks for; never below its min_length. Patches are
+  /// paraboloids, so that distances between curved walls are those of the surfaces. The boxes cover the part of the patch that sees a gap.
+  /// Surfaces that touch make no gap. Nothing for a patch without gap_cells.
+  void add_boxes(std::size_t patch, std::vector<RasterBox>& boxes) const;
+
+ private:
+  std::span<const GapPatch> patches_;
+  double cell_per_length_;
+  PatchTree tree_;
+};
 
 }  // namespace st

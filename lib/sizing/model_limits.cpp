@@ -15,6 +15,7 @@ Limits finest(const Limits& a, const Limits& b) {
   both.max_length = std::min(a->max_length, b->max_length);
   both.alpha = std::min(a->alpha, b->alpha);
   both.chord = std::min(a->chord, b->chord);
+  both.gap_cells = std::max(a->gap_cells, b->gap_cells);
   both.min_length = std::min(both.min_length, both.max_length);
   return both;
 }
@@ -96,6 +97,7 @@ class LimitsMaker {
         limits.far_length = std::max(limits.far_length, own->max_length);
         limits.min_length = std::min(limits.min_length, own->min_length);
       }
+    for (const Limits& own : face_.surface) limits.wants_gaps = limits.wants_gaps || (own && own->gap_cells);
     for (const FaceId f : roles_.guessed) limits.far_length = std::max(limits.far_length, far_length(f));
     limits.far = wall_;
     limits.far.max_length = limits.far_length;

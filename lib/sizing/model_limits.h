@@ -22,6 +22,7 @@ struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
   SamplingLimits far;                               ///< the walls' limits with max_length = far_length: for what is not sampled but traced
   double min_length = 0;                            ///< smallest min_length of all
+  bool wants_gaps = false;                          ///< some face has gap_cells
   double far_length = 0;                            ///< largest max_length of all: the length where nothing asks for less
 
   /// Limits at which an edge is traced as part of a loop.

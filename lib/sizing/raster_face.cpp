@@ -16,7 +16,6 @@ constexpr int kFirstCuts = 4;         // per direction, on surfaces whose curvat
 constexpr int kDoubts = 6;            // splits (two per halving) granted to a curvature that no angle confirms
 constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as confirmed
 constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
-constexpr double kDiscReach = 0.75;   // of the extent of a patch: half the diagonal of a square
 constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
 constexpr double kCollapsed = 1e-9;   // derivative over the other one, scaled to the ranges, where a side has collapsed
@@ -32,8 +31,8 @@ class FaceRaster {
   using CurvaturePatch = Patch<CurvatureProbe>;
 
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-             std::vector<RasterBox>& boxes, std::vector<FaceDisc>* discs)
-      : surface_(surface), loops_(loops), limits_(limits), cause_(cause), boxes_(boxes), discs_(discs) {
+             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches)
+      : surface_(surface), loops_(loops), limits_(limits), cause_(cause), boxes_(boxes), patches_(patches) {
     range_u_ = surface.u_max() - surface.u_min();
     range_v_ = surface.v_max() - surface.v_min();
     const SurfaceType type = surface.type();
@@ -196,11 +195,22 @@ class FaceRaster {
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
     boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_});
-    const CurvatureProbe& middle = patch.probe[4];
-    if (discs_ && middle.normal != Vec3{})
-      discs_->push_back({middle.x, middle.normal, kDiscReach * size.extent, length, limits_.min_length, cause_});
+    if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
     report_.area += inside_area(patch);
     ++report_.n_patches;
+  }
+
+  GapPatch gap_patch(const CurvaturePatch& patch, double length) const {
+    std::array<Vec3, 9> points;
+    for (std::size_t k = 0; k < 9; ++k) points[k] = patch.probe[k].x;
+    GapPatch result = fit_patch(points, patch.probe[4].normal);
+    result.length = length;
+    result.min_length = limits_.min_length;
+    result.gap_cells = limits_.gap_cells;
+    result.cause = cause_;
+    if (patch.n_inside > 0) result.inside = 0;
+    for (std::uint32_t k = 0; k < 9; ++k) result.inside |= std::uint32_t{patch.is_inside[k]} << k;
+    return result;
   }
 
   const Surface& surface_;
@@ -208,7 +218,7 @@ class FaceRaster {
   const SamplingLimits& limits_;
   const std::int32_t cause_;
   std::vector<RasterBox>& boxes_;
-  std::vector<FaceDisc>* const discs_;
+  std::vector<GapPatch>* const patches_;
   FaceRasterReport report_;
   double range_u_ = 1, range_v_ = 1;
   bool is_free_ = true;  // curvature varies freely: not a plane, cylinder, cone, sphere or torus
@@ -217,8 +227,8 @@ class FaceRaster {
 }  // namespace
 
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-                             std::vector<RasterBox>& boxes, std::vector<FaceDisc>* discs) {
-  return FaceRaster(surface, loops, limits, cause, boxes, discs).run();
+                             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches) {
+  return FaceRaster(surface, loops, limits, cause, boxes, patches).run();
 }
 
 }  // namespace st

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/surface.h"
-#include "sizing/gap_sizes.h"
+#include "sizing/gap_patch.h"
 #include "sizing/loop_polygon.h"
 #include "sizing/octree.h"
 #include "sizing/size_limits.h"
@@ -28,8 +28,8 @@ struct FaceRasterReport {
 /// curvature that no angle confirms after three halvings is noise of the parametrisation and is cut down to what the angles show. Sizes in
 /// space decide, so poles and stretched iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil
 /// points lie too far apart; halving patches covers the surface by construction.)
-/// `discs`, where wanted, gets one disc per box whose middle is no singular point; normals are along du x dv.
+/// `patches`, where wanted, gets one patch per box whose middle is no singular point; normals are along du x dv.
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-                             std::vector<RasterBox>& boxes, std::vector<FaceDisc>* discs = nullptr);
+                             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches = nullptr);
 
 }  // namespace st

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "base/vec.h"
 
@@ -15,6 +16,7 @@ struct SamplingLimits {
   double alpha = radians(10);                              ///< largest turning of tangent or normal along one length, radians
   double cell_per_length = 2;                              ///< edge of a raster box over its sample length
   double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry, model unit
+  std::optional<int> gap_cells = std::nullopt;             ///< lengths across gaps and thin walls; nullopt: gaps do not matter
 };
 
 }  // namespace st

@@ -22,6 +22,7 @@ struct SizeRule {
   std::optional<bool> is_sampled;         ///< false: asks for nothing
   std::optional<LengthSpec> lmin, lmax, chord;
   std::optional<double> alpha_deg;  ///< (0, 90]
+  std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
 
   bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty()); }
 };

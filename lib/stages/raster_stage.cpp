@@ -27,6 +27,7 @@ namespace st {
 namespace {
 
 constexpr std::int32_t kEdgesPerTask = 32;
+constexpr std::size_t kPatchesPerTask = 256;
 constexpr double kDefaultMaxLength = 0.025;     // of the reference diagonal
 constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
 
@@ -55,6 +56,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   limits.alpha = radians(o.alpha_deg);
   if (!o.chord.empty()) limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
   limits.cell_per_length = o.cell_per_length;
+  limits.gap_cells = o.gap_cells;
   if (limits.min_length > limits.max_length)
     throw Error(ExitCode::kUsage,
                 fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
@@ -71,12 +73,9 @@ std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
 /// The work cut into tasks: first batches of edges, then one task per face.
 class RasterTasks {
  public:
-  enum class Discs { kNone, kWanted };
-
-  RasterTasks(const Model& model, const ModelLimits& limits, Discs discs)
+  RasterTasks(const Model& model, const ModelLimits& limits)
       : model_(model),
         limits_(limits),
-        wants_discs_(discs == Discs::kWanted),
         strips_(find_strips(model)),
         n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
@@ -89,19 +88,19 @@ class RasterTasks {
     return heaviest_first(work);
   }
 
-  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty: nothing) and the discs.
+  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty: nothing) and the patches.
   Bytes compute(std::int32_t task, std::vector<RasterBox>& own_boxes) const {
     const std::size_t n_before = own_boxes.size();
-    std::vector<FaceDisc> discs;
+    std::vector<GapPatch> patches;
     std::string failure;
     try {
       if (task < n_batches_)
         raster_edges(task, own_boxes);
       else
-        raster_one_face(task - n_batches_, own_boxes, discs);
+        raster_one_face(task - n_batches_, own_boxes, patches);
     } catch (const std::exception& e) {
       own_boxes.resize(n_before);
-      discs.clear();
+      patches.clear();
       failure =
           task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
@@ -109,7 +108,7 @@ class RasterTasks {
     Packer packer;
     packer.add(static_cast<std::uint64_t>(own_boxes.size() - n_before));
     packer.add(failure);
-    packer.add(discs);
+    packer.add(patches);
     return packer.take();
   }
 
@@ -129,20 +128,19 @@ class RasterTasks {
     }
   }
 
-  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<FaceDisc>& discs) const {
+  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
     raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
-                wants_discs_ ? &discs : nullptr);
+                limits_.wants_gaps ? &patches : nullptr);
     if (model_.tables().face_is_reversed[f])
-      for (FaceDisc& disc : discs) disc.normal = -1.0 * disc.normal;
+      for (GapPatch& patch : patches) patch.flip();
     const auto strip = std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
     if (strip != strips_.end() && strip->face == f) raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
   const Model& model_;
   const ModelLimits& limits_;
-  bool wants_discs_;
   std::vector<Strip> strips_;
   std::int32_t n_batches_;
 };
@@ -152,13 +150,7 @@ struct Samples {
   std::vector<RasterBox> own_boxes;
   std::vector<std::uint64_t> n_boxes;
   std::vector<std::string> failures;  // empty where there is none
-  std::vector<std::vector<FaceDisc>> discs;
-
-  std::vector<FaceDisc> all_discs() const {
-    std::vector<FaceDisc> all;
-    for (const std::vector<FaceDisc>& d : discs) all.insert(all.end(), d.begin(), d.end());
-    return all;
-  }
+  std::vector<std::vector<GapPatch>> patches;
 };
 
 /// Collective.
@@ -167,7 +159,7 @@ Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
   const auto n = static_cast<std::size_t>(tasks.count());
   samples.n_boxes.resize(n);
   samples.failures.resize(n);
-  samples.discs.resize(n);
+  samples.patches.resize(n);
   Progress progress("sampling", tasks.count());
   std::int32_t n_done = 0;
   comm.run_tasks(
@@ -176,10 +168,46 @@ Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
         Unpacker unpacker(result);
         unpacker.get(samples.n_boxes[task]);
         unpacker.get(samples.failures[task]);
-        unpacker.get(samples.discs[task]);
+        unpacker.get(samples.patches[task]);
         progress.update(++n_done);
       });
   return samples;
+}
+
+/// Collective. The patches of all faces on every rank, by task.
+std::vector<GapPatch> share_patches(const Samples& samples, const Communicator& comm) {
+  std::vector<GapPatch> all;
+  for (const std::vector<GapPatch>& p : samples.patches) all.insert(all.end(), p.begin(), p.end());
+  if (comm.size() == 1) return all;
+  Packer packer;
+  packer.add(all);
+  Bytes bytes = packer.take();
+  comm.broadcast(bytes);
+  Unpacker(bytes).get(all);
+  return all;
+}
+
+/// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0.
+std::size_t sample_gaps(Samples& samples, double cell_per_length, const Communicator& comm) {
+  const std::vector<GapPatch> patches = share_patches(samples, comm);
+  const GapFinder finder(patches, cell_per_length);
+  const auto n_tasks = static_cast<std::int32_t>((patches.size() + kPatchesPerTask - 1) / kPatchesPerTask);
+  std::size_t n_boxes = 0;
+  comm.run_tasks(
+      n_tasks, heaviest_first(std::vector<double>(static_cast<std::size_t>(n_tasks), 1.0)),
+      [&](std::int32_t task) {
+        const std::size_t n_before = samples.own_boxes.size(), first = static_cast<std::size_t>(task) * kPatchesPerTask;
+        for (std::size_t i = first; i < std::min(first + kPatchesPerTask, patches.size()); ++i) finder.add_boxes(i, samples.own_boxes);
+        Packer packer;
+        packer.add(static_cast<std::uint64_t>(samples.own_boxes.size() - n_before));
+        return packer.take();
+      },
+      [&](std::int32_t, Bytes&& result) {
+        std::uint64_t n = 0;
+        Unpacker(result).get(n);
+        n_boxes += n;
+      });
+  return n_boxes;
 }
 
 struct SampleCounts {
@@ -304,15 +332,11 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   RasterArtifact artifact;
   SampleCounts counts;
   {
-    Samples samples = sample_model(RasterTasks(model, limits, o.gap_cells ? RasterTasks::Discs::kWanted : RasterTasks::Discs::kNone), comm);
+    Samples samples = sample_model(RasterTasks(model, limits), comm);
     times.end("sampling");
-    if (comm.is_root()) {
-      counts = report_samples(samples);
-      const std::size_t n_before = samples.own_boxes.size();
-      if (o.gap_cells) add_gap_boxes(samples.all_discs(), *o.gap_cells, o.cell_per_length, samples.own_boxes);
-      counts.n_gap_boxes = samples.own_boxes.size() - n_before;
-      times.end("gaps");
-    }
+    if (comm.is_root()) counts = report_samples(samples);
+    if (limits.wants_gaps) counts.n_gap_boxes = sample_gaps(samples, o.cell_per_length, comm);
+    times.end("gaps");
     artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, comm);
     if (o.cell_per_length > kUsualCellPerLength) artifact.samples = gather_samples(samples.own_boxes, comm);
     times.end("octree");

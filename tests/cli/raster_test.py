@@ -47,6 +47,8 @@ class Rules(ToolTest):
         self.refuse('[[size]]\nlmax = 1\nbetween = ["A"]\n', "sizes.toml:3", "two")
         self.refuse('[[size]]\nlmax = 1\ngroups = []\n', "sizes.toml:3", "empty")
         self.refuse('[[size]]\nlmax = 1\nsample = 1\n', "sizes.toml:3", "true or false")
+        self.refuse('[[size]]\ngap_cells = 2.5\n', "sizes.toml:2", "gap_cells", "whole number")
+        self.refuse('[[size]]\ngap_cells = 101\n', "sizes.toml:2", "[1, 100]")
         self.refuse('[[size]]\ngroups = "*"\n', "sizes.toml:1", "asks for nothing")
         self.refuse('\n[[size]]\nlmax = 1\ngroups = "NONE*"\n', "sizes.toml:2", "NONE*", "matches")
         self.refuse('[[size]]\nlmax = 1\nfaces = 99999\n', "sizes.toml:1", "99999")
@@ -65,11 +67,18 @@ class Gaps(ToolTest):
 
     def test_a_thin_wall_gets_the_lengths_asked_for(self):
         self.assertGreater(self.length_in_the_wall()[0], 0.7)
-        for n in (1, 2):  # flat discs on a curved wall see up to a quarter less than it is thick
-            length = self.length_in_the_wall("--gap-cells", n)[0]
-            self.assertGreater(length, 0.75 * 0.4 / n)
-            self.assertLess(length, 1.05 * 0.4 / n)
+        for n in (1, 2):
+            self.assertAlmostEqual(self.length_in_the_wall("--gap-cells", n)[0], 0.4 / n, delta=0.03 * 0.4 / n)
         self.assertAlmostEqual(self.length_in_the_wall("--gap-cells", 4)[0], 0.15, delta=0.02)  # lmin
+
+    def test_a_rule_asks_for_gaps_of_some_faces_only(self):
+        rules = self.folder / "sizes.toml"
+        rules.write_text("[[size]]\ngap_cells = 2\n")
+        self.assertAlmostEqual(self.length_in_the_wall("--sizes", rules)[0], 0.2, delta=0.006)
+        rules.write_text("[[size]]\nfaces = [1, 2, 3, 4, 5, 6]\ngap_cells = 0\n")
+        some = self.length_in_the_wall("--gap-cells", 2, "--sizes", rules)[1]
+        everywhere = self.length_in_the_wall("--gap-cells", 2)[1]
+        self.assertGreater(everywhere["gap_samples"], some["gap_samples"])
 
     def test_the_result_does_not_depend_on_the_number_of_ranks(self):
         self.assertEqual(len({self.length_in_the_wall("--gap-cells", 1, "--np", n)[1]["hash"] for n in (1, 2, 3)}), 1)

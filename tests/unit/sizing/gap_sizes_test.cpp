@@ -3,61 +3,154 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "geometry/analytic.h"
+#include "sizing/raster_face.h"
 
 namespace st {
 namespace {
 
-/// A plate of 10 x 10 in z = `z`, as discs of squares of side 1, whose normal is `nz` ez.
-void add_plate(double z, double nz, std::vector<FaceDisc>& discs, double length = 1, double min_length = 0.01) {
-  for (int i = 0; i < 10; ++i)
-    for (int j = 0; j < 10; ++j)
-      discs.push_back({{i + 0.5, j + 0.5, z}, {0, 0, nz}, 0.75, length, min_length, static_cast<int>(discs.size())});
+const Frame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+SamplingLimits limits(double max_length, double min_length, int gap_cells = 4) {
+  SamplingLimits result{min_length, max_length, radians(10), 2};
+  result.gap_cells = gap_cells;
+  return result;
 }
 
-std::vector<RasterBox> gaps(const std::vector<FaceDisc>& discs, int n = 4) {
+enum class Normals { kAlong, kAgainst };
+
+/// Adds the patches of a surface, with normals along or against du x dv; `cause` tells surfaces apart.
+void add_patches(const Surface& surface, Normals normals, const SamplingLimits& own, std::vector<GapPatch>& patches, std::int32_t cause = 0,
+                 const LoopPolygons& loops = {}) {
   std::vector<RasterBox> boxes;
-  add_gap_boxes(discs, n, 2, boxes);
+  std::vector<GapPatch> found;
+  raster_face(surface, loops, own, cause, boxes, &found);
+  if (normals == Normals::kAgainst)
+    for (GapPatch& p : found) p.flip();
+  patches.insert(patches.end(), found.begin(), found.end());
+}
+
+PlaneSurface plate(double z) { return PlaneSurface({{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 10, 0, 10); }
+
+std::vector<RasterBox> gaps(const std::vector<GapPatch>& patches) {
+  const GapFinder finder(patches, 2);
+  std::vector<RasterBox> boxes;
+  for (std::size_t i = 0; i < patches.size(); ++i) finder.add_boxes(i, boxes);
   return boxes;
 }
 
+/// Smallest length of the boxes of a cause at x; 0 where there is none.
+double length_at(const std::vector<RasterBox>& boxes, Vec3 x, std::int32_t cause) {
+  double length = 0;
+  for (const RasterBox& b : boxes)
+    if (b.cause == cause && std::abs(b.center.x - x.x) <= b.half && std::abs(b.center.y - x.y) <= b.half &&
+        std::abs(b.center.z - x.z) <= b.half && (length == 0 || b.length < length))
+      length = b.length;
+  return length;
+}
+
 TEST(GapSizes, put_n_lengths_between_two_plates_everywhere) {
-  for (const double side : {1.0, -1.0}) {  // a slot, a thin wall
-    std::vector<FaceDisc> discs;
-    add_plate(0, side, discs);
-    add_plate(0.4, -side, discs);
-    const std::vector<RasterBox> boxes = gaps(discs);
+  for (const bool is_slot : {true, false}) {  // a slot, a solid plate
+    std::vector<GapPatch> patches;
+    add_patches(plate(0), is_slot ? Normals::kAlong : Normals::kAgainst, limits(1, 0.01), patches, 0);
+    add_patches(plate(0.4), is_slot ? Normals::kAgainst : Normals::kAlong, limits(1, 0.01), patches, 1);
+    const std::vector<RasterBox> boxes = gaps(patches);
     for (const RasterBox& b : boxes) EXPECT_NEAR(b.length, 0.1, 1e-6);
     for (double x = 0.05; x < 10; x += 0.3)
-      for (const double z : {0.0, 0.4}) {
-        const auto covers = [&](const RasterBox& b) {
-          return std::abs(b.center.x - x) <= b.half && std::abs(b.center.y - 5.03) <= b.half && std::abs(b.center.z - z) <= b.half;
-        };
-        EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), covers)) << x << " " << z;
-      }
+      for (const int side : {0, 1}) EXPECT_GT(length_at(boxes, {x, 5.03, 0.4 * side}, side), 0) << x << " " << side;
+    EXPECT_LT(boxes.size(), 2.2 * 100 / (0.15 * 0.15)) << "tiles about as large as their boxes";
   }
 }
 
 TEST(GapSizes, ask_for_nothing_without_a_facing_surface) {
-  std::vector<FaceDisc> discs;
-  add_plate(0, 1, discs);
-  EXPECT_TRUE(gaps(discs).empty()) << "alone";
-  add_plate(0.4, 1, discs);
-  EXPECT_TRUE(gaps(discs).empty()) << "normals alike";
-  discs.clear();
-  add_plate(0, 1, discs);
-  add_plate(4.1, -1, discs);
-  EXPECT_TRUE(gaps(discs).empty()) << "a gap that holds four lengths as it is";
-  discs.clear();
-  add_plate(0, 1, discs);
-  add_plate(1e-6, -1, discs);
-  EXPECT_TRUE(gaps(discs).empty()) << "touching surfaces";
+  const auto boxes_with_second = [](double z, Normals normals) {
+    std::vector<GapPatch> patches;
+    add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches);
+    add_patches(plate(z), normals, limits(1, 0.01), patches);
+    return gaps(patches).size();
+  };
+  EXPECT_EQ(boxes_with_second(0.4, Normals::kAlong), 0u) << "normals alike";
+  EXPECT_EQ(boxes_with_second(4.1, Normals::kAgainst), 0u) << "a gap that holds four lengths as it is";
+  EXPECT_EQ(boxes_with_second(1e-6, Normals::kAgainst), 0u) << "touching surfaces";
+  EXPECT_GT(boxes_with_second(3.9, Normals::kAgainst), 0u);
 }
 
-TEST(GapSizes, stay_above_the_smallest_length) {
-  std::vector<FaceDisc> discs;
-  add_plate(0, 1, discs, 1, 0.2);
-  add_plate(0.4, -1, discs, 1, 0.3);
-  for (const RasterBox& b : gaps(discs)) EXPECT_NEAR(b.length, b.cause < 100 ? 0.2 : 0.3, 1e-6);
+TEST(GapSizes, stay_above_the_smallest_length_and_keep_to_the_faces_that_ask) {
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.2), patches, 0);
+  SamplingLimits silent = limits(1, 0.01);
+  silent.gap_cells.reset();
+  add_patches(plate(0.4), Normals::kAgainst, silent, patches, 1);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  ASSERT_FALSE(boxes.empty());
+  for (const RasterBox& b : boxes) {
+    EXPECT_NEAR(b.length, 0.2, 1e-6);
+    EXPECT_EQ(b.cause, 0);
+  }
+}
+
+TEST(GapSizes, see_only_the_part_inside_the_loops) {
+  const LoopPolygons half({{{0, 0}, {5, 0}}, {{5, 0}, {5, 10}}, {{5, 10}, {0, 10}}, {{0, 10}, {0, 0}}});
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
+  add_patches(plate(0.4), Normals::kAgainst, limits(1, 0.01), patches, 1, half);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  EXPECT_NEAR(length_at(boxes, {4.5, 5, 0}, 0), 0.1, 1e-6);
+  EXPECT_EQ(length_at(boxes, {6.2, 5, 0}, 0), 0) << "further than a patch from the border";
+  EXPECT_EQ(length_at(boxes, {6.2, 5, 0.4}, 1), 0);
+}
+
+TEST(GapSizes, of_a_curved_wall_are_its_thickness) {
+  for (const double wall : {0.4, 0.05}) {  // far thinner than the sagitta of a patch
+    const double height = 5 * wall;
+    const AxialSurface outer(SurfaceType::kCylinder, kFrame, 10, 0, 0, 2 * kPi, 0, height);
+    const AxialSurface inner(SurfaceType::kCylinder, kFrame, 10 - wall, 0, 0, 2 * kPi, 0, height);
+    std::vector<GapPatch> patches;
+    add_patches(outer, Normals::kAlong, limits(5, 0.01), patches, 0);
+    add_patches(inner, Normals::kAgainst, limits(5, 0.01), patches, 1);
+    const std::vector<RasterBox> boxes = gaps(patches);
+    for (const RasterBox& b : boxes) ASSERT_NEAR(b.length, wall / 4, 0.02 * wall / 4);
+    for (double angle = 0; angle < 6.28; angle += 0.05)
+      for (const int side : {0, 1}) {
+        const double r = 10 - side * wall;
+        EXPECT_GT(length_at(boxes, {r * std::cos(angle), r * std::sin(angle), 0.51 * height}, side), 0) << angle;
+      }
+  }
+}
+
+TEST(GapSizes, of_a_sphere_in_a_box_follow_the_distance_along_the_normal) {
+  const double radius = 4, distance = 0.5;  // from the bottom of the sphere to a plane
+  const AxialSurface sphere(SurfaceType::kSphere, {{5, 5, radius + distance}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, radius, 0, 0, 2 * kPi,
+                            -kPi / 2, kPi / 2);
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
+  add_patches(sphere, Normals::kAlong, limits(1, 0.01), patches, 1);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  for (double r = 0; r < 2; r += 0.1) {
+    // along the plane's normal; a box takes the smallest gap of its tile and reaches further than that
+    const double gap = distance + radius - std::sqrt(radius * radius - r * r);
+    const double inner = std::max(0.0, r - 2.5 * gap / 4);
+    const double smallest = distance + radius - std::sqrt(radius * radius - inner * inner);
+    const double length = length_at(boxes, {5 + r, 5, 0}, 0);
+    const double asked = gap / 4;
+    if (asked > 0.6) continue;
+    EXPECT_LE(length, asked * 1.01) << r;
+    EXPECT_GE(length, smallest / 4 * 0.99) << r;
+  }
+}
+
+TEST(GapSizes, of_a_small_body_above_a_large_wall_are_found_from_both) {
+  const AxialSurface ball(SurfaceType::kSphere, {{5.3, 5.2, 0.35}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.25, 0, 0, 2 * kPi, -kPi / 2,
+                          kPi / 2);
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
+  add_patches(ball, Normals::kAlong, limits(1, 0.01), patches, 1);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  const double from_wall = length_at(boxes, {5.3, 5.2, 0}, 0), from_ball = length_at(boxes, {5.3, 5.2, 0.1}, 1);
+  EXPECT_NEAR(from_ball, 0.025, 0.003);
+  EXPECT_NEAR(from_wall, 0.025, 0.003) << "a patch of the wall is far larger than the ball";
 }
 
 }  // namespace

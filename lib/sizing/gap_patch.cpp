@@ -1,0 +1,101 @@
+#include "sizing/gap_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace st {
+namespace {
+
+constexpr double kOverlap = 0.02;  // of the patch's width: no ray passes between neighbours
+constexpr double kRidge = 1e-6;    // of the largest moment: keeps the fit of a degenerate patch solvable, and flat
+
+/// Component of `d` across `n`, unit; zero where there is none.
+Vec3 across(Vec3 d, Vec3 n) { return normalized(d - dot(d, n) * n); }
+
+/// Solves the symmetric 3 x 3 system of the fit by Cramer's rule.
+std::array<double, 3> solve(const std::array<std::array<double, 3>, 3>& m, const std::array<double, 3>& r) {
+  const Vec3 a{m[0][0], m[1][0], m[2][0]}, b{m[0][1], m[1][1], m[2][1]}, c{m[0][2], m[1][2], m[2][2]}, d{r[0], r[1], r[2]};
+  const double det = dot(a, cross(b, c));
+  if (!(std::abs(det) > 0)) return {};
+  return {dot(d, cross(b, c)) / det, dot(a, cross(d, c)) / det, dot(a, cross(b, d)) / det};
+}
+
+}  // namespace
+
+Vec3 GapPatch::normal_at(double s, double t) const {
+  return normalized(normal - (k_ss * s + k_st * t) * axis_s - (k_st * s + k_tt * t) * axis_t);
+}
+
+bool GapPatch::is_inside(double s, double t) const {
+  const auto index = [](double x, double lo, double hi) {
+    return hi > lo ? std::clamp(static_cast<int>(2 * (x - lo) / (hi - lo) + 0.5), 0, 2) : 1;
+  };
+  return (inside >> (3 * index(t, t_lo, t_hi) + index(s, s_lo, s_hi))) & 1;
+}
+
+Box3 GapPatch::box() const {
+  Box3 box;
+  const double h = 0.5 * (std::abs(k_ss) * std::max(s_lo * s_lo, s_hi * s_hi) + std::abs(k_tt) * std::max(t_lo * t_lo, t_hi * t_hi)) +
+                   std::abs(k_st) * std::max(-s_lo, s_hi) * std::max(-t_lo, t_hi);
+  const double below = k_ss >= 0 && k_tt >= 0 && k_st == 0 ? 0 : -h, above = k_ss <= 0 && k_tt <= 0 && k_st == 0 ? 0 : h;
+  for (const double s : {s_lo, s_hi})
+    for (const double t : {t_lo, t_hi})
+      for (const double z : {below, above}) box.add(x + s * axis_s + t * axis_t + z * normal);
+  return box;
+}
+
+std::optional<double> GapPatch::facing_distance(Vec3 from, Vec3 direction) const {
+  const Vec3 o = from - x;
+  const double os = dot(o, axis_s), ot = dot(o, axis_t), on = dot(o, normal);
+  const double ds = dot(direction, axis_s), dt = dot(direction, axis_t), dn = dot(direction, normal);
+  // 0.5 K(o + t d, o + t d) = on + t dn: the root next to that of the tangent plane.
+  const double a = 0.5 * (k_ss * ds * ds + k_tt * dt * dt) + k_st * ds * dt;
+  const double b = k_ss * os * ds + k_tt * ot * dt + k_st * (os * dt + ot * ds) - dn;
+  const double c = height(os, ot) - on, discriminant = b * b - 4 * a * c;
+  if (discriminant < 0 || b == 0) return std::nullopt;
+  const double distance = -2 * c / (b + std::copysign(std::sqrt(discriminant), b));
+  const double s = os + distance * ds, t = ot + distance * dt;
+  if (!(s >= s_lo && s <= s_hi && t >= t_lo && t <= t_hi)) return std::nullopt;
+  if (dot(normal_at(s, t), direction) > kFacing || !is_inside(s, t)) return std::nullopt;
+  return distance;
+}
+
+GapPatch fit_patch(const std::array<Vec3, 9>& points, Vec3 normal) {
+  GapPatch patch;
+  patch.x = points[4];
+  patch.normal = normal;
+  const Vec3 along_u = across(points[5] - points[3], normal), along_v = across(points[7] - points[1], normal);
+  const Vec3 spare = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  patch.axis_s = along_u == Vec3{} ? across(along_v == Vec3{} ? spare : cross(along_v, normal), normal) : along_u;
+  patch.axis_t = cross(normal, patch.axis_s);
+  if (dot(patch.axis_t, along_v) < 0) patch.axis_t = -patch.axis_t;
+
+  std::array<double, 9> s, t, h;
+  double scale = 0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const Vec3 d = points[k] - patch.x;
+    s[k] = dot(d, patch.axis_s), t[k] = dot(d, patch.axis_t), h[k] = dot(d, normal);
+    scale = std::max({scale, std::abs(s[k]), std::abs(t[k])});
+    patch.s_lo = std::min(patch.s_lo, s[k]), patch.s_hi = std::max(patch.s_hi, s[k]);
+    patch.t_lo = std::min(patch.t_lo, t[k]), patch.t_hi = std::max(patch.t_hi, t[k]);
+  }
+  if (!(scale > 0)) return patch;
+  const double overlap_s = kOverlap * (patch.s_hi - patch.s_lo), overlap_t = kOverlap * (patch.t_hi - patch.t_lo);
+  patch.s_lo -= overlap_s, patch.s_hi += overlap_s, patch.t_lo -= overlap_t, patch.t_hi += overlap_t;
+  std::array<std::array<double, 3>, 3> moments{};
+  std::array<double, 3> right{};
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double a = s[k] / scale, b = t[k] / scale;
+    const std::array<double, 3> row{0.5 * a * a, a * b, 0.5 * b * b};
+    for (std::size_t i = 0; i < 3; ++i) {
+      right[i] += row[i] * h[k] / scale;
+      for (std::size_t j = 0; j < 3; ++j) moments[i][j] += row[i] * row[j];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) moments[i][i] += kRidge * (moments[0][0] + moments[1][1] + moments[2][2]);
+  const std::array<double, 3> k = solve(moments, right);
+  patch.k_ss = k[0] / scale, patch.k_st = k[1] / scale, patch.k_tt = k[2] / scale;
+  return patch;
+}
+
+}  // namespace st

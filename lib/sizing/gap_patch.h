@@ -1,0 +1,47 @@
+// A sampled patch of a face, as gaps see it: a small piece of a paraboloid.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "base/vec.h"
+
+namespace st {
+
+/// x + s * axis_s + t * axis_t + height(s, t) * normal for (s, t) in [s_lo, s_hi] x [t_lo, t_hi]. The axes are unit and orthogonal.
+struct GapPatch {
+  Vec3 x;                               ///< on the surface, model unit
+  Vec3 normal;                          ///< unit, out of the solid
+  Vec3 axis_s, axis_t;                  ///< along u and v, roughly
+  double s_lo = 0, s_hi = 0;            ///< model unit
+  double t_lo = 0, t_hi = 0;            ///< model unit
+  double k_ss = 0, k_st = 0, k_tt = 0;  ///< second derivatives of the height, 1/model unit
+  double length = 0;                    ///< that the patch asks for otherwise, model unit
+  double min_length = 0;                ///< floor, model unit
+  std::optional<int> gap_cells;         ///< lengths across gaps; nullopt: the patch is only seen by others
+  std::int32_t cause = 0;               ///< packed
+  std::uint32_t inside = 0x1ff;         ///< bit 3 * row + column: that probe lies inside the loops
+
+  /// Turns the normal round.
+  void flip() { normal = -normal, k_ss = -k_ss, k_st = -k_st, k_tt = -k_tt; }
+  double height(double s, double t) const { return 0.5 * (k_ss * s * s + k_tt * t * t) + k_st * s * t; }
+  Vec3 point(double s, double t) const { return x + s * axis_s + t * axis_t + height(s, t) * normal; }
+  /// Unit normal of the paraboloid, to the same side as `normal`.
+  Vec3 normal_at(double s, double t) const;
+  /// Does the probe nearest to (s, t) lie inside the loops?
+  bool is_inside(double s, double t) const;
+  /// Box of the paraboloid.
+  Box3 box() const;
+  /// Distance along `direction` (unit) from `from` to the patch, either sign, where the ray meets it inside the loops from the side to
+  /// which the normals are opposed by more than 135 degrees.
+  std::optional<double> facing_distance(Vec3 from, Vec3 direction) const;
+};
+
+/// The paraboloid through the middle of 3 x 3 points (rows in v) with the normal there that fits the others best. `normal` is unit.
+GapPatch fit_patch(const std::array<Vec3, 9>& points, Vec3 normal);
+
+/// Cosine between normals of surfaces that face each other: below (a V of 60 degrees is no gap).
+inline constexpr double kFacing = -0.71;
+
+}  // namespace st

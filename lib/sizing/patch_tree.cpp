@@ -1,0 +1,131 @@
+#include "sizing/patch_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace st {
+namespace {
+
+constexpr std::size_t kLeafPatches = 4;
+
+/// The prism over a patch as three slabs along its own axes.
+struct Prism {
+  Vec3 x, axes[3];
+  double lo[3], hi[3];
+  Box3 box;
+
+  Prism(const GapPatch& p, double reach) : x(p.x), axes{p.axis_s, p.axis_t, p.normal}, lo{p.s_lo, p.t_lo, 0}, hi{p.s_hi, p.t_hi, 0} {
+    const Box3 own = p.box();
+    box.add(own);
+    // Normals of a curved patch lean outward: what it sees at `reach` is as much wider.
+    const double lean_s = reach * (std::abs(p.k_ss) * std::max(-p.s_lo, p.s_hi) + std::abs(p.k_st) * std::max(-p.t_lo, p.t_hi));
+    const double lean_t = reach * (std::abs(p.k_tt) * std::max(-p.t_lo, p.t_hi) + std::abs(p.k_st) * std::max(-p.s_lo, p.s_hi));
+    lo[0] -= lean_s, hi[0] += lean_s, lo[1] -= lean_t, hi[1] += lean_t;
+    const double sag = std::max({std::abs(p.height(p.s_lo, p.t_lo)), std::abs(p.height(p.s_lo, p.t_hi)), std::abs(p.height(p.s_hi, p.t_lo)),
+                                 std::abs(p.height(p.s_hi, p.t_hi))});
+    lo[2] = -reach - sag, hi[2] = reach + sag;
+    for (int corner = 0; corner < 8; ++corner)
+      box.add(x + ((corner & 1) ? hi[0] : lo[0]) * axes[0] + ((corner & 2) ? hi[1] : lo[1]) * axes[1] +
+              ((corner & 4) ? hi[2] : lo[2]) * axes[2]);
+  }
+
+  /// Can the prism meet the box? Tests the axes of both, not their cross products.
+  bool meets(const Box3& b) const {
+    if (b.lo.x > box.hi.x || b.hi.x < box.lo.x || b.lo.y > box.hi.y || b.hi.y < box.lo.y || b.lo.z > box.hi.z || b.hi.z < box.lo.z)
+      return false;
+    const Vec3 center = b.center() - x, half = 0.5 * (b.hi - b.lo);
+    for (int k = 0; k < 3; ++k) {
+      const double middle = dot(center, axes[k]);
+      const double radius = half.x * std::abs(axes[k].x) + half.y * std::abs(axes[k].y) + half.z * std::abs(axes[k].z);
+      if (middle - radius > hi[k] || middle + radius < lo[k]) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches), order_(patches.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  for (const GapPatch& p : patches) {
+    boxes_.push_back(p.box());
+    cones_.push_back(cone_of(p));
+  }
+  if (!patches.empty()) build(0, patches.size());
+}
+
+PatchTree::Cone PatchTree::cone_of(const GapPatch& p) {
+  Cone cone{p.normal, 0};
+  for (const double s : {p.s_lo, p.s_hi})
+    for (const double t : {p.t_lo, p.t_hi}) cone.angle = std::max(cone.angle, angle_between(p.normal, p.normal_at(s, t)));
+  return cone;
+}
+
+PatchTree::Cone PatchTree::united(const Cone& a, const Cone& b) {
+  const double between = angle_between(a.axis, b.axis);
+  if (between + b.angle <= a.angle) return a;
+  if (between + a.angle <= b.angle) return b;
+  const double angle = 0.5 * (a.angle + b.angle + between);
+  const Vec3 side = normalized(b.axis - dot(a.axis, b.axis) * a.axis);
+  if (angle >= kPi || side == Vec3{}) return {a.axis, kPi};
+  const double turn = angle - a.angle;
+  return {normalized(std::cos(turn) * a.axis + std::sin(turn) * side), angle};
+}
+
+std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
+  const std::size_t index = nodes_.size();
+  nodes_.push_back({{}, {}, begin, end, 0});
+  Box3 box, centers;
+  for (std::size_t i = begin; i < end; ++i) {
+    box.add(boxes_[order_[i]]);
+    centers.add(patches_[order_[i]].x);
+  }
+  nodes_[index].box = box;
+  if (end - begin <= kLeafPatches) {
+    Cone cone = cones_[order_[begin]];
+    for (std::size_t i = begin + 1; i < end; ++i) cone = united(cone, cones_[order_[i]]);
+    nodes_[index].cone = cone;
+    return index;
+  }
+  const Vec3 size = centers.hi - centers.lo;
+  const double Vec3::*axis = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
+  const std::size_t middle = (begin + end) / 2;
+  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {
+    const double xa = patches_[a].x.*axis, xb = patches_[b].x.*axis;
+    return xa != xb ? xa < xb : a < b;
+  });
+  build(begin, middle);
+  const std::size_t right = build(middle, end);
+  nodes_[index].right = right;
+  nodes_[index].cone = united(nodes_[index + 1].cone, nodes_[right].cone);
+  return index;
+}
+
+void PatchTree::find_facing(const GapPatch& patch, double reach, std::vector<std::int32_t>& found) const {
+  found.clear();
+  if (nodes_.empty()) return;
+  const Prism prism(patch, reach);
+  const Cone own = cone_of(patch);
+  const double opposed = std::acos(kFacing);
+  const auto may_face = [&](const Cone& cone) { return angle_between(own.axis, cone.axis) + own.angle + cone.angle >= opposed; };
+  std::vector<std::size_t> stack{0};
+  while (!stack.empty()) {
+    const std::size_t index = stack.back();
+    const Node& node = nodes_[index];
+    stack.pop_back();
+    if (!prism.meets(node.box) || !may_face(node.cone)) continue;
+    if (node.right) {
+      stack.push_back(node.right);
+      stack.push_back(index + 1);
+      continue;
+    }
+    for (std::size_t i = node.begin; i < node.end; ++i) {
+      const std::int32_t id = order_[i];
+      if (&patches_[id] != &patch && may_face(cones_[id]) && prism.meets(boxes_[id])) found.push_back(id);
+    }
+  }
+}
+
+}  // namespace st

@@ -1,0 +1,46 @@
+// Binary tree of boxes and cones of normals around sampled patches.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sizing/gap_patch.h"
+
+namespace st {
+
+/// Finds patches that may face a patch. Built in O(n log n); does not depend on anything but the patches and their order.
+class PatchTree {
+ public:
+  /// `patches` must outlive the tree.
+  explicit PatchTree(std::span<const GapPatch> patches);
+
+  /// Clears `found` and fills it with the patches, in the tree's order, that meet the prism swept by the patch along its normal by `reach`
+  /// (model unit) to both sides and of whose normals some are opposed to some of the patch's by more than 135 degrees.
+  void find_facing(const GapPatch& patch, double reach, std::vector<std::int32_t>& found) const;
+
+ private:
+  struct Cone {
+    Vec3 axis;         // unit
+    double angle = 0;  // half the opening, radians
+  };
+  struct Node {
+    Box3 box;
+    Cone cone;
+    std::size_t begin = 0, end = 0;
+    std::size_t right = 0;  // index of the right child, the left one follows its parent; 0: a leaf
+  };
+
+  static Cone cone_of(const GapPatch& patch);
+  static Cone united(const Cone& a, const Cone& b);
+  std::size_t build(std::size_t begin, std::size_t end);
+
+  std::span<const GapPatch> patches_;
+  std::vector<Cone> cones_;
+  std::vector<Box3> boxes_;
+  std::vector<std::int32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace st
