@@ -232,6 +232,19 @@ void check_quality(const SurfaceMesh& mesh, const CheckThresholds& asked, Findin
                                    fmt::format("{:.3f}", q.jump_p999)));
 }
 
+void check_causes(const CheckThresholds& asked, Findings& f) {
+  if (!asked.max_free_sharp || !f.causes) return;
+  Check c{"max-free-sharp",
+          fmt::format("triangles with an angle below {:g} deg that the CAD does not force", f.causes->angle_deg),
+          {},
+          true,
+          ""};
+  for (const CausePlace& p : f.causes->sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)]) c.defects.add({p.xyz, p.face, kNone});
+  c.defects.count = f.causes->sharp.free();
+  c.allowed = *asked.max_free_sharp;
+  f.checks.push_back(c);
+}
+
 void check_sizes(const CheckThresholds& asked, Findings& f) {
   if (!asked.min_size_share || !f.conformity) return;
   const double share = f.conformity->free.share();
@@ -283,6 +296,7 @@ void CheckStageOptions::validate() const {
       throw Error(ExitCode::kUsage, fmt::format("{}: needs {} FILE; give it, or leave the option out", option, input));
   };
   needs(thresholds.min_size_share.has_value(), sizing, "--min-size-share", "--sizing");
+  needs(thresholds.max_free_sharp.has_value(), geometry, "--max-free-sharp", "--geometry");
   needs(!thresholds.max_deviation.empty(), geometry, "--max-deviation", "--geometry");
   needs(thresholds.max_normal_deviation_deg.has_value(), geometry, "--max-normal-deviation", "--geometry");
 }
@@ -303,6 +317,7 @@ StageSummary run_check(const CheckStageOptions& options) {
     f.causes = find_shape_causes(cad->model, artifact.mesh, f.quality, f.conformity ? &*f.conformity : nullptr, options.list_below_deg);
 
   check_quality(artifact.mesh, options.thresholds, f);
+  check_causes(options.thresholds, f);
   check_sizes(options.thresholds, f);
   if (cad) check_deviation(options.thresholds, cad->model.tables(), f);
 

@@ -17,6 +17,7 @@ struct CheckThresholds {
   std::optional<double> min_mean_quality;  ///< [0, 1]
   std::optional<double> min_p1_quality;    ///< [0, 1] first percentile
   std::optional<double> min_angle_deg;     ///< (0, 60] of every triangle
+  std::optional<int> max_free_sharp;       ///< >= 0: triangles below list_below_deg that nothing in the CAD forces; needs the geometry
   std::optional<double> max_jump;          ///< >= 1: sqrt of the area ratio of neighbours, 99.9th percentile
   std::optional<double>
       min_size_share;         ///< [0, 1] share of edges within 0.7 to 1.4 of the request, those the CAD forces apart; needs the sizing

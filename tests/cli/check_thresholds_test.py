@@ -46,9 +46,17 @@ class Thresholds(ToolTest):
         checks = self.expect(OK, [], "--max-folds", 3, "--max-crossings", 5).json()["checks"]
         self.assertEqual([checks[name]["allowed"] for name in ("folds", "crossings", "overlaps", "closed")], [3, 5, 5, 0])
 
+    def test_free_sharp_triangles_decide_below_the_angle_asked_for(self):
+        self.expect(OK, [], "--max-free-sharp", 0)
+        run = self.expect(INCOMPLETE, ["max-free-sharp"], "--max-free-sharp", 0, "--list-below", 60)
+        free = run.json()["causes"]["sharp"]["free"]
+        self.assertEqual(run.json()["checks"]["max-free-sharp"]["count"], free)
+        self.expect(OK, [], "--max-free-sharp", free, "--list-below", 60)
+        self.assertEqual(run.json()["causes"]["below_deg"], 60)
+
     def test_threshold_without_its_input_is_2(self):
         mesh = self.inputs[0]
-        for option, value, needed in [("min-size-share", 0.5, "--sizing"), ("max-deviation", 1, "--geometry"), ("max-normal-deviation", 9, "--geometry")]:
+        for option, value, needed in [("max-free-sharp", 0, "--geometry"), ("min-size-share", 0.5, "--sizing"), ("max-deviation", 1, "--geometry"), ("max-normal-deviation", 9, "--geometry")]:
             self.expect_error(USAGE, "st-check", mesh, f"--{option}", value, says=[f"--{option}", needed])
 
     def test_deviation_in_a_unit_the_model_does_not_have_is_2(self):

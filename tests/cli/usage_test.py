@@ -19,7 +19,7 @@ OPTIONS = {
     "st-check": {
         "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
         "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
-        "--max-normal-deviation": "", "--list-below": "10",
+        "--max-normal-deviation": "", "--list-below": "10", "--max-free-sharp": "",
     },
     "st-info": {"--hash": "", "--groups": "", "--at": ""},
     "st-diff": {"--tolerance": "0"},
@@ -53,6 +53,7 @@ REFUSED = {
         "--max-deviation": ["0", "-1", "x"],
         "--max-normal-deviation": ["0", "181"],
         "--list-below": ["0", "61", "x"],
+        "--max-free-sharp": ["-1", "1.5"],
     },
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
 }

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   tool.number("--min-mean-quality", t.min_mean_quality, "[0, 1]", "least mean quality");
   tool.number("--min-p1-quality", t.min_p1_quality, "[0, 1]", "least first percentile of quality");
   tool.number("--min-angle", t.min_angle_deg, "(0, 60]", "least angle of every triangle, degrees");
+  tool.number("--max-free-sharp", t.max_free_sharp, "[0, 1000000000]",
+              "triangles below --list-below accepted that nothing in the CAD forces; needs --geometry");
   tool.number("--max-jump", t.max_jump, "[1, 1000000]", "largest growth between neighbours (99.9 %)");
   tool.number("--min-size-share", t.min_size_share, "[0, 1]",
               "least share of edges within 0.7 to 1.4 of the requested length, those the CAD forces apart; needs --sizing");
