@@ -14,13 +14,19 @@ constexpr int kMaxDepth = 8;        // of tiles in tiles
 constexpr int kMaxParts = 4;        // into which a tile is cut each way at once
 constexpr int kFirstParts = 2;
 
+/// A patch that may face another one, and a sphere around it.
+struct Facing {
+  Vec3 center;
+  double radius;
+  const GapPatch* patch;
+};
+
 /// Cuts a patch into tiles that are small enough for the gap they see.
 class GapTiler {
  public:
-  GapTiler(std::span<const GapPatch> patches, const GapPatch& patch, const std::vector<std::int32_t>& facing, double cell_per_length,
-           std::vector<RasterBox>& boxes)
-      : patches_(patches), patch_(patch), facing_(facing), cell_per_length_(cell_per_length), boxes_(boxes) {
-    has_large_ = std::any_of(facing.begin(), facing.end(), [&](std::int32_t id) { return is_large(patches[id]); });
+  GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, double cell_per_length, std::vector<RasterBox>& boxes)
+      : patch_(patch), facing_(facing), cell_per_length_(cell_per_length), boxes_(boxes) {
+    has_large_ = std::any_of(facing.begin(), facing.end(), [&](const Facing& f) { return is_large(*f.patch); });
   }
 
   void run() {
@@ -43,9 +49,12 @@ class GapTiler {
   Sight look(double s, double t) const {
     const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
     Sight sight{*patch_.gap_cells * patch_.length, nullptr, {}};
-    for (const std::int32_t id : facing_) {
-      const std::optional<double> d = patches_[id].facing_distance(x, n);
-      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap) sight = {std::abs(*d), &patches_[id], x + *d * n};
+    for (const Facing& f : facing_) {
+      const Vec3 to = f.center - x;
+      const double along = dot(to, n);
+      if (std::abs(along) - f.radius > sight.gap || norm2(to) - along * along > f.radius * f.radius) continue;
+      const std::optional<double> d = f.patch->facing_distance(x, n);
+      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap) sight = {std::abs(*d), f.patch, x + *d * n};
     }
     return sight;
   }
@@ -99,9 +108,8 @@ class GapTiler {
            patch_.is_inside(tile.s_hi, tile.t_lo) || patch_.is_inside(tile.s_hi, tile.t_hi);
   }
 
-  const std::span<const GapPatch> patches_;
   const GapPatch& patch_;
-  const std::vector<std::int32_t>& facing_;
+  const std::vector<Facing>& facing_;
   const double cell_per_length_;
   std::vector<RasterBox>& boxes_;
   bool has_large_;
@@ -115,9 +123,15 @@ GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length)
 void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
   const GapPatch& patch = patches_[i];
   if (!patch.gap_cells) return;
-  std::vector<std::int32_t> facing;
-  tree_.find_facing(patch, *patch.gap_cells * patch.length, facing);
-  if (!facing.empty()) GapTiler(patches_, patch, facing, cell_per_length_, boxes).run();
+  std::vector<std::int32_t> ids;
+  tree_.find_facing(i, *patch.gap_cells * patch.length, ids);
+  if (ids.empty()) return;
+  std::vector<Facing> facing;
+  for (const std::int32_t id : ids) {
+    const Box3 box = patches_[id].box();
+    facing.push_back({box.center(), 0.5 * box.diagonal(), &patches_[id]});
+  }
+  GapTiler(patch, facing, cell_per_length_, boxes).run();
 }
 
 }  // namespace st

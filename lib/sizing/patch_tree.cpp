@@ -15,8 +15,8 @@ struct Prism {
   double lo[3], hi[3];
   Box3 box;
 
-  Prism(const GapPatch& p, double reach) : x(p.x), axes{p.axis_s, p.axis_t, p.normal}, lo{p.s_lo, p.t_lo, 0}, hi{p.s_hi, p.t_hi, 0} {
-    const Box3 own = p.box();
+  Prism(const GapPatch& p, const Box3& own, double reach)
+      : x(p.x), axes{p.axis_s, p.axis_t, p.normal}, lo{p.s_lo, p.t_lo, 0}, hi{p.s_hi, p.t_hi, 0} {
     box.add(own);
     // Normals of a curved patch lean outward: what it sees at `reach` is as much wider.
     const double lean_s = reach * (std::abs(p.k_ss) * std::max(-p.s_lo, p.s_hi) + std::abs(p.k_st) * std::max(-p.t_lo, p.t_hi));
@@ -55,11 +55,13 @@ PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches), ord
   if (!patches.empty()) build(0, patches.size());
 }
 
+PatchTree::Cone PatchTree::make_cone(Vec3 axis, double angle) { return {axis, angle, std::cos(angle), std::sin(angle)}; }
+
 PatchTree::Cone PatchTree::cone_of(const GapPatch& p) {
-  Cone cone{p.normal, 0};
+  double cosine = 1;
   for (const double s : {p.s_lo, p.s_hi})
-    for (const double t : {p.t_lo, p.t_hi}) cone.angle = std::max(cone.angle, angle_between(p.normal, p.normal_at(s, t)));
-  return cone;
+    for (const double t : {p.t_lo, p.t_hi}) cosine = std::min(cosine, dot(p.normal, p.normal_at(s, t)));
+  return make_cone(p.normal, std::acos(std::max(cosine, -1.0)));
 }
 
 PatchTree::Cone PatchTree::united(const Cone& a, const Cone& b) {
@@ -68,9 +70,9 @@ PatchTree::Cone PatchTree::united(const Cone& a, const Cone& b) {
   if (between + a.angle <= b.angle) return b;
   const double angle = 0.5 * (a.angle + b.angle + between);
   const Vec3 side = normalized(b.axis - dot(a.axis, b.axis) * a.axis);
-  if (angle >= kPi || side == Vec3{}) return {a.axis, kPi};
+  if (angle >= kPi || side == Vec3{}) return make_cone(a.axis, kPi);
   const double turn = angle - a.angle;
-  return {normalized(std::cos(turn) * a.axis + std::sin(turn) * side), angle};
+  return make_cone(normalized(std::cos(turn) * a.axis + std::sin(turn) * side), angle);
 }
 
 std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
@@ -103,19 +105,21 @@ std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
   return index;
 }
 
-void PatchTree::find_facing(const GapPatch& patch, double reach, std::vector<std::int32_t>& found) const {
+void PatchTree::find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const {
   found.clear();
-  if (nodes_.empty()) return;
-  const Prism prism(patch, reach);
-  const Cone own = cone_of(patch);
-  const double opposed = std::acos(kFacing);
-  const auto may_face = [&](const Cone& cone) { return angle_between(own.axis, cone.axis) + own.angle + cone.angle >= opposed; };
+  const Prism prism(patches_[patch], boxes_[patch], reach);
+  const Cone& own = cones_[patch];
+  const double opposed = std::acos(kFacing) - own.angle;  // the axes may be this far apart, less the other cone's angle
+  const double cosine = std::cos(opposed), sine = std::sin(opposed);
+  const auto may_face = [&](const Cone& cone) {
+    return cone.angle >= opposed || dot(own.axis, cone.axis) <= cosine * cone.cosine + sine * cone.sine;
+  };
   std::vector<std::size_t> stack{0};
   while (!stack.empty()) {
     const std::size_t index = stack.back();
     const Node& node = nodes_[index];
     stack.pop_back();
-    if (!prism.meets(node.box) || !may_face(node.cone)) continue;
+    if (!may_face(node.cone) || !prism.meets(node.box)) continue;
     if (node.right) {
       stack.push_back(node.right);
       stack.push_back(index + 1);
@@ -123,7 +127,7 @@ void PatchTree::find_facing(const GapPatch& patch, double reach, std::vector<std
     }
     for (std::size_t i = node.begin; i < node.end; ++i) {
       const std::int32_t id = order_[i];
-      if (&patches_[id] != &patch && may_face(cones_[id]) && prism.meets(boxes_[id])) found.push_back(id);
+      if (static_cast<std::size_t>(id) != patch && may_face(cones_[id]) && prism.meets(boxes_[id])) found.push_back(id);
     }
   }
 }

@@ -16,14 +16,15 @@ class PatchTree {
   /// `patches` must outlive the tree.
   explicit PatchTree(std::span<const GapPatch> patches);
 
-  /// Clears `found` and fills it with the patches, in the tree's order, that meet the prism swept by the patch along its normal by `reach`
+  /// Clears `found` and fills it with the patches, in the tree's order, that meet the prism swept by this patch along its normal by `reach`
   /// (model unit) to both sides and of whose normals some are opposed to some of the patch's by more than 135 degrees.
-  void find_facing(const GapPatch& patch, double reach, std::vector<std::int32_t>& found) const;
+  void find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const;
 
  private:
   struct Cone {
-    Vec3 axis;         // unit
-    double angle = 0;  // half the opening, radians
+    Vec3 axis;                    // unit
+    double angle = 0;             // half the opening, radians
+    double cosine = 1, sine = 0;  // of the angle
   };
   struct Node {
     Box3 box;
@@ -32,6 +33,7 @@ class PatchTree {
     std::size_t right = 0;  // index of the right child, the left one follows its parent; 0: a leaf
   };
 
+  static Cone make_cone(Vec3 axis, double angle);
   static Cone cone_of(const GapPatch& patch);
   static Cone united(const Cone& a, const Cone& b);
   std::size_t build(std::size_t begin, std::size_t end);
