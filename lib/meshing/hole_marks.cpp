@@ -6,10 +6,13 @@
 namespace st {
 namespace {
 
+bool by_face(const TouchedNode& a, const TouchedNode& b) { return a.face < b.face; }
+
 class Marker {
  public:
-  Marker(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options)
-      : cad_(mesh), mesh_(mesh.mesh), wanted_(wanted), options_(options) {
+  Marker(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted, const HoleMarkOptions& options,
+         const NodeExchange& exchange)
+      : cad_(mesh), mesh_(mesh.mesh), share_(share), wanted_(wanted), options_(options), exchange_(exchange) {
     marks_.triangle.assign(mesh_.triangles.size(), 0);
     marks_.segment.assign(mesh.edges.node_t.size(), 0);
     on_run_.assign(mesh_.node_xyz.size(), 0);
@@ -20,8 +23,12 @@ class Marker {
     mark_segments();
     join_segments();
     mark_triangles();
-    for (int i = 0; i < options_.layers; ++i) for_each_face([&](FaceId f) { add_layer(f); });
-    for_each_face([&](FaceId f) { close_gaps(f); });
+    for (int i = 0; i < options_.layers; ++i) {
+      const std::vector<TouchedNode> elsewhere = exchange_touched();
+      for_each_face([&](FaceId f) { add_layer(f, elsewhere); });
+    }
+    const std::vector<TouchedNode> elsewhere = exchange_touched();
+    for_each_face([&](FaceId f) { close_gaps(f, elsewhere); });
     return std::move(marks_);
   }
 
@@ -71,39 +78,80 @@ class Marker {
   }
 
   void mark_triangles() {
-    for (TriangleId t : options_.redo) marks_.triangle[t] = !keeps(mesh_.triangle_face[t]);
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    for (const TriangleId t : options_.redo)
+      if (const TriangleId i = t - share_.first_triangle; share_.begin <= i && i < share_.end)
+        marks_.triangle[i] = !keeps(mesh_.triangle_face[i]);
+    for (TriangleId i = share_.begin; i < share_.end; ++i) {
       const NodeId* n = mesh_.triangles[i].n;
-      if (keeps(mesh_.triangle_face[i])) continue;
-      for (int k = 0; k < 3; ++k) marks_.triangle[i] |= violates(n[k], n[(k + 1) % 3]);
+      if (marks_.triangle[i] || keeps(mesh_.triangle_face[i])) continue;
+      marks_.triangle[i] = violates(n[0], n[1]) || violates(n[1], n[2]) || violates(n[2], n[0]);
     }
   }
+
+  TriangleId begin(FaceId f) const { return std::max(share_.begin, cad_.face_begin[f]); }
+  TriangleId end(FaceId f) const { return std::min(share_.end, cad_.face_begin[f + 1]); }
 
   template <class Work>
   void for_each_face(const Work& work) {
     for (FaceId f = 0; f < cad_.tables.n_faces(); ++f)
-      if (!keeps(f)) work(f);
+      if (begin(f) < end(f) && !keeps(f)) work(f);
+  }
+
+  NodeId in_whole_mesh(NodeId n) const { return n < cad_.inner_begin[0] ? n : n + share_.inner_shift; }
+  /// kNone: not in this rank's mesh.
+  NodeId in_own_mesh(NodeId n) const {
+    if (n < cad_.inner_begin[0]) return n;
+    const NodeId own = n - share_.inner_shift;
+    return own >= cad_.inner_begin[0] && own < static_cast<NodeId>(face_at_.size()) ? own : kNone;
+  }
+
+  /// What marked triangles of other ranks touch; only the first and the last face can lie there, too.
+  std::vector<TouchedNode> exchange_touched() {
+    if (!exchange_) return {};
+    std::vector<TouchedNode> own;
+    if (share_.begin < share_.end) {
+      const FaceId first = mesh_.triangle_face[share_.begin], last = mesh_.triangle_face[share_.end - 1];
+      add_touched(first, own);
+      if (last != first) add_touched(last, own);
+    }
+    std::vector<TouchedNode> all = exchange_(own);
+    std::sort(all.begin(), all.end(), by_face);
+    return all;
+  }
+
+  void add_touched(FaceId f, std::vector<TouchedNode>& own) {
+    face_at_.assign(face_at_.size(), kNone);
+    for (TriangleId i = begin(f); i < end(f); ++i)
+      for (const NodeId n : mesh_.triangles[i].n)
+        if (marks_.triangle[i] && face_at_[n] != f) {
+          face_at_[n] = f;
+          own.push_back({f, in_whole_mesh(n)});
+        }
   }
 
   /// Marks spread within a face; over CAD edges only where the edge itself changes.
-  void note_nodes(FaceId f) {
-    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
+  void note_nodes(FaceId f, std::span<const TouchedNode> elsewhere) {
+    for (TriangleId i = begin(f); i < end(f); ++i)
       if (marks_.triangle[i])
         for (NodeId n : mesh_.triangles[i].n) face_at_[n] = f;
+    const auto [first, last] = std::equal_range(elsewhere.begin(), elsewhere.end(), TouchedNode{f, kNone}, by_face);
+    for (auto touched = first; touched != last; ++touched)
+      if (const NodeId n = in_own_mesh(touched->node); n != kNone) face_at_[n] = f;
   }
   bool is_marked(NodeId n, FaceId f) const { return on_run_[n] || face_at_[n] == f; }
 
-  void add_layer(FaceId f) {
-    note_nodes(f);
-    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
-      for (NodeId n : mesh_.triangles[i].n)
-        if (is_marked(n, f)) marks_.triangle[i] = 1;
+  void add_layer(FaceId f, std::span<const TouchedNode> elsewhere) {
+    note_nodes(f, elsewhere);
+    for (TriangleId i = begin(f); i < end(f); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (is_marked(n[0], f) || is_marked(n[1], f) || is_marked(n[2], f)) marks_.triangle[i] = 1;
+    }
   }
 
   /// No triangle with marked ones at all its corners stays; one pass finds all, as no further node is touched.
-  void close_gaps(FaceId f) {
-    note_nodes(f);
-    for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i) {
+  void close_gaps(FaceId f, std::span<const TouchedNode> elsewhere) {
+    note_nodes(f, elsewhere);
+    for (TriangleId i = begin(f); i < end(f); ++i) {
       const NodeId* n = mesh_.triangles[i].n;
       if (is_marked(n[0], f) && is_marked(n[1], f) && is_marked(n[2], f)) marks_.triangle[i] = 1;
     }
@@ -111,8 +159,10 @@ class Marker {
 
   const HoleMesh& cad_;
   const SurfaceMesh& mesh_;
+  const MeshShare& share_;
   std::span<const double> wanted_;
   const HoleMarkOptions& options_;
+  const NodeExchange& exchange_;  // empty: there is one rank
   HoleMarks marks_;
   std::vector<char> on_run_;     // nodes of marked segments
   std::vector<FaceId> face_at_;  // last face in which a marked triangle was seen at the node
@@ -123,7 +173,12 @@ class Marker {
 std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
 
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options) {
-  return Marker(mesh, wanted, options).run();
+  return mark_share(mesh, {0, static_cast<TriangleId>(mesh.mesh.triangles.size()), 0, 0}, wanted, options, {});
+}
+
+HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted, const HoleMarkOptions& options,
+                     const NodeExchange& exchange) {
+  return Marker(mesh, share, wanted, options, exchange).run();
 }
 
 void grow_hole(const HoleMesh& cad, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks) {

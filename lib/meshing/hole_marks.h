@@ -1,6 +1,7 @@
 // Which triangles and segments no longer respect the sizes (the analysis of a remeshing).
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,10 +27,33 @@ struct HoleMarks {
   std::int64_t n_triangles() const;
 };
 
+/// The part of the whole mesh that a rank has, and the part of that which it marks. A rank's mesh has all nodes on vertices and edges, and
+/// a consecutive share of the triangles with their nodes, by their order in the whole mesh.
+struct MeshShare {
+  TriangleId begin = 0, end = 0;  ///< triangles of the rank's mesh that it marks
+  TriangleId first_triangle = 0;  ///< number in the whole mesh of the rank's triangle 0
+  NodeId inner_shift = 0;         ///< of nodes inside faces: number in the whole mesh minus number in the rank's
+};
+
+/// A node of the whole mesh that a marked triangle of `face` touches.
+struct TouchedNode {
+  FaceId face;
+  NodeId node;
+};
+
+/// Where faces lie on several ranks. Collective: what every rank's triangles touch goes in, what all of them touch comes out.
+using NodeExchange = std::function<std::vector<TouchedNode>(const std::vector<TouchedNode>& own)>;
+
 /// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size stored with the mesh;
 /// with it its triangles, and `layers` around them within their face (over a CAD edge where its segments are marked); segments between
 /// marked ones and triangles with marked ones at all corners follow. Local, pure.
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
+
+/// Likewise on several ranks, each with its share: together they mark what one would. Of the triangles only those of the share are marked,
+/// of `wanted` only the values on their nodes and on all edges are used; segments are marked on every rank. `options.redo` numbers the
+/// whole mesh's triangles. Calls `exchange` layers + 1 times.
+HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted, const HoleMarkOptions& options,
+                     const NodeExchange& exchange);
 
 /// Grows a hole within its face by `layers`; segments stay. `hole`: its triangles.
 void grow_hole(const HoleMesh& mesh, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks);

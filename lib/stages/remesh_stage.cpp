@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "io/artifact.h"
+#include "io/mesh_part.h"
 #include "io/node_array.h"
 #include "io/sizing_artifact.h"
 #include "io/triangulation_reader.h"
@@ -68,6 +69,7 @@ nlohmann::json counts(const Remesher& r, const HoleMesh& mesh) {
   return {{"faces_redone", r.dirty_faces.size()},
           {"triangles_redone", r.n_marked_triangles},
           {"segments_redone", r.n_marked_segments},
+          {"marks_hash", r.marks_hash},
           {"triangles_before", mesh.mesh.n_triangles()},
           {"faces", mesh.tables.n_faces()},
           {"holes_grown", r.n_grown},
@@ -126,6 +128,7 @@ struct RemeshInput {
   std::vector<Vec3> earlier_xyz = {};   ///< of the nodes, before the geometry moved; else empty
   std::vector<TriangleId> spoilt = {};  ///< by the move
   std::optional<ForeignMesh> foreign = std::nullopt;  ///< what `old` was made of
+  MeshShare share = {};                 ///< of this rank, in `old`
 };
 
 /// Puts the mesh onto the moved geometry.
@@ -156,11 +159,35 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
   return in;
 }
 
-RemeshInput read_input(const RemeshStageOptions& o) {
-  if (is_foreign_mesh(o.mesh)) return read_foreign_input(o);
+/// The whole mesh, and the share of it that this rank marks.
+MeshShare share_of(const SurfaceMesh& whole, const Communicator& comm) {
+  const auto n = static_cast<std::int64_t>(whole.triangles.size());
+  const auto at = [&](int rank) { return static_cast<TriangleId>(n * rank / comm.size()); };
+  return {at(comm.rank()), at(comm.rank() + 1), 0, 0};
+}
+
+/// Rank 0 needs the whole mesh; others their share, unless the move or lengths on nodes ask for all of it.
+MeshArtifact read_share(const RemeshStageOptions& o, const Communicator& comm, MeshShare& share) {
+  if (comm.is_root() || o.moved || !o.sizes_on_nodes.empty()) {
+    MeshArtifact whole = read_mesh(o.mesh);
+    share = share_of(whole.mesh, comm);
+    return whole;
+  }
+  MeshPart part = read_mesh_part(o.mesh, comm.rank(), comm.size());
+  share = {0, static_cast<TriangleId>(part.artifact.mesh.triangles.size()), part.first_triangle, part.inner_shift};
+  return std::move(part.artifact);
+}
+
+RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
+  if (is_foreign_mesh(o.mesh)) {
+    RemeshInput in = read_foreign_input(o);
+    in.share = share_of(in.old.mesh, comm);
+    return in;
+  }
   for (const auto& [option, value] : {std::pair("--tolerance", o.tolerance), std::pair("--made-for", o.made_for)})
     if (!value.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: {} is a mesh artifact, which knows; leave the option out", option, o.mesh));
-  MeshArtifact old = read_mesh(o.mesh);
+  MeshShare share;
+  MeshArtifact old = read_share(o, comm, share);
   if (!old.is_complete)
     throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
@@ -169,6 +196,7 @@ RemeshInput read_input(const RemeshStageOptions& o) {
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   ArtifactHeader header = geometry.header;
   RemeshInput in{std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)), std::move(sizing)};
+  in.share = share;
   if (o.moved) move(in);
   return in;
 }
@@ -280,7 +308,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   require_valid(o);
   keep_freed_memory();
   if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
-  const RemeshInput in = read_input(o);
+  const RemeshInput in = read_input(o, comm);
   const ModelTables tables = with_merged_edges(in.model.tables(), in.old.mesh.merged);
   const HoleMesh mesh(in.old.mesh, tables, o.moved ? nullptr : &in.model);  // a moved mesh has its own parameters on closed strips
   RemesherOptions options;
@@ -294,7 +322,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   std::optional<StageSummary> association;
   if (in.foreign) association = association_summary(o.mesh, in.old.mesh, in.foreign->report);
   if (association && comm.is_root()) log_info(association->line);
-  Remesher remesher(in.model, mesh, field, options, comm);
+  Remesher remesher(in.model, mesh, in.share, field, options, comm);
   const double load_seconds = timer.seconds();
   remesher.analyse();
   if (o.dry_run) return with_association(dry_run_summary(remesher, mesh), association);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "comm/packer.h"
 #include "meshing/hole_crossing.h"
@@ -14,7 +15,6 @@
 namespace st {
 namespace {
 
-constexpr std::int32_t kNodesPerTask = 1 << 16;
 constexpr std::int32_t kRunsPerTask = 64;
 constexpr int kGrowth[] = {2, 6};                // layers by which a hole grows when it cannot be filled; then the whole face is done again
 constexpr double kCrossingFloor = 1.0 / 8;       // of the requested length: refinement of crossing facets ends there
@@ -38,6 +38,11 @@ void share(const Communicator& comm, std::vector<T>& values) {
   }
   comm.broadcast(bytes);
   Unpacker(bytes).get(values);
+}
+
+double distance_outside(const Box3& box, Vec3 p) {
+  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
+  return norm(Vec3{out(box.lo.x, box.hi.x, p.x), out(box.lo.y, box.hi.y, p.y), out(box.lo.z, box.hi.z, p.z)});
 }
 
 void pack(Packer& p, const HoleRim& rim) {
@@ -74,50 +79,88 @@ void unpack(Unpacker& u, HoleFill& fill) {
 
 }  // namespace
 
-Remesher::Remesher(const Model& model, const HoleMesh& mesh, const SizeField& field, const RemesherOptions& options,
+Remesher::Remesher(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field, const RemesherOptions& options,
                    const Communicator& comm)
-    : model_(model), old_(mesh), field_(field), options_(options), comm_(comm) {}
+    : model_(model), old_(mesh), share_(share), field_(field), options_(options), comm_(comm) {}
 
 void Remesher::analyse() {
   const Timer timer;
-  const auto n_nodes = static_cast<std::int32_t>(old_.mesh.node_xyz.size());
-  const std::int32_t n_tasks = (n_nodes + kNodesPerTask - 1) / kNodesPerTask;
-  wanted_.resize(n_nodes);
-  const auto begin = [&](std::int32_t task) { return task * kNodesPerTask; };
-  const auto end = [&](std::int32_t task) { return std::min(n_nodes, (task + 1) * kNodesPerTask); };
-  comm_.run_tasks(
-      n_tasks, in_order(n_tasks),
-      [&](std::int32_t task) {
-        std::vector<double> sizes;
-        int hint = 0;
-        for (std::int32_t n = begin(task); n < end(task); ++n) sizes.push_back(field_.size(old_.mesh.node_xyz[n], hint));
-        Packer p;
-        p.add(sizes);
-        return p.take();
-      },
-      [&](std::int32_t task, Bytes&& result) {
-        std::vector<double> sizes;
-        Unpacker(result).get(sizes);
-        std::copy(sizes.begin(), sizes.end(), wanted_.begin() + begin(task));
-      });
-  share(comm_, wanted_);
+  const NodeId n_nodes = static_cast<NodeId>(old_.mesh.node_xyz.size()), n_on_edges = old_.inner_begin[0];
+  std::vector<char> is_needed(n_nodes, 0);
+  std::fill(is_needed.begin(), is_needed.begin() + n_on_edges, 1);
+  for (TriangleId t = share_.begin; t < share_.end; ++t)
+    for (const NodeId n : old_.mesh.triangles[t].n) is_needed[n] = 1;
+  wanted_.assign(n_nodes, 0);
+  int hint = 0;
+  for (NodeId n = 0; n < n_nodes; ++n)
+    if (is_needed[n]) wanted_[n] = field_.size(old_.mesh.node_xyz[n], hint);
   mark();
   n_marked_triangles = marks.n_triangles();
   n_marked_segments = std::count(marks.segment.begin(), marks.segment.end(), 1);
+  Hasher hasher;
+  hasher.add(std::span<const char>(marks.triangle));
+  hasher.add(std::span<const char>(marks.segment));
+  marks_hash = hasher.hex();
   seconds_analysis = timer.seconds();
 }
 
-void Remesher::mark() {
+/// The requested lengths with the refinements so far.
+std::vector<double> Remesher::refined_lengths() const {
   std::vector<double> wanted = wanted_;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    for (std::size_t n = 0; n < wanted.size(); ++n)
-      if (const double d = distance(old_.mesh.node_xyz[n], points_[i].x); d < point_reach_[i])
-        wanted[n] = std::min(wanted[n], points_[i].length + kRefinementSlope * d);
-  marks = mark_holes(old_, wanted, options_.mark);
+  const auto refine = [&](NodeId n, std::size_t i) {
+    if (const double d = distance(old_.mesh.node_xyz[n], points_[i].x); d < point_reach_[i])
+      wanted[n] = std::min(wanted[n], points_[i].length + kRefinementSlope * d);
+  };
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    for (NodeId n = 0; n < old_.inner_begin[0]; ++n) refine(n, i);
+    for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
+      if (distance_outside(model_.tables().face_box[f], points_[i].x) <= point_reach_[i])
+        for (NodeId n = old_.inner_begin[f]; n < old_.inner_begin[f + 1]; ++n) refine(n, i);
+  }
+  return wanted;
+}
+
+/// Collective.
+void Remesher::mark() {
+  NodeExchange exchange;
+  if (comm_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
+  marks = mark_share(old_, share_, refined_lengths(), options_.mark, exchange);
+  collect_marks();
   dirty_faces.clear();
   for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
     const auto first = marks.triangle.begin() + old_.face_begin[f], last = marks.triangle.begin() + old_.face_begin[f + 1];
     if (std::find(first, last, 1) != last) dirty_faces.push_back(f);
+  }
+}
+
+/// Collective.
+std::vector<TouchedNode> Remesher::exchange(const std::vector<TouchedNode>& own) const {
+  Packer p;
+  p.add(own);
+  Bytes all;
+  for (const Bytes& bytes : comm_.gather(p.take())) all.insert(all.end(), bytes.begin(), bytes.end());
+  comm_.broadcast(all);
+  std::vector<TouchedNode> touched, part;
+  for (Unpacker u(all); !u.is_empty();) {
+    u.get(part);
+    touched.insert(touched.end(), part.begin(), part.end());
+  }
+  return touched;
+}
+
+/// Collective. The marks of all ranks' triangles on rank 0.
+void Remesher::collect_marks() {
+  if (comm_.size() == 1) return;
+  Packer p;
+  p.add(share_.first_triangle + share_.begin);
+  p.add(std::vector<char>(marks.triangle.begin() + share_.begin, marks.triangle.begin() + share_.end));
+  for (const Bytes& bytes : comm_.gather(p.take())) {
+    TriangleId first = 0;
+    std::vector<char> part;
+    Unpacker u(bytes);
+    u.get(first);
+    u.get(part);
+    std::copy(part.begin(), part.end(), marks.triangle.begin() + first);
   }
 }
 
@@ -148,16 +191,17 @@ void Remesher::run() {
 
 std::vector<FacePatch> Remesher::all_patches() const {
   std::vector<FacePatch> all;
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-    all.push_back(make_hole_patch(f, marks, *numbering_, comm_.is_root() ? fills_[f] : std::vector<HoleFill>()));
+  for (FaceId f = 0; comm_.is_root() && f < model_.tables().n_faces(); ++f)
+    all.push_back(make_hole_patch(f, marks, *numbering_, fills_[f]));
   return all;
 }
 
 void Remesher::redo_holes() {
   fills_.assign(model_.tables().n_faces(), {});
   std::vector<FaceId> faces = dirty_faces;
-  for (std::size_t step = 0; !faces.empty(); ++step) {
+  for (std::size_t step = 0;; ++step) {
     const std::vector<HoleRim> rims = find_rims(faces);
+    if (rims.empty()) return;
     faces.clear();
     for (const std::int32_t i : fill(rims)) {
       if (faces.empty() || faces.back() != rims[i].face) faces.push_back(rims[i].face);
@@ -166,9 +210,10 @@ void Remesher::redo_holes() {
       if (comm_.is_root()) grow(rims[i], step);
     }
     for (const FaceId f : faces) fills_[f].clear();
-    if (step > std::size(kGrowth)) break;
+    if (step <= std::size(kGrowth)) continue;
+    failed_faces = faces;
+    return;
   }
-  failed_faces = faces;
 }
 
 /// By layers first, then to the whole face.
@@ -301,13 +346,9 @@ void Remesher::renew_surrounded_nodes() {
 }
 
 std::vector<RefinementPoint> Remesher::points_near(const Box3& box) const {
-  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
   std::vector<RefinementPoint> near;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const Vec3 p = points_[i].x;
-    if (norm(Vec3{out(box.lo.x, box.hi.x, p.x), out(box.lo.y, box.hi.y, p.y), out(box.lo.z, box.hi.z, p.z)}) <= point_reach_[i])
-      near.push_back(points_[i]);
-  }
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (distance_outside(box, points_[i].x) <= point_reach_[i]) near.push_back(points_[i]);
   return near;
 }
 

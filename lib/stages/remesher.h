@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "comm/communicator.h"
@@ -20,8 +21,9 @@ struct RemesherOptions {
 
 class Remesher {
  public:
-  /// `mesh` and all other references outlive the object.
-  Remesher(const Model& model, const HoleMesh& mesh, const SizeField& field, const RemesherOptions& options, const Communicator& comm);
+  /// `mesh`: the whole mesh on rank 0, at least its `share` on others. It and all other references outlive the object.
+  Remesher(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field, const RemesherOptions& options,
+           const Communicator& comm);
 
   /// Collective. Finds what no longer respects the sizes.
   void analyse();
@@ -30,9 +32,11 @@ class Remesher {
   /// Local, on rank 0. Patches of all faces, those that stay included.
   std::vector<FacePatch> all_patches() const;
 
-  HoleMarks marks;                                             ///< after analyse(), on every rank
+  // after analyse(), on rank 0
+  HoleMarks marks;                                             ///< segments on every rank
   std::int64_t n_marked_triangles = 0, n_marked_segments = 0;  ///< by analyse(): holes that cannot be filled grow later
-  std::vector<FaceId> dirty_faces;                             ///< faces with a marked triangle, ascending, on every rank
+  std::vector<FaceId> dirty_faces;                             ///< faces with a marked triangle, ascending
+  std::string marks_hash;                                      ///< of triangles and segments
 
   // results, complete on rank 0 only (edges on every rank); new nodes have the length that the field requests as node_request, inner_size
   EdgeMesh edges;
@@ -56,13 +60,17 @@ class Remesher {
   bool accept(const RefinementPoint& point);
   std::vector<RefinementPoint> points_near(const Box3& box) const;
   void mark();
+  std::vector<double> refined_lengths() const;
+  std::vector<TouchedNode> exchange(const std::vector<TouchedNode>& own) const;
+  void collect_marks();
 
   const Model& model_;
   const HoleMesh& old_;
+  MeshShare share_;
   const SizeField& field_;
   RemesherOptions options_;
   const Communicator& comm_;
-  std::vector<double> wanted_;           // [n_nodes] requested lengths
+  std::vector<double> wanted_;           // [n_nodes] requested lengths, of the nodes that the share needs
   std::vector<RefinementPoint> points_;  // refinements of crossings so far
   std::vector<double> point_reach_;
   EdgeUpdate update_;
