@@ -27,13 +27,17 @@ class CellLocator {
 
   PositionProbe probe(Vec2 uv) { return {surface_.point(uv)}; }
 
-  bool visit(const Patch<PositionProbe>& patch, const PatchSize& size, int&) {
+  bool must_split(const PatchSize& size) {
     int level = 0;
-    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(size.center)), level);
-    if (size.extent > octree_.cell_edge(level)) return true;
+    leaf_ = octree_.find_leaf(morton::encode(octree_.grid_point(size.center)), level);
+    return size.extent > octree_.cell_edge(level);
+  }
+
+  bool visit(const Patch<PositionProbe>& patch, const PatchSize& size, int&) {
     // A patch that the loops only graze counts a little, so that a sliver between the probes is somewhere.
-    const double area = patch.n_inside > 0 ? inside_area(patch) : 1e-3 * size.along_u * size.along_v;
-    parts_.push_back({leaf, area, size.center, cross(patch.probe[8].x - patch.probe[0].x, patch.probe[6].x - patch.probe[2].x)});
+    const PatchSpans spans = patch.n_inside > 0 ? PatchSpans() : measure_spans(patch);
+    const double area = patch.n_inside > 0 ? inside_area(patch) : 1e-3 * spans.along_u * spans.along_v;
+    parts_.push_back({leaf_, area, size.center, cross(patch.probe[8].x - patch.probe[0].x, patch.probe[6].x - patch.probe[2].x)});
     return false;
   }
 
@@ -42,6 +46,7 @@ class CellLocator {
  private:
   const Surface& surface_;
   const OctreeView& octree_;
+  std::int32_t leaf_ = 0;  // at the centre of the last patch
   std::vector<FacePart> parts_;
 };
 

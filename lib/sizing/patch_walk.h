@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/surface.h"
@@ -17,34 +18,42 @@ template <class Probe>
 struct Patch {
   double u[3], v[3];
   std::array<Probe, 9> probe;
-  std::array<bool, 9> is_inside{};  // inside the loops
-  std::vector<std::int32_t> sides;  // sides of the loops that meet it
+  std::array<bool, 9> is_inside{};      // inside the loops
+  std::span<const std::int32_t> sides;  // sides of the loops that meet it
   int n_inside = 0;
+  std::uint16_t is_known = 0, is_contained = 0;  // a bit per probe: whether the answer of contains() is known, and the answer
   int n_splits = 0, n_doubts = 0;
 
   Vec2 uv(std::size_t k) const { return {u[k % 3], v[k / 3]}; }
 };
 
 struct PatchSize {
-  Vec3 center;                      // of the bounding box of the probes
-  double extent = 0;                // its largest side
-  double along_u = 0, along_v = 0;  // longest row, longest column
+  Vec3 center;        // of the bounding box of the probes
+  double extent = 0;  // its largest side
 };
 
 template <class Probe>
 PatchSize measure(const Patch<Probe>& patch) {
-  const auto& p = patch.probe;
-  PatchSize size;
   Box3 box;
-  for (const Probe& q : p) box.add(q.x);
+  for (const Probe& q : patch.probe) box.add(q.x);
   const Vec3 e = box.hi - box.lo;
-  size.center = box.center();
-  size.extent = std::max({e.x, e.y, e.z});
+  return {box.center(), std::max({e.x, e.y, e.z})};
+}
+
+/// Longest row and longest column of a patch.
+struct PatchSpans {
+  double along_u = 0, along_v = 0;
+};
+
+template <class Probe>
+PatchSpans measure_spans(const Patch<Probe>& patch) {
+  const auto& p = patch.probe;
+  PatchSpans spans;
   for (std::size_t k = 0; k < 3; ++k) {
-    size.along_u = std::max(size.along_u, distance(p[3 * k].x, p[3 * k + 1].x) + distance(p[3 * k + 1].x, p[3 * k + 2].x));
-    size.along_v = std::max(size.along_v, distance(p[k].x, p[3 + k].x) + distance(p[3 + k].x, p[6 + k].x));
+    spans.along_u = std::max(spans.along_u, distance(p[3 * k].x, p[3 * k + 1].x) + distance(p[3 * k + 1].x, p[3 * k + 2].x));
+    spans.along_v = std::max(spans.along_v, distance(p[k].x, p[3 + k].x) + distance(p[3 + k].x, p[6 + k].x));
   }
-  return size;
+  return spans;
 }
 
 /// Area of the patch's four quarters, each times the share of its corners inside the loops.
@@ -61,14 +70,15 @@ double inside_area(const Patch<Probe>& patch) {
 
 /// Walks the patches of a trimmed surface that lie inside its loops or are cut by them. `Visitor` has
 ///   Probe probe(Vec2 uv)                                       evaluates one point;
+///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is not yet known);
 ///   bool visit(const Patch<Probe>&, const PatchSize&, int& n_doubts)   true: split it; false: done with it.
 /// A patch is split across its longer side in space, and not more than 60 times.
 template <class Probe, class Visitor>
 class PatchWalk {
  public:
-  PatchWalk(const LoopPolygons& loops, Visitor& visitor) : loops_(loops), visitor_(visitor) {
-    all_sides_.resize(loops.sides().size());
-    for (std::size_t i = 0; i < all_sides_.size(); ++i) all_sides_[i] = static_cast<std::int32_t>(i);
+  PatchWalk(const LoopPolygons& loops, Visitor& visitor) : loops_(loops), visitor_(visitor), sides_(kMaxSplits + 2) {
+    sides_[0].resize(loops.sides().size());
+    for (std::size_t i = 0; i < sides_[0].size(); ++i) sides_[0][i] = static_cast<std::int32_t>(i);
   }
 
   /// Walks one rectangle, cut into n x n to start with.
@@ -79,7 +89,7 @@ class PatchWalk {
         set_lines(patch.u, u0 + (u1 - u0) * a / n, u0 + (u1 - u0) * (a + 1) / n);
         set_lines(patch.v, v0 + (v1 - v0) * b / n, v0 + (v1 - v0) * (b + 1) / n);
         for (std::size_t k = 0; k < 9; ++k) patch.probe[k] = visitor_.probe(patch.uv(k));
-        visit(patch, all_sides_);
+        visit(patch, sides_[0], false);
       }
   }
 
@@ -92,13 +102,19 @@ class PatchWalk {
     x[2] = hi;
   }
 
-  void visit(Patch<Probe>& patch, const std::vector<std::int32_t>& candidates) {
-    if (!classify(patch, candidates)) return;
+  void visit(Patch<Probe>& patch, std::span<const std::int32_t> candidates, bool is_inside) {
+    collect_sides(patch, candidates);
+    if (patch.sides.empty() && !is_inside && !loops_.contains(patch.uv(4))) return;
     const PatchSize size = measure(patch);
     int n_doubts = patch.n_doubts;
-    if (!visitor_.visit(patch, size, n_doubts) || patch.n_splits == kMaxSplits) return;
+    if (!visitor_.must_split(size)) {
+      classify(patch);
+      if (!visitor_.visit(patch, size, n_doubts)) return;
+    }
+    if (patch.n_splits == kMaxSplits) return;
     patch.n_doubts = n_doubts;
-    split(patch, size.along_u >= size.along_v);
+    const PatchSpans spans = measure_spans(patch);
+    split(patch, spans.along_u >= spans.along_v);
   }
 
   void split(const Patch<Probe>& patch, bool along_u) {
@@ -112,29 +128,44 @@ class PatchWalk {
       set_lines(along_u ? child.u : child.v, old[half], old[half + 1]);
       for (std::size_t k = 0; k < 3; ++k) {  // across: two lines of probes are the parent's, the middle one is new
         const auto at = [&](std::size_t line) { return along_u ? 3 * k + line : 3 * line + k; };
-        child.probe[at(0)] = patch.probe[at(half)];
-        child.probe[at(2)] = patch.probe[at(half + 1)];
+        inherit(patch, at(half), child, at(0));
+        inherit(patch, at(half + 1), child, at(2));
         child.probe[at(1)] = visitor_.probe(child.uv(at(1)));
       }
-      visit(child, patch.sides);
+      visit(child, patch.sides, patch.sides.empty());
     }
   }
 
-  /// Sets sides, is_inside, n_inside. False: the patch lies outside the loops.
-  bool classify(Patch<Probe>& patch, const std::vector<std::int32_t>& candidates) const {
+  static void inherit(const Patch<Probe>& patch, std::size_t from, Patch<Probe>& child, std::size_t to) {
+    child.probe[to] = patch.probe[from];
+    child.is_known |= static_cast<std::uint16_t>((patch.is_known >> from & 1) << to);
+    child.is_contained |= static_cast<std::uint16_t>((patch.is_contained >> from & 1) << to);
+  }
+
+  /// Those of the candidates that meet the patch. One list per depth: a patch's own is in use while its parts are walked.
+  void collect_sides(Patch<Probe>& patch, std::span<const std::int32_t> candidates) {
+    std::vector<std::int32_t>& own = sides_[static_cast<std::size_t>(patch.n_splits) + 1];
+    own.clear();
     for (const std::int32_t s : candidates)
-      if (meets(patch, loops_.sides()[s])) patch.sides.push_back(s);
+      if (meets(patch, loops_.sides()[s])) own.push_back(s);
+    patch.sides = own;
+  }
+
+  /// Sets is_inside and n_inside of a patch that is inside as a whole or cut.
+  void classify(Patch<Probe>& patch) const {
     if (patch.sides.empty()) {
-      if (!loops_.contains(patch.uv(4))) return false;
       patch.is_inside.fill(true);
       patch.n_inside = 9;
-      return true;
+      return;
     }
     for (std::size_t k = 0; k < 9; ++k) {
-      patch.is_inside[k] = loops_.contains(patch.uv(k)) || is_on_loop(patch, patch.uv(k));
+      if (!(patch.is_known >> k & 1)) {
+        patch.is_known |= static_cast<std::uint16_t>(1 << k);
+        patch.is_contained |= static_cast<std::uint16_t>(loops_.contains(patch.uv(k)) << k);
+      }
+      patch.is_inside[k] = (patch.is_contained >> k & 1) || is_on_loop(patch, patch.uv(k));
       patch.n_inside += patch.is_inside[k];
     }
-    return true;
   }
 
   /// Probes on a loop count as inside: faces often end where they are bent most (a leading edge), and exactly on an iso-line.
@@ -163,7 +194,7 @@ class PatchWalk {
 
   const LoopPolygons& loops_;
   Visitor& visitor_;
-  std::vector<std::int32_t> all_sides_;
+  std::vector<std::vector<std::int32_t>> sides_;  // all; then by depth, of the patches on the way down
 };
 
 }  // namespace st

@@ -63,6 +63,9 @@ class FaceRaster {
     return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1)};
   }
 
+  /// Never before its curvature is known: what is doubted there counts for its parts.
+  bool must_split(const PatchSize&) const { return false; }
+
   /// Decides whether a patch is split; if not, makes it a raster box.
   bool visit(const CurvaturePatch& patch, const PatchSize& size, int& n_doubts) {
     bool is_doubtful = false;
