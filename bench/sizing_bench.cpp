@@ -2,6 +2,7 @@
 //   sizing_bench MODEL [LMAX_PERCENT]     a CAD file, sampled at default options
 //   sizing_bench --cells MILLIONS         synthetic octree: growth, blanking and query times
 //   sizing_bench --open SIZING            opening a sizing artifact
+//   sizing_bench --nodes SIZING PATCHES   queries at the nodes inside faces, in the order in which st-mesh asked
 //   sizing_bench --accuracy MODEL         cells and errors of the lengths at the samples for cell_per_length 1 to 8
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 
 #include "base/log.h"
 #include "geometry/model.h"
+#include "io/artifact.h"
 #include "io/sizing_artifact.h"
 #include "sizing/blanking.h"
 #include "sizing/face_cells.h"
@@ -227,6 +229,23 @@ void time_opening(const std::string& path) {
   report("open    {} cells in {:.1f} ms (checksums verified)\n", n, 1e3 * best);
 }
 
+/// What the mesher's inner loop costs: best of five runs over all inner nodes.
+void time_nodes(const std::string& sizing_path, const std::string& patches_path) {
+  const MappedSizing sizing = map_sizing(sizing_path);
+  std::vector<Vec3> nodes;
+  for (const FacePatch& patch : read_patches(patches_path).patches)
+    nodes.insert(nodes.end(), patch.inner_xyz.begin(), patch.inner_xyz.end());
+  double best = 1e300, sum = 0;
+  for (int i = 0; i < 5; ++i) {
+    const Timer timer;
+    int hint = 0;
+    for (const Vec3& x : nodes) sum += sizing.field->size(x, hint);
+    best = std::min(best, timer.seconds());
+  }
+  report("nodes   {} of {} cells: {:.1f} ns per query (mean length {:.9g})\n", nodes.size(), sizing.field->data().octree.n_leaves(),
+         1e9 * best / static_cast<double>(nodes.size()), sum / 5 / static_cast<double>(nodes.size()));
+}
+
 /// Boxes on a sphere as raster_face would place them, face after face, so many that the octree has about `millions` cells.
 void bench_cells(double millions) {
   std::mt19937_64 random(3);
@@ -257,10 +276,12 @@ int main(int argc, char** argv) {
     bench_cells(std::atof(argv[2]));
   else if (first == "--open" && argc > 2)
     time_opening(argv[2]);
+  else if (first == "--nodes" && argc > 3)
+    time_nodes(argv[2], argv[3]);
   else if (first == "--accuracy" && argc > 2)
     bench_accuracy(argv[2]);
   else if (!first.empty())
     bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
   else
-    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --accuracy MODEL\n");
+    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --nodes SIZING PATCHES | --accuracy MODEL\n");
 }
