@@ -14,7 +14,7 @@
 namespace st {
 namespace {
 
-constexpr const char* kKeys = "groups, faces, edges, between, for, sample, lmin, lmax, alpha, chord, gap_cells";
+constexpr const char* kKeys = "groups, faces, edges, between, for, sample, lmin, lmax, alpha, chord, gap_cells, edge_cells";
 
 std::string read_text(const std::string& path) {
   std::error_code none;
@@ -33,8 +33,8 @@ class RuleReader {
 
   SizeRule run() {
     for (const auto& [key, node] : table_) read(std::string(key.str()), node);
-    const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg || rule_.gap_cells;
-    if (!asks) fail(table_, "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells or sample");
+    const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg || rule_.gap_cells || rule_.edge_cells;
+    if (!asks) fail(table_, "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells, edge_cells or sample");
     return std::move(rule_);
   }
 
@@ -67,6 +67,8 @@ class RuleReader {
       read_alpha(node);
     else if (key == "gap_cells")
       rule_.gap_cells = count(key, node);
+    else if (key == "edge_cells")
+      rule_.edge_cells = count(key, node);
     else
       fail(node, "unknown key '" + key + "' of a [[size]]; allowed are " + kKeys);
   }

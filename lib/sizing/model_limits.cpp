@@ -16,6 +16,7 @@ Limits finest(const Limits& a, const Limits& b) {
   both.alpha = std::min(a->alpha, b->alpha);
   both.chord = std::min(a->chord, b->chord);
   both.gap_cells = std::max(a->gap_cells, b->gap_cells);
+  both.edge_cells = std::max(a->edge_cells, b->edge_cells);
   both.min_length = std::min(both.min_length, both.max_length);
   return both;
 }

@@ -161,7 +161,9 @@ CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits) { ret
 
 void raster_curve(const Curve& curve, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
   const CurveTable table = measure_curve(curve, limits);
-  PieceWalker walker(curve, table, limits);
+  SamplingLimits own = limits;
+  if (limits.edge_cells) own.max_length = std::clamp(table.s.back() / *limits.edge_cells, limits.min_length, limits.max_length);
+  PieceWalker walker(curve, table, own);
   std::size_t first = 0;
   for (const std::size_t corner : table.corners) {
     walker.walk(first, corner, cause, boxes);

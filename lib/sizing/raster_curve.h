@@ -26,7 +26,8 @@ CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits);
 
 /// Cuts the curve into consecutive segments with arc length in [min_length, max_length] whose tangent turns by at most alpha unless that
 /// would undercut min_length (Deister et al. 2004, section 2.1); corners end a segment. Appends one raster box per segment: centre in the
-/// middle of the segment, length = chord, not longer than the whole curve, clamped to the limits. The last, shorter piece takes the length
+/// middle of the segment, length = chord, not longer than the whole curve, clamped to the limits, and to 1/edge_cells of the curve down to
+/// min_length. The last, shorter piece takes the length
 /// that its turning allows.
 void raster_curve(const Curve& curve, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes);
 

@@ -17,6 +17,7 @@ struct SamplingLimits {
   double cell_per_length = 2;                              ///< edge of a raster box over its sample length
   double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry, model unit
   std::optional<int> gap_cells = std::nullopt;             ///< lengths across gaps and thin walls; nullopt: gaps do not matter
+  std::optional<int> edge_cells = std::nullopt;            ///< lengths along each CAD edge at least, down to min_length; nullopt: one
 };
 
 }  // namespace st

@@ -114,6 +114,7 @@ SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, doubl
   if (rule.chord) limits.chord = resolved(*rule.chord, "chord");
   if (rule.alpha_deg) limits.alpha = radians(*rule.alpha_deg);
   if (rule.gap_cells) limits.gap_cells = *rule.gap_cells > 0 ? rule.gap_cells : std::nullopt;
+  if (rule.edge_cells) limits.edge_cells = *rule.edge_cells > 0 ? rule.edge_cells : std::nullopt;
   // The limit that the rule does not name gives way.
   if (rule.lmax && !rule.lmin) limits.min_length = std::min(limits.min_length, limits.max_length);
   if (rule.lmin && !rule.lmax) limits.max_length = std::max(limits.min_length, limits.max_length);

@@ -23,6 +23,7 @@ struct SizeRule {
   std::optional<LengthSpec> lmin, lmax, chord;
   std::optional<double> alpha_deg;  ///< (0, 90]
   std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
+  std::optional<int> edge_cells;    ///< [1, 100]; 0: one length along an edge will do
 
   bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty()); }
 };

@@ -57,6 +57,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   if (!o.chord.empty()) limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
   limits.cell_per_length = o.cell_per_length;
   limits.gap_cells = o.gap_cells;
+  limits.edge_cells = o.edge_cells;
   if (limits.min_length > limits.max_length)
     throw Error(ExitCode::kUsage,
                 fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
@@ -234,6 +235,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   nlohmann::json options{
       {"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}};
   if (o.gap_cells) options["gap_cells"] = *o.gap_cells;
+  if (o.edge_cells) options["edge_cells"] = *o.edge_cells;
   if (!o.chord.empty()) options["chord"] = limits.chord;
   header.options_json = options.dump();
   header.unit = geometry.unit;

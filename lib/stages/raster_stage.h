@@ -12,13 +12,14 @@ namespace st {
 struct RasterStageOptions {
   std::string geometry;  ///< geometry artifact
   std::string output = "raster.hdf";
-  std::string lmin;              ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
-  std::string lmax;              ///< largest length; empty: 2.5 % of the diagonal
-  double alpha_deg = 10;         ///< largest turning of the normal or tangent along one length, degrees, (0, 90]
-  std::string chord;             ///< largest distance of a length's chord from the geometry; empty: no limit
-  std::string sizes;             ///< file of rules for groups, faces and edges; empty: none
-  std::optional<int> gap_cells;  ///< lengths across gaps and thin walls, [1, 100]
-  double cell_per_length = 2;    ///< raster boxes reach this many sample lengths, [1, 8]
+  std::string lmin;               ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
+  std::string lmax;               ///< largest length; empty: 2.5 % of the diagonal
+  double alpha_deg = 10;          ///< largest turning of the normal or tangent along one length, degrees, (0, 90]
+  std::string chord;              ///< largest distance of a length's chord from the geometry; empty: no limit
+  std::string sizes;              ///< file of rules for groups, faces and edges; empty: none
+  std::optional<int> gap_cells;   ///< lengths across gaps and thin walls, [1, 100]
+  std::optional<int> edge_cells;  ///< lengths along each CAD edge at least, [1, 100]
+  double cell_per_length = 2;     ///< raster boxes reach this many sample lengths, [1, 8]
 };
 
 /// Collective. Throws Error.

@@ -38,6 +38,10 @@ class Rules(ToolTest):
         self.assertLess(counts[0] * 1.2, counts[2])
         self.assertLessEqual(counts[1], counts[2])
 
+    def test_a_rule_asks_for_lengths_along_an_edge(self):
+        counts = [self.raster(f"[[size]]\nedges = 1\nedge_cells = {n}\n")["samples"] for n in (1, 40)]
+        self.assertGreater(counts[1], counts[0] + 10)
+
     def test_wrong_rules_are_refused_with_file_and_line(self):
         self.refuse("[[size]]\nlmax = 1\nlmxa = 2\n", "sizes.toml:3", "'lmxa'", "allowed are", "lmin")
         self.refuse('[[size]]\nlmax = 1\nalpha = 91\n', "sizes.toml:3", "(0, 90]")
@@ -48,12 +52,25 @@ class Rules(ToolTest):
         self.refuse('[[size]]\nlmax = 1\ngroups = []\n', "sizes.toml:3", "empty")
         self.refuse('[[size]]\nlmax = 1\nsample = 1\n', "sizes.toml:3", "true or false")
         self.refuse('[[size]]\ngap_cells = 2.5\n', "sizes.toml:2", "gap_cells", "whole number")
+        self.refuse('[[size]]\nedge_cells = 200\n', "sizes.toml:2", "edge_cells")
         self.refuse('[[size]]\ngap_cells = 101\n', "sizes.toml:2", "[1, 100]")
         self.refuse('[[size]]\ngroups = "*"\n', "sizes.toml:1", "asks for nothing")
         self.refuse('\n[[size]]\nlmax = 1\ngroups = "NONE*"\n', "sizes.toml:2", "NONE*", "matches")
         self.refuse('[[size]]\nlmax = 1\nfaces = 99999\n', "sizes.toml:1", "99999")
         self.refuse("alpha = 5\n", "sizes.toml", "[[size]]")
         self.refuse("[[size]]\nlmax = \n", "sizes.toml:2")
+
+
+class EdgeCells(ToolTest):
+    def test_edges_get_as_many_lengths_as_asked(self):
+        geometry, r, s = artifacts_of("box") / "geometry.hdf", self.folder / "r.hdf", self.folder / "s.hdf"
+        length = {}
+        for n in (None, 20, 50):
+            must("st-raster", geometry, "-o", r, "--lmax", "10%", "--lmin", "0.1%", *(["--edge-cells", n] if n else []))
+            must("st-prolong", r, "-o", s)
+            length[n] = must("st-info", s, "--at=0,0,0", "--json").json()["length"]
+        self.assertGreater(length[None], 1.5 * length[20])
+        self.assertAlmostEqual(length[20] / length[50], 2.5, delta=0.1)
 
 
 class Gaps(ToolTest):

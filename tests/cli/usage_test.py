@@ -10,7 +10,7 @@ N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-r
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
-    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--cell-per-length": "2", "--np": "1"},
+    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
@@ -35,6 +35,7 @@ REFUSED = {
         "--cell-per-length": ["0.99", "8.1"],
         "--chord": ["0", "x"],
         "--gap-cells": ["0", "101", "1.5"],
+        "--edge-cells": ["0", "101", "1.5"],
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},

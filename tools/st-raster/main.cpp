@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   tool.length("--chord", o.chord, "", "largest distance of a length's chord from the geometry");
   tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
   tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps and thin walls, down to lmin");
+  tool.number("--edge-cells", o.edge_cells, "[1, 100]", "lengths along each CAD edge at least, down to lmin");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

@@ -106,6 +106,22 @@ TEST(RasterCurve, is_never_longer_than_the_curve) {
   EXPECT_NEAR(boxes[0].length, 0.3, 1e-6);
 }
 
+TEST(RasterCurve, is_cut_into_as_many_lengths_as_asked_down_to_the_smallest) {
+  SamplingLimits limits = kLimits;
+  const LineCurve line({0, 0, 0}, {1, 0, 0}, 0, 0.9);
+  for (const int n : {2, 5, 30}) {
+    limits.edge_cells = n;
+    std::vector<RasterBox> boxes;
+    raster_curve(line, limits, 0, boxes);
+    EXPECT_EQ(boxes.size(), static_cast<std::size_t>(n));
+    for (const RasterBox& b : boxes) EXPECT_NEAR(b.length, 0.9 / n, 1e-6);
+  }
+  limits.min_length = 0.25;
+  std::vector<RasterBox> boxes;
+  raster_curve(line, limits, 0, boxes);
+  for (const RasterBox& b : boxes) EXPECT_NEAR(b.length, 0.25, 1e-6);
+}
+
 TEST(RasterCurve, does_not_count_the_jump_at_a_corner) {
   const CornerCurve corner;
   const std::vector<RasterBox> boxes = raster(corner, {0.01, 0.25, radians(10), 2});
