@@ -18,6 +18,7 @@
 #include "io/triangulation_reader.h"
 #include "mesh/merge.h"
 #include "meshing/hole_reprojector.h"
+#include "meshing/mesh_gaps.h"
 #include "meshing/small_features.h"
 #include "sizing/node_field.h"
 #include "stages/foreign_mesh.h"
@@ -201,6 +202,17 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   return in;
 }
 
+/// A hole that is none of the CAD model's would stay.
+void require_no_gaps(const RemeshStageOptions& o, const HoleMesh& m) {
+  const std::vector<OpenSide> open = find_open_sides(m);
+  if (open.empty()) return;
+  const Vec3 x = 0.5 * (m.mesh.node_xyz[open[0].low] + m.mesh.node_xyz[open[0].high]);
+  throw Error(ExitCode::kInput,
+              fmt::format("{}: has a hole that belongs to no face of the model: {} sides have no triangle beyond them, the first at ({:.6g} {:.6g} {:.6g}), "
+                          "{}; make the mesh again with st-mesh and st-merge",
+                          o.mesh, open.size(), x.x, x.y, x.z, m.tables.face_label(open[0].face)));
+}
+
 ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const Remesher& r) {
   ArtifactHeader header;
   header.tool = "st-remesh";
@@ -311,6 +323,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const RemeshInput in = read_input(o, comm);
   const ModelTables tables = with_merged_edges(in.model.tables(), in.old.mesh.merged);
   const HoleMesh mesh(in.old.mesh, tables, o.moved ? nullptr : &in.model);  // a moved mesh has its own parameters on closed strips
+  if (comm.is_root()) require_no_gaps(o, mesh);
   RemesherOptions options;
   options.mark.too_long = o.too_long;
   options.mark.too_short = o.too_short;

@@ -6,6 +6,7 @@
 #include "mesh/merge.h"
 #include "meshing/hole_curves.h"
 #include "meshing/hole_filler.h"
+#include "meshing/mesh_gaps.h"
 #include "unit/meshing/faces.h"
 
 namespace st::test {
@@ -94,6 +95,28 @@ TEST(HoleMesh, refuses_sizes_that_are_no_numbers) {
   BoxMesh box;
   box.mesh.node_size[3] = std::nan("");
   EXPECT_THROW(HoleMesh(box.mesh, box.model.tables()), Error);
+}
+
+/// The box's mesh without some of its triangles.
+SurfaceMesh without_triangles(SurfaceMesh m, TriangleId begin, TriangleId end) {
+  m.triangles.erase(m.triangles.begin() + begin, m.triangles.begin() + end);
+  m.triangle_face.erase(m.triangle_face.begin() + begin, m.triangle_face.begin() + end);
+  m.triangle_group.erase(m.triangle_group.begin() + begin, m.triangle_group.begin() + end);
+  m.corner_uv.erase(m.corner_uv.begin() + 3 * begin, m.corner_uv.begin() + 3 * end);
+  return m;
+}
+
+TEST(MeshGaps, are_missing_triangles_in_a_face_and_missing_faces) {
+  const BoxMesh box;
+  const ModelTables& t = box.model.tables();
+  const HoleMesh whole(box.mesh, t);
+  EXPECT_TRUE(find_open_sides(whole).empty());
+  const SurfaceMesh punched = without_triangles(box.mesh, whole.face_begin[2] + 5, whole.face_begin[2] + 6);
+  EXPECT_EQ(find_open_sides(HoleMesh(punched, t)).size(), 3u);
+  const SurfaceMesh open = without_triangles(box.mesh, whole.face_begin[1], whole.face_begin[2]);
+  const HoleMesh holes(open, t);
+  EXPECT_GT(find_open_sides(holes).size(), 3u);
+  for (const OpenSide& s : find_open_sides(holes)) EXPECT_FALSE(holes.segments_between(s.low, s.high).empty());
 }
 
 TEST(HoleFiller, fills_a_corner_and_keeps_the_rest_to_the_bit) {

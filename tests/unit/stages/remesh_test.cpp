@@ -263,5 +263,27 @@ TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
       }
 }
 
+TEST_F(Remesh, refuses_a_mesh_with_a_hole_on_no_face_and_says_where) {
+  prepare();
+  MeshArtifact broken = read_mesh(dir_ / "mesh.hdf");
+  SurfaceMesh& m = broken.mesh;
+  const std::size_t t = m.triangles.size() / 2;
+  m.triangles.erase(m.triangles.begin() + t);
+  m.triangle_face.erase(m.triangle_face.begin() + t);
+  m.triangle_group.erase(m.triangle_group.begin() + t);
+  m.corner_uv.erase(m.corner_uv.begin() + 3 * t, m.corner_uv.begin() + 3 * t + 3);
+  write_mesh(dir_ / "broken.hdf", broken);
+  RemeshStageOptions o = options("sizing.hdf");
+  o.mesh = dir_ / "broken.hdf";
+  try {
+    run_remesh(o, one_rank());
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kInput);
+    EXPECT_NE(std::string(e.what()).find("3 sides have no triangle"), std::string::npos) << e.what();
+  }
+  EXPECT_FALSE(exists("remeshed.hdf"));
+}
+
 }  // namespace
 }  // namespace st
