@@ -3,9 +3,11 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
+#include <IGESBasic_Name.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
@@ -17,6 +19,7 @@
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <Standard_Failure.hxx>
+#include <StepBasic_Product.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
@@ -48,6 +51,7 @@
 
 #include "base/error.h"
 #include "base/face_labels.h"
+#include "geometry/text_encoding.h"
 
 namespace st::occt {
 namespace {
@@ -122,7 +126,7 @@ std::string name_of(const TDF_Label& label) {
   std::vector<char> utf8(static_cast<std::size_t>(wide.LengthOfCString()) + 1, '\0');
   Standard_PCharacter out = utf8.data();
   wide.ToUTF8CString(out);
-  const std::string text = utf8.data();
+  const std::string text = valid_utf8(utf8.data());
   return is_junk(text) ? std::string() : text;
 }
 
@@ -143,6 +147,20 @@ class DocumentReader {
 
   std::vector<CadPart> parts() {
     std::vector<CadPart> result;
+/// Names of siblings, each its own: "bolt#1", "bolt#2" where there are several; '/' in them becomes '_', an empty one "unnamed".
+std::vector<std::string> numbered_names(std::vector<std::string> names) {
+  std::vector<std::string> result;
+  std::map<std::string, int> n_all, n_before;
+  for (std::string& name : names) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    if (name.empty()) name = "unnamed";
+    ++n_all[name];
+  }
+  for (const std::string& name : names)
+    result.push_back(unique_path(n_all[name] > 1 ? name + "#" + std::to_string(++n_before[name]) : name, result));
+  return result;
+}
+
     TDF_LabelSequence free;
     shapes_->GetFreeShapes(free);
     visit_all(free, TopLoc_Location(), {}, "", result);
@@ -175,19 +193,10 @@ class DocumentReader {
     return name.empty() ? name_of(label) : name;
   }
 
-  /// Names of siblings, each its own: "bolt#1", "bolt#2" where there are several; '/' in them becomes '_'.
   std::vector<std::string> sibling_names(const TDF_LabelSequence& labels) const {
-    std::vector<std::string> names, result;
-    std::map<std::string, int> n_all, n_before;
-    for (int i = 1; i <= labels.Length(); ++i) {
-      std::string name = product_name(labels.Value(i));
-      std::replace(name.begin(), name.end(), '/', '_');
-      names.push_back(name.empty() ? "unnamed" : name);
-      ++n_all[names.back()];
-    }
-    for (const std::string& name : names)
-      result.push_back(unique_path(n_all[name] > 1 ? name + "#" + std::to_string(++n_before[name]) : name, result));
-    return result;
+    std::vector<std::string> names;
+    for (int i = 1; i <= labels.Length(); ++i) names.push_back(product_name(labels.Value(i)));
+    return numbered_names(std::move(names));
   }
 
   void visit_all(const TDF_LabelSequence& labels, const TopLoc_Location& location, const Style& inherited, const std::string& path,
@@ -307,9 +316,22 @@ void name_faces_by_entity(const Handle(XSControl_WorkSession)& session, CadFile&
     const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
     if (entity.IsNull() || entity->Name().IsNull() || is_junk(entity->Name()->ToCString())) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+bool is_beyond_ascii(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= 0x80 || c == ' '; }) &&
+         name.find_first_not_of(' ') != std::string::npos;
+}
+
+/// XCAF takes a product's id where the name has no ASCII letter: the id becomes the name.
+void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel)& model) {
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+        !product.IsNull() && !product->Name().IsNull() && is_beyond_ascii(product->Name()->ToCString()))
+      product->SetId(product->Name());
+}
+
     if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located(TopLoc_Location()))) continue;
     faces.Add(shape.Located(TopLoc_Location()));
-    names.emplace_back(entity->Name()->ToCString());
+    names.push_back(valid_utf8(entity->Name()->ToCString()));
   }
   for (CadPart& part : file.parts)
     for (auto& face : part.faces)
@@ -329,6 +351,7 @@ CadFile read_step(const std::string& path) {
   file.format = "STEP";
   step_units(reader.Reader().WS()->Model(), file);
   if (!reader.Transfer(document)) fail(path, "no shape could be made of the STEP file; export the model again");
+  Interface_Static::SetCVal("read.step.codepage", step_codepage(file_encoding(path)));
   file.parts = DocumentReader(document).parts();
   name_faces_by_entity(reader.Reader().WS(), file);
   XCAFApp_Application::GetApplication()->Close(document);
@@ -338,6 +361,7 @@ CadFile read_step(const std::string& path) {
 CadFile read_iges(const std::string& path) {
   IGESControl_Controller::Init();
   Handle(TDocStd_Document) document = new_document();
+  keep_names_beyond_ascii(reader.Reader().WS()->Model());
   IGESCAFControl_Reader reader;
   reader.SetNameMode(true);
   reader.SetColorMode(true);
@@ -345,6 +369,31 @@ CadFile read_iges(const std::string& path) {
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) fail(path, "the IGES file cannot be parsed; export the model again");
   CadFile file;
   file.format = "IGES";
+/// Names of IGES entities (property 406, form 15) for the faces and parts made of them: XCAF has them for parts alone, and only as UTF-8.
+void name_by_iges_property(const Handle(XSControl_WorkSession)& session, TextEncoding encoding, CadFile& file) {
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  TopTools_IndexedMapOfShape shapes;
+  std::vector<std::string> names;
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
+    const auto entity = Handle(IGESData_IGESEntity)::DownCast(session->Model()->Value(i));
+    if (entity.IsNull() || entity->NbTypedProperties(STANDARD_TYPE(IGESBasic_Name)) != 1) continue;
+    const auto name = Handle(IGESBasic_Name)::DownCast(entity->TypedProperty(STANDARD_TYPE(IGESBasic_Name)));
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (shape.IsNull() || name->Value().IsNull() || is_junk(name->Value()->ToCString()) || shapes.Contains(shape)) continue;
+    shapes.Add(shape);
+    names.push_back(to_utf8(name->Value()->ToCString(), encoding));
+  }
+  std::vector<std::string> part_names;
+  for (CadPart& part : file.parts) {
+    if (const int k = shapes.FindIndex(part.shape); k > 0) part.name = names[k - 1];
+    part_names.push_back(part.name);
+    for (auto& face : part.faces)
+      if (const int k = face.name.empty() ? shapes.FindIndex(face.face) : 0; k > 0) face.name = names[k - 1];
+  }
+  const std::vector<std::string> paths = numbered_names(std::move(part_names));  // IGES parts come without assemblies
+  for (std::size_t p = 0; p < paths.size(); ++p) file.parts[p].path = file.parts[p].name.empty() ? "" : paths[p];
+}
+
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.WS()->Model());
   file.unit_in_mm = model->GlobalSection().UnitValue();
   file.resolution_mm = model->GlobalSection().Resolution() * model->GlobalSection().UnitValue();
@@ -361,6 +410,7 @@ CadFile read_brep(const std::string& path) {
   CadPart part;
   std::ifstream in(path, std::ios::binary);
   std::string head(64, '\0');
+  name_by_iges_property(reader.WS(), file_encoding(path), file);
   in.read(head.data(), 64);
   in.clear();
   in.seekg(0);

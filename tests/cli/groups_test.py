@@ -1,0 +1,234 @@
+"""Groups, parts and names from the CAD file and a groups file to the mesh and the exports."""
+import os
+import re
+import sys
+import unittest
+from collections import Counter
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
+COARSE = {"raster_options": ["--lmin", "2%", "--lmax", "10%", "--alpha", "30"]}
+EXPORTS = ["vtu", "msh", "ascii.stl", "stl", "obj", "ply", "fro"]
+
+AS1 = """
+[[group]]
+name = "fasteners"
+parts = ["nut", "bolt", "rod"]
+tolerance = "0.1mm"
+attributes = { solver = "viscous" }
+[[group]]
+name = "Träger"
+paths = "as1/l-bracket-assembly#?/l-bracket"
+[[group]]
+name = "plate"
+role = "symmetry"
+[[group]]
+table = "kind"
+name = "flat"
+surfaces = "plane"
+[[group]]
+table = "kind"
+name = "none"
+layers = "99"
+optional = true
+"""
+
+D150 = """
+[[group]]
+name = "wing right"
+inside = [8, 1.5, -2.5, 25, 17, 2]
+[[group]]
+name = "wing left"
+inside = [8, -17, -2.5, 25, -1.5, 2]
+role = "other"
+[[group]]
+name = "some faces"
+faces = [1, "3-5"]
+[[group]]
+table = "bc"
+name = "tunnel"
+touching = [-1, -1, -1, 1, 1, 1]
+"""
+
+
+def groups_of(artifact):
+    """{table: {group: [faces]}}, and the whole object."""
+    json = must("st-info", artifact, "--groups", "--json").json()
+    return {t["table"]: {g["name"]: g["faces"] for g in t["groups"]} for t in json["tables"]}, json
+
+
+class Chain(ToolTest):
+    def chain(self, model, groups):
+        path = CORPUS / model
+        if not path.is_file():
+            print(f"SKIPPED: {path} is missing; set ST_CORPUS", file=sys.stderr)
+            self.skipTest(f"{path} is missing")
+        (self.folder / "groups.toml").write_text(groups)
+        make_chain(path, self.folder, import_options=["--groups", self.folder / "groups.toml"], **COARSE)
+        for suffix in EXPORTS:
+            must("st-export", self.folder / "mesh.hdf", "-o", self.folder / f"mesh.{suffix}")
+
+    def expect_exports_to_agree(self):
+        """Every export says the same of the groups, and has as many triangles of each; returns these numbers."""
+        _, json = groups_of(self.folder / "mesh.hdf")
+        names = [g["name"] for g in json["tables"][0]["groups"]]
+        solids, name = Counter(), None
+        for line in (self.folder / "mesh.ascii.stl").read_text().split("\n"):
+            name = line[6:] if line.startswith("solid ") else name
+            solids[name] += line.startswith("facet ")
+        self.assertEqual(list(solids), [n.replace(" ", "_") for n in names])
+        of_group = Counter()
+        for line in (self.folder / "mesh.obj").read_text().split("\n"):
+            group = int(re.search(r" group_(\d+)", line)[1]) if line.startswith("g ") else 0 if not line.startswith("f ") else group
+            of_group[group] += line.startswith("f ")
+        self.assertEqual([of_group[i + 1] for i in range(len(names))], list(solids.values()))
+        msh = (self.folder / "mesh.msh").read_text()
+        for i, n in enumerate(names):
+            self.assertIn(f'\n2 {i + 1} "{n}"\n', msh)
+        self.assertIn("".join(n + "\0" for n in names).encode(), (self.folder / "mesh.vtu").read_bytes())
+        ply = (self.folder / "mesh.ply").read_bytes().split(b"end_header")[0].decode()
+        for i, n in enumerate(names):
+            self.assertIn(f"comment group {i + 1} {n}\n", ply)
+        self.assertEqual(sum(solids.values()), int((self.folder / "mesh.fro").read_text().split()[0]))
+        return dict(zip(names, solids.values(), strict=True)), json
+
+    def test_parts_of_an_assembly_are_groups_of_the_mesh_and_its_exports(self):
+        self.chain("mech_as1_oc_214.stp", AS1)
+        triangles, json = self.expect_exports_to_agree()
+        self.assertEqual(list(triangles), ["fasteners", "Träger", "plate"])
+        self.assertTrue(all(n > 100 for n in triangles.values()), triangles)
+        for artifact in ("geometry.hdf", "patches.hdf", "mesh.hdf"):
+            tables, json = groups_of(self.folder / artifact)
+            self.assertEqual({n: len(f) for n, f in tables["main"].items()}, {"fasteners": 110, "Träger": 32, "plate": 18}, artifact)
+            self.assertEqual(list(tables["kind"]), ["flat"])
+            self.assertEqual([g["role"] for g in json["tables"][0]["groups"]], ["wall", "wall", "symmetry"])
+            self.assertEqual(json["tables"][0]["groups"][0]["attributes"], {"tolerance": 0.1, "solver": "viscous"})
+            paths = [p["path"] for p in json["parts"]]
+            self.assertEqual(len(set(paths)), 18)
+            self.assertIn("as1/l-bracket-assembly#2/nut-bolt-assembly#3/bolt", paths)
+            self.assertEqual(Counter(p["name"] for p in json["parts"]), {"nut": 8, "bolt": 6, "l-bracket": 2, "plate": 1, "rod": 1})
+        self.assertIn('"part:as1/rod-assembly/nut#2"', (self.folder / "mesh.msh").read_text())
+        self.assertIn('"group_kind:flat"', (self.folder / "mesh.msh").read_text())
+
+    def test_faces_of_an_aircraft_without_names_are_groups_by_place(self):
+        self.chain("aero_d150_fullspan.brep", D150)
+        triangles, json = self.expect_exports_to_agree()
+        self.assertEqual(set(triangles), {"wing right", "wing left", "some faces", "default"})
+        tables, _ = groups_of(self.folder / "mesh.hdf")
+        self.assertEqual(tables["main"]["some faces"], [1, 3, 4, 5])
+        self.assertEqual(len(tables["main"]["wing left"]), len(tables["main"]["wing right"]))
+        self.assertLess(abs(triangles["wing left"] / triangles["wing right"] - 1), 0.2)
+        self.assertGreater(triangles["wing left"], 100)
+        self.assertEqual(json["parts"], [])
+        for table, groups in groups_of(self.folder / "geometry.hdf")[0].items():
+            for name, faces in groups.items():  # closed strips have no triangle
+                self.assertLessEqual(set(tables[table][name]), set(faces))
+                self.assertGreater(len(tables[table][name]), 0.9 * len(faces))
+
+
+class Import(ToolTest):
+    def run_import(self, groups, *options, model="assembly.step"):
+        (self.folder / "g.toml").write_text(groups)
+        must("st-import", MODELS / model, "-o", self.folder / "g.hdf", "--groups", self.folder / "g.toml", *options)
+        return groups_of(self.folder / "g.hdf")
+
+    def expect_refusal(self, groups, says, code=USAGE, model=MODELS / "assembly.step"):
+        (self.folder / "g.toml").write_text(groups)
+        (self.folder / "out").mkdir(exist_ok=True)
+        self.expect_error(code, "st-import", model, "-o", self.folder / "out/g.hdf", "--groups", self.folder / "g.toml", says=says)
+        self.expect_nothing_left(self.folder / "out")
+
+    def test_instances_of_a_part_differ_by_their_paths(self):
+        tables, json = self.run_import('[[group]]\nname = "second pin"\npaths = "assembly/pin#2"\n')
+        self.assertEqual(sorted(p["path"] for p in json["parts"]), ["assembly/block", "assembly/pin#1", "assembly/pin#2"])
+        second = next(p["faces"] for p in json["parts"] if p["path"] == "assembly/pin#2")
+        self.assertEqual(tables["main"]["second pin"], second)
+        self.assertNotIn("pin", " ".join(n for n, f in tables["main"].items() if set(f) & set(second) and n != "second pin"))
+
+    def test_the_groups_file_is_an_input_and_an_option_of_the_artifact(self):
+        self.run_import('[[group]]\nname = "a"\nfaces = 1\n')
+        info = must("st-info", self.folder / "g.hdf", "--json").json()
+        self.assertEqual(info["inputs"][1]["role"], "groups")
+        self.assertEqual(info["inputs"][1]["name"], "g.toml")
+        self.assertEqual(info["options"]["groups"], "g.toml")
+
+    def test_errors_name_file_line_and_groups_and_leave_nothing(self):
+        self.expect_refusal('[[group]]\nname = "a"\nfaces = "1-2"\n[[group]]\nname = "b"\nfaces = 2\n', ["g.toml:4", '"a"', '"b"', "face 2"])
+        self.expect_refusal('[[group]]\nname = "a"\nfaces = "zz*"\n', ["g.toml:1", "zz*", "optional"])
+        self.expect_refusal('[[group]]\nname = "a"\nfaces = 999\n', ["999"])
+        self.expect_refusal('[[group]]\nname = "a"\nfaecs = 1\n', ["g.toml:3", "faecs"], model=self.folder / "none.step")  # before the CAD file
+        self.expect_refusal('[[group]]\nname = "a"\ninside = [0, 0, 0, "1mm", 1, 1]\n', ["no unit"], model=MODELS / "box.brep")
+        self.expect_error(INPUT, "st-import", MODELS / "box.step", "-o", self.folder / "out/g.hdf", "--groups", self.folder / "none.toml", says="none.toml")
+
+    def test_check_judges_the_groups_too(self):
+        (self.folder / "g.toml").write_text('[[group]]\nname = "a"\nfaces = 1\n[[group]]\nname = "o"\nfaces = "x*"\noptional = true\n')
+        json = must("st-import", MODELS / "assembly.step", "--check", "--json", "--groups", self.folder / "g.toml").json()
+        self.assertEqual(json["tables"][0]["groups"][0], {"name": "a", "role": "wall", "faces": 1})
+        self.assertTrue(any(f["what"] == "optional group without a face" and f["entity"] == 'group "o"' for f in json["findings"]))
+
+    def test_a_role_decides_whether_a_face_counts_for_the_diagonal(self):
+        for role, longer in (("farfield", False), ("outlet", True)):
+            self.run_import(f'[[group]]\nname = "block"\nrole = "{role}"\n')
+            raster = must("st-raster", self.folder / "g.hdf", "-o", self.folder / "r.hdf", "--json").json()
+            diagonal = must("st-info", self.folder / "r.hdf", "--json").json()["properties"]["diagonal"]
+            whole = must("st-import", MODELS / "assembly.step", "--check", "--json").json()["box"]
+            self.assertEqual(diagonal > 0.9 * sum((b - a) ** 2 for a, b in zip(whole[:3], whole[3:], strict=True)) ** 0.5, longer, raster)
+
+    def test_flow_domain_faces_can_be_grouped(self):
+        tables, json = self.run_import('[[group]]\nname = "tunnel"\ngroups = "farfield"\nrole = "farfield"\n', "--farfield", "box:5", model="box.step")
+        self.assertEqual(len(tables["main"]["tunnel"]), 6)
+        self.assertNotIn("farfield", tables["main"])
+
+
+class Names(ToolTest):
+    """A STEP file is text: names in every encoding are put into that of the assembly."""
+
+    CASES = {
+        "Flügel": ["Flügel".encode(), "Flügel".encode("latin-1"), rb"Fl\X2\00FC\X0\gel", rb"Fl\X\FCgel", rb"Fl\S\|gel"],
+        "主翼表面": ["主翼表面".encode(), "主翼表面".encode("shift-jis"), rb"\X2\4E3B7FFC88689762\X0\ "[:-1]],
+        "🚀": ["🚀".encode(), rb"\X4\0001F680\X0\ "[:-1]],
+        "aile – 5 €": ["aile – 5 €".encode("cp1252")],
+    }
+
+    def test_survive_as_utf8_in_geometry_mesh_and_exports(self):
+        step = (MODELS / "assembly.step").read_bytes()
+        for name, forms in self.CASES.items():
+            for n, form in enumerate(forms):
+                with self.subTest(name, form=form):
+                    model = self.folder / "m.step"
+                    model.write_bytes(step.replace(b"('pin_mantle'", b"('" + form + b"'").replace(b"PRODUCT('pin','pin'", b"PRODUCT('pin','" + form + b"'"))
+                    must("st-import", model, "-o", self.folder / "geometry.hdf")
+                    tables, json = groups_of(self.folder / "geometry.hdf")
+                    self.assertEqual(list(json["face_names"]), [name])
+                    self.assertIn(f"assembly/{name}#1", [p["path"] for p in json["parts"]])
+                    if n == len(forms) - 1:
+                        self.expect_in_exports(model, name)
+
+    def expect_in_exports(self, model, name):
+        make_chain(model, self.folder, **COARSE)
+        _, json = groups_of(self.folder / "mesh.hdf")
+        self.assertEqual(list(json["face_names"]), [name])
+        for suffix, text in (("vtu", f"{name}\0"), ("msh", f'"{name}"'), ("ascii.stl", f"solid {name.replace(' ', '_')}\n"), ("ply", f" {name}\n")):
+            must("st-export", self.folder / "mesh.hdf", "-o", self.folder / f"mesh.{suffix}")
+            self.assertIn(text.encode(), (self.folder / f"mesh.{suffix}").read_bytes(), suffix)
+
+    def test_of_iges_faces_and_parts_are_read_in_every_encoding(self):
+        path = CORPUS / "aero_d150_wing.igs"
+        if not path.is_file():
+            print(f"SKIPPED: {path} is missing; set ST_CORPUS", file=sys.stderr)
+            self.skipTest(f"{path} is missing")
+        iges = path.read_bytes()
+        for name, form in (("Bottom", b"Bottom"), ("Flügel", "Flügel".encode("latin-1")), ("主翼上", "主翼上".encode("shift-jis")), ("翼主", "翼主".encode())):
+            with self.subTest(name):
+                (self.folder / "m.igs").write_bytes(iges.replace(b"6HBottom", b"6H" + form).replace(b"D150_wing_1ID", form + b"_wi_1ID"))
+                must("st-import", self.folder / "m.igs", "-o", self.folder / "g.hdf")
+                tables, json = groups_of(self.folder / "g.hdf")
+                self.assertEqual({n: len(f) for n, f in tables["main"].items()}, {name: 3, "Top": 3, "Inside": 1, "Outside": 1})
+                self.assertEqual([p["name"] for p in json["parts"]], [name + "_wi_1ID"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
