@@ -2,14 +2,19 @@
 //   sizing_bench MODEL [LMAX_PERCENT]     a CAD file, sampled at default options
 //   sizing_bench --cells MILLIONS         synthetic octree: growth, blanking and query times
 //   sizing_bench --open SIZING            opening a sizing artifact
+//   sizing_bench --share SIZING RANKS     likewise by several processes at once, and the memory that they share
 //   sizing_bench --nodes SIZING PATCHES   queries at the nodes inside faces, in the order in which st-mesh asked
 //   sizing_bench --accuracy MODEL         cells and errors of the lengths at the samples for cell_per_length 1 to 8
 #include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <string>
@@ -229,6 +234,70 @@ void time_opening(const std::string& path) {
   report("open    {} cells in {:.1f} ms (checksums verified)\n", n, 1e3 * best);
 }
 
+/// Memory of this process, MB: all that it maps, and its share of it where others map the same.
+struct Memory {
+  double resident = 0, share = 0;
+};
+
+/// Of the mapped file, or of the whole process when `path` is empty.
+Memory mapped_memory(const std::string& path) {
+  std::ifstream maps(path.empty() ? "/proc/self/smaps_rollup" : "/proc/self/smaps");
+  Memory memory;
+  bool is_file = path.empty();
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find('-') < line.find(' ')) is_file = path.empty() || line.ends_with(path);  // the head of a mapping
+    if (!is_file) continue;
+    if (line.starts_with("Rss:")) memory.resident += std::stod(line.substr(4)) / 1024;
+    if (line.starts_with("Pss:")) memory.share += std::stod(line.substr(4)) / 1024;
+  }
+  return memory;
+}
+
+/// Where `n` processes wait for each other, once.
+class Meeting {
+ public:
+  explicit Meeting(int n) : n_(n) { must(pipe(door_) == 0 && pipe(answer_) == 0); }
+  void wait(int rank) const {
+    char byte = 0;
+    if (rank > 0) return must(write(door_[1], &byte, 1) == 1 && read(answer_[0], &byte, 1) == 1);
+    for (int i = 1; i < n_; ++i) must(read(door_[0], &byte, 1) == 1);
+    for (int i = 1; i < n_; ++i) must(write(answer_[1], &byte, 1) == 1);
+  }
+
+ private:
+  static void must(bool is_done) {
+    if (!is_done) std::abort();
+  }
+  int n_, door_[2], answer_[2];
+};
+
+/// Each of `n` processes opens the sizing, asks for a length in every cell and looks at its memory while all others have theirs.
+void share_sizing(const std::string& path, int n) {
+  const Meeting opened(n), seen(n);
+  int rank = 0;
+  while (rank + 1 < n && fork() == 0) ++rank;  // a chain: each makes the next
+  const Memory before = mapped_memory("");
+  const Timer timer;
+  const std::clock_t start = std::clock();
+  const MappedSizing sizing = map_sizing(path);
+  const double seconds = timer.seconds(), busy = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const OctreeView& octree = sizing.field->data().octree;
+  double sum = 0;
+  int hint = 0;
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) sum += sizing.field->size(octree.leaf_center(leaf), hint);
+  opened.wait(rank);
+  const Memory file = mapped_memory(path.substr(path.rfind('/') + 1)), whole = mapped_memory("");
+  seen.wait(rank);
+  report(
+      "rank {} of {}: {} cells opened in {:.1f} ms ({:.1f} ms of it computing); file {:.1f} MB mapped, its share {:.1f} MB; everything "
+      "else {:+.1f} MB (mean {:.4g})\n",
+      rank, n, octree.n_leaves(), 1e3 * seconds, 1e3 * busy, file.resident, file.share, whole.resident - before.resident - file.resident,
+      sum / octree.n_leaves());
+  std::fflush(stdout);
+  while (wait(nullptr) > 0) {
+  }
+}
+
 /// What the mesher's inner loop costs: best of five runs over all inner nodes.
 void time_nodes(const std::string& sizing_path, const std::string& patches_path) {
   const MappedSizing sizing = map_sizing(sizing_path);
@@ -276,6 +345,8 @@ int main(int argc, char** argv) {
     bench_cells(std::atof(argv[2]));
   else if (first == "--open" && argc > 2)
     time_opening(argv[2]);
+  else if (first == "--share" && argc > 3)
+    share_sizing(argv[2], std::atoi(argv[3]));
   else if (first == "--nodes" && argc > 3)
     time_nodes(argv[2], argv[3]);
   else if (first == "--accuracy" && argc > 2)
@@ -283,5 +354,7 @@ int main(int argc, char** argv) {
   else if (!first.empty())
     bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
   else
-    report("usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --nodes SIZING PATCHES | --accuracy MODEL\n");
+    report(
+        "usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --share SIZING RANKS | --nodes SIZING PATCHES | "
+        "--accuracy MODEL\n");
 }
