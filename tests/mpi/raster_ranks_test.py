@@ -1,0 +1,37 @@
+"""The octree that all ranks build together does not depend on their number, nor on which of them sampled what."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import *  # noqa: E402,F403
+
+
+class RasterRanks(ToolTest):
+    def hashes(self, model, *options, ranks=(1, 2, 3, 5, 8)):
+        geometry = artifacts_of(model) / "geometry.hdf"
+        return {must("st-raster", geometry, "-o", self.folder / "r.hdf", "--np", n, *options, "--json").json()["hash"] for n in ranks}
+
+    def test_the_raster_is_equal_at_np_1_2_3_5_8(self):
+        self.assertEqual(len(self.hashes("assembly")), 1)
+
+    def test_samples_with_places_are_equal_at_np_1_2_3_5_8(self):
+        self.assertEqual(len(self.hashes("assembly", "--cell-per-length", 5)), 1)
+
+    def test_a_face_for_one_rank_of_eight_is_enough(self):
+        self.assertEqual(len(self.hashes("torus", ranks=(1, 8))), 1)
+
+    def test_large_cells_are_fewer_and_their_lengths_hold(self):
+        geometry, counts, triangles = artifacts_of("assembly") / "geometry.hdf", [], []
+        for cell_per_length in (2, 4, 8):
+            raster, sizing = self.folder / f"r{cell_per_length}.hdf", self.folder / f"s{cell_per_length}.hdf"
+            counts.append(must("st-raster", geometry, "-o", raster, "--cell-per-length", cell_per_length, "--json").json()["cells"])
+            triangles.append(must("st-prolong", raster, "-o", sizing, "--json").json()["expected_triangles"])
+        self.assertLess(counts[1], 0.6 * counts[0])
+        self.assertLess(counts[2], 0.6 * counts[1])
+        self.assertLess(max(triangles), 1.05 * triangles[0], "lengths must not become too small in large cells")
+        self.assertGreater(min(triangles), 0.6 * triangles[0], "nor too large")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
