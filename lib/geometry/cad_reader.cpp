@@ -52,6 +52,8 @@
 #include "base/error.h"
 #include "base/face_labels.h"
 #include "geometry/text_encoding.h"
+#include "geometry/flite_file.h"
+#include "geometry/flite_reader.h"
 
 namespace st::occt {
 namespace {
@@ -93,6 +95,12 @@ void require_end(const std::string& path, const std::string& format) {
   if (!is_whole) fail(path, "the " + format + " file is cut off: its last section is missing; export the model again");
 }
 
+/// A damaged file is for the reader that its suffix names to complain about, if it is text at all.
+bool has_flite_suffix(const std::string& path, const std::string& head) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  return suffix == ".fli" && head.find('\0') == std::string::npos;
+}
+
 std::string format_of(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code code;
@@ -111,6 +119,7 @@ std::string format_of(const std::string& path) {
   const std::size_t line_end = head.find_first_of("\r\n");
   if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C')) return "IGES";
   if (head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79])) return "IGES";
+  if (is_flite(head) || has_flite_suffix(path, head)) return "FLITE";
   fail(path, what_else(head) + "not a STEP, IGES or BREP file; export the model as STEP");
 }
 
@@ -137,16 +146,6 @@ std::int32_t rgb(const Quantity_Color& c) {
   return byte(r) << 16 | byte(g) << 8 | byte(b);
 }
 
-/// Colours, layers and names of one document, inherited face <- shell/solid <- part.
-class DocumentReader {
- public:
-  explicit DocumentReader(const Handle(TDocStd_Document)& document)
-      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
-        colors_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
-        layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
-
-  std::vector<CadPart> parts() {
-    std::vector<CadPart> result;
 /// Names of siblings, each its own: "bolt#1", "bolt#2" where there are several; '/' in them becomes '_', an empty one "unnamed".
 std::vector<std::string> numbered_names(std::vector<std::string> names) {
   std::vector<std::string> result;
@@ -161,6 +160,16 @@ std::vector<std::string> numbered_names(std::vector<std::string> names) {
   return result;
 }
 
+/// Colours, layers and names of one document, inherited face <- shell/solid <- part.
+class DocumentReader {
+ public:
+  explicit DocumentReader(const Handle(TDocStd_Document)& document)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+        colors_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
+        layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
+
+  std::vector<CadPart> parts() {
+    std::vector<CadPart> result;
     TDF_LabelSequence free;
     shapes_->GetFreeShapes(free);
     visit_all(free, TopLoc_Location(), {}, "", result);
@@ -306,16 +315,6 @@ void step_units(const Handle(Interface_InterfaceModel)& model, CadFile& file) {
   if (!file.unit_in_mm) file.unit_in_mm = 1.0;
 }
 
-/// Names that XCAF kept no label for, from the STEP entities themselves.
-void name_faces_by_entity(const Handle(XSControl_WorkSession)& session, CadFile& file) {
-  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
-  const Handle(Interface_InterfaceModel) model = session->Model();
-  TopTools_IndexedMapOfShape faces;
-  std::vector<std::string> names;
-  for (int i = 1; i <= model->NbEntities(); ++i) {
-    const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
-    if (entity.IsNull() || entity->Name().IsNull() || is_junk(entity->Name()->ToCString())) continue;
-    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
 bool is_beyond_ascii(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= 0x80 || c == ' '; }) &&
          name.find_first_not_of(' ') != std::string::npos;
@@ -329,6 +328,16 @@ void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel)& model) {
       product->SetId(product->Name());
 }
 
+/// Names that XCAF kept no label for, from the STEP entities themselves.
+void name_faces_by_entity(const Handle(XSControl_WorkSession)& session, CadFile& file) {
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  const Handle(Interface_InterfaceModel) model = session->Model();
+  TopTools_IndexedMapOfShape faces;
+  std::vector<std::string> names;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
+    if (entity.IsNull() || entity->Name().IsNull() || is_junk(entity->Name()->ToCString())) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
     if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located(TopLoc_Location()))) continue;
     faces.Add(shape.Located(TopLoc_Location()));
     names.push_back(valid_utf8(entity->Name()->ToCString()));
@@ -341,6 +350,7 @@ void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel)& model) {
 CadFile read_step(const std::string& path) {
   STEPCAFControl_Controller::Init();
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  Interface_Static::SetCVal("read.step.codepage", step_codepage(file_encoding(path)));
   Handle(TDocStd_Document) document = new_document();
   STEPCAFControl_Reader reader;
   reader.SetNameMode(true);
@@ -350,25 +360,14 @@ CadFile read_step(const std::string& path) {
   CadFile file;
   file.format = "STEP";
   step_units(reader.Reader().WS()->Model(), file);
+  keep_names_beyond_ascii(reader.Reader().WS()->Model());
   if (!reader.Transfer(document)) fail(path, "no shape could be made of the STEP file; export the model again");
-  Interface_Static::SetCVal("read.step.codepage", step_codepage(file_encoding(path)));
   file.parts = DocumentReader(document).parts();
   name_faces_by_entity(reader.Reader().WS(), file);
   XCAFApp_Application::GetApplication()->Close(document);
   return file;
 }
 
-CadFile read_iges(const std::string& path) {
-  IGESControl_Controller::Init();
-  Handle(TDocStd_Document) document = new_document();
-  keep_names_beyond_ascii(reader.Reader().WS()->Model());
-  IGESCAFControl_Reader reader;
-  reader.SetNameMode(true);
-  reader.SetColorMode(true);
-  reader.SetLayerMode(true);
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) fail(path, "the IGES file cannot be parsed; export the model again");
-  CadFile file;
-  file.format = "IGES";
 /// Names of IGES entities (property 406, form 15) for the faces and parts made of them: XCAF has them for parts alone, and only as UTF-8.
 void name_by_iges_property(const Handle(XSControl_WorkSession)& session, TextEncoding encoding, CadFile& file) {
   const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
@@ -394,12 +393,23 @@ void name_by_iges_property(const Handle(XSControl_WorkSession)& session, TextEnc
   for (std::size_t p = 0; p < paths.size(); ++p) file.parts[p].path = file.parts[p].name.empty() ? "" : paths[p];
 }
 
+CadFile read_iges(const std::string& path) {
+  IGESControl_Controller::Init();
+  Handle(TDocStd_Document) document = new_document();
+  IGESCAFControl_Reader reader;
+  reader.SetNameMode(true);
+  reader.SetColorMode(true);
+  reader.SetLayerMode(true);
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) fail(path, "the IGES file cannot be parsed; export the model again");
+  CadFile file;
+  file.format = "IGES";
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.WS()->Model());
   file.unit_in_mm = model->GlobalSection().UnitValue();
   file.resolution_mm = model->GlobalSection().Resolution() * model->GlobalSection().UnitValue();
   if (!(*file.unit_in_mm > 0)) file.unit_in_mm = 1.0;
   if (!reader.Transfer(document)) fail(path, "no shape could be made of the IGES file; export the model again");
   file.parts = DocumentReader(document).parts();
+  name_by_iges_property(reader.WS(), file_encoding(path), file);
   XCAFApp_Application::GetApplication()->Close(document);
   return file;
 }
@@ -410,7 +420,6 @@ CadFile read_brep(const std::string& path) {
   CadPart part;
   std::ifstream in(path, std::ios::binary);
   std::string head(64, '\0');
-  name_by_iges_property(reader.WS(), file_encoding(path), file);
   in.read(head.data(), 64);
   in.clear();
   in.seekg(0);
@@ -441,6 +450,7 @@ CadFile read_cad(const std::string& path) {
   require_end(path, format);
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
+    if (format == "FLITE") return read_flite_shape(path);
     return format == "STEP" ? read_step(path) : format == "IGES" ? read_iges(path) : read_brep(path);
   } catch (const Standard_Failure& e) {
     const char* text = e.GetMessageString();

@@ -1,4 +1,4 @@
-// STEP, IGES and BREP files to one shape with names, colours and layers. Included inside lib/geometry only.
+// STEP, IGES, BREP and FLITE files to one shape with names, colours and layers. Included inside lib/geometry only.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -28,14 +28,14 @@ struct CadPart {
 };
 
 struct CadFile {
-  std::string format;                        ///< "STEP", "IGES", "BREP"
+  std::string format;                        ///< "STEP", "IGES", "BREP", "FLITE"
   std::vector<CadPart> parts;
-  std::optional<double> unit_in_mm;          ///< of the file; nullopt: none (BREP)
+  std::optional<double> unit_in_mm;          ///< of the file; nullopt: none (BREP, FLITE)
   bool has_mixed_units = false;
   double resolution_mm = 0;                  ///< tolerance the file states, 0 when none
 };
 
-/// Coordinates in mm (STEP, IGES) or as they are (BREP). Throws st::Error(kInput).
+/// Coordinates in mm (STEP, IGES) or as they are (BREP, FLITE). Throws st::Error(kInput).
 CadFile read_cad(const std::string& path);
 
 }  // namespace st::occt

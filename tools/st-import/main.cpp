@@ -4,7 +4,7 @@
 
 int main(int argc, char** argv) {
   st::ImportStageOptions o;
-  st::ToolMain tool("st-import", "Reads a CAD model (STEP, IGES, BREP) and writes its geometry artifact.");
+  st::ToolMain tool("st-import", "Reads a CAD model (STEP, IGES, BREP, FLITE) and writes its geometry artifact.");
   tool.input("model", o.model, "CAD file");
   tool.output(o.output);
   tool.unit("--unit", o.unit, "unit of the artifact (mm, cm, m, in, ft); the file's own when not given");
