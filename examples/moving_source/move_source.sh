@@ -34,7 +34,8 @@ write_source() {
 last=$out/mesh.hdf
 remesh() {
   local mesh=$results/mesh_$2.hdf
-  "$bin/st-remesh" "$last" "$out/geometry.hdf" "$1" --merged "$mesh" --np "$np"
+  "$bin/st-remesh" "$last" "$out/geometry.hdf" "$1" --merged "$mesh" --np "$np" --json > "$results/remesh_$2.json"
+  echo "step $2: $mesh"
   "$bin/st-check" "$mesh" --geometry "$out/geometry.hdf" --sizing "$1" --json > "$results/check_$2.json" || { cat "$results/check_$2.json" >&2; exit 5; }
   if $draw; then /usr/bin/python3 "$here/draw_frame.py" "$mesh" "$results/frame_$2.png"; fi
   last=$mesh
