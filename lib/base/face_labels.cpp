@@ -1,5 +1,7 @@
 #include "base/face_labels.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -44,6 +46,26 @@ std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
   return number;
 }
 
+bool matches(const std::string& pattern, const std::string& name) {
+  return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+}
+
+/// Adds the faces whose number has a matching name.
+void add_matches(const std::string& pattern, const std::vector<std::string>& name, const std::vector<std::int32_t>& of_face,
+                 std::vector<std::uint8_t>& is_in) {
+  std::vector<std::uint8_t> is_match;
+  for (const std::string& n : name) is_match.push_back(matches(pattern, n));
+  for (std::size_t f = 0; f < std::min(is_in.size(), of_face.size()); ++f)
+    if (of_face[f] >= 0 && is_match[of_face[f]]) is_in[f] = 1;
+}
+
+/// Names of a table's groups behind the table's: "bc:hot".
+std::vector<std::string> full_names(const GroupTable& table) {
+  std::vector<std::string> names;
+  for (const std::string& name : table.group_name) names.push_back(table.name + ":" + name);
+  return names;
+}
+
 /// Words of a name in small letters: runs of letters, a capital behind a small letter begins a new one. Bytes beyond ASCII are letters.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> words(1);
@@ -72,6 +94,21 @@ FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces
   out.face_part = gather(labels.face_part, faces);
   for (GroupTable& table : out.tables) table.face_group = gather(table.face_group, faces);
   return out;
+}
+
+std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names) {
+  const FaceLabels& labels = names.labels;
+  std::vector<std::uint8_t> is_in(names.face_group.size(), 0);
+  const auto is_found = [&] { return std::find(is_in.begin(), is_in.end(), 1) != is_in.end(); };
+  add_matches(pattern, names.group_name, names.face_group, is_in);
+  if (is_found()) return is_in;
+  for (const GroupTable& table : labels.tables) {
+    add_matches(pattern, table.group_name, table.face_group, is_in);
+    add_matches(pattern, full_names(table), table.face_group, is_in);
+  }
+  for (const std::vector<std::string>* part : {&labels.part_name, &labels.part_path})
+    if (!is_found()) add_matches(pattern, *part, labels.face_part, is_in);
+  return is_found() ? is_in : std::vector<std::uint8_t>();
 }
 
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken) {

@@ -41,6 +41,17 @@ FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces
 /// too; parts stay apart, those of `second` with a path that `first` has get the next free number. group_attributes stay those of `first`.
 FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second, std::int32_t n_second);
 
+/// The division of a model's faces that a name speaks of, for options that take the name of a group. Points into its owner.
+struct GroupNames {
+  const std::vector<std::string>& group_name;   ///< [n_groups] of the main table
+  const std::vector<std::int32_t>& face_group;  ///< [n_faces] main group of each face
+  const FaceLabels& labels;
+};
+
+/// Faces of the main groups whose names match a glob pattern; where none does, of the groups of further tables ("hot", or "bc:hot" with
+/// the name of the table), else of parts with such a name, else of parts with such a path. [n_faces] 1: in it; empty: nothing matches.
+std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names);
+
 /// `path`, or the first of path#2, path#3 ... that `taken` lacks.
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken);
 

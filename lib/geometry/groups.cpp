@@ -17,7 +17,7 @@ using Mask = std::vector<char>;  // [n_faces] 1: in the selection
 constexpr double kBoxSlack = 1e-6;  // of the model's diagonal: bounding boxes are made of samples and tolerances
 
 bool matches(const std::string& pattern, const std::string& name) {
-  return !name.empty() && fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
 }
 
 /// "17" or "17-20"; nullopt: a name.

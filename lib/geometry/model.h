@@ -69,6 +69,8 @@ struct ModelTables {
   Box3 box() const;
   Box3 wall_box() const;
   double reference_diagonal() const { return wall_box().diagonal(); }
+  /// What find_faces() (face_labels.h) looks a name up in.
+  GroupNames group_names() const { return {group_name, face_group, labels}; }
   /// "face 17 "WING_UPPER"" (1-based, name when there is one), for messages.
   std::string face_label(FaceId f) const;
   std::string edge_label(EdgeId e) const;

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/artifact_checks.h"
+#include "io/face_labels_io.h"
 #include "io/hdf5_file.h"
 
 namespace st {
@@ -56,6 +58,8 @@ constexpr const char* kFaceArea = "/st/face/cell_area";
 constexpr const char* kFacePlane = "/st/face/cell_plane";
 constexpr const char* kFaceName = "/st/face/name";
 constexpr const char* kEdgeName = "/st/edge/name";
+constexpr const char* kGroupName = "/st/group/name";
+constexpr const char* kFaceGroup = "/st/face/group";
 constexpr const char* kSourceName = "/st/source/name";
 constexpr const char* kFaceWeight = "/st/face/weight";
 
@@ -229,6 +233,11 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<CellPlane>(kFacePlane, raster.faces.plane);
   file.write_strings(kFaceName, raster.names.face);
   file.write_strings(kEdgeName, raster.names.edge);
+  if (!raster.face_group.empty()) {
+    file.write_strings(kGroupName, raster.group_name);
+    file.write<std::int32_t>(kFaceGroup, raster.face_group);
+    write_labels(file, raster.labels);
+  }
   return file.commit();
 }
 
@@ -245,6 +254,11 @@ RasterArtifact read_raster(const std::string& path) {
   if (file.has(kSamplePoint)) raster.samples = read_samples(file);
   raster.faces = read_face_cells(file);
   raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
+  if (!file.has(kFaceGroup)) return raster;  // written before groups were
+  raster.group_name = file.read_strings(kGroupName);
+  raster.face_group = file.read_rows<std::int32_t>(kFaceGroup, raster.names.face.size());
+  require_ids(file, kFaceGroup, raster.face_group, raster.group_name.size());
+  raster.labels = read_labels(file, raster.names.face.size(), raster.group_name.size());
   return raster;
 }
 

@@ -45,6 +45,9 @@ struct RasterArtifact {
   std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
   FaceCells faces;                    ///< where in the octree each face lies, with its area there
   CauseNames names;
+  std::vector<std::string> group_name;    ///< main groups, for slopes of groups
+  std::vector<std::int32_t> face_group;   ///< [n_faces], or empty
+  FaceLabels labels;
 };
 
 /// sizing.hdf

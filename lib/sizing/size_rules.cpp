@@ -52,14 +52,8 @@ std::vector<std::int32_t> select(const SizeRule& rule, const char* key, const st
 
 /// [n_faces] 1 where the face's group matches.
 std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key, const std::string& pattern, const ModelTables& t) {
-  std::vector<std::uint8_t> is_in(static_cast<std::size_t>(t.n_faces()), 0);
-  bool is_used = false;
-  for (std::size_t f = 0; f < is_in.size(); ++f) {
-    const std::int32_t group = f < t.face_group.size() ? t.face_group[f] : kNone;
-    is_in[f] = group >= 0 && matches(pattern, t.group_name[group]);
-    is_used = is_used || is_in[f];
-  }
-  if (!is_used) fail(rule, text_of(key, ": no group matches '", pattern, "'"));
+  std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
+  if (is_in.empty()) fail(rule, text_of(key, ": no group or part matches '", pattern, "'"));
   return is_in;
 }
 
@@ -68,12 +62,15 @@ std::vector<EdgeId> edges_between(const SizeRule& rule, const ModelTables& t) {
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> faces;
   t.edge_faces(offsets, faces);
+  const auto separates = [&](FaceId f, FaceId g) {
+    return a[f] && b[g] && (t.face_group[f] != t.face_group[g] || (!b[f] && !a[g]));
+  };
   std::vector<EdgeId> result;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     bool is_between = false;
     for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
       for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-        is_between = is_between || (i != k && t.face_group[faces[i]] != t.face_group[faces[k]] && a[faces[i]] && b[faces[k]]);
+        is_between = is_between || (i != k && separates(faces[i], faces[k]));
     if (is_between) result.push_back(e);
   }
   if (result.empty()) fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <filesystem>
 #include <span>
 #include <utility>
@@ -20,12 +19,8 @@ namespace {
 BlankSide parse_side(const std::string& side, const SurfaceMesh& mesh) {
   if (side == "inside") return BlankSide::kInside;
   if (side == "outside") return BlankSide::kOutside;
-  for (const std::string& name : mesh.group_name) {
-    std::string letters;
-    for (const char c : name)
-      if (std::isalpha(static_cast<unsigned char>(c))) letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (letters.find("farfield") != std::string::npos) return BlankSide::kOutside;
-  }
+  for (std::size_t g = 0; g < mesh.group_name.size(); ++g)
+    if ((g < mesh.group_role.size() ? mesh.group_role[g] : role_of_name(mesh.group_name[g])) == "farfield") return BlankSide::kOutside;
   return BlankSide::kInside;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "geometry/groups.h"
 #include "io/artifact.h"
 
 namespace st {
@@ -19,17 +20,32 @@ struct Identity {
   std::vector<std::string> face_name, group_name, group_role;
   std::vector<std::int32_t> face_group;
   FaceLabels labels;
+  std::vector<std::string> face_color, face_layer, face_surface;  ///< of a geometry alone: "#rrggbb" or empty, names
 };
+
+std::vector<std::string> color_texts(const std::vector<std::int32_t>& colors) {
+  std::vector<std::string> texts;
+  for (const std::int32_t c : colors) texts.push_back(c < 0 ? "" : fmt::format("#{:06x}", c));
+  return texts;
+}
+
+std::vector<std::string> surface_texts(const std::vector<SurfaceType>& types) {
+  std::vector<std::string> texts;
+  for (const SurfaceType type : types) texts.push_back(surface_type_names().at(static_cast<std::size_t>(type)));
+  return texts;
+}
 
 Identity identity_of(const std::string& path) {
   const std::string schema = read_header(path).schema;
   if (schema == "geometry") {
     ModelTables t = read_geometry(path).tables;
-    return {std::move(t.face_name), std::move(t.group_name), std::move(t.group_role), std::move(t.face_group), std::move(t.labels)};
+    return {std::move(t.face_name), std::move(t.group_name),   std::move(t.group_role), std::move(t.face_group),
+            std::move(t.labels),    color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type)};
   }
   if (schema == "patches") {
     PatchesArtifact p = read_patches(path);
-    return {std::move(p.face_name), std::move(p.group_name), std::move(p.group_role), std::move(p.face_group), std::move(p.labels)};
+    return {
+        std::move(p.face_name), std::move(p.group_name), std::move(p.group_role), std::move(p.face_group), std::move(p.labels), {}, {}, {}};
   }
   if (schema != "mesh")
     throw Error(ExitCode::kInput,
@@ -37,7 +53,7 @@ Identity identity_of(const std::string& path) {
   SurfaceMesh m = read_mesh(path).mesh;
   std::vector<std::int32_t> face_group(m.face_name.size(), kNone);
   for (std::size_t t = 0; t < m.triangles.size(); ++t) face_group[m.triangle_face[t]] = m.triangle_group[t];
-  return {std::move(m.face_name), std::move(m.group_name), std::move(m.group_role), std::move(face_group), std::move(m.labels)};
+  return {std::move(m.face_name), std::move(m.group_name), std::move(m.group_role), std::move(face_group), std::move(m.labels), {}, {}, {}};
 }
 
 /// 1-based ids of the faces with this number.
@@ -70,7 +86,8 @@ Json groups_json(const std::vector<std::string>& name, const std::vector<std::st
 }
 
 Json report(const Identity& id) {
-  Json json = {{"tables", Json::array()}, {"parts", Json::array()}, {"face_names", Json::object()}};
+  Json json = {{"tables", Json::array()},  {"parts", Json::array()},   {"face_names", Json::object()},
+               {"layers", Json::object()}, {"colors", Json::object()}, {"surfaces", Json::object()}};
   const FaceLabels& labels = id.labels;
   json["tables"].push_back(
       {{"table", "main"}, {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
@@ -78,8 +95,14 @@ Json report(const Identity& id) {
     json["tables"].push_back({{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
   for (std::size_t p = 0; p < labels.part_path.size(); ++p)
     json["parts"].push_back({{"path", labels.part_path[p]}, {"name", labels.part_name[p]}, {"faces", faces_with(labels.face_part, p)}});
-  for (std::size_t f = 0; f < id.face_name.size(); ++f)
-    if (!id.face_name[f].empty()) json["face_names"][id.face_name[f]].push_back(f + 1);
+  const auto add = [&](const char* key, const std::vector<std::string>& texts) {
+    for (std::size_t f = 0; f < texts.size(); ++f)
+      if (!texts[f].empty()) json[key][texts[f]].push_back(f + 1);
+  };
+  add("face_names", id.face_name);
+  add("layers", id.face_layer);
+  add("colors", id.face_color);
+  add("surfaces", id.face_surface);
   return json;
 }
 
@@ -99,8 +122,12 @@ std::string lines(const Json& json) {
   }
   text += fmt::format("parts: {}\n", json["parts"].size());
   for (const Json& p : json["parts"]) text += row(p["path"], p["faces"], "");
-  text += fmt::format("names of faces: {}\n", json["face_names"].size());
-  for (const auto& [name, faces] : json["face_names"].items()) text += row(name, faces, "");
+  for (const auto& [key, what] : {std::pair("face_names", "names of faces"), std::pair("layers", "layers"), std::pair("colors", "colors"),
+                                  std::pair("surfaces", "surfaces")}) {
+    if (json[key].empty()) continue;
+    text += fmt::format("{}: {}\n", what, json[key].size());
+    for (const auto& [name, faces] : json[key].items()) text += row(name, faces, "");
+  }
   text.pop_back();
   return text;
 }

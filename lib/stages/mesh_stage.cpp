@@ -50,10 +50,10 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
     for (FaceId f = first; f <= last; ++f) chosen[f] = 1;
   }
   if (!o.group.empty()) {
-    const auto group = std::find(t.group_name.begin(), t.group_name.end(), o.group);
-    if (group == t.group_name.end())
-      throw Error(ExitCode::kUsage, fmt::format("--group '{}': the model has no such group; st-info {} lists them", o.group, o.geometry));
-    for (FaceId f = 0; f < t.n_faces(); ++f) chosen[f] |= t.face_group[f] == group - t.group_name.begin();
+    const std::vector<std::uint8_t> in_group = find_faces(o.group, t.group_names());
+    if (in_group.empty())
+      throw Error(ExitCode::kUsage, fmt::format("--group '{}': the model has no such group or part; st-info {} --groups lists them", o.group, o.geometry));
+    for (FaceId f = 0; f < t.n_faces(); ++f) chosen[f] |= in_group[f];
   }
   std::vector<FaceId> faces;
   for (FaceId f = 0; f < t.n_faces(); ++f)

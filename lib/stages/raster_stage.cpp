@@ -349,6 +349,9 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
 
   artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
+  artifact.group_name = model.tables().group_name;
+  artifact.face_group = model.tables().face_group;
+  artifact.labels = model.tables().labels;
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   times.end("writing");

@@ -57,12 +57,12 @@ std::vector<char> kept_faces(const RemeshStageOptions& o, const ModelTables& t, 
   std::vector<char> strips(merged.strip_face.empty() ? 0 : t.n_faces(), 0);
   for (const FaceId f : merged.strip_face) strips[f] = 1;
   if (o.keep.empty()) return strips;
-  const auto group = std::find(t.group_name.begin(), t.group_name.end(), o.keep);
-  if (group == t.group_name.end())
-    throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group; st-info {} lists them", o.keep, o.geometry));
+  const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.group_names());
+  if (in_group.empty())
+    throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group or part; st-info {} --groups lists them", o.keep, o.geometry));
   std::vector<char> keep = strips;
   keep.resize(t.n_faces(), 0);
-  for (FaceId f = 0; f < t.n_faces(); ++f) keep[f] |= t.face_group[f] == group - t.group_name.begin();
+  for (FaceId f = 0; f < t.n_faces(); ++f) keep[f] |= in_group[f];
   return keep;
 }
 

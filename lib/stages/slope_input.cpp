@@ -28,18 +28,26 @@ NamedSlope parse_slope(const std::string& item) {
   throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': NAME=S with S in (0, 2] expected, such as WING=0.1", item));
 }
 
-/// Smallest slope that a face's name is given; 0: none.
-std::vector<double> face_slopes(const std::vector<NamedSlope>& slopes, const std::vector<std::string>& face_name) {
-  std::vector<double> result(face_name.size(), 0);
+/// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.
+std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& raster) {
+  const std::vector<std::string>& face_name = raster.names.face;
+  std::vector<std::uint8_t> is_in(face_name.size(), 0);
+  for (std::size_t f = 0; f < face_name.size(); ++f) is_in[f] = face_name[f] == s.name;
+  if (std::find(is_in.begin(), is_in.end(), 1) != is_in.end()) return is_in;
+  is_in = find_faces(s.name, {raster.group_name, raster.face_group, raster.labels});
+  if (is_in.empty())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--slope-of '{}': no face, group or part has this name; st-info geometry.hdf --groups lists them", s.name));
+  return is_in;
+}
+
+/// Smallest slope that a face is given; 0: none.
+std::vector<double> face_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster) {
+  std::vector<double> result(raster.names.face.size(), 0);
   for (const NamedSlope& s : slopes) {
-    bool is_used = false;
-    for (std::size_t f = 0; f < face_name.size(); ++f) {
-      if (face_name[f] != s.name) continue;
-      is_used = true;
-      result[f] = result[f] > 0 ? std::min(result[f], s.slope) : s.slope;
-    }
-    if (!is_used)
-      throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face has this name; st-info geometry.hdf lists them", s.name));
+    const std::vector<std::uint8_t> is_in = faces_of(s, raster);
+    for (std::size_t f = 0; f < result.size(); ++f)
+      if (is_in[f]) result[f] = result[f] > 0 ? std::min(result[f], s.slope) : s.slope;
   }
   return result;
 }
@@ -58,7 +66,7 @@ std::vector<NamedSlope> parse_slopes(const std::string& text) {
 
 std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster, const OctreeView& raster_octree,
                                const OctreeView& octree) {
-  const std::vector<double> of_face = face_slopes(slopes, raster.names.face);
+  const std::vector<double> of_face = face_slopes(slopes, raster);
   std::vector<float> seed(octree.leaf_keys.size(), 0);
   for (std::int32_t f = 0; f < raster.faces.n_faces(); ++f) {
     const auto slope = static_cast<float>(of_face[f]);

@@ -8,7 +8,7 @@
 
 namespace st {
 
-/// Slope of the faces of one name.
+/// Slope of the faces of one name, else of a group or part (find_faces, face_labels.h).
 struct NamedSlope {
   std::string name;
   double slope = 0;  ///< (0, 2]
@@ -18,7 +18,7 @@ struct NamedSlope {
 std::vector<NamedSlope> parse_slopes(const std::string& text);
 
 /// Per leaf of `octree` (the raster's, or refined from it): the slope of the faces in it, the smallest where several have one; 0 elsewhere.
-/// Throws Error(kUsage) for a name that no face has.
+/// Throws Error(kUsage) for a name that no face, group or part has.
 std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster, const OctreeView& raster_octree,
                                const OctreeView& octree);
 

@@ -183,6 +183,50 @@ class Import(ToolTest):
         self.assertNotIn("farfield", tables["main"])
 
 
+class Options(ToolTest):
+    """Options of later stages take names of groups of every table, of parts and of their paths."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "g.toml").write_text('[[group]]\ntable = "bc"\nname = "hot"\npaths = "assembly/pin#1"\n')
+        make_chain(MODELS / "assembly.step", self.folder, import_options=["--groups", self.folder / "g.toml"], **COARSE)
+        self.inputs = [self.folder / "geometry.hdf", self.folder / "sizing.hdf"]
+
+    def test_st_mesh_and_st_remesh_take_them(self):
+        for name, n_faces in (("pin", 4), ("assembly/pin#*", 6), ("assembly/pin#2", 3), ("hot", 3), ("bc:h*", 3), ("block", 6)):
+            must("st-mesh", *self.inputs, "-o", self.folder / "part.hdf", "--group", name)
+            self.assertEqual(must("st-info", self.folder / "part.hdf", "--json").json()["counts"]["patches"], n_faces, name)
+        self.expect_error(USAGE, "st-mesh", *self.inputs, "-o", self.folder / "part.hdf", "--group", "cold", says=["cold", "--groups"])
+        must("st-remesh", self.folder / "mesh.hdf", *self.inputs, "-o", self.folder / "re.hdf", "--dry-run", "--keep", "assembly/pin#2")
+
+    def test_st_prolong_and_st_raster_take_them(self):
+        (self.folder / "p.csv").write_text("".join(f"{x},{y},{z}\n" for x in range(0, 160, 8) for y in range(0, 45, 8) for z in range(0, 21, 8)))
+        total = {}
+        for slope in ("", "hot=0.02", "pin=0.02"):
+            must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", slope, "--sample", self.folder / "p.csv",
+                 "--sample-output", self.folder / "o.csv")
+            total[slope] = sum(float(line.split(",")[3]) for line in (self.folder / "o.csv").read_text().split("\n")[1:] if line)
+        self.assertLess(total["pin=0.02"], total["hot=0.02"])
+        self.assertLess(total["hot=0.02"], total[""])
+        self.expect_error(USAGE, "st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", "cold=0.1", says="cold")
+        samples = []
+        for name in ("hot", "assembly/pin#*"):
+            (self.folder / "sizes.toml").write_text(f'[[size]]\ngroups = "{name}"\nlmax = "1%"\n')
+            run = must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "r.hdf", "--lmax", "10%", "--sizes", self.folder / "sizes.toml", "--json")
+            samples.append(run.json()["samples"])
+        self.assertLess(samples[0], samples[1])
+
+    def test_the_side_to_blank_follows_from_roles(self):
+        (self.folder / "g.toml").write_text('[[group]]\nname = "tunnel"\ngroups = "farfield"\nrole = "farfield"\n')
+        make_chain(MODELS / "box.step", self.folder, import_options=["--farfield", "box:1", "--groups", self.folder / "g.toml"], **COARSE)
+        said = {}
+        for side in ("auto", "outside", "inside"):
+            said[side] = must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", self.folder / "mesh.hdf", "--blank-side", side,
+                              "--json").json()["blanked_cells"]
+        self.assertEqual(said["auto"], said["outside"])
+        self.assertNotEqual(said["auto"], said["inside"])
+
+
 class Names(ToolTest):
     """A STEP file is text: names in every encoding are put into that of the assembly."""
 

@@ -35,6 +35,22 @@ TEST(FaceLabels, name_the_part_of_a_face_and_nothing_where_there_is_none) {
   EXPECT_EQ(FaceLabels().part_of(0), "");
 }
 
+TEST(FindFaces, prefers_main_groups_then_tables_then_part_names_then_paths) {
+  using Mask = std::vector<std::uint8_t>;
+  FaceLabels l = labels();
+  std::vector<std::string> group = {"body", "wing"};
+  const std::vector<std::int32_t> face_group = {0, 0, 1, 1};
+  const GroupNames names{group, face_group, l};
+  EXPECT_EQ(find_faces("w*", names), (Mask{0, 0, 1, 1}));
+  EXPECT_EQ(find_faces("hot", names), (Mask{0, 0, 1, 1}));
+  EXPECT_EQ(find_faces("bc:cold", names), (Mask{1, 0, 0, 0}));
+  EXPECT_EQ(find_faces("bolt", names), (Mask{1, 1, 0, 0}));
+  EXPECT_EQ(find_faces("as/bolt#2", names), (Mask{0, 1, 0, 0}));
+  EXPECT_TRUE(find_faces("nut", names).empty());
+  group[1] = "bolt";
+  EXPECT_EQ(find_faces("bolt", names), (Mask{0, 0, 1, 1})) << "the part of this name is hidden by the group";
+}
+
 TEST(FaceLabels, of_selected_faces_come_in_their_order) {
   const std::vector<FaceId> faces = {2, 0};
   const FaceLabels some = select_labels(labels(), faces);
