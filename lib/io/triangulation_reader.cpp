@@ -117,6 +117,9 @@ SurfaceMesh make_mesh(const std::string& path, TriangulationFile&& file) {
   for (std::int64_t n = 0; n < n_nodes; ++n)
     if (const Vec3 x = mesh.node_xyz[n]; !std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
       fail(path, "the coordinates of node " + std::to_string(n + 1) + " are not finite");
+  for (std::size_t n = 0; n < file.node_size.size(); ++n)
+    if (!(file.node_size[n] >= 0) || !std::isfinite(file.node_size[n]))
+      fail(path, "the length (point data 'size') of node " + std::to_string(n + 1) + " is not positive and finite");
   std::vector<std::size_t> kept;
   for (std::size_t t = 0; t < file.triangles.size(); ++t) {
     const auto& n = file.triangles[t];

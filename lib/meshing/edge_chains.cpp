@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "geometry/projection.h"
 #include "meshing/nearest_node.h"
+#include "meshing/part_matching.h"
 #include "meshing/places.h"
 #include "meshing/small_features.h"
 
@@ -22,11 +23,18 @@ constexpr double kMaxSagitta = 0.6;  // of a mesh edge: how far the curve's midd
 constexpr double kOffPenalty = 2;    // how much a node at the end of its tolerance makes a chain worse, in squared lengths
 constexpr std::size_t kNamed = 4;    // places named in a message
 
+/// How a chain is sought: of the tolerance this share, so that where the mesh is exact no node beside the edge is taken for one on it.
+struct Search {
+  double share = 1;
+  bool is_thorough = false;  ///< projects without a guess
+};
+constexpr Search kSearches[] = {{1e-3, false}, {0.03, false}, {1, false}, {1, true}};
+
 /// The nodes on the vertices; merges short edges.
 class VertexFinder {
  public:
   VertexFinder(const SurfaceMesh& mesh, const MeshEdges& edges, const ModelTables& tables, const NodeTolerance& tolerance)
-      : mesh_(mesh), edges_(edges), t_(tables), tolerance_(tolerance), nearest_(mesh.node_xyz, edges.node_offsets) {}
+      : mesh_(mesh), edges_(edges), t_(tables), tolerance_(tolerance) {}
 
   void run(EdgeChains& result) {
     find_nearest();
@@ -42,9 +50,14 @@ class VertexFinder {
     is_used_.assign(t_.n_vertices(), 0);
     for (const VertexId v : t_.edge_vertices) is_used_[v] = 1;
     node_.assign(t_.n_vertices(), kNone);
-    for (VertexId v = 0; v < t_.n_vertices(); ++v) {
-      if (is_used_[v]) node_[v] = nearest_.find(t_.vertex_xyz[v]);
-    }
+    const MatchedParts parts = match_parts(mesh_, t_);
+    std::vector<std::vector<NodeId>> nodes(parts.n_parts);
+    for (NodeId n = 0; n < mesh_.n_nodes(); ++n)
+      if (parts.node_part[n] != kNone) nodes[parts.node_part[n]].push_back(n);
+    std::vector<NearestNode> nearest;
+    for (auto& of_part : nodes) nearest.emplace_back(mesh_.node_xyz, std::move(of_part));
+    for (VertexId v = 0; v < t_.n_vertices(); ++v)
+      if (is_used_[v]) node_[v] = nearest[parts.vertex_part[v]].find(t_.vertex_xyz[v]);
     is_near_.assign(t_.n_vertices(), 0);
     for (VertexId v = 0; v < t_.n_vertices(); ++v)
       if (node_[v] != kNone) is_near_[v] = off(v) <= tolerance_.at(node_[v], t_.vertex_tolerance[v]);
@@ -108,7 +121,6 @@ class VertexFinder {
   const MeshEdges& edges_;
   const ModelTables& t_;
   const NodeTolerance& tolerance_;
-  NearestNode nearest_;
   std::vector<char> is_used_, is_near_;
   std::vector<NodeId> node_;  // [n_vertices] nearest
 };
@@ -126,8 +138,8 @@ class ChainFinder {
     std::vector<EdgeId> unfollowed;
     for (EdgeId e = 0; e < t.n_edges(); ++e) {
       if (t.edge_is_degenerate[e]) continue;
-      if (follow(e, false) || follow(e, true)) continue;
-      unfollowed.push_back(e);
+      if (std::none_of(std::begin(kSearches), std::end(kSearches), [&](const Search& how) { return follow(e, how); }))
+        unfollowed.push_back(e);
     }
     if (!unfollowed.empty()) fail(unfollowed);
   }
@@ -141,11 +153,11 @@ class ChainFinder {
     bool is_done;
   };
 
-  bool follow(EdgeId e, bool thoroughly) {
+  bool follow(EdgeId e, const Search& how) {
     const ModelTables& t = r_.tables;
     curve_ = model_.curve(e);
     edge_ = e;
-    is_thorough_ = thoroughly;
+    search_ = how;
     start_ = r_.vertex_node[t.edge_vertices[2 * e]];
     end_ = r_.vertex_node[t.edge_vertices[2 * e + 1]];
     labels_.clear();
@@ -176,19 +188,21 @@ class ChainFinder {
     }
   }
 
+  double tolerance(NodeId n) const { return search_.share * tolerance_.at(n, r_.tables.edge_tolerance[edge_]); }
+
   /// False when the node is not on the edge, seen from here.
   bool add_label(std::int32_t from, NodeId m) {
     const std::optional<double> t = parameter(labels_[from], mesh_.node_xyz[m]);
     if (!t || !(*t > curve_->t_min() && *t < curve_->t_max())) return false;
     const double off = distance(curve_->point(*t), mesh_.node_xyz[m]);
-    if (off > tolerance_.at(m, r_.tables.edge_tolerance[edge_])) return false;
+    if (off > tolerance(m)) return false;
     label_of_[m] = static_cast<std::int32_t>(labels_.size());
     labels_.push_back({m, *t, off, 1e300, kNone, kNone, false});
     return true;
   }
 
   std::optional<double> parameter(const Label& from, Vec3 x) const {
-    if (is_thorough_) return closest_point(*curve_, x).t;
+    if (search_.is_thorough) return closest_point(*curve_, x).t;
     const CurvePoint p = curve_->evaluate(from.t);
     const double speed2 = norm2(p.d1), along = dot(x - p.x, p.d1);
     if (!(speed2 > 0)) return closest_point(*curve_, x).t;
@@ -203,7 +217,7 @@ class ChainFinder {
     if (!(b.t > a.t) || b.is_done) return;
     const Vec3 xa = mesh_.node_xyz[a.node], xb = mesh_.node_xyz[b.node], middle = curve_->point(0.5 * (a.t + b.t));
     if (distance(middle, 0.5 * (xa + xb)) > kMaxSagitta * distance(xa, xb)) return;
-    const double length = distance(xa, middle) + distance(middle, xb), off = b.off / tolerance_.at(b.node, r_.tables.edge_tolerance[edge_]);
+    const double length = distance(xa, middle) + distance(middle, xb), off = b.off / tolerance(b.node);
     const double cost = a.cost + length * length * (1 + kOffPenalty * off * off);
     if (!(cost < b.cost)) return;
     if (b.from == kNone && to != 1) queue_.push({b.t, to});
@@ -245,7 +259,7 @@ class ChainFinder {
   EdgeChains& r_;
   std::unique_ptr<Curve> curve_;
   EdgeId edge_ = kNone;
-  bool is_thorough_ = false;
+  Search search_;
   NodeId start_ = kNone, end_ = kNone;
   std::vector<Label> labels_;           // 0: start, 1: end
   std::vector<std::int32_t> label_of_;  // [n_nodes] kNone: not reached

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <tuple>
 
 #include "geometry/projection.h"
 
@@ -193,8 +194,7 @@ class FaceParameters {
     const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), det = e * g - f * f;
     if (!(det > 1e-10 * e * g)) return from.uv;
     const double a = dot(d, p.du), b = dot(d, p.dv);
-    const Vec2 uv = from.uv + Vec2{(a * g - b * f) / det, (b * e - a * f) / det};
-    return {std::clamp(uv.x, surface_->u_min(), surface_->u_max()), std::clamp(uv.y, surface_->v_min(), surface_->v_max())};
+    return within_bounds(from.uv + Vec2{(a * g - b * f) / det, (b * e - a * f) / det});
   }
 
   void project(Fan& fan, const Fan* from) {
@@ -207,17 +207,67 @@ class FaceParameters {
     };
     if (from) {
       const Vec2 guess = step(*from, x);
-      for (const Vec2 start : {guess, from->uv, 0.5 * (guess + from->uv)}) {
-        if (best <= enough) break;
-        if (const auto uv = project_near(*surface_, x, start)) take(near(*uv, guess));
-      }
+      if (const auto uv = project_near(*surface_, x, guess)) take(near(*uv, guess));
+      for (const Vec2 start : {guess, from->uv})
+        if (best > enough) take(descend(x, start));
     }
     if (best > enough) {
       const SurfaceFoot foot = closest_point(*surface_, x);
       take(from ? near(foot.uv, from->uv) : foot.uv);
     }
+    if (best > enough) search(x, from ? from->uv : fan.uv, enough, take);
     fan.is_known = true;
     distances_.push_back({fan.node, best});
+  }
+
+  /// Levenberg and Marquardt from `uv`, for surfaces where Newton goes astray: kinks, collapsed sides, uneven parameters.
+  Vec2 descend(Vec3 x, Vec2 uv) const {
+    constexpr int kSteps = 100;
+    double damping = 1e-3;
+    SurfacePoint p = surface_->evaluate(uv);
+    for (int i = 0; i < kSteps && damping < 1e12; ++i) {
+      const Vec3 r = p.x - x;
+      const double e = norm2(p.du) * (1 + damping), f = dot(p.du, p.dv), g = norm2(p.dv) * (1 + damping), det = e * g - f * f;
+      if (!(det > 0)) break;
+      const double a = -dot(r, p.du), b = -dot(r, p.dv);
+      const Vec2 next = within_bounds(uv + Vec2{(a * g - b * f) / det, (b * e - a * f) / det});
+      const SurfacePoint q = surface_->evaluate(next);
+      if (norm2(q.x - x) < norm2(r)) {
+        uv = next, p = q, damping *= 0.2;
+      } else {
+        damping *= 5;
+      }
+    }
+    return uv;
+  }
+
+  /// Last resort on surfaces that fold: descends from the closest places of a fine grid, those near `from` first.
+  template <class Take>
+  void search(Vec3 x, Vec2 from, double enough, const Take& take) const {
+    constexpr int kGrid = 80, kStarts = 24;
+    const Vec2 lo{surface_->u_min(), surface_->v_min()}, range{surface_->u_max() - lo.x, surface_->v_max() - lo.y};
+    std::vector<std::pair<double, Vec2>> starts;
+    for (int i = 0; i <= kGrid; ++i)
+      for (int j = 0; j <= kGrid; ++j) {
+        const Vec2 uv{lo.x + range.x * i / kGrid, lo.y + range.y * j / kGrid};
+        starts.push_back({distance(surface_->point(uv), x), uv});
+      }
+    const auto by_distance = [](const auto& a, const auto& b) {
+      return std::tie(a.first, a.second.x, a.second.y) < std::tie(b.first, b.second.x, b.second.y);
+    };
+    std::partial_sort(starts.begin(), starts.begin() + kStarts, starts.end(), by_distance);
+    starts.resize(kStarts);
+    for (auto& [off, uv] : starts) off = std::abs(uv.x - from.x) / range.x + std::abs(uv.y - from.y) / range.y;
+    std::sort(starts.begin(), starts.end(), by_distance);
+    for (const auto& [off, uv] : starts) {
+      const Vec2 foot = descend(x, uv);
+      take(foot);
+      if (distance(surface_->point(foot), x) <= enough) return;
+    }
+  }
+
+  Vec2 within_bounds(Vec2 uv) const {
+    return {std::clamp(uv.x, surface_->u_min(), surface_->u_max()), std::clamp(uv.y, surface_->v_min(), surface_->v_max())};
   }
 
   /// The same point, as few periods from `there` as the bounds allow.

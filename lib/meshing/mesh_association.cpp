@@ -18,6 +18,7 @@ namespace {
 constexpr double kToleranceShare = 0.05;    // of the shortest mesh edge at a node
 constexpr double kLeastTolerance = 1e-6;    // of the model's diagonal: what single precision leaves
 constexpr double kMaxBoxRatio = 1.5;        // of the diagonals: beyond, the unit or the model is another one
+constexpr double kSameUnit = 0.05;          // relative: a ratio as near to that of two units comes from them
 constexpr double kMaxBoxDifference = 0.05;  // of the diagonal: of the corners of the boxes
 
 struct Unit {
@@ -42,23 +43,18 @@ Box3 box_of(const SurfaceMesh& mesh) {
   return box;
 }
 
-std::string unit_that_fits(double ratio) {
-  for (const Unit& u : kUnits)
-    if (std::abs(ratio / u.ratio - 1) < 0.05) return std::string(" as if it had ").append(u.name);
-  return "";
-}
-
 /// Boxes must agree: nothing else tells a wrong unit as clearly.
 void require_same_box(const Box3& mesh, const Box3& model) {
-  const double ratio = mesh.diagonal() / model.diagonal();
-  if (!(ratio < kMaxBoxRatio && ratio > 1 / kMaxBoxRatio)) {
-    const double factor = ratio > 1 ? ratio : 1 / ratio;
-    throw Error(ExitCode::kMismatch,
-                "the mesh is " + number(factor) + " times as " + (ratio > 1 ? "large" : "small") + " as the geometry (diagonals " +
-                    number(mesh.diagonal()) + " and " + number(model.diagonal()) + ")," +
-                    (unit_that_fits(ratio).empty() ? " which no unit explains; the mesh is of another geometry"
-                                                   : unit_that_fits(ratio) + "; scale the mesh by " + number(1 / ratio) +
-                                                         ", or import the geometry with the --unit of the mesh"));
+  const double measured = mesh.diagonal() / model.diagonal();
+  if (!(measured < kMaxBoxRatio && measured > 1 / kMaxBoxRatio)) {
+    const Unit* unit =
+        std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& u) { return std::abs(measured / u.ratio - 1) < kSameUnit; });
+    const double ratio = unit != std::end(kUnits) ? unit->ratio : measured;
+    std::string text = "the mesh is " + number(ratio > 1 ? ratio : 1 / ratio) + " times as " + (ratio > 1 ? "large" : "small") +
+                       " as the geometry (diagonals " + number(mesh.diagonal()) + " and " + number(model.diagonal()) + "), ";
+    if (unit == std::end(kUnits)) throw Error(ExitCode::kMismatch, text + "which no unit explains; the mesh is of another geometry");
+    throw Error(ExitCode::kMismatch, text + "as if it had " + unit->name + "; scale the mesh by " + number(1 / ratio) +
+                                         ", or import the geometry with the --unit of the mesh");
   }
   const double off = std::max(norm(mesh.center() - model.center()), std::abs(mesh.diagonal() - model.diagonal()));
   if (off > kMaxBoxDifference * model.diagonal())
@@ -97,6 +93,8 @@ class Canonical {
     add_triangles();
     out.mesh.face_name = t_.face_name;
     out.mesh.group_name = t_.group_name;
+    out.mesh.group_role = t_.group_role;
+    out.mesh.labels = t_.labels;
     out.mesh.merged = chains_.merged;
   }
 

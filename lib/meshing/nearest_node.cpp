@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace st {
 namespace {
@@ -10,9 +11,7 @@ double coordinate(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y :
 
 }  // namespace
 
-NearestNode::NearestNode(std::span<const Vec3> xyz, std::span<const std::int32_t> offsets) : xyz_(xyz) {
-  for (std::size_t n = 0; n < xyz.size(); ++n)
-    if (offsets[n + 1] > offsets[n]) node_.push_back(static_cast<NodeId>(n));
+NearestNode::NearestNode(std::span<const Vec3> xyz, std::vector<NodeId> nodes) : xyz_(xyz), node_(std::move(nodes)) {
   build(0, node_.size(), 0);
 }
 

@@ -12,8 +12,8 @@ namespace st {
 /// Points in a k-d tree.
 class NearestNode {
  public:
-  /// Of `xyz`, which outlives the object, the nodes with something at them (`offsets` [n+1] as in MeshEdges). n log n.
-  NearestNode(std::span<const Vec3> xyz, std::span<const std::int32_t> offsets);
+  /// Of `xyz`, which outlives the object, these. n log n.
+  NearestNode(std::span<const Vec3> xyz, std::vector<NodeId> nodes);
   /// The nearest, of equally near ones the lowest; kNone when there is no point. About log n.
   NodeId find(Vec3 x) const;
 

@@ -1,8 +1,12 @@
 """st-remesh on meshes of other programs: they are associated to the geometry, and refused where they do not belong to it."""
 import os
+import shutil
+import subprocess
 import sys
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import *  # noqa: E402,F403
@@ -79,6 +83,170 @@ class RoundTrip(ToolTest):
         for name in REAL:
             with self.subTest(name):
                 self.expect_same(corpus_chain(name))
+
+
+def triangles_of(x, t):
+    """Triangles as their coordinates, from the corner that comes first on: equal ones are equal to the bit."""
+    first = [min(range(3), key=lambda k: tuple(x[n[k]])) for n in t]
+    return [tuple(map(tuple, x[[n[k], n[(k + 1) % 3], n[(k + 2) % 3]]])) for n, k in zip(t, first)]
+
+
+def read_binary_stl(path):
+    rows = np.frombuffer(path.read_bytes()[84:], dtype=np.dtype([("f", "<f4", (4, 3)), ("a", "<u2")]))
+    return rows["f"][:, 1:].astype(float)
+
+
+class PointSource(ToolTest):
+    """A finer place: the rest of the file stays to the bit."""
+
+    def expect_local(self, good, at, length, reach):
+        (self.folder / "s.toml").write_text(f'[[source]]\ntype = "point"\nat = {list(at)}\nlength = {length}\nradius = {reach / 10}\n')
+        finer = self.folder / "finer.hdf"
+        must("st-prolong", good / "raster.hdf", "-o", finer, "--sources", self.folder / "s.toml")
+        for suffix, path in write_formats(good / "mesh.hdf", self.folder).items():
+            merged = self.folder / f"{suffix}.hdf"
+            run = must("st-remesh", path, good / "geometry.hdf", finer, "--made-for", good / "sizing.hdf", "--merged", merged, "--json").json()
+            self.assertGreater(run["triangles"], run["triangles_before"], suffix)
+            self.assertLess(run["triangles_redone"], run["triangles_before"] / 2, suffix)
+            must("st-check", merged, "--geometry", good / "geometry.hdf", "--sizing", finer)
+            new = arrays(merged, self.folder)
+            kept = set(triangles_of(new["x"], new["t"]))
+            if suffix == "stl":
+                x, t = read_binary_stl(path).reshape(-1, 3), np.arange(3 * run["triangles_before"]).reshape(-1, 3)
+            else:
+                x, t = Mesh(self.folder / "m.vtu").x, Mesh(self.folder / "m.vtu").triangles
+            far = np.linalg.norm(x[t].mean(axis=1) - np.array(at), axis=1) > reach
+            self.assertGreater(far.sum(), len(t) / 3)
+            self.assertEqual([c for c in triangles_of(x, t[far]) if c not in kept], [], suffix)
+            self.assertGreaterEqual(len(kept & set(triangles_of(x, t))), run["triangles_before"] - run["triangles_redone"], suffix)
+
+    def test_on_a_seam(self):
+        self.expect_local(artifacts_of("cylinder"), (10, 0, 15), 0.2, 8)
+
+    @unittest.skipUnless((Path(CORPUS) / REAL["d150"]).exists(), "ST_CORPUS names no corpus: the source on a real aircraft is NOT tested")
+    def test_on_an_aircraft(self):
+        self.expect_local(corpus_chain("d150"), (16, 6, -1), 0.05, 5)
+
+
+class Refused(ToolTest):
+    """What does not belong together ends with exit code 7, says why and where, and leaves nothing."""
+
+    def setUp(self):
+        super().setUp()
+        self.good = artifacts_of("cylinder")
+        must("st-export", self.good / "mesh.hdf", "-o", self.folder / "m.vtu")
+        self.mesh = Mesh(self.folder / "m.vtu")
+        self.out = self.folder / "out"
+        self.out.mkdir()
+
+    def expect(self, says, code=MISMATCH, good=None, options=()):
+        self.mesh.write_fro(self.folder / "foreign.fro")
+        good = good or self.good
+        for target in (["--merged", self.out / "m.hdf"], ["-o", self.out / "p.hdf"]):
+            self.expect_error(code, "st-remesh", self.folder / "foreign.fro", good / "geometry.hdf", good / "sizing.hdf", *target, *options, says=["foreign.fro", *says])
+            self.expect_nothing_left(self.out)
+
+    def test_mesh_in_another_unit(self):
+        x = self.mesh.x
+        self.mesh.x = 1000 * x
+        self.expect(["1000 times as large", "mm for m", "scale the mesh by 0.001"])
+        self.mesh.x = x / 25.4
+        self.expect(["25.4 times as small", "inches for mm", "25.4"])
+
+    def test_mesh_of_no_unit(self):
+        self.mesh.x = 7 * self.mesh.x
+        self.expect(["7 times as large", "no unit explains"])
+
+    def test_mesh_elsewhere(self):
+        self.mesh.x = self.mesh.x + [0, 0, 10]
+        self.expect(["elsewhere"])
+
+    def test_mesh_of_another_model(self):
+        self.expect(["of another geometry"], good=artifacts_of("cone"))
+
+    def test_mesh_that_is_a_little_off(self):
+        self.mesh.x = self.mesh.x + [0.3, 0, 0]
+        self.expect(["CAD vertices have no node", "0.3 away", "at (10, "])
+
+    def test_bump_off_the_surface(self):
+        inner = np.argmin(np.linalg.norm(self.mesh.x - [-10, 0, 15], axis=1))
+        self.mesh.x[inner] *= [1.1, 1.1, 1]
+        self.expect(["1 nodes of the mesh lie on no face", "--tolerance"])
+
+    def test_hole_in_a_face(self):
+        at = np.argmin(np.linalg.norm(self.mesh.x[self.mesh.triangles].mean(axis=1) - [-10, 0, 15], axis=1))
+        self.mesh.triangles = np.delete(self.mesh.triangles, at, axis=0)
+        self.mesh.surface = np.delete(self.mesh.surface, at)
+        self.expect(["holes where the geometry has none", "3 of its edges lack a triangle"])
+
+    def test_inner_wall(self):
+        self.mesh.triangles = np.vstack([self.mesh.triangles, self.mesh.triangles[:1]])
+        self.mesh.surface = np.append(self.mesh.surface, 1)
+        self.expect(["more triangles than the geometry has faces"])
+
+    def test_missing_face(self):
+        lid = self.mesh.surface == self.mesh.surface[np.argmax(self.mesh.x[self.mesh.triangles].mean(axis=1)[:, 2])]
+        self.mesh.triangles, self.mesh.surface = self.mesh.triangles[~lid], self.mesh.surface[~lid]
+        self.expect(["lack a triangle"])
+
+    def test_edge_that_the_mesh_crosses(self):
+        rim = np.flatnonzero((abs(self.mesh.x[:, 2] - 30) < 1e-9) & (np.hypot(self.mesh.x[:, 0], self.mesh.x[:, 1]) > 9.99) & (self.mesh.x[:, 0] < 0))
+        self.mesh.x[rim[0], 2] -= 0.5
+        self.expect(["no chain of mesh edges follows 1 of 3 CAD edges"])
+
+    def test_coordinates_and_lengths_that_are_no_numbers(self):
+        self.mesh.x[3, 1] = float("nan")
+        self.expect(["node 4", "not finite"], code=INPUT)
+
+    def test_lengths_in_the_file_that_are_no_numbers(self):
+        sizes = np.ones(len(self.mesh.x))
+        sizes[7] = float("nan")
+        self.mesh.write_vtu(self.folder / "sizes.vtu", sizes)
+        self.expect_error(INPUT, "st-remesh", self.folder / "sizes.vtu", self.good / "geometry.hdf", self.good / "sizing.hdf", "--merged", self.out / "m.hdf",
+                          says=["sizes.vtu", "'size'", "node 8"])
+        self.expect_nothing_left(self.out)
+
+    def test_sizing_of_another_geometry(self):
+        self.mesh.write_fro(self.folder / "foreign.fro")
+        other = artifacts_of("cone")
+        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf", other / "sizing.hdf", "--merged", self.out / "m.hdf", says="sizing.hdf")
+        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf", self.good / "sizing.hdf", "--made-for", other / "sizing.hdf", "--merged", self.out / "m.hdf", says="sizing.hdf")
+        self.expect_nothing_left(self.out)
+
+    def test_moved_geometry(self):
+        self.expect(["--moved"], code=USAGE, options=["--moved"])
+
+
+class Turned(ToolTest):
+    def test_triangles_that_disagree_are_turned(self):
+        good = artifacts_of("cylinder")
+        must("st-export", good / "mesh.hdf", "-o", self.folder / "m.vtu")
+        mesh = Mesh(self.folder / "m.vtu")
+        mesh.triangles[::5] = mesh.triangles[::5, ::-1]
+        mesh.write_stl(self.folder / "m.stl")
+        run = must("st-remesh", self.folder / "m.stl", good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf", "--merged", self.folder / "out.hdf", "--json").json()
+        self.assertEqual(run["association"]["triangles_turned"], len(mesh.triangles[::5]))
+        must("st-check", self.folder / "out.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
+
+
+@unittest.skipUnless(shutil.which("gmsh"), "there is no gmsh: its meshes are NOT tested")
+class Gmsh(ToolTest):
+    """Meshes that gmsh made, of its own formats."""
+
+    def expect_remeshed(self, model, good, form):
+        msh = self.folder / "gmsh.msh"
+        subprocess.run(["gmsh", "-2", model, "-o", msh, "-clcurv", "15", "-v", "0", *form], check=True, capture_output=True)
+        merged = self.folder / "m.hdf"
+        run = must("st-remesh", msh, good / "geometry.hdf", good / "sizing.hdf", "--merged", merged, "--json").json()
+        self.assertEqual(sum(run["association"]["triangles_per_face"]), run["triangles_before"])
+        self.assertLess(run["association"]["farthest"], 1e-6)
+        must("st-check", merged, "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
+
+    def test_of_shapes_in_all_its_formats(self):
+        for name, form in [("box", "msh22"), ("cylinder", "msh41"), ("plate_with_hole", "msh22"), ("torus", "msh41")]:
+            for binary in ([], ["-bin"]):
+                with self.subTest(name=name, form=form, binary=binary):
+                    self.expect_remeshed(MODELS / f"{name}.{'step' if name == 'box' else 'brep'}", artifacts_of(name), ["-format", form, *binary])
 
 
 class Options(ToolTest):

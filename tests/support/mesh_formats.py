@@ -1,4 +1,5 @@
 """Meshes in the formats of other programs, written from a VTU that st-export made."""
+import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -34,3 +35,14 @@ class Mesh:
             corners = "".join("vertex {:.17g} {:.17g} {:.17g}\n".format(*self.x[n]) for n in t)
             rows.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
         path.write_text("solid mesh\n" + "".join(rows) + "endsolid mesh\n")
+
+    def write_vtu(self, path, sizes):
+        """Ascii, with point data `size`."""
+        def array(kind, name, values, components=1):
+            return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{" ".join(map(repr, values.ravel().tolist()))}</DataArray>\n'
+
+        n = len(self.triangles)
+        cells = array("Int64", "connectivity", self.triangles) + array("Int64", "offsets", 3 * np.arange(1, n + 1)) + array("UInt8", "types", np.full(n, 5))
+        path.write_text('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n<UnstructuredGrid>\n'
+                        f'<Piece NumberOfPoints="{len(self.x)}" NumberOfCells="{n}">\n<Points>\n{array("Float64", "Points", self.x, 3)}</Points>\n'
+                        f'<Cells>\n{cells}</Cells>\n<PointData>\n{array("Float64", "size", np.asarray(sizes))}</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n')

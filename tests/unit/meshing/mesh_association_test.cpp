@@ -1,0 +1,142 @@
+// A triangulation of another program on a CAD model: what lies where.
+#include "meshing/mesh_association.h"
+
+#include <algorithm>
+#include <random>
+
+#include "base/error.h"
+#include "meshing/hole_mesh.h"
+#include "meshing/nearest_node.h"
+#include "meshing/part_matching.h"
+#include "unit/meshing/faces.h"
+
+namespace st::test {
+namespace {
+
+TEST(NearestNode, is_the_lowest_of_the_nearest) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> coarse(0, 9);  // many equal points
+  const auto point = [&] { return Vec3{0.1 * coarse(random), 0.1 * coarse(random), 0.1 * coarse(random)}; };
+  std::vector<Vec3> xyz;
+  std::vector<NodeId> nodes;
+  for (NodeId n = 0; n < 2000; ++n) {
+    xyz.push_back(point());
+    if (n % 3) nodes.push_back(n);
+  }
+  const NearestNode nearest(xyz, nodes);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 x = point() + Vec3{0.01 * (i % 7), 0, 0};
+    NodeId expected = nodes[0];
+    for (const NodeId n : nodes)
+      if (norm2(xyz[n] - x) < norm2(xyz[expected] - x)) expected = n;
+    EXPECT_EQ(nearest.find(x), expected);
+  }
+  EXPECT_EQ(NearestNode(xyz, {}).find({}), kNone);
+}
+
+/// Two triangles on each side of a box between `lo` and `hi`, behind what `mesh` has.
+void add_box(SurfaceMesh& mesh, Vec3 lo, Vec3 hi) {
+  const auto first = static_cast<NodeId>(mesh.node_xyz.size());
+  for (int i = 0; i < 8; ++i) mesh.node_xyz.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
+  const int sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& s : sides) {
+    mesh.triangles.push_back({{first + s[0], first + s[1], first + s[2]}});
+    mesh.triangles.push_back({{first + s[0], first + s[2], first + s[3]}});
+  }
+  mesh.node_size.assign(mesh.node_xyz.size(), 1);
+}
+
+class Association : public testing::Test {
+ protected:
+  void SetUp() override { add_box(mesh, model.tables().box().lo, model.tables().box().hi); }
+  std::string message() const {
+    try {
+      associate_mesh(mesh, model, {1e-3});
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kMismatch);
+      return e.what();
+    }
+    return "no error";
+  }
+  void expect_message(const std::string& part) const {
+    const std::string said = message();
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+  Model model = make_model("box");
+  SurfaceMesh mesh;
+};
+
+TEST_F(Association, of_a_box_has_its_corners_on_vertices_and_two_triangles_on_each_face) {
+  const AssociatedMesh a = associate_mesh(mesh, model, {1e-3});
+  EXPECT_EQ(a.report.n_nodes[0], 8);
+  EXPECT_EQ(a.report.n_nodes[1] + a.report.n_nodes[2], 0);
+  EXPECT_EQ(a.report.face_triangles, std::vector<std::int64_t>(6, 2));
+  EXPECT_LT(a.report.max_distance, 1e-3);
+  for (NodeId n = 0; n < 8; ++n) EXPECT_TRUE(a.mesh.node_xyz[n] == mesh.node_xyz[a.file_node[n]]);
+  for (TriangleId t = 0; t < 12; ++t) {
+    const auto surface = model.surface(a.mesh.triangle_face[t]);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(a.file_node[a.mesh.triangles[t].n[k]], mesh.triangles[a.file_triangle[t]].n[k]);
+      EXPECT_LT(distance(surface->point(a.mesh.corner_uv[3 * t + k]), a.mesh.node_xyz[a.mesh.triangles[t].n[k]]), 1e-3);
+    }
+  }
+  EXPECT_EQ(HoleMesh(a.mesh, model.tables()).segments.size(), 12u);  // it is canonical, and each edge one segment
+}
+
+TEST_F(Association, turns_triangles_that_disagree_with_the_rest_of_their_face) {
+  std::swap(mesh.triangles[4].n[0], mesh.triangles[4].n[1]);
+  const AssociatedMesh a = associate_mesh(mesh, model, {1e-3});
+  EXPECT_EQ(a.report.n_turned, 1);
+}
+
+TEST_F(Association, tells_a_wrong_unit_from_another_model) {
+  for (Vec3& x : mesh.node_xyz) x = 25.4 * x;
+  expect_message("25.4 times as large");
+  expect_message("mm for inches");
+  for (Vec3& x : mesh.node_xyz) x = 0.1 * x;
+  expect_message("no unit explains");
+}
+
+TEST_F(Association, says_where_triangles_are_missing) {
+  mesh.triangles.pop_back();
+  expect_message("3 of its edges lack a triangle");
+}
+
+TEST_F(Association, says_which_vertices_have_no_node) {
+  mesh.node_xyz[7] = mesh.node_xyz[7] - Vec3{0.1, 0, 0};
+  expect_message("1 of 8 CAD vertices have no node");
+}
+
+TEST_F(Association, says_which_edges_are_crossed) {
+  const NodeId extra = 8;  // in the middle of an edge, but off it
+  mesh.node_xyz.push_back(0.5 * (mesh.node_xyz[0] + mesh.node_xyz[1]) + Vec3{0, 0, 0.1});
+  mesh.node_size.push_back(1);
+  std::vector<Triangle> split;
+  for (const Triangle& t : mesh.triangles) {
+    int side = -1;
+    for (int k = 0; k < 3; ++k)
+      if (std::minmax(t.n[k], t.n[(k + 1) % 3]) == std::minmax<NodeId>(0, 1)) side = k;
+    if (side < 0) {
+      split.push_back(t);
+      continue;
+    }
+    const NodeId a = t.n[side], b = t.n[(side + 1) % 3], c = t.n[(side + 2) % 3];
+    split.push_back({{a, extra, c}});
+    split.push_back({{extra, b, c}});
+  }
+  mesh.triangles = split;
+  expect_message("no chain of mesh edges follows 1 of 12 CAD edges");
+}
+
+TEST(PartMatching, tells_touching_boxes_apart) {
+  const Model model = make_model("two_boxes");
+  const Box3 box = model.tables().box();
+  SurfaceMesh mesh;
+  add_box(mesh, box.lo, box.hi);
+  EXPECT_EQ(match_parts(mesh, model.tables()).n_parts, 1);
+  add_box(mesh, box.lo, 0.5 * (box.lo + box.hi));
+  EXPECT_EQ(match_parts(mesh, model.tables()).n_parts, 2);
+}
+
+}  // namespace
+}  // namespace st::test
