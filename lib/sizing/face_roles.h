@@ -17,8 +17,8 @@ struct FaceRoles {
 
 /// Roles from the names of groups; all faces are walls when none is. Where no name says anything, a body in a domain is recognised by its
 /// extent: when every face is either large (its box's diagonal at least 1/4 of the model's) or belongs to a rest that fits into a box of
-/// 1/20 of the model's diagonal, the large ones are the outer boundary. Those that share an edge with the body count as symmetry planes,
-/// the others as far field.
+/// 1/20 of the model's diagonal and lies in the box of the large ones, the large ones are the outer boundary. Those that share an edge with
+/// the body count as symmetry planes - they have to be planes, no two of them opposite - the others as far field.
 FaceRoles face_roles(const ModelTables& tables);
 
 }  // namespace st

@@ -67,6 +67,7 @@ ModelTables body_in_domain(double body) {
   t.face_group = {0, 0, 0, 0};
   t.face_is_reversed = {0, 0, 0, 0};
   t.face_box = {{{0, 0, 0}, {body, 0, 0}}, {{0, 0, 0}, {0, body / 2, 0}}, {{-50, -50, 0}, {50, 50, 0}}, {{-50, -50, 0}, {-50, 50, 100}}};
+  t.face_type.assign(4, SurfaceType::kPlane);
   t.edge_length = {1, 1, 1};
   t.edge_is_degenerate = {0, 0, 0};
   t.face_loop_offsets = {0, 1, 2, 3, 4};
@@ -80,6 +81,26 @@ TEST(FaceRoles, find_a_small_body_in_an_unnamed_domain) {
   EXPECT_EQ(roles.guessed, (std::vector<FaceId>{2, 3}));
   EXPECT_EQ(roles.role, (std::vector<FaceRole>{FaceRole::kWall, FaceRole::kWall, FaceRole::kSymmetry, FaceRole::kFarfield}));
   EXPECT_DOUBLE_EQ(roles.reference_diagonal, std::hypot(2, 1));
+}
+
+TEST(FaceRoles, do_not_take_a_wing_for_the_domain_of_its_tip) {
+  ModelTables t = body_in_domain(2);
+  t.face_type[2] = SurfaceType::kBspline;
+  EXPECT_TRUE(face_roles(t).guessed.empty());
+}
+
+TEST(FaceRoles, do_not_take_a_plate_for_the_domain_of_its_bore) {
+  ModelTables t = body_in_domain(2);
+  t.face_box[3] = {{-50, -50, 2}, {50, 50, 2}};
+  EXPECT_FALSE(face_roles(t).guessed.empty());
+  t.coedge_edge = {0, 1, 0, 1, 2, 0};
+  EXPECT_TRUE(face_roles(t).guessed.empty());
+}
+
+TEST(FaceRoles, do_not_take_a_large_body_for_the_domain_of_what_sticks_out_of_it) {
+  ModelTables t = body_in_domain(2);
+  t.face_box[1] = {{0, 0, -1}, {0, 1, 0}};
+  EXPECT_TRUE(face_roles(t).guessed.empty());
 }
 
 TEST(FaceRoles, do_not_guess_when_the_rest_is_not_small_or_a_name_speaks) {
