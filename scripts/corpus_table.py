@@ -4,7 +4,7 @@
 usage: scripts/corpus_table.py BIN_DIR [--peers] [--models GLOB] [--work DIR] [--format md|tsv] [--from-results]
 
 BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). One rank, one model at a time; per model at
-most --time-limit seconds and --memory-limit GB of address space. What was measured is kept in --work as one JSON file per model; --from-results
+most --time-limit seconds and --memory-limit GB of address space. Seconds in the table are processor time. What was measured is kept in --work as one JSON file per model; --from-results
 prints the table from these without running anything. Exit 0 when every model was run to its check, whatever the check says, else 5.
 """
 import argparse
@@ -32,6 +32,12 @@ class Stopped(Exception):
     """A stage that did not finish."""
 
 
+def processor_seconds():
+    """Of all processes that have ended: what other work on the machine disturbs least."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 class Chain:
     """The stages of one model, within its limits."""
 
@@ -53,15 +59,15 @@ class Chain:
 
     def run(self, command):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (self.memory, self.memory))  # noqa: E731
-        start = time.monotonic()
-        left = self.end - start
+        before = processor_seconds()
+        left = self.end - time.monotonic()
         if left <= 0:
             raise Stopped(f"{Path(command[0]).name}: no time left")
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=left, preexec_fn=limit, stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             raise Stopped(f"{Path(command[0]).name}: time limit") from None
-        return done.returncode, done.stdout, done.stderr, time.monotonic() - start
+        return done.returncode, done.stdout, done.stderr, processor_seconds() - before
 
 
 def run_model(model, arguments, folder):
@@ -157,14 +163,38 @@ def cells_of(result, peer):
     return cells
 
 
+CAUSES = ["corner", "short edge", "strip", "size jump", "free"]
+
+
+def place_text(place):
+    what = "".join(f", {kind} {place[kind]}" for kind in ("edge", "vertex") if kind in place)
+    return f"{place['value']:.3g} at ({', '.join(f'{x:.6g}' for x in place['xyz'])}) face {place['face']}{what}"
+
+
+def print_causes(results):
+    """What forces the sharp triangles of each model that has any, with the worst place of each cause."""
+    print("\nTriangles below 10° by cause; the worst place of each cause, angle in degrees\n")
+    print("| model | " + " | ".join(CAUSES) + " | worst |")
+    print("|---|" + "--:|" * len(CAUSES) + "---|")
+    for r in results:
+        sharp = ((r.get("check") or {}).get("causes") or {}).get("sharp")
+        if not sharp or not sharp["count"]:
+            continue
+        worst = {}
+        for place in sharp["worst"]:
+            worst.setdefault(place["cause"], place)
+        places = "; ".join(f"{cause} {place_text(worst[cause])}" for cause in CAUSES if cause in worst)
+        print(f"| {r['model']} | " + " | ".join(str(sharp["by_cause"][c]) for c in CAUSES) + f" | {places} |")
+
+
 def print_free(results, n_places=10):
     """The worst places of the corpus that no cause in the CAD excuses: sharp triangles, then growth."""
-    for kind, sign in (("sharp", 1), ("growth", -1)):
+    for kind, what, sign in (("sharp", "Triangles below 10° that nothing forces", 1), ("growth", "Growth above 1.6 that nothing forces", -1)):
         lists = [(r["model"], r["check"]["causes"][kind]) for r in results if (r.get("check") or {}).get("causes")]
         places = [(sign * w["value"], model, w) for model, found in lists for w in found["worst"] if w["cause"] == "free"]
-        print(f"\n{kind}, free: the worst of {sum(found['free'] for _, found in lists)}\n")
+        print(f"\n{what}: {sum(found['free'] for _, found in lists)}, the worst\n")
         for _, model, w in sorted(places, key=lambda p: (p[0], p[1]))[:n_places]:
-            print(f"- {model} face {w['face']} {w['name']!r} at ({w['xyz'][0]:.6g} {w['xyz'][1]:.6g} {w['xyz'][2]:.6g}): {w['value']:.3g}")
+            print(f"- {model}: {place_text(w)}")
 
 
 def print_table(results, layout):
@@ -216,6 +246,7 @@ def main():
     results = [json.loads(p.read_text()) for m in models if (p := work / f"{m.name}.json").exists()]
     print_table(results, arguments.format)
     if arguments.format == "md":
+        print_causes(results)
         print_free(results)
     return OK if len(results) == len(models) and not any("stopped" in r for r in results) else INCOMPLETE
 
