@@ -8,11 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/length.h"
 #include "base/log.h"
+#include "geometry/flite_writer.h"
 #include "io/artifact.h"
 #include "io/failure_artifact.h"
 #include "io/inspect.h"
 #include "io/octree_export.h"
+#include "io/text_file.h"
 
 namespace st {
 namespace {
@@ -134,10 +137,47 @@ void export_artifact(const std::string& artifact, const std::string& output) {
   } else if (schema == "failures") {
     require_writable(output);
     export_failures(artifact, output);
+  } else if (schema == "geometry") {
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
   } else {
     throw Error(ExitCode::kInput,
-                fmt::format("{}: is a {} artifact, which has no export; give a mesh, raster, sizing or failures artifact", artifact, schema));
+                fmt::format("{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
+                            artifact, schema));
   }
+}
+
+bool has_suffix(const std::string& path, const std::string& suffix) {
+  return path.size() > suffix.size() && path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+/// A geometry as FLITE surfaces; the summary says how close they are and what was divided.
+StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
+  GeometryArtifact geometry = read_geometry(o.artifact);
+  const double diagonal = geometry.tables.reference_diagonal();
+  const double tolerance = resolve_length(parse_length(o.tolerance, "--tolerance"), diagonal, geometry.tables.unit_in_m, "--tolerance");
+  require_writable(o.output);
+  const FliteExport flite = make_flite(Model(std::move(geometry.tables), std::move(geometry.brep)), tolerance);
+  write_text_file(o.output, flite_text(flite.file));
+  StageSummary summary;
+  const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);
+  summary.line = fmt::format("{}: {} exported: {} regions of {} faces ({} divided), {} segments, within {:.3g} of the model{}, {:.2f} s",
+                             o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
+                             flite.deviation, where, timer.seconds());
+  if (flite.deviation > tolerance)
+    log_warning(fmt::format("{}: the tolerance of {:.3g} is not reached: {:.3g}{}", o.output, tolerance, flite.deviation, where));
+  summary.json = dump({{"tool", "st-export"},
+                       {"artifact", o.artifact},
+                       {"output", o.output},
+                       {"faces", flite.n_faces},
+                       {"regions", flite.file.regions.size()},
+                       {"faces_divided", flite.n_divided},
+                       {"segments", flite.file.segments.size()},
+                       {"tolerance", tolerance},
+                       {"deviation", flite.deviation},
+                       {"worst", flite.worst},
+                       {"seconds", timer.seconds()}});
+  return summary;
 }
 
 }  // namespace
@@ -169,10 +209,12 @@ StageSummary run_diff(const DiffStageOptions& o) {
   return summary;
 }
 
-StageSummary run_export(const std::string& artifact, const std::string& output) {
+StageSummary run_export(const ExportStageOptions& o) {
   const Timer timer;
-  export_artifact(artifact, output);
-  return export_summary(artifact, output, timer);
+  parse_length(o.tolerance, "--tolerance");
+  if (has_suffix(o.output, ".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
+  export_artifact(o.artifact, o.output);
+  return export_summary(o.artifact, o.output, timer);
 }
 
 }  // namespace st

@@ -19,7 +19,11 @@ struct DiffStageOptions {
 /// Code kOk when equal within the tolerance, kIncomplete when not (says where first, and how much).
 StageSummary run_diff(const DiffStageOptions& options);
 
-/// Exports a mesh artifact (.stl .vtu .obj .ply), or a raster/sizing artifact's octree (.vtu), by suffix.
-StageSummary run_export(const std::string& artifact, const std::string& output);
+struct ExportStageOptions {
+  std::string artifact, output;
+  std::string tolerance = "0.001%";  ///< length: distance of FLITE curves and surfaces from the model
+};
+/// Exports a mesh artifact (.stl .vtu .obj .ply), a raster/sizing artifact's octree (.vtu), or a geometry (FLITE .dat), by suffix.
+StageSummary run_export(const ExportStageOptions& options);
 
 }  // namespace st

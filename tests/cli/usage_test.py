@@ -10,7 +10,7 @@ N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-r
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
-    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--cell-per-length": "2", "--np": "1"},
+    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
@@ -23,7 +23,7 @@ OPTIONS = {
     },
     "st-info": {"--hash": "", "--groups": "", "--at": ""},
     "st-diff": {"--tolerance": "0"},
-    "st-export": {"--output": ""},
+    "st-export": {"--output": "", "--tolerance": "0.001%"},
 }
 # Values that each option with a bounded value refuses.
 REFUSED = {
@@ -36,6 +36,8 @@ REFUSED = {
         "--chord": ["0", "x"],
         "--gap-cells": ["0", "101", "1.5"],
         "--edge-cells": ["0", "101", "1.5"],
+        "--trailing-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
+        "--leading-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
@@ -57,6 +59,7 @@ REFUSED = {
         "--max-free-sharp": ["-1", "1.5"],
     },
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
+    "st-export": {"--tolerance": ["0", "-1%", "x"]},
 }
 
 
