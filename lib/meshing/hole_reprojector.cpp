@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "meshing/small_features.h"
 
 namespace st {
 namespace {
@@ -46,6 +47,7 @@ class Mover {
     require_same_topology();
     move_vertices();
     move_edges();
+    for (std::size_t strip = 0; strip < old_.merged.strip_face.size(); ++strip) move_strip(strip);
     for (std::size_t begin = 0, end; begin < old_.triangles.size(); begin = end) {
       for (end = begin; end < old_.triangles.size() && old_.triangle_face[end] == old_.triangle_face[begin];) ++end;
       move_face(old_.triangle_face[begin], begin, end);
@@ -138,6 +140,49 @@ class Mover {
     }
   }
 
+  /// Nodes inside an edge.
+  std::pair<std::size_t, std::size_t> nodes_on(EdgeId e) const {
+    const auto first_not_below = [&](std::pair<std::uint8_t, std::int32_t> key) {
+      std::size_t lo = 0, hi = old_.node_xyz.size();
+      while (lo < hi) {
+        const std::size_t middle = (lo + hi) / 2;
+        std::pair(old_.node_entity_dim[middle], old_.node_entity[middle]) < key ? lo = middle + 1 : hi = middle;
+      }
+      return lo;
+    };
+    return {first_not_below({kOnEdge, e}), first_not_below({kOnEdge, e + 1})};
+  }
+
+  /// Where a strip is not closed both its edges have nodes, at the same shares of their lengths (mirror_nodes): so they do on the moved
+  /// edges.
+  void move_strip(std::size_t strip) {
+    const MergedFeatures& merged = old_.merged;
+    const EdgeId kept = merged.strip_kept[strip], closed = merged.strip_closed[strip];
+    if (std::max(kept, closed) >= t_.n_edges()) fail("it lacks the edges of strip " + std::to_string(strip));
+    const auto [begin, end] = nodes_on(kept);
+    const auto [own_begin, own_end] = nodes_on(closed);
+    if (own_begin == own_end) return;
+    SurfaceMesh& m = result_.mesh;
+    CurveNodes nodes{{t_.edge_range[2 * kept]}, {}, {}};
+    nodes.t.insert(nodes.t.end(), m.node_t.begin() + begin, m.node_t.begin() + end);
+    nodes.t.push_back(t_.edge_range[2 * kept + 1]);
+    nodes.x.resize(nodes.t.size());
+    nodes.h.resize(nodes.t.size());
+    const CurveNodes mirrored = mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), merged.strip_is_opposed[strip], 0);
+    std::size_t last = 0;
+    for (std::size_t own = own_begin; own < own_end; ++own) {
+      std::size_t partner = begin;
+      for (std::size_t n = begin; n < end; ++n)
+        if (distance(old_.node_xyz[n], old_.node_xyz[own]) < distance(old_.node_xyz[partner], old_.node_xyz[own])) partner = n;
+      const std::size_t i = partner - begin + 1, k = merged.strip_is_opposed[strip] ? mirrored.t.size() - 1 - i : i;
+      if (k <= last || k + 1 >= mirrored.t.size())
+        fail("the nodes on the narrow strip of " + t_.face_label(merged.strip_face[strip]) + " cannot be followed");
+      last = k;
+      m.node_t[own] = mirrored.t[k];
+      m.node_xyz[own] = mirrored.x[k];
+    }
+  }
+
   /// Does every segment of an edge become about as much longer as the others when its nodes keep their parameters?
   bool keeps_parameters(const Curve& curve, std::size_t begin, std::size_t end, NodeId first, NodeId last) const {
     if (!(old_.node_t[begin] > curve.t_min() && old_.node_t[end - 1] < curve.t_max())) return false;
@@ -166,12 +211,8 @@ class Mover {
       if (!pcurve) continue;
       after.add(pcurve->point(t_.edge_range[2 * e]));
       after.add(pcurve->point(t_.edge_range[2 * e + 1]));
-      const auto key = std::pair(kOnEdge, e);
-      const auto less = [&](std::size_t n, const auto& k) { return std::pair(old_.node_entity_dim[n], old_.node_entity[n]) < k; };
-      std::size_t lo = 0, hi = old_.node_xyz.size();
-      while (lo < hi) less((lo + hi) / 2, key) ? lo = (lo + hi) / 2 + 1 : hi = (lo + hi) / 2;
-      for (; lo < old_.node_xyz.size() && old_.node_entity_dim[lo] == kOnEdge && old_.node_entity[lo] == e; ++lo)
-        after.add(pcurve->point(result_.mesh.node_t[lo]));
+      const auto [first, last] = nodes_on(e);
+      for (std::size_t n = first; n < last; ++n) after.add(pcurve->point(result_.mesh.node_t[n]));
     }
     return {before, after};
   }

@@ -322,7 +322,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
   const RemeshInput in = read_input(o, comm);
   const ModelTables tables = with_merged_edges(in.model.tables(), in.old.mesh.merged);
-  const HoleMesh mesh(in.old.mesh, tables, o.moved ? nullptr : &in.model);  // a moved mesh has its own parameters on closed strips
+  const HoleMesh mesh(in.old.mesh, tables, &in.model);
   if (comm.is_root()) require_no_gaps(o, mesh);
   RemesherOptions options;
   options.mark.too_long = o.too_long;

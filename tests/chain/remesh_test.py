@@ -37,11 +37,25 @@ class LocalChange(ToolTest):
         sizing, hashes = self.size("source"), set()
         for n_ranks in (1, 2, 3, 5):
             mesh, facts = self.remesh(self.chain / "mesh.hdf", sizing, f"np{n_ranks}", "--np", n_ranks)
-            hashes.add(content_hash(mesh))
+            hashes.add((content_hash(mesh), facts["marks_hash"]))
             self.assertGreater(facts["triangles_redone"], 0)
             self.assertLess(facts["triangles_redone"], 0.5 * facts["triangles_before"])
             self.assertGreater(facts["triangles"], facts["triangles_before"])
         self.assertEqual(len(hashes), 1)
+
+    def test_marks_and_mesh_of_a_single_face_are_equal_at_np_1_2_3_5(self):
+        sphere = make_chain(MODELS / "sphere.brep", self.folder / "sphere")
+        (self.folder / "poles.toml").write_text(SOURCE.format(0, 0, 10, "0.8%", "8%") + SOURCE.format(10, 0, 0, "0.8%", "8%"))
+        must("st-prolong", sphere / "raster.hdf", "-o", self.folder / "poles.hdf", "--sources", self.folder / "poles.toml")
+        results = set()
+        for n_ranks in (1, 2, 3, 5):
+            mesh = self.folder / f"sphere{n_ranks}.hdf"
+            facts = must("st-remesh", sphere / "mesh.hdf", sphere / "geometry.hdf", self.folder / "poles.hdf", "--merged", mesh, "--np", n_ranks, "--json").json()
+            results.add((content_hash(mesh), facts["marks_hash"], facts["triangles_redone"]))
+            must("st-check", mesh, "--geometry", sphere / "geometry.hdf", "--sizing", self.folder / "poles.hdf")
+        self.assertEqual(len(results), 1)
+        self.assertGreater(facts["triangles_redone"], 0)
+        self.assertLess(facts["triangles_redone"], facts["triangles_before"])
 
     def test_a_second_run_with_the_same_sizes_changes_almost_nothing(self):
         sizing = self.size("source")

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <regex>
 
 #include "base/log.h"
 #include "io/artifact.h"
@@ -36,11 +38,12 @@ class Remesh : public testing::Test {
     o.output = dir_ / geometry;
     run_import(o);
   }
-  void size(const std::string& geometry, const std::string& sizing, double alpha_deg, double scale = 1) {
+  void size(const std::string& geometry, const std::string& sizing, double alpha_deg, double scale = 1, const std::string& lmin = "") {
     RasterStageOptions r;
     r.geometry = dir_ / geometry;
     r.output = dir_ / "raster.hdf";
     r.lmax = "4";
+    r.lmin = lmin;
     r.alpha_deg = alpha_deg;
     run_raster(r, one_rank());
     ProlongStageOptions p;
@@ -283,6 +286,45 @@ TEST_F(Remesh, refuses_a_mesh_with_a_hole_on_no_face_and_says_where) {
     EXPECT_NE(std::string(e.what()).find("3 sides have no triangle"), std::string::npos) << e.what();
   }
   EXPECT_FALSE(exists("remeshed.hdf"));
+}
+
+/// Its points' x stretched by `factor`.
+void stretch_step(const std::string& from, const std::string& to, double factor) {
+  std::ifstream in(from);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::regex point(R"((CARTESIAN_POINT\s*\('',\()([^,()]+)(,[^,()]+,[^,()]+\)))");
+  std::ofstream out(to);
+  std::size_t end = 0;
+  for (std::sregex_iterator m(text.begin(), text.end(), point), last; m != last; ++m) {
+    out << text.substr(end, m->position() - end) << (*m)[1] << std::to_string(factor * std::stod((*m)[2])) << (*m)[3];
+    end = m->position() + m->length();
+  }
+  out << text.substr(end);
+}
+
+TEST_F(Remesh, of_a_mesh_with_closed_strips_follows_a_moved_geometry) {
+  import("stepped_box", "geometry.hdf");
+  size("geometry.hdf", "sizing.hdf", 20, 0.25, "4");
+  mesh("geometry.hdf", "sizing.hdf", "mesh.hdf");
+  ASSERT_FALSE(read_mesh(dir_ / "mesh.hdf").mesh.merged.strip_face.empty());
+  for (const double factor : {1.05, 1.6}) {
+    stretch_step(dir_ / "stepped_box.step", dir_ / "moved.step", factor);
+    ImportStageOptions i;
+    i.model = dir_ / "moved.step";
+    i.output = dir_ / "moved.hdf";
+    run_import(i);
+    for (const double scale : {0.25, 0.12}) {
+      size("moved.hdf", "moved_sizing.hdf", 20, scale, "4");
+      RemeshStageOptions o = options("moved_sizing.hdf");
+      o.geometry = i.output;
+      o.moved = true;
+      EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+      const SurfaceMesh after = merge("remeshed.hdf", "after.hdf").mesh;
+      EXPECT_TRUE(check_topology(after).passes());
+      EXPECT_TRUE(check_crossings(after).passes());
+      EXPECT_NEAR(measure_mesh(after).volume, 501 * factor, 3);
+    }
+  }
 }
 
 }  // namespace
