@@ -32,6 +32,7 @@
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
@@ -125,7 +126,7 @@ std::string format_of(const std::string& path) {
 
 bool is_junk(const std::string& name) {
   return name.empty() || name == "NONE" || name == "FACE" || name == "''" || name == " " || name == "SHELL" || name == "SOLID" ||
-         name == "COMPOUND" || name == "EDGE" || name == "=>";
+         name == "COMPOUND" || name == "EDGE" || name.rfind("=>", 0) == 0;  // "=>[0:1:1:2]": XCAF's word for an instance without a name
 }
 
 std::string name_of(const TDF_Label& label) {
@@ -275,6 +276,7 @@ class DocumentReader {
       if (shapes_->FindSubShape(label, faces(i), sub)) s = style_of(sub, s);
       part.faces.push_back({faces(i).Moved(place), s.name, s.layer, s.color});
     }
+    name_bodies(label, shape, part);
     TopExp::MapShapes(shape, TopAbs_EDGE, edges);
     for (int i = 1; i <= edges.Extent(); ++i) {
       TDF_Label sub;
@@ -282,6 +284,24 @@ class DocumentReader {
       if (std::string name = name_of(sub); !name.empty()) part.edges.push_back({edges(i).Moved(place), name});
     }
     return part;
+  }
+
+  /// The solids of a part that has several: "body#1", "body#2" or as they are named.
+  void name_bodies(const TDF_Label& label, const TopoDS_Shape& shape, CadPart& part) const {
+    TopTools_IndexedMapOfShape solids, faces;
+    TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+    if (solids.Extent() < 2) return;
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    std::vector<std::string> names;
+    for (int i = 1; i <= solids.Extent(); ++i) {
+      TDF_Label sub;
+      const std::string name = shapes_->FindSubShape(label, solids(i), sub) ? name_of(sub) : std::string();
+      names.push_back(name.empty() ? "body" : name);
+    }
+    names = numbered_names(std::move(names));
+    for (int i = 1; i <= solids.Extent(); ++i)
+      for (TopExp_Explorer e(solids(i), TopAbs_FACE); e.More(); e.Next())
+        if (auto& face = part.faces[faces.FindIndex(e.Current()) - 1]; face.body.empty()) face.body = names[i - 1];
   }
 
   Handle(XCAFDoc_ShapeTool) shapes_;

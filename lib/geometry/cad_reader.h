@@ -18,6 +18,7 @@ struct CadPart {
     TopoDS_Shape face;
     std::string name, layer;
     std::int32_t color = -1;
+    std::string body = {};                   ///< the face's solid in a part of several; else empty
   };
   std::vector<FaceAttributes> faces;         ///< in TopExp order
   struct EdgeName {

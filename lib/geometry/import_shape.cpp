@@ -8,6 +8,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <map>
 #include <sstream>
 
 #include "base/error.h"
@@ -41,12 +42,14 @@ ImportedShape collect_parts(const CadFile& file, const std::string& path) {
     throw Error(ExitCode::kGeometry,
                 path + ": no face in the file (" + file.format + "); export surfaces or solids, not wireframe or a mesh");
   result.attributes.resize(result.faces.Extent());
-  for (std::size_t p = 0; p < file.parts.size(); ++p) {
-    const CadPart& part = file.parts[p];
-    result.parts.push_back({part.name, part.path});
-    for (const auto& face : part.faces)
+  for (const CadPart& part : file.parts) {
+    std::map<std::string, std::int32_t> index_of_body;
+    for (const auto& face : part.faces) {
+      const auto [body, is_new] = index_of_body.emplace(face.body, static_cast<std::int32_t>(result.parts.size()));
+      if (is_new) result.parts.push_back({part.name, face.body.empty() || part.path.empty() ? part.path : part.path + "/" + face.body});
       if (const int i = result.faces.FindIndex(face.face); i > 0)
-        result.attributes[i - 1] = {face.name, face.layer, part.name, face.color, static_cast<std::int32_t>(p)};
+        result.attributes[i - 1] = {face.name, face.layer, part.name, face.color, body->second};
+    }
     for (const auto& edge : part.edges) result.edge_names.emplace_back(edge.edge, edge.name);
   }
   return result;

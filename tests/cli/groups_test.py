@@ -34,6 +34,14 @@ table = "kind"
 name = "none"
 layers = "99"
 optional = true
+[[group]]
+table = "paint"
+name = "red"
+colors = "#ff0000"
+[[group]]
+table = "layer"
+name = "all"
+layers = "25?"
 """
 
 D150 = """
@@ -60,12 +68,18 @@ def groups_of(artifact):
     return {t["table"]: {g["name"]: g["faces"] for g in t["groups"]} for t in json["tables"]}, json
 
 
+def corpus_file(test, name):
+    """The path of a real CAD file; the test is skipped, loudly, where it is missing."""
+    path = CORPUS / name
+    if not path.is_file():
+        print(f"SKIPPED: {path} is missing; set ST_CORPUS", file=sys.stderr)
+        test.skipTest(f"{path} is missing")
+    return path
+
+
 class Chain(ToolTest):
     def chain(self, model, groups):
-        path = CORPUS / model
-        if not path.is_file():
-            print(f"SKIPPED: {path} is missing; set ST_CORPUS", file=sys.stderr)
-            self.skipTest(f"{path} is missing")
+        path = corpus_file(self, model)
         (self.folder / "groups.toml").write_text(groups)
         make_chain(path, self.folder, import_options=["--groups", self.folder / "groups.toml"], **COARSE)
         for suffix in EXPORTS:
@@ -104,6 +118,8 @@ class Chain(ToolTest):
             tables, json = groups_of(self.folder / artifact)
             self.assertEqual({n: len(f) for n, f in tables["main"].items()}, {"fasteners": 110, "Träger": 32, "plate": 18}, artifact)
             self.assertEqual(list(tables["kind"]), ["flat"])
+            self.assertEqual(len(tables["paint"]["red"]), 64, "the nuts")
+            self.assertEqual(len(tables["layer"]["all"]), 160)
             self.assertEqual([g["role"] for g in json["tables"][0]["groups"]], ["wall", "wall", "symmetry"])
             self.assertEqual(json["tables"][0]["groups"][0]["attributes"], {"tolerance": 0.1, "solver": "viscous"})
             paths = [p["path"] for p in json["parts"]]
@@ -183,6 +199,12 @@ class Import(ToolTest):
         self.assertNotIn("farfield", tables["main"])
 
 
+    def test_solids_of_one_part_differ_by_their_paths(self):
+        tables, json = self.run_import('[[group]]\nname = "second"\npaths = "*/Sólido2"\n', model=corpus_file(self, "mech_geouned_tank.stp"))
+        self.assertEqual([p["path"] for p in json["parts"]], [f"TANK2/TEST/_m0_/Sólido{i + 1}" for i in range(12)])
+        self.assertEqual(tables["main"]["second"], json["parts"][1]["faces"])
+
+
 class Options(ToolTest):
     """Options of later stages take names of groups of every table, of parts and of their paths."""
 
@@ -260,11 +282,7 @@ class Names(ToolTest):
             self.assertIn(text.encode(), (self.folder / f"mesh.{suffix}").read_bytes(), suffix)
 
     def test_of_iges_faces_and_parts_are_read_in_every_encoding(self):
-        path = CORPUS / "aero_d150_wing.igs"
-        if not path.is_file():
-            print(f"SKIPPED: {path} is missing; set ST_CORPUS", file=sys.stderr)
-            self.skipTest(f"{path} is missing")
-        iges = path.read_bytes()
+        iges = corpus_file(self, "aero_d150_wing.igs").read_bytes()
         for name, form in (("Bottom", b"Bottom"), ("Flügel", "Flügel".encode("latin-1")), ("主翼上", "主翼上".encode("shift-jis")), ("翼主", "翼主".encode())):
             with self.subTest(name):
                 (self.folder / "m.igs").write_bytes(iges.replace(b"6HBottom", b"6H" + form).replace(b"D150_wing_1ID", form + b"_wi_1ID"))
