@@ -15,7 +15,9 @@
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
 #include "io/text_file.h"
+#include "io/triangulation_reader.h"
 #include "stages/check_report.h"
+#include "stages/foreign_mesh.h"
 
 namespace st {
 
@@ -280,6 +282,27 @@ std::unique_ptr<CadSide> read_cad(const CheckStageOptions& options, const Artifa
   return std::make_unique<CadSide>(std::move(geometry));
 }
 
+/// The mesh and its geometry (null: not given); a mesh of another program is associated to it first.
+MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSide>& cad) {
+  MeshArtifact artifact;
+  if (!is_foreign_mesh(o.mesh)) {
+    artifact = read_mesh(o.mesh);
+    cad = read_cad(o, artifact.header);
+  } else if (o.geometry.empty()) {
+    if (!o.sizing.empty()) throw Error(ExitCode::kUsage, fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
+    artifact.mesh = read_triangulation(o.mesh);
+  } else {
+    GeometryArtifact geometry = read_geometry(o.geometry);
+    const std::string hash = geometry.header.content_hash;
+    cad = std::make_unique<CadSide>(std::move(geometry));
+    ForeignMesh foreign = read_foreign_mesh(o.mesh, cad->model, {});
+    log_info(association_summary(o.mesh, foreign.artifact.mesh, foreign.report).line);
+    artifact = std::move(foreign.artifact);
+    artifact.header.geometry_hash = hash;
+  }
+  return artifact;
+}
+
 std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const ArtifactHeader& mesh_header) {
   if (options.sizing.empty()) return nullptr;
   ArtifactHeader header;
@@ -304,8 +327,8 @@ void CheckStageOptions::validate() const {
 StageSummary run_check(const CheckStageOptions& options) {
   options.validate();
   const Timer timer;
-  const MeshArtifact artifact = read_mesh(options.mesh);
-  const std::unique_ptr<CadSide> cad = read_cad(options, artifact.header);
+  std::unique_ptr<CadSide> cad;
+  const MeshArtifact artifact = read_checked_mesh(options, cad);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
 
   Findings f;

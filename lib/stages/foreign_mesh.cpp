@@ -34,15 +34,16 @@ std::vector<double> mean_lengths(const SurfaceMesh& mesh) {
   return sum;
 }
 
-std::vector<double> stored_lengths(const SurfaceMesh& mesh, const SizeField& sizes, const SizeField* made_for) {
-  if (made_for == nullptr && has_lengths(mesh)) return mesh.node_size;
-  const SizeField& field = made_for ? *made_for : sizes;
+std::vector<double> stored_lengths(const SurfaceMesh& mesh, const ForeignMeshOptions& o) {
+  if (o.made_for == nullptr && has_lengths(mesh)) return mesh.node_size;
+  const SizeField* field = o.made_for ? o.made_for : o.sizes;
   const std::vector<double> mean = mean_lengths(mesh);
+  if (field == nullptr) return mean;
   std::vector<double> lengths;
   int hint = 0;
   for (std::size_t n = 0; n < mean.size(); ++n) {
-    const double request = field.size(mesh.node_xyz[n], hint);
-    const bool fits = made_for || (mean[n] >= kTooShort * request && mean[n] <= kTooLong * request);
+    const double request = field->size(mesh.node_xyz[n], hint);
+    const bool fits = o.made_for || (mean[n] >= kTooShort * request && mean[n] <= kTooLong * request);
     lengths.push_back(fits ? request : mean[n]);
   }
   return lengths;
@@ -55,7 +56,7 @@ std::string hash_of(const SurfaceMesh& mesh) {
 
 }  // namespace
 
-ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const SizeField& sizes, const ForeignMeshOptions& options) {
+ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const ForeignMeshOptions& options) {
   const ModelTables& t = model.tables();
   AssociationOptions association;
   if (!options.tolerance.empty())
@@ -75,7 +76,7 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
   result.n_file_nodes = file.node_xyz.size();
   result.artifact.header.schema = "mesh";
   result.artifact.header.content_hash = hash_of(file);
-  result.artifact.mesh.node_size = stored_lengths(result.artifact.mesh, sizes, options.made_for);
+  result.artifact.mesh.node_size = stored_lengths(result.artifact.mesh, options);
   return result;
 }
 

@@ -14,7 +14,8 @@ namespace st {
 
 struct ForeignMeshOptions {
   std::string tolerance;                ///< length: how far nodes may lie from the CAD; empty: by the mesh's edges
-  const SizeField* made_for = nullptr;  ///< sizes the mesh was made for; null: its own edge lengths
+  const SizeField* sizes = nullptr;     ///< of the model, now; null: none
+  const SizeField* made_for = nullptr;  ///< sizes the mesh was made for; null: not known
 };
 
 /// A foreign mesh on its geometry, as if st-merge had written it, and where it comes from.
@@ -27,9 +28,9 @@ struct ForeignMesh {
 };
 
 /// Reads and associates (associate_mesh). Stored lengths are those of the file (point data "size"), else those the mesh was made for, else
-/// measured: `sizes` where the mean edge at the node is 0.7 to 1.4 of it, that mean elsewhere. Throws Error(kInput), Error(kMismatch)
+/// measured: `sizes` where the mean edge at the node is 0.7 to 1.4 of them, that mean elsewhere. Throws Error(kInput), Error(kMismatch)
 /// naming the file, Error(kUsage).
-ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const SizeField& sizes, const ForeignMeshOptions& options);
+ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const ForeignMeshOptions& options);
 
 /// The model with its vertices where the mesh has its nodes on them, so that these stay to the bit.
 Model with_vertices_of(const SurfaceMesh& mesh, Model&& model);

@@ -152,7 +152,7 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     require_same_geometry(o.geometry, geometry.header, o.made_for, made_for->header);
   }
   Model model(std::move(geometry.tables), std::move(geometry.brep));
-  ForeignMesh foreign = read_foreign_mesh(o.mesh, model, *sizing.field, {o.tolerance, made_for ? made_for->field.get() : nullptr});
+  ForeignMesh foreign = read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
   MeshArtifact old = std::move(foreign.artifact);
   Model on_nodes = with_vertices_of(old.mesh, std::move(model));
   RemeshInput in{std::move(old), std::move(geometry.header), std::move(on_nodes), std::move(sizing)};
@@ -309,6 +309,7 @@ StageSummary with_association(StageSummary summary, const std::optional<StageSum
   if (!association || summary.json.empty()) return summary;
   nlohmann::json json = nlohmann::json::parse(summary.json);
   json["association"] = nlohmann::json::parse(association->json);
+  summary.line += fmt::format("; nodes within {:.3g} of the CAD", json["association"]["farthest"].get<double>());
   summary.json = json.dump();
   return summary;
 }

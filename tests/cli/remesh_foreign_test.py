@@ -229,6 +229,31 @@ class Turned(ToolTest):
         must("st-check", self.folder / "out.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
 
 
+class Checked(ToolTest):
+    """st-check takes meshes of other programs as well."""
+
+    def test_as_the_mesh_it_was_exported_from(self):
+        good = artifacts_of("cylinder")
+        cad = ["--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf", "--json"]
+        ours = must("st-check", good / "mesh.hdf", *cad).json()
+        for suffix, path in write_formats(good / "mesh.hdf", self.folder).items():
+            theirs = must("st-check", path, *cad).json()
+            for key in ("triangles", "nodes", "failed"):
+                self.assertEqual(theirs[key], ours[key], suffix)
+            self.assertAlmostEqual(theirs["deviation"]["max"], ours["deviation"]["max"], 5)
+
+    def test_without_a_geometry(self):
+        good = artifacts_of("cylinder")
+        must("st-export", good / "mesh.hdf", "-o", self.folder / "m.vtu")
+        mesh = Mesh(self.folder / "m.vtu")
+        mesh.triangles, mesh.surface = mesh.triangles[1:], mesh.surface[1:]
+        mesh.write_fro(self.folder / "open.fro")
+        run = Run("st-check", self.folder / "open.fro", "--json")
+        self.assertEqual((run.code, run.json()["failed"]), (INCOMPLETE, ["closed"]))
+        self.expect_error(USAGE, "st-check", self.folder / "open.fro", "--sizing", good / "sizing.hdf", says="--geometry")
+        self.expect_error(MISMATCH, "st-check", self.folder / "open.fro", "--geometry", good / "geometry.hdf", says="holes")
+
+
 @unittest.skipUnless(shutil.which("gmsh"), "there is no gmsh: its meshes are NOT tested")
 class Gmsh(ToolTest):
     """Meshes that gmsh made, of its own formats."""

@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
   st::CheckStageOptions o;
   st::CheckThresholds& t = o.thresholds;
   st::ToolMain tool("st-check", "Checks a mesh; exit 0 only when it passes.", st::ToolMain::Kind::kReport);
-  tool.input("mesh", o.mesh, "mesh artifact");
+  tool.input("mesh", o.mesh, "mesh artifact, or a triangulation of another program (STL, MSH, VTU, FRO)");
   tool.optional_input("--geometry", o.geometry, "geometry artifact: areas per face, edges open in the CAD, deviation from the surfaces");
   tool.optional_input("--sizing", o.sizing, "sizing artifact: conformity of edge lengths to the sizes");
   tool.number("--area-tolerance", o.area_tolerance, "(0, 1]",
