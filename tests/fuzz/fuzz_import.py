@@ -3,7 +3,7 @@
 
 usage: fuzz_import.py BIN_DIR [--full] [--cuts N] [--flips N] [--seed N] [--time-limit S] [--models GLOB] [--keep DIR]
 
-Cuts: five files of each format (STEP, IGES, BREP) cut at every kilobyte, at most N cuts per file, evenly spread (--full: 100; default 2). A cut file
+Cuts: five files of each format (STEP, IGES, BREP, FLITE) cut at every kilobyte, at most N cuts per file, evenly spread (--full: 100; default 2). A cut file
 must be refused (a BREP file may lose what follows the B-Rep). Flips: N cases in all (--full: 500; default 30), each one to eight bytes of one file set at random; success needs at least one
 face. Files come from ST_CORPUS (default ../shared/corpus beside the repository) and, without it, from ST_MODELS. Cases depend on the seed alone.
 --keep DIR keeps the files of failed cases. Exit 1 when a case fails.
@@ -23,7 +23,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("ST_CORPUS") or ROOT / "../shared/corpus").resolve()
-FORMATS = {"STEP": (".step", ".stp"), "IGES": (".igs", ".iges"), "BREP": (".brep",)}
+FORMATS = {"STEP": (".step", ".stp"), "IGES": (".igs", ".iges"), "BREP": (".brep",), "FLITE": (".fli", ".dat")}
 FILES_PER_FORMAT = 5
 REFUSED = {3: "unreadable", 4: "unusable"}
 
