@@ -9,6 +9,7 @@
 #include "mesh/patch_crossing.h"
 #include "meshing/refined_field.h"
 #include "meshing/small_features.h"
+#include "stages/joined_patches.h"
 
 namespace st {
 namespace {
@@ -97,49 +98,6 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
     for (std::int32_t k : c) patch.corner_uv.push_back(uv(k));
   }
   return patch;
-}
-
-/// All patches as one mesh by global node ids, the triangles by face.
-struct JoinedPatches {
-  std::vector<Vec3> points;
-  std::vector<Triangle> triangles;
-  std::vector<std::int32_t> face_begin;  // [n_faces+1]
-  FaceId face_of(TriangleId t) const {
-    return static_cast<FaceId>(std::upper_bound(face_begin.begin(), face_begin.end(), t) - face_begin.begin()) - 1;
-  }
-  /// Half the triangle's longest side, at its centre.
-  RefinementPoint refinement_of(TriangleId t) const {
-    const Vec3 a = points[triangles[t].n[0]], b = points[triangles[t].n[1]], c = points[triangles[t].n[2]];
-    return {(a + b + c) / 3, 0.5 * std::sqrt(std::max({norm2(a - b), norm2(b - c), norm2(c - a)}))};
-  }
-};
-
-JoinedPatches join_patches(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches) {
-  JoinedPatches m;
-  const ModelTables& t = numbering.tables;
-  const EdgeMesh& edges = numbering.edges;
-  std::size_t n_points = numbering.first_inner.back(), n_triangles = 0;
-  for (const FacePatch& p : patches) n_points += p.inner_xyz.size(), n_triangles += p.triangles.size();
-  m.points.reserve(n_points);
-  m.triangles.reserve(n_triangles);
-  m.points.assign(t.vertex_xyz.begin(), t.vertex_xyz.end());
-  m.points.resize(numbering.first_inner.back());
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    for (std::int32_t i = edges.edge_offsets[e] + 1; i + 1 < edges.edge_offsets[e + 1]; ++i)
-      m.points[numbering.first_inner[e] + i - edges.edge_offsets[e] - 1] = edges.node_xyz[i];
-  m.face_begin.push_back(0);
-  std::vector<std::int32_t> number;
-  for (const FacePatch& p : patches) {
-    number.resize(p.n_boundary);
-    for (std::int32_t i = 0; i < p.n_boundary; ++i)
-      number[i] = p.boundary_dim[i] == 0 ? p.boundary_entity[i] : numbering.edge_node(p.boundary_entity[i], p.boundary_index[i]);
-    const std::int32_t first_inner = static_cast<std::int32_t>(m.points.size()) - p.n_boundary;
-    const auto id = [&](NodeId n) { return n < p.n_boundary ? number[n] : first_inner + n; };
-    for (const Triangle& tri : p.triangles) m.triangles.push_back({{id(tri.n[0]), id(tri.n[1]), id(tri.n[2])}});
-    m.points.insert(m.points.end(), p.inner_xyz.begin(), p.inner_xyz.end());
-    m.face_begin.push_back(static_cast<std::int32_t>(m.triangles.size()));
-  }
-  return m;
 }
 
 }  // namespace
@@ -469,8 +427,11 @@ std::vector<RefinementPoint> ModelMesher::find_crossings() {
   if (comm_.is_root()) {
     const JoinedPatches m = join_patches(*numbering_, patches);
     std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
-    for (const TrianglePair& p : find_crossing_patches({m.points, m.triangles, m.face_begin, tables_.face_shell, face_is_fresh_})) {
-      if (p.n_shared == 1) continue;  // two common nodes: folded flat onto each other
+    std::vector<TrianglePair> pairs = find_crossing_patches({m.points, m.triangles, m.face_begin, tables_.face_shell, face_is_fresh_});
+    std::erase_if(pairs, [](const TrianglePair& p) { return p.n_shared == 1; });  // two common nodes: folded flat onto each other
+    const std::vector<TrianglePair> repeated = find_repeated_chords(*numbering_, m, face_is_fresh_);
+    pairs.insert(pairs.end(), repeated.begin(), repeated.end());
+    for (const TrianglePair& p : pairs) {
       const FaceId a = m.face_of(p.a), b = m.face_of(p.b);
       crossing_pairs_.push_back({a, b, p.a - m.face_begin[a], p.b - m.face_begin[b]});
     }

@@ -111,6 +111,13 @@ TopoDS_Shape tube_with_rod() {
   return with_rod(BRepAlgoAPI_Cut(outer, inner).Shape(), gp_Pnt(8.9, 0, 17), gp_Dir(0, 0, 1), 6);
 }
 
+/// A block with a slot 0.6 wide along an arc of radius 15, open at both ends, that ends 4 above the ground.
+TopoDS_Shape curved_slot() {
+  const gp_Ax2 axis(gp_Pnt(20, -5, 4), gp_Dir(0, 0, 1));
+  const TopoDS_Shape ring = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 15.3, 20).Shape(), BRepPrimAPI_MakeCylinder(axis, 14.7, 20).Shape()).Shape();
+  return BRepAlgoAPI_Cut(box(40, 20, 10), ring).Shape();
+}
+
 void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
 
 /// An assembly: a named block, and two instances of a pin of which one face has a name and a colour.
@@ -190,6 +197,7 @@ void write_all(const fs::path& dir) {
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
   write_brep(dir / "crossed_loop.brep", crossed_loop());
+  write_brep(dir / "curved_slot.brep", curved_slot());
 }
 
 }  // namespace

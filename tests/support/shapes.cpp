@@ -18,13 +18,17 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomConvert.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
@@ -43,6 +47,7 @@
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
@@ -227,7 +232,6 @@ std::vector<TopoDS_Shape> loose_faces() {
           side({0, y, 0}, py, pz, z, x), side({0, 0, 0}, pz, px, x, y), side({0, 0, z}, pz, px, x, y)};
 }
 
-/// Three faces on one edge.
 /// A bar of 20 x 4 with a blunt edge along y = 4 whose width grows from 0.02 at x = 0 to 1 at x = 20.
 TopoDS_Shape tapered_bar() {
   const auto section = [](double x, double width) {
@@ -243,6 +247,42 @@ TopoDS_Shape tapered_bar() {
   return loft.Shape();
 }
 
+/// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last coefficient, 0.1036 ends in a
+/// point, 0.1015 is 0.0252 thick at the end.
+Handle(Geom_BSplineCurve) aerofoil(double closing) {
+  constexpr int kHalf = 30;
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 2 * kHalf + 1);
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    const double x = std::pow(static_cast<double>(i) / kHalf, 2);
+    const double y = 0.6 * (0.2969 * std::sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - closing * x))));
+    points->SetValue(i + kHalf + 1, gp_Pnt(10 * x, i < 0 ? 10 * y : -10 * y, 0));
+  }
+  GeomAPI_Interpolate curve(points, false, 1e-9);
+  curve.Perform();
+  return curve.Curve();
+}
+
+/// A wing of chord 10 (x) and span 30 (z).
+TopoDS_Shape wing(double closing) {
+  const Handle(Geom_BSplineCurve) curve = aerofoil(closing);
+  const double nose = GeomAPI_ProjectPointOnCurve(gp_Pnt(0, 0, 0), curve).LowerDistanceParameter();
+  const TopoDS_Edge upper = BRepBuilderAPI_MakeEdge(curve, curve->FirstParameter(), nose);
+  const TopoDS_Edge lower = BRepBuilderAPI_MakeEdge(curve, nose, curve->LastParameter());
+  BRepBuilderAPI_MakeWire wire(upper, lower);
+  const double end = closing > 0.103 ? 0 : 6 * (0.2969 - 0.126 - 0.3516 + 0.2843 - closing);
+  if (end > 0) wire.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(10, end, 0), gp_Pnt(10, -end, 0)));
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
+/// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of length 40.
+TopoDS_Shape shallow_prism() {
+  const gp_Pnt a(-1, 0, 0), b(1, 0, 0);
+  const TopoDS_Edge arc = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, gp_Pnt(0, 0.1, 0), b).Value());
+  BRepBuilderAPI_MakeWire wire(arc, BRepBuilderAPI_MakeEdge(b, a));
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 40)).Shape();
+}
+
+/// Three faces on one edge.
 TopoDS_Shape t_junction() {
   BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, true);
   const gp_Dir z(0, 0, 1);
@@ -270,6 +310,19 @@ const std::map<std::string, Factory>& factories() {
        [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"wedge_strip", [] { return tapered_bar(); }},
+      {"thin_crescent",
+       [] {
+         const auto circle = [](double x, double r) {
+           return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r))).Wire();
+         };
+         BRepBuilderAPI_MakeFace face(gp_Pln(gp::XOY()), circle(0, 10), true);
+         face.Add(TopoDS::Wire(circle(0.098, 9.9).Reversed()));
+         return face.Shape();
+       }},
+      {"shallow_prism", shallow_prism},
+      {"sharp_wing", [] { return wing(0.1036); }},
+      {"blunt_wing", [] { return wing(0.1015); }},
+      {"wing_in_box", [] { return BRepAlgoAPI_Cut(moved(box(60, 60, 60), -20, -30, -15), wing(0.1036)).Shape(); }},
       {"drilled_block",
        [] {
          const gp_Ax2 axis(gp_Pnt(30, 20, -5), gp_Dir(0, 0, 1));

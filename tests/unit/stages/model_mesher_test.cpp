@@ -137,6 +137,16 @@ TEST(ModelMesher, closes_a_solid_smaller_than_the_size) {
   }
 }
 
+TEST(ModelMesher, keeps_two_faces_along_common_edges_apart) {
+  set_verbosity(Verbosity::kQuiet);
+  for (double size : {1.2, 2.0, 3.0}) {  // sides 2 wide: no node inside either of them
+    const Meshed m("shallow_prism", size);
+    EXPECT_TRUE(m.mesher.failures.empty()) << size;
+    EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
+    EXPECT_GT(measure_mesh(m.mesh).volume, 0) << size;
+  }
+}
+
 TEST(ModelMesher, leaves_an_open_model_open_at_its_free_edges_only) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("plate_with_hole", 2);
