@@ -14,7 +14,7 @@
 namespace st {
 namespace {
 
-constexpr const char* kKeys = "groups, faces, edges, between, for, sample, lmin, lmax, alpha, chord, gap_cells, edge_cells";
+constexpr const char* kKeys = "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, edge_cells";
 
 std::string read_text(const std::string& path) {
   std::error_code none;
@@ -53,6 +53,8 @@ class RuleReader {
       rule_.edges = names(key, node, true);
     else if (key == "between")
       read_between(node);
+    else if (key == "detected")
+      read_detected(node);
     else if (key == "for")
       read_for(node);
     else if (key == "sample")
@@ -94,6 +96,11 @@ class RuleReader {
   void read_between(const toml::node& node) {
     rule_.between = names("between", node, false);
     if (rule_.between.size() != 2) fail(node, "between: takes two names of groups, such as [\"WING*\", \"BODY\"]");
+  }
+
+  void read_detected(const toml::node& node) {
+    for (const std::string& name : names("detected", node, false))
+      if (!add_detected(name, rule_)) fail(node, "detected: takes \"trailing\", \"leading\" or a list of these");
   }
 
   void read_for(const toml::node& node) {

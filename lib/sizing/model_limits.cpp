@@ -28,9 +28,10 @@ struct FaceLimits {
 
 class LimitsMaker {
  public:
-  LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules)
+  LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules,
+              std::span<const WingEdge> wing_edges)
       : t_(t), roles_(roles), wall_(wall), rules_(rules) {
-    for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t));
+    for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t, wing_edges));
   }
 
   ModelLimits run() {
@@ -118,8 +119,9 @@ class LimitsMaker {
 
 }  // namespace
 
-ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules) {
-  return LimitsMaker(t, roles, wall, rules).run();
+ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules,
+                         std::span<const WingEdge> wing_edges) {
+  return LimitsMaker(t, roles, wall, rules, wing_edges).run();
 }
 
 }  // namespace st

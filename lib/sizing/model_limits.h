@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/model.h"
@@ -34,8 +35,8 @@ inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
 /// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field there, so that a
 /// domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for a rule that selects nothing or
-/// contradicts itself.
+/// contradicts itself. `wing_edges`: what detection found, where a rule asks for it.
 ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
-                         const std::vector<SizeRule>& rules = {});
+                         const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {});
 
 }  // namespace st

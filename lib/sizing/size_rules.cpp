@@ -77,6 +77,15 @@ std::vector<EdgeId> edges_between(const SizeRule& rule, const ModelTables& t) {
   return result;
 }
 
+std::vector<EdgeId> detected_edges(const SizeRule& rule, std::span<const WingEdge> wing_edges) {
+  std::vector<EdgeId> result;
+  for (const WingEdge& w : wing_edges)
+    if (std::find(rule.detected.begin(), rule.detected.end(), w.kind) != rule.detected.end()) result.push_back(w.edge);
+  if (result.empty())
+    fail(rule, text_of("no ", name_of(rule.detected.front()), " found; st-import --check lists what is, or name the edges"));
+  return result;
+}
+
 void sort_unique(std::vector<std::int32_t>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -84,7 +93,16 @@ void sort_unique(std::vector<std::int32_t>& ids) {
 
 }  // namespace
 
-RuleTargets find_targets(const SizeRule& rule, const ModelTables& t) {
+bool add_detected(const std::string& word, SizeRule& rule) {
+  if (word != "trailing" && word != "leading") return false;
+  if (word == "leading")
+    rule.detected.push_back(WingEdgeKind::kLeading);
+  else
+    rule.detected.insert(rule.detected.end(), {WingEdgeKind::kSharpTrailing, WingEdgeKind::kBluntTrailing});
+  return true;
+}
+
+RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
   RuleTargets targets;
   targets.faces = select(rule, "faces", rule.faces, t.face_name, t.n_faces());
   for (const std::string& pattern : rule.groups) {
@@ -96,6 +114,10 @@ RuleTargets find_targets(const SizeRule& rule, const ModelTables& t) {
   if (!rule.between.empty()) {
     const std::vector<EdgeId> between = edges_between(rule, t);
     targets.edges.insert(targets.edges.end(), between.begin(), between.end());
+  }
+  if (!rule.detected.empty()) {
+    const std::vector<EdgeId> detected = detected_edges(rule, wing_edges);
+    targets.edges.insert(targets.edges.end(), detected.begin(), detected.end());
   }
   sort_unique(targets.faces);
   sort_unique(targets.edges);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/length.h"
 #include "geometry/model.h"
 #include "sizing/size_limits.h"
+#include "sizing/wing_edges.h"
 
 namespace st {
 
@@ -17,6 +19,7 @@ struct SizeRule {
   std::vector<std::string> groups;        ///< glob patterns on group names
   std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names
   std::vector<std::string> between;       ///< two glob patterns: the edges between a face of a group of the first and one of the second
+  std::vector<WingEdgeKind> detected;     ///< edges that detection gives these kinds
   bool for_surfaces = true;               ///< the insides of the faces selected
   bool for_curves = true;                 ///< the edges of the faces selected
   std::optional<bool> is_sampled;         ///< false: asks for nothing
@@ -25,8 +28,11 @@ struct SizeRule {
   std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
   std::optional<int> edge_cells;    ///< [1, 100]; 0: one length along an edge will do
 
-  bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty()); }
+  bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty()); }
 };
+
+/// Adds the kinds of edges that "trailing" or "leading" mean to the rule; false: another word.
+bool add_detected(const std::string& word, SizeRule& rule);
 
 /// What a rule selects; ids ascending.
 struct RuleTargets {
@@ -34,8 +40,9 @@ struct RuleTargets {
   std::vector<EdgeId> edges;  ///< named as edges, not as edges of faces
 };
 
-/// Throws Error(kUsage) naming the rule for a selection that meets nothing or an id that does not exist.
-RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables);
+/// `wing_edges`: what detection found, where any rule needs it. Throws Error(kUsage) naming the rule for a selection that meets nothing or
+/// an id that does not exist.
+RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables, std::span<const WingEdge> wing_edges = {});
 
 /// `limits` with what the rule says. `diagonal`: what per cents refer to, model unit. Throws Error(kUsage) when lmin exceeds lmax.
 SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal, std::optional<double> unit_in_m);

@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "io/artifact.h"
 #include "io/groups_file.h"
+#include "sizing/wing_edges.h"
 
 namespace st {
 namespace {
@@ -70,6 +71,31 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"area", r.area},
           {"volume", r.volume},
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
+}
+
+/// Trailing and leading edges that st-raster would find, listed by --check.
+nlohmann::json list_wing_edges(const ImportResult& r) {
+  const Model model(r.tables, r.brep);
+  const ModelTables& t = model.tables();
+  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(t));
+  nlohmann::json list = nlohmann::json::array();
+  for (const WingEdge& w : edges)
+    list.push_back({{"edge", w.edge + 1},
+                    {"name", t.edge_name[w.edge]},
+                    {"kind", name_of(w.kind)},
+                    {"xyz", {w.middle.x, w.middle.y, w.middle.z}},
+                    {"length", w.length},
+                    {"angle", degrees(w.angle)},
+                    {"size", w.size}});
+  if (!edges.empty()) log_info(fmt::format("  {} trailing and leading edges:", edges.size()));
+  for (std::size_t i = 0; i < edges.size() && i < kFindingsShown; ++i) {
+    const WingEdge& w = edges[i];
+    log_info(fmt::format("  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}, angle {:.3g} deg{}", t.edge_label(w.edge), name_of(w.kind),
+                         w.middle.x, w.middle.y, w.middle.z, w.length, degrees(w.angle),
+                         w.size > 0 ? fmt::format(", {} {:.4g}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size) : ""));
+  }
+  if (edges.size() > kFindingsShown) log_info(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
+  return list;
 }
 
 /// "sewn: 14 free edges before, 0 after" is of the kind "sewn".
@@ -140,6 +166,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   ImportResult r = import_model(o.model, options);
   say(o.model, r);
   nlohmann::json json = report(o.model, r);
+  if (o.check) json["wing_edges"] = list_wing_edges(r);
   const ModelTables& t = r.tables;
   StageSummary s;
   s.line = fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(), t.n_edges(),

@@ -64,6 +64,31 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   return limits;
 }
 
+/// The rule of --trailing-edges or --leading-edges: "LMIN:LMAX" or "LMAX".
+SizeRule detection_rule(const std::string& option, const std::string& word, const std::string& lengths) {
+  SizeRule rule;
+  rule.where = option;
+  add_detected(word, rule);
+  const std::size_t colon = lengths.find(':');
+  if (colon != std::string::npos) rule.lmin = parse_length(lengths.substr(0, colon), option);
+  rule.lmax = parse_length(colon == std::string::npos ? lengths : lengths.substr(colon + 1), option);
+  return rule;
+}
+
+/// Rules of options, then those of the file: a later one wins.
+std::vector<SizeRule> all_rules(const RasterStageOptions& o, const SizeRuleFile& sizes) {
+  std::vector<SizeRule> rules;
+  if (!o.trailing_edges.empty()) rules.push_back(detection_rule("--trailing-edges", "trailing", o.trailing_edges));
+  if (!o.leading_edges.empty()) rules.push_back(detection_rule("--leading-edges", "leading", o.leading_edges));
+  rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
+  return rules;
+}
+
+std::vector<WingEdge> detect_edges(const Model& model, const FaceRoles& roles, const std::vector<SizeRule>& rules) {
+  const bool is_wanted = std::any_of(rules.begin(), rules.end(), [](const SizeRule& r) { return !r.detected.empty(); });
+  return is_wanted ? find_wing_edges(model, roles) : std::vector<WingEdge>();
+}
+
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
   std::vector<std::int32_t> order(work.size());
   std::iota(order.begin(), order.end(), 0);
@@ -236,6 +261,8 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
       {"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}};
   if (o.gap_cells) options["gap_cells"] = *o.gap_cells;
   if (o.edge_cells) options["edge_cells"] = *o.edge_cells;
+  if (!o.trailing_edges.empty()) options["trailing_edges"] = o.trailing_edges;
+  if (!o.leading_edges.empty()) options["leading_edges"] = o.leading_edges;
   if (!o.chord.empty()) options["chord"] = limits.chord;
   header.options_json = options.dump();
   header.unit = geometry.unit;
@@ -287,7 +314,7 @@ class PhaseTimes {
 };
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
-                       const PhaseTimes& times) {
+                       std::size_t n_wing_edges, const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
@@ -305,6 +332,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"alpha", a.numbers.alpha_deg},
       {"cell_per_length", a.numbers.cell_per_length},
       {"rules", n_rules},
+      {"wing_edges", n_wing_edges},
       {"gap_samples", counts.n_gap_boxes},
       {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
@@ -326,9 +354,11 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   if (!roles.guessed.empty()) log_warning(describe_guess(geometry.tables, roles));
   const SamplingLimits wall = resolve_limits(o, geometry.tables, roles.reference_diagonal);
   const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
-  const ModelLimits limits = model_limits(geometry.tables, roles, wall, sizes.rules);
+  const std::vector<SizeRule> rules = all_rules(o, sizes);
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
+  const std::vector<WingEdge> wing_edges = detect_edges(model, roles, rules);
+  const ModelLimits limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
   times.end("opening");
 
   RasterArtifact artifact;
@@ -355,7 +385,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   times.end("writing");
-  return summarize(o, artifact, counts, sizes.rules.size(), times);
+  return summarize(o, artifact, counts, rules.size(), wing_edges.size(), times);
 }
 
 }  // namespace st

@@ -19,6 +19,8 @@ struct RasterStageOptions {
   std::string sizes;              ///< file of rules for groups, faces and edges; empty: none
   std::optional<int> gap_cells;   ///< lengths across gaps and thin walls, [1, 100]
   std::optional<int> edge_cells;  ///< lengths along each CAD edge at least, [1, 100]
+  std::string trailing_edges;     ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
+  std::string leading_edges;      ///< likewise at leading edges
   double cell_per_length = 2;     ///< raster boxes reach this many sample lengths, [1, 8]
 };
 

@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
   tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps and thin walls, down to lmin");
   tool.number("--edge-cells", o.edge_cells, "[1, 100]", "lengths along each CAD edge at least, down to lmin");
+  tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX", "find trailing edges and give them these lengths");
+  tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX", "find leading edges and give them these lengths");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

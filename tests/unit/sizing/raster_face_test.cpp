@@ -171,6 +171,27 @@ TEST(RasterFace, follows_the_principal_curvatures_of_an_ellipsoid) {
   EXPECT_LT(worst_high, 1.02);  // never longer than curvature allows
 }
 
+TEST(RasterFace, gives_what_is_too_small_for_alpha_the_smallest_length) {
+  const double radius = 0.5 * kLimits.min_length / kLimits.alpha;
+  const AxialSurface cylinder(SurfaceType::kCylinder, kFrame, radius, 0, 0, 2 * kPi, 0, 0.3);
+  expect_everywhere(cylinder, sample(cylinder), kLimits.min_length, 1e-6);
+  const AxialSurface sphere(SurfaceType::kSphere, kFrame, radius, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  expect_everywhere(sphere, sample(sphere), kLimits.min_length, 1e-6);
+}
+
+TEST(RasterFace, has_no_spike_at_the_pole_of_a_revolution) {
+  // the paraboloid z = r^2 / 2: radius 1 at its pole, where all u are one point
+  const FormulaSurface bowl([](double u, double v) { return Vec3{v * std::cos(u), v * std::sin(u), 0.5 * v * v}; }, 0, 2 * kPi, 0, 2);
+  const Sampling s = sample(bowl);
+  for_grid(bowl, 41, [&](Vec2 uv) {
+    const double expected = std::sqrt(1 + uv.y * uv.y) * kLimits.alpha;  // across the meridian the smaller radius
+    const double length = s.length_at(bowl.point(uv));
+    ASSERT_LE(length, 1.02 * expected) << uv.y;
+    ASSERT_GE(length, 0.75 * expected) << uv.y << ": a box reaches one length further than its patch";
+  });
+  EXPECT_GT(s.smallest(), 0.98 * kLimits.alpha);
+}
+
 TEST(RasterFace, finds_a_narrow_fillet_inside_one_surface) {
   // flat, a bend of 60 degrees with radius 0.03, flat: 0.0314 long in a surface of 4
   const double radius = 0.03, bend = radians(60), middle = 1.37;
