@@ -244,7 +244,7 @@ class Enhancer {
   void collapse_sweep() {
     const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
     for (std::int32_t i = first; i < n; ++i)
-      if (m_.triangle_at(i) != kNone) try_collapse(i);
+      if (m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept) try_collapse(i);
   }
 
   void try_collapse(std::int32_t i) {

@@ -22,6 +22,9 @@ constexpr double kShortBase = 0.8;          // of the size at its ends: a shorte
 constexpr double kTurningFloor = 0.25;      // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
 
+constexpr int kRingSamples = 8;             // chords that measure the way around a narrow part
+constexpr double kNarrowRing = 2.6;         // of the size: with more room the front makes the ring itself
+
 double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
   const Vec3 d = b - a;
   const double l2 = norm2(d);
@@ -36,6 +39,7 @@ class Front {
 
   void run() {
     start();
+    ring_narrow_parts();
     advance();
     split_large();
   }
@@ -58,6 +62,46 @@ class Front {
       if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside) t.state = is_finished(t) ? kFinished : kUnfinished;
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
       if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
+  }
+
+  /// Where a face closes on itself at a seam with little room, as at the tip of a cone or along a needle: rings of three nodes, which no size
+  /// asks for. With fewer the part would close to nothing at any size.
+  void ring_narrow_parts() {
+    for (const auto& [a, b] : seam_twins()) {
+      const MeshNode na = m_.nodes[a], nb = m_.nodes[b];
+      const auto at = [&](double share) {
+        MeshNode p;
+        p.p = na.p + share * (nb.p - na.p);
+        w_.evaluate(p);
+        return p;
+      };
+      double length = 0;
+      Vec3 last = na.x;
+      for (int i = 1; i <= kRingSamples; ++i) {
+        const Vec3 x = at(static_cast<double>(i) / kRingSamples).x;
+        length += distance(last, x);
+        last = x;
+      }
+      if (length >= kNarrowRing * na.h) continue;
+      for (const double share : {1.0 / 3, 2.0 / 3}) {
+        MeshNode p = at(share);
+        p.request = p.h = w_.field->size(p.x, w_.hint);
+        p.is_kept = true;
+        insert(p, m_.triangle_at(a), length / 3, na.h);
+      }
+    }
+  }
+
+  /// Pairs of plane nodes that are one node of a seam, by its id.
+  std::vector<std::pair<std::int32_t, std::int32_t>> seam_twins() const {
+    std::vector<std::pair<std::int32_t, std::int32_t>> by_id, twins;
+    for (std::int32_t i = 0; i < m_.n_boundary; ++i)
+      if (!m_.nodes[i].is_pole) by_id.push_back({m_.nodes[i].id, i});
+    std::sort(by_id.begin(), by_id.end());
+    const auto same = [&](std::size_t i, std::size_t j) { return j < by_id.size() && by_id[i].first == by_id[j].first; };
+    for (std::size_t i = 0; i + 1 < by_id.size(); ++i)
+      if (same(i, i + 1) && !same(i, i + 2) && !(i > 0 && same(i - 1, i))) twins.push_back({by_id[i].second, by_id[i + 1].second});
+    return twins;
   }
 
   /// Edges of an unfinished triangle that border on something finished, or on the boundary.

@@ -20,6 +20,7 @@ struct MeshNode {
   double request = 0;     ///< edge length that the field asks for
   std::int32_t id = kNone; ///< the boundary node's id outside the face; equal for seam twins and the nodes of a pole; kNone inside
   bool is_pole = false;   ///< one of the plane nodes of a degenerate edge
+  bool is_kept = false;   ///< of a ring about a narrow part: not to be collapsed
 };
 
 /// A triangle, counter-clockwise in the plane. Edge k runs from v[k] to v[(k+1)%3]; n[k] is the neighbour across it.

@@ -320,6 +320,7 @@ const std::map<std::string, Factory>& factories() {
          return face.Shape();
        }},
       {"shallow_prism", shallow_prism},
+      {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},
       {"wing_in_box", [] { return BRepAlgoAPI_Cut(moved(box(60, 60, 60), -20, -30, -15), wing(0.1036)).Shape(); }},

@@ -137,6 +137,17 @@ TEST(ModelMesher, closes_a_solid_smaller_than_the_size) {
   }
 }
 
+TEST(ModelMesher, closes_the_tip_of_a_slender_cone_and_a_needle) {
+  set_verbosity(Verbosity::kQuiet);
+  for (double size : {0.1, 0.4, 3.0}) {  // the tip has less way around it than up to it at any size
+    const Meshed m("slender_cone", size);
+    EXPECT_TRUE(m.mesher.failures.empty()) << size;
+    EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
+    EXPECT_EQ(check_topology(m.mesh).euler, 2) << size;
+    EXPECT_LT(m.mesher.n_refinements, 200) << size;
+  }
+}
+
 TEST(ModelMesher, keeps_two_faces_along_common_edges_apart) {
   set_verbosity(Verbosity::kQuiet);
   for (double size : {1.2, 2.0, 3.0}) {  // sides 2 wide: no node inside either of them
