@@ -137,8 +137,11 @@ void bench_accuracy(const std::string& path) {
     const auto storage = std::make_shared<Storage>();
     storage->raster = build_octree(model.tables().box(), boxes);
     std::vector<LengthSample> samples;
-    if (cell_per_length > kUsualCellPerLength) samples = sorted_samples(boxes);
     RasterOctree& raster = storage->raster;
+    if (cell_per_length > kUsualCellPerLength) {
+      samples = sorted_samples(boxes);
+      forget_samples(raster);
+    }
     seed_lengths(samples, kSlope, raster);
     storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
     hold_samples(raster.shape.view(), samples, {}, storage->lengths);

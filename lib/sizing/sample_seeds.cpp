@@ -25,16 +25,6 @@ void visit_leaves(const OctreeView& octree, std::int32_t node, Vec3 middle, doub
         quarter, x, reach, f);
 }
 
-/// Sources keep what they store.
-void forget_samples(RasterOctree& octree) {
-  for (std::size_t leaf = 0; leaf < octree.stored_cause.size(); ++leaf) {
-    std::int32_t& cause = octree.stored_cause[leaf];
-    if (cause == kNone || (cause_kind(cause) != CauseKind::kEdge && cause_kind(cause) != CauseKind::kFace)) continue;
-    octree.stored_length[leaf] = std::numeric_limits<float>::infinity();
-    cause = kNone;
-  }
-}
-
 /// Samples by the leaf in which they lie.
 class Limits {
  public:
@@ -92,9 +82,16 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes) {
   return samples;
 }
 
+void forget_samples(RasterOctree& octree) {
+  for (std::size_t leaf = 0; leaf < octree.stored_cause.size(); ++leaf) {
+    std::int32_t& cause = octree.stored_cause[leaf];
+    if (cause == kNone || (cause_kind(cause) != CauseKind::kEdge && cause_kind(cause) != CauseKind::kFace)) continue;
+    octree.stored_length[leaf] = std::numeric_limits<float>::infinity();
+    cause = kNone;
+  }
+}
+
 void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOctree& octree) {
-  if (samples.empty()) return;
-  forget_samples(octree);
   const OctreeView view = octree.shape.view();
   const double half = 0.5 * view.edge;
   for (const LengthSample& s : samples) {

@@ -23,8 +23,11 @@ struct LengthSample {
 /// The samples of the boxes in an order that does not depend on theirs.
 std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes);
 
-/// Replaces the lengths that edges and faces store by what the samples ask for at the cells' centres: the smallest of length + slope *
-/// distance of the samples within one length of which the cell comes; equal ones take the smaller cause. Without samples nothing changes.
+/// Takes away the lengths that edges and faces store, before sources are added and samples seeded.
+void forget_samples(RasterOctree& octree);
+
+/// Lowers stored lengths to what the samples ask for at the cells' centres: the smallest of length + slope * distance of the samples within
+/// one length of which the cell comes; equal ones take the smaller cause.
 void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOctree& octree);
 
 /// Lowers cells, and second parts of split leaves (`split_leaf`, see Blanking), in which the linear length at the place of a sample is more

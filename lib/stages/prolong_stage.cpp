@@ -78,6 +78,7 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.numbers = raster.numbers;
   sizing.slope = o.slope;
   const OctreeShape raster_shape = raster.octree.shape;
+  if (!raster.samples.empty()) forget_samples(raster.octree);
   if (!input.sources.empty())
     raster.octree = refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
   const OctreeView octree = raster.octree.shape.view();

@@ -22,6 +22,7 @@
 #include "sizing/raster_face.h"
 #include "sizing/strip.h"
 #include "stages/common_octree.h"
+#include "stages/phase_times.h"
 
 namespace st {
 namespace {
@@ -293,26 +294,6 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   return faces;
 }
 
-/// Wall time of the stage and of its parts, seconds.
-class PhaseTimes {
- public:
-  /// The part that ends here, since the last one ended.
-  void end(const char* part) {
-    parts_.emplace_back(part, since_last_.seconds());
-    since_last_ = Timer();
-  }
-  double total() const { return total_.seconds(); }
-  nlohmann::json json() const {
-    nlohmann::json result = nlohmann::json::object();
-    for (const auto& [part, seconds] : parts_) result[part] = seconds;
-    return result;
-  }
-
- private:
-  Timer total_, since_last_;
-  std::vector<std::pair<const char*, double>> parts_;
-};
-
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
                        std::size_t n_wing_edges, const PhaseTimes& times) {
   const double seconds = times.total();
@@ -337,8 +318,9 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"not_sampled", counts.n_failures},
       {"hash", a.header.content_hash},
       {"seconds", seconds},
-      {"seconds_of",
-       times.json()}}.dump();
+      {"seconds_of", times.wall()},
+      {"processor_seconds_of",
+       times.processor()}}.dump();
   return summary;
 }
 
@@ -375,6 +357,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
+  times.gather(comm);
   if (!comm.is_root()) return {};
 
   artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};

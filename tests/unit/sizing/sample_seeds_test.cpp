@@ -39,6 +39,7 @@ std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_p
 std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, const std::vector<LengthSample>& samples) {
   const auto p = std::make_shared<Prolonged>();
   p->raster = build_octree(test::kUnitBox, boxes);
+  if (!samples.empty()) forget_samples(p->raster);
   seed_lengths(samples, kSlope, p->raster);
   p->lengths = prolong(p->raster.shape.view(), p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
   hold_samples(p->raster.shape.view(), samples, {}, p->lengths);
@@ -103,10 +104,28 @@ TEST(SampleSeeds, leave_the_lengths_of_sources_alone) {
   const std::vector<RasterBox> boxes = {{{0.2, 0.2, 0.2}, 0.1F, 0.02F, pack_cause(CauseKind::kFace, 0)},
                                         {{0.8, 0.8, 0.8}, 0.1F, 0.01F, pack_cause(CauseKind::kSource, 3)}};
   RasterOctree octree = build_octree(test::kUnitBox, boxes);
-  const std::int32_t leaf = octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
+  forget_samples(octree);
   seed_lengths(sorted_samples({boxes.data(), 1}), kSlope, octree);
+  const std::int32_t leaf = octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
   EXPECT_EQ(octree.stored_length[leaf], 0.01F);
   EXPECT_EQ(octree.stored_cause[leaf], pack_cause(CauseKind::kSource, 3));
+}
+
+TEST(SampleSeeds, win_over_a_source_where_they_ask_for_less_at_the_centre_only) {
+  const std::vector<RasterBox> boxes = {{{0.21, 0.21, 0.21}, 0.1F, 0.02F, pack_cause(CauseKind::kFace, 0)}};
+  RasterOctree octree = build_octree(test::kUnitBox, boxes);
+  const OctreeView view = octree.shape.view();
+  const std::int32_t leaf = view.find_leaf(morton::encode(view.grid_point(boxes[0].center)));
+  const float seed = static_cast<float>(0.02F + kSlope * distance(boxes[0].center, view.leaf_center(leaf)));
+  for (const float source : {0.9F * seed, 1.1F * seed}) {
+    forget_samples(octree);
+    octree.stored_length[leaf] = source;
+    octree.stored_cause[leaf] = pack_cause(CauseKind::kSource, 3);
+    seed_lengths(sorted_samples(boxes), kSlope, octree);
+    EXPECT_FLOAT_EQ(octree.stored_length[leaf], std::min(source, seed));
+    EXPECT_EQ(cause_kind(octree.stored_cause[leaf]), source < seed ? CauseKind::kSource : CauseKind::kFace);
+    octree.stored_cause[leaf] = pack_cause(CauseKind::kFace, 0);
+  }
 }
 
 }  // namespace

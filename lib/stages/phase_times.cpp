@@ -1,0 +1,50 @@
+#include "stages/phase_times.h"
+
+#include <ctime>
+
+#include "comm/packer.h"
+
+namespace st {
+namespace {
+
+/// Of this process with all its threads, seconds.
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+PhaseTimes::PhaseTimes() : processor_at_last_(processor_seconds()) {}
+
+void PhaseTimes::end(const std::string& part) {
+  const double now = processor_seconds();
+  parts_.push_back({part, since_last_.seconds(), {now - processor_at_last_}});
+  since_last_ = Timer();
+  processor_at_last_ = now;
+}
+
+void PhaseTimes::gather(const Communicator& comm) {
+  Packer packer;
+  for (const Part& part : parts_) packer.add(part.processor.front());
+  const std::vector<Bytes> all = comm.gather(packer.take());
+  for (std::size_t rank = 1; rank < all.size(); ++rank) {
+    Unpacker unpacker(all[rank]);
+    for (Part& part : parts_) unpacker.get(part.processor.emplace_back());
+  }
+}
+
+nlohmann::json PhaseTimes::wall() const {
+  nlohmann::json result = nlohmann::json::object();
+  for (const Part& part : parts_) result[part.name] = part.wall;
+  return result;
+}
+
+nlohmann::json PhaseTimes::processor() const {
+  nlohmann::json result = nlohmann::json::object();
+  for (const Part& part : parts_) result[part.name] = part.processor;
+  return result;
+}
+
+}  // namespace st
