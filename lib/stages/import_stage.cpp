@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "io/artifact.h"
 #include "io/groups_file.h"
+#include "io/triangulation_reader.h"
 #include "sizing/wing_edges.h"
 
 namespace st {
@@ -199,10 +200,18 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   return s;
 }
 
+/// Meshes are used elsewhere.
+void require_cad(const std::string& path) {
+  if (const std::string format = triangulation_format(path); !format.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: is {}, not a CAD model; give it to st-prolong --blank, st-remesh or st-check", path, format));
+}
+
 }  // namespace
 
 // OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps the last word.
 StageSummary run_import(const ImportStageOptions& o) {
+  require_cad(o.model);
   if (!o.check) require_writable(o.output);
   const GroupsFile groups = o.groups.empty() ? GroupsFile() : read_groups(o.groups);
   const auto work = [&] {
