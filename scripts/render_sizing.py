@@ -3,7 +3,8 @@
 the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow, orange cut, grey blanked).
 
 usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour] [--suffix TEXT] [-o docs/images]
-With --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
+       [--slice NAME X Y Z HALF]
+--slice: a horizontal slice through a point, HALF high to either side. Else with --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -165,6 +166,7 @@ def main():
     parser.add_argument("sizing", help="octree exported as .vtu")
     parser.add_argument("--mesh", help="mesh artifact: places the slices and shows the body")
     parser.add_argument("--by", choices=("size", "cause", "colour"), default="size", help="what colours show (default: %(default)s)")
+    parser.add_argument("--slice", nargs=5, metavar=("NAME", "X", "Y", "Z", "HALF"), help="name of the picture, point in its middle, half its height")
     parser.add_argument("--suffix", default="", help="added to the names of the pictures")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     options = parser.parse_args()
@@ -177,7 +179,11 @@ def main():
         body = mesh.surface(~mesh.is_outer())
     table = None if options.by == "size" else categories(grid, options.by)
     os.makedirs(options.output, exist_ok=True)
-    for picture, (origin, normal, half_height) in slices(grid, name, mesh).items():
+    wanted = slices(grid, name, mesh)
+    if options.slice:
+        x, y, z, half = map(float, options.slice[1:])
+        wanted = {options.slice[0]: ((x, y, z), (0, 0, 1), half)}
+    for picture, (origin, normal, half_height) in wanted.items():
         renderer = slice_scene(grid, name, origin, normal, body, half_height, table)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, origin, normal, half_height)

@@ -32,7 +32,28 @@ constexpr std::size_t kPatchesPerTask = 256;
 constexpr double kDefaultMaxLength = 0.025;     // of the reference diagonal
 constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
 
+/// The rule of --trailing-edges or --leading-edges: "LMIN:LMAX" or "LMAX".
+SizeRule detection_rule(const std::string& option, const std::string& word, const std::string& lengths) {
+  SizeRule rule;
+  rule.where = option;
+  add_detected(word, rule);
+  const std::size_t colon = lengths.find(':');
+  if (colon != std::string::npos) rule.lmin = parse_length(lengths.substr(0, colon), option);
+  rule.lmax = parse_length(colon == std::string::npos ? lengths : lengths.substr(colon + 1), option);
+  if (rule.lmin && rule.lmin->kind == rule.lmax->kind && rule.lmin->value > rule.lmax->value)
+    throw Error(ExitCode::kUsage, fmt::format("{} {}: the smallest length is larger than the largest; write LMIN:LMAX", option, lengths));
+  return rule;
+}
+
+std::vector<SizeRule> option_rules(const RasterStageOptions& o) {
+  std::vector<SizeRule> rules;
+  if (!o.trailing_edges.empty()) rules.push_back(detection_rule("--trailing-edges", "trailing", o.trailing_edges));
+  if (!o.leading_edges.empty()) rules.push_back(detection_rule("--leading-edges", "leading", o.leading_edges));
+  return rules;
+}
+
 void require_valid(const RasterStageOptions& o) {
+  option_rules(o);
   if (!(o.alpha_deg > 0 && o.alpha_deg <= 90))
     throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
   if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8))
@@ -63,26 +84,6 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
     throw Error(ExitCode::kUsage,
                 fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
   return limits;
-}
-
-/// The rule of --trailing-edges or --leading-edges: "LMIN:LMAX" or "LMAX".
-SizeRule detection_rule(const std::string& option, const std::string& word, const std::string& lengths) {
-  SizeRule rule;
-  rule.where = option;
-  add_detected(word, rule);
-  const std::size_t colon = lengths.find(':');
-  if (colon != std::string::npos) rule.lmin = parse_length(lengths.substr(0, colon), option);
-  rule.lmax = parse_length(colon == std::string::npos ? lengths : lengths.substr(colon + 1), option);
-  return rule;
-}
-
-/// Rules of options, then those of the file: a later one wins.
-std::vector<SizeRule> all_rules(const RasterStageOptions& o, const SizeRuleFile& sizes) {
-  std::vector<SizeRule> rules;
-  if (!o.trailing_edges.empty()) rules.push_back(detection_rule("--trailing-edges", "trailing", o.trailing_edges));
-  if (!o.leading_edges.empty()) rules.push_back(detection_rule("--leading-edges", "leading", o.leading_edges));
-  rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
-  return rules;
 }
 
 std::vector<WingEdge> detect_edges(const Model& model, const FaceRoles& roles, const std::vector<SizeRule>& rules) {
@@ -336,7 +337,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   if (!roles.guessed.empty()) log_warning(describe_guess(geometry.tables, roles));
   const SamplingLimits wall = resolve_limits(o, geometry.tables, roles.reference_diagonal);
   const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
-  const std::vector<SizeRule> rules = all_rules(o, sizes);
+  std::vector<SizeRule> rules = option_rules(o);  // those of the file come later, and win
+  rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
   const std::vector<WingEdge> wing_edges = detect_edges(model, roles, rules);

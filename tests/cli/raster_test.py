@@ -73,6 +73,33 @@ class EdgeCells(ToolTest):
         self.assertAlmostEqual(length[20] / length[50], 2.5, delta=0.1)
 
 
+class DetectedEdges(ToolTest):
+    def test_check_lists_what_st_raster_refines(self):
+        plate, r = self.folder / "plate.hdf", self.folder / "r.hdf"
+        listed = must("st-import", MODELS / "thin_plate.brep", "--check", "--json").json()["wing_edges"]
+        self.assertEqual(len(listed), 8, "the rim of a thin plate")
+        for edge in listed:
+            self.assertEqual((edge["kind"], round(edge["size"], 6), round(edge["angle"], 3)), ("blunt trailing edge", 0.2, 90))
+            self.assertIn(round(edge["length"], 6), (100, 60))
+        must("st-import", MODELS / "thin_plate.brep", "-o", plate)
+        plain = must("st-raster", plate, "-o", r, "--json").json()
+        fine = must("st-raster", plate, "-o", r, "--trailing-edges", "0.1:0.5", "--json").json()
+        self.assertEqual((plain["wing_edges"], fine["wing_edges"]), (0, 8))
+        self.assertGreater(fine["samples"], plain["samples"] + 4 * (100 + 60) / 0.5 / 2)
+        (self.folder / "sizes.toml").write_text('[[size]]\ndetected = "trailing"\nlmin = 0.1\nlmax = 0.5\n')
+        by_rule = must("st-raster", plate, "-o", r, "--sizes", self.folder / "sizes.toml", "--json").json()
+        self.assertEqual(by_rule["samples"], fine["samples"])
+
+    def test_nothing_found_and_wrong_words_are_refused(self):
+        geometry = artifacts_of("box") / "geometry.hdf"
+        self.assertEqual(must("st-import", MODELS / "box.brep", "--check", "--json").json()["wing_edges"], [])
+        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--leading-edges", "0.5", says=["--leading-edges", "no leading edge found"])
+        (self.folder / "sizes.toml").write_text('[[size]]\nlmax = 1\ndetected = "upper"\n')
+        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--sizes", self.folder / "sizes.toml",
+                          says=["sizes.toml:3", "trailing", "leading"])
+        self.expect_nothing_left(self.folder, "sizes.toml")
+
+
 class Gaps(ToolTest):
     def length_in_the_wall(self, *options):
         """Of a tube whose wall is 0.4 thick, and the raster's summary."""
