@@ -140,11 +140,23 @@ MeshMeasure measure_mesh(const SurfaceMesh& mesh) {
 
 namespace {
 
+/// An edge between boundary nodes that lies at two places of (u,v): a seam, where the surface may end in a sharp edge like any CAD edge.
+bool is_seam(const SurfaceMesh& mesh, NodeId a, NodeId b, TriangleId s, TriangleId t) {
+  constexpr auto kInner = static_cast<std::uint8_t>(EntityDim::kFace);
+  if (mesh.corner_uv.empty() || mesh.node_entity_dim[a] == kInner || mesh.node_entity_dim[b] == kInner) return false;
+  const auto uv = [&](TriangleId i, NodeId n) {
+    const auto& corners = mesh.triangles[i].n;
+    return mesh.corner_uv[3 * i + (corners[0] == n ? 0 : corners[1] == n ? 1 : 2)];
+  };
+  const Vec2 da = uv(s, a) - uv(t, a), db = uv(s, b) - uv(t, b);
+  return norm(da) > 0 || norm(db) > 0;
+}
+
 void find_folds(const SurfaceMesh& mesh, Defects& folds) {
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId s = sides[0] / 3, t = sides[i] / 3;
-      if (mesh.triangle_face[s] != mesh.triangle_face[t]) continue;
+      if (mesh.triangle_face[s] != mesh.triangle_face[t] || is_seam(mesh, a, b, s, t)) continue;
       const Vec3 ns = area_vector(mesh, s), nt = area_vector(mesh, t);
       const bool is_misoriented = sides.size() == 2 && run_alike(mesh.triangles, sides[0], sides[1]);  // a defect of its own, no fold
       const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);

@@ -190,6 +190,16 @@ TEST(Checks, do_not_take_a_sharp_edge_of_the_cad_for_a_fold) {
   EXPECT_EQ(s.folds.count, 0);
 }
 
+TEST(Checks, do_not_take_a_sharp_seam_for_a_fold) {
+  // one face about a thin wedge, closed at a seam from node 0 to node 1
+  SurfaceMesh m = shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
+  m.node_entity_dim = {1, 1, 2, 2};
+  m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {1, 0}, {1, 1}, {0.6, 0.5}};
+  EXPECT_EQ(check_shape(m).folds.count, 0);
+  m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {0, 0}, {0, 1}, {0.6, 0.5}};  // no seam: the same place of (u,v) on both sides
+  EXPECT_EQ(check_shape(m).folds.count, 1);
+}
+
 TEST(Checks, find_crossing_triangles_within_one_part) {
   SurfaceMesh m = shapes::cube(8);
   m.node_xyz[node_at(m, {0.5, 0.5, 1})].z = -0.2;  // a spike through the opposite side
