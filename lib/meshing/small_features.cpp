@@ -103,7 +103,7 @@ class EdgeMerger {
   std::vector<std::vector<EdgeId>> at_vertex_;
 };
 
-/// Chooses strips that may be closed: no edge belongs to two of them, and the faces on both sides are two that do not already share an edge
+/// Chooses strips that may be closed: no edge belongs to two of them, no neighbour is a strip itself (the part is a needle), and the faces on both sides are two that do not already share an edge
 /// at its ends, or triangles in that corner would be the same in both.
 class StripMerger {
  public:
@@ -115,9 +115,13 @@ class StripMerger {
     std::sort(contacts_.begin(), contacts_.end());
   }
 
-  bool may_close(const Strip& strip) {
+  /// `narrow` [by face] all strips that might be closed.
+  bool may_close(const Strip& strip, const std::vector<Strip>& narrow) {
+    const auto is_narrow = [&](FaceId f) {
+      return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
+    };
     const FaceId a = other_face(strip.edges[0], strip.face), b = other_face(strip.edges[1], strip.face);
-    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]]) return false;
+    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
     for (const EdgeId e : strip.edges)
       for (int k = 0; k < 2; ++k)
         if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
@@ -155,16 +159,11 @@ void require_ids(const std::vector<std::int32_t>& ids, std::int32_t n, const cha
                   std::string("merged ") + what + " " + std::to_string(id + 1) + " is not in the geometry; mesh the model again");
 }
 
-}  // namespace
-
-MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
-  MergedFeatures merged;
-  if (!(below > 0)) return merged;
-  const ModelTables& t = model.tables();
-  merged.edge = EdgeMerger(t, field, below).run();
-  StripMerger strips(t, merged.edge);
+/// Strips narrower than `below` of the size somewhere, and than the size on the mean; by face.
+std::vector<Strip> narrow_strips(const Model& model, const SizeField& field, double below) {
+  std::vector<Strip> strips = find_strips(model);
   int hint = 0;
-  for (const Strip& strip : find_strips(model)) {
+  std::erase_if(strips, [&](const Strip& strip) {
     bool is_narrow = false;
     double width = 0, length = 0;  // sums over the stations
     for (const Strip::Station& s : strip.stations) {
@@ -173,7 +172,22 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
       width += s.width;
       length += h;
     }
-    if (!is_narrow || width > length || !strips.may_close(strip)) continue;
+    return !is_narrow || width > length;
+  });
+  return strips;
+}
+
+}  // namespace
+
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
+  MergedFeatures merged;
+  if (!(below > 0)) return merged;
+  const ModelTables& t = model.tables();
+  merged.edge = EdgeMerger(t, field, below).run();
+  StripMerger merger(t, merged.edge);
+  const std::vector<Strip> strips = narrow_strips(model, field, below);
+  for (const Strip& strip : strips) {
+    if (!merger.may_close(strip, strips)) continue;
     merged.strip_face.push_back(strip.face);
     merged.strip_kept.push_back(strip.edges[0]);
     merged.strip_closed.push_back(strip.edges[1]);
