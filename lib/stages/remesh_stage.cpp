@@ -154,6 +154,7 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
   Model model(std::move(geometry.tables), std::move(geometry.brep));
   ForeignMesh foreign = read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
   MeshArtifact old = std::move(foreign.artifact);
+  orient_outward(old.mesh);  // as st-merge does
   Model on_nodes = with_vertices_of(old.mesh, std::move(model));
   RemeshInput in{std::move(old), std::move(geometry.header), std::move(on_nodes), std::move(sizing)};
   in.foreign = std::move(foreign);

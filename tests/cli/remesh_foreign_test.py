@@ -254,6 +254,17 @@ class Checked(ToolTest):
         self.expect_error(MISMATCH, "st-check", self.folder / "open.fro", "--geometry", good / "geometry.hdf", says="holes")
 
 
+class InsideOut(ToolTest):
+    def test_mesh_is_turned_outward(self):
+        good = artifacts_of("plate_with_hole")
+        must("st-export", good / "mesh.hdf", "-o", self.folder / "m.vtu")
+        mesh = Mesh(self.folder / "m.vtu")
+        mesh.triangles = mesh.triangles[:, ::-1]
+        mesh.write_fro(self.folder / "m.fro")
+        must("st-remesh", self.folder / "m.fro", good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf", "--merged", self.folder / "out.hdf")
+        must("st-check", self.folder / "out.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
+
+
 @unittest.skipUnless(shutil.which("gmsh"), "there is no gmsh: its meshes are NOT tested")
 class Gmsh(ToolTest):
     """Meshes that gmsh made, of its own formats."""
