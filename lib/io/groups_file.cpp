@@ -57,7 +57,7 @@ class EntryReader {
     if (std::vector<std::string>* list = names_of(key)) {
       *list = names(key, node, key == "faces");
     } else if (key == "name") {
-      rule_.name = text(key, node);
+      read_name(node);
     } else if (key == "table") {
       read_table_name(node);
     } else if (key == "colors") {
@@ -122,6 +122,12 @@ class EntryReader {
     if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
       fail(node, key + ": '" + word + "' is none; takes " + joined(allowed));
     return word;
+  }
+
+  void read_name(const toml::node& node) {
+    rule_.name = text("name", node);
+    if (std::any_of(rule_.name.begin(), rule_.name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+      fail(node, "name: holds a control character; use letters and blanks");
   }
 
   void read_table_name(const toml::node& node) {

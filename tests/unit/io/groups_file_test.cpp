@@ -61,6 +61,7 @@ TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
   const std::pair<const char*, const char*> cases[] = {
       {"nmae = \"x\"", "unknown key 'nmae'"},
       {"name = \"\"", "name: takes a text"},
+      {"name = \"a\\nb\"", "name: holds a control character"},
       {"faces = 3", "name: is missing"},
       {"name = \"x\"\nfaces = []", "g.toml:3: faces: an empty list"},
       {"name = \"x\"\nfaces = [1.5]", "faces: takes a name"},
