@@ -81,11 +81,11 @@ TEST(ExportStage, exports_meshes_and_refuses_what_has_no_export) {
   TemporaryDirectory dir;
   write_mesh(dir / "m.hdf", sample_mesh());
   write_patches(dir / "p.hdf", sample_patches());
-  EXPECT_EQ(run_export(dir / "m.hdf", dir / "m.stl").code, ExitCode::kOk);
+  EXPECT_EQ(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl"}).code, ExitCode::kOk);
   EXPECT_EQ(read_bytes(dir / "m.stl").size(), 84u + 4 * 50);
-  EXPECT_ERROR(run_export(dir / "m.hdf", dir / "m.xyz"), kUsage, "unknown suffix");
-  EXPECT_ERROR(run_export(dir / "m.hdf", dir / "none/m.stl"), kOutput, "create it first");
-  EXPECT_ERROR(run_export(dir / "p.hdf", dir / "p.stl"), kInput, "is a patches artifact, which has no export");
+  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.xyz"}), kUsage, "unknown suffix");
+  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "none/m.stl"}), kOutput, "create it first");
+  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.stl"}), kInput, "is a patches artifact, which has no export");
   EXPECT_EQ(dir.files().size(), 3u);
 }
 
