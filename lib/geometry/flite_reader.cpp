@@ -53,6 +53,8 @@ struct TrimmedSegment {
 };
 using TrimmedLoop = std::vector<TrimmedSegment>;
 
+constexpr double kMuchShorter = 0.8;  // lines of a grid taken the right way
+
 class ShapeBuilder {
  public:
   ShapeBuilder(const FliteFile& file, const std::string& path)
@@ -100,6 +102,17 @@ class ShapeBuilder {
 
   double resolution_at(int segment) const { return 2 * flite_resolution(file_.curves[file_.segments[segment].curve].points[0], diagonal_); }
 
+  /// Length of all lines of a grid of rows of `n` points.
+  static double line_length(const FliteSurface& s, int n) {
+    const int n_points = static_cast<int>(s.points.size());
+    double length = 0;
+    for (int k = 0; k < n_points; ++k) {
+      if ((k + 1) % n != 0) length += distance(s.points[k], s.points[k + 1]);
+      if (k + n < n_points) length += distance(s.points[k], s.points[k + n]);
+    }
+    return length;
+  }
+
   /// How far the curves of a surface's regions are from it, half way between their points.
   double misfit(int surface, const Handle(Geom_BSplineSurface) & candidate) const {
     const std::unique_ptr<Surface> s = evaluator(candidate);
@@ -109,22 +122,22 @@ class ShapeBuilder {
       for (const int segment : region.segments)
         if (region.surface == surface && !topology_.segments[segment].is_point && n < kMisfitSamples) {
           const std::unique_ptr<Curve> curve = curve_of(segment);
-          sum += closest_point(*s, curve->point(std::floor(0.5 * curve->t_max()) + 0.5)).distance;
+          sum += closest_point(*s, curve->point(std::floor(0.5 * curve->t_max()) + 0.37)).distance;
           ++n;
         }
     return sum;
   }
 
-  /// The first count of a grid runs fastest in most files; where the curves fit the other order better, the second. Closed ones get a
-  /// period.
+  /// The first count of a grid runs fastest in most files. The second does where the lines of the grid are much shorter so (a grid taken
+  /// the wrong way jumps) and the curves are no further off the surface.
   const Handle(Geom_BSplineSurface) & surface(int k) {
     Handle(Geom_BSplineSurface)& made = surfaces_[k];
     if (!made.IsNull()) return made;
     const FliteSurface& s = file_.surfaces[k];
     made = bspline_surface(s.n_first, s.n_second, s.points);
-    if (s.n_first != s.n_second) {
+    if (s.n_first != s.n_second && line_length(s, s.n_second) < kMuchShorter * line_length(s, s.n_first)) {
       const Handle(Geom_BSplineSurface) other = bspline_surface(s.n_second, s.n_first, s.points);
-      if (misfit(k, other) < 0.5 * misfit(k, made)) made = other;
+      if (misfit(k, other) <= misfit(k, made) + flite_resolution(s.points[0], diagonal_)) made = other;
     }
     return made;
   }

@@ -1,6 +1,7 @@
 #include "geometry/flite_trim.h"
 
 #include <Geom2dAPI_Interpolate.hxx>
+#include <Standard_Failure.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColStd_HArray1OfReal.hxx>
@@ -164,9 +165,13 @@ class CurveProjector {
       poles->SetValue(i, {uv.x, uv.y});
       parameters->SetValue(i++, t);
     }
-    Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-14);
-    maker.Perform();
-    return maker.IsDone() ? maker.Curve() : polygon();
+    try {
+      Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-14);
+      maker.Perform();
+      return maker.IsDone() ? maker.Curve() : polygon();
+    } catch (const Standard_Failure&) {  // points that coincide, at a pole
+      return polygon();
+    }
   }
 
   /// Null where a point is off the line between the ends.

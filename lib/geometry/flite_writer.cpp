@@ -9,6 +9,8 @@
 namespace st {
 namespace {
 
+constexpr double kOfSize = 1e-3;  // of an edge's length or a face's width: what is smaller than the tolerance keeps its form
+
 class Exporter {
  public:
   Exporter(const Model& whole, const DividedModel& divided, double tolerance)
@@ -31,14 +33,15 @@ class Exporter {
     const double t0 = t_.edge_range[2 * e], t1 = t_.edge_range[2 * e + 1];
     const auto curve = model_.curve(e);
     const Vec3 a = t_.vertex_xyz[start], b = t_.vertex_xyz[end];
+    const double tolerance = std::min(result_.tolerance, kOfSize * t_.edge_length[e]);
     if (start != end) {
-      add_segment(e, sample_curve(*curve, t0, t1, a, b, result_.tolerance));
+      add_segment(e, sample_curve(*curve, t0, t1, a, b, tolerance));
       return;
     }
     const double middle = 0.5 * (t0 + t1);
     const Vec3 c = curve->point(middle);
-    add_segment(e, sample_curve(*curve, t0, middle, a, c, result_.tolerance));
-    add_segment(e, sample_curve(*curve, middle, t1, c, b, result_.tolerance));
+    add_segment(e, sample_curve(*curve, t0, middle, a, c, tolerance));
+    add_segment(e, sample_curve(*curve, middle, t1, c, b, tolerance));
   }
 
   void add_segment(EdgeId e, SampledCurve curve) {
@@ -50,7 +53,7 @@ class Exporter {
   }
 
   void add_face(FaceId f) {
-    const SampledSurface grid = sample_surface(*model_.surface(f), result_.tolerance);
+    const SampledSurface grid = sample_surface(*model_.surface(f), std::min(result_.tolerance, kOfSize * t_.face_width[f]));
     note(grid.deviation, divided_.origin[f] == kNone ? t_.face_label(f) : whole_.face_label(divided_.origin[f]));
     result_.file.surfaces.push_back({f + 1, 0, grid.n_u, grid.n_v, grid.points});
     FliteRegion region{f + 1, 0, f, {}};
