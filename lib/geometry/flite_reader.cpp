@@ -53,6 +53,7 @@ struct TrimmedSegment {
 };
 using TrimmedLoop = std::vector<TrimmedSegment>;
 
+constexpr double kSmall = 1e-4;       // of the diagonal: distances that short segments may be off
 constexpr double kMuchShorter = 0.8;  // lines of a grid taken the right way
 
 class ShapeBuilder {
@@ -148,7 +149,7 @@ class ShapeBuilder {
       const std::unique_ptr<Curve> curve = curve_of(segment);
       const TrimmingCurve trim = project_curve(s, *curve, resolution_at(segment));
       const double length = arc_length(*curve, curve->t_min(), curve->t_max());
-      if (trim.distance > kLargestMisfit * length) refuse(region, segment, trim);
+      if (trim.distance > std::max(kLargestMisfit * length, kSmall * diagonal_)) refuse(region, segment, trim);
       builder_.UpdateEdge(edges_[segment], 1.01 * trim.distance);
       for (const int v : {topology_.segments[segment].start, topology_.segments[segment].end})
         builder_.UpdateVertex(vertices_[v], 1.01 * trim.distance + topology_.vertex_gap[v]);
