@@ -77,6 +77,31 @@ Handle(Geom2d_Curve) interpolated(const std::map<double, Vec2>& points) {
   }
 }
 
+/// The multiple of `period` that brings `from` nearest to `to`.
+double periods_between(double from, double to, bool is_periodic, double period) {
+  return is_periodic ? period * std::round((to - from) / period) : 0.0;
+}
+
+/// The candidate in the period of the old curve; null when one of its ends is elsewhere in (u,v) than the old one: at a pole any u lies on
+/// the edge, but only one closes the loop.
+Handle(Geom2d_Curve) in_place(const Use& use, const Handle(Geom2d_Curve) & old, const Handle(Geom2d_Curve) & candidate) {
+  constexpr double kMaxShift = 0.01;  // of the face's range
+  if (candidate.IsNull()) return {};
+  UvBounds b{};
+  BRepTools::UVBounds(use.face, b.u_min, b.u_max, b.v_min, b.v_max);
+  const GeomAdaptor_Surface s(use.surface);
+  const double middle = 0.5 * (use.t0 + use.t1);
+  const gp_Pnt2d from = candidate->Value(middle), to = old->Value(middle);
+  const double u = periods_between(from.X(), to.X(), s.IsUPeriodic(), s.IsUPeriodic() ? s.UPeriod() : 0);
+  const double v = periods_between(from.Y(), to.Y(), s.IsVPeriodic(), s.IsVPeriodic() ? s.VPeriod() : 0);
+  const Handle(Geom2d_Curve) moved = Handle(Geom2d_Curve)::DownCast(candidate->Translated(gp_Vec2d(u, v)));
+  for (const double t : {use.t0, use.t1}) {
+    const gp_Pnt2d p = moved->Value(t), q = old->Value(t);
+    if (std::abs(p.X() - q.X()) > kMaxShift * (b.u_max - b.u_min) || std::abs(p.Y() - q.Y()) > kMaxShift * (b.v_max - b.v_min)) return {};
+  }
+  return moved;
+}
+
 /// Trimming curve by projection; null when that fails.
 Handle(Geom2d_Curve) projected(const Use& use) {
   try {
@@ -138,7 +163,8 @@ void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string&
   const bool is_seam = BRep_Tool::IsClosed(use.edge, use.face);
   Handle(Geom2d_Curve) better;
   Gap after = before;
-  const auto consider = [&](const Handle(Geom2d_Curve) & candidate) {
+  const auto consider = [&](const Handle(Geom2d_Curve) & anywhere) {
+    const Handle(Geom2d_Curve) candidate = in_place(use, old, anywhere);
     if (candidate.IsNull()) return;
     const Gap gap = largest_gap(use, candidate, kManySamples);
     if (gap.distance < 0.5 * after.distance) after = gap, better = candidate;
