@@ -102,6 +102,14 @@ void require_closed(const ImportResult& result, const std::string& path) {
                                          " free edges; close it in the CAD system, or import without --require-closed");
 }
 
+occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, const ImportedShape& model, const std::string& sew) {
+  occt::SewingLimits limits{file.resolution_mm, std::nullopt};
+  if (sew.empty()) return limits;
+  const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
+  limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), diagonal, unit.in_m, "--sew");
+  return limits;
+}
+
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const FlowDomain domain = parse_flow_domain(options);
   const CadFile file = occt::read_cad(path);
@@ -110,7 +118,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.format = file.format;
   ImportedShape model = occt::collect_parts(file, path);
   occt::remove_duplicates(model, result.findings);
-  occt::sew_if_open(model, file.resolution_mm, result.findings);
+  occt::sew_if_open(model, sewing_limits(file, unit, model, options.sew), result.findings);
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);

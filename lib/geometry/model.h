@@ -118,6 +118,7 @@ struct ImportFinding {
 struct ImportOptions {
   std::string unit;                       ///< target unit name; empty: the file's own
   std::string small = "0.01%";            ///< length: edges shorter and faces narrower than this are listed
+  std::string sew;                        ///< length: largest gap between free edges that sewing closes; empty: 0.01% of the diagonal
   bool check_only = false;                ///< also run OpenCASCADE's checker
   std::string symmetry;                   ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
   std::string farfield;                   ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none

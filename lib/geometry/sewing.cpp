@@ -13,6 +13,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -192,9 +193,19 @@ void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::ve
       {"sewing left tolerances far above its own; trimming curves there are compared anew", "", {}, sewn.edge_tolerance, true});
 }
 
+/// Ascending. `base`: what the first has to be at least. All lengths in the unit of the shape.
+std::vector<double> tolerances_to_try(double diagonal, double base, std::optional<double> largest) {
+  std::vector<double> list;
+  for (double relative : kSewRelative) list.push_back(std::max(relative * diagonal, list.empty() ? std::min(base, 1e-4 * diagonal) : 0.0));
+  if (!largest) return list;
+  list.erase(std::remove_if(list.begin(), list.end(), [&](double t) { return t >= *largest; }), list.end());
+  list.push_back(*largest);
+  return list;
+}
+
 }  // namespace
 
-void sew_if_open(ImportedShape& model, double stated_resolution, std::vector<ImportFinding>& findings) {
+void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
   Sewn original;
   original.shape = model.shape;
   original.n_free = count_free_edges(model.shape);
@@ -203,10 +214,9 @@ void sew_if_open(ImportedShape& model, double stated_resolution, std::vector<Imp
   for (const auto& [edge, name] : model.edge_names) original.images.push_back(edge);
   original.edge_tolerance = max_edge_tolerance(model.shape);
   const double diagonal = rough_box(model.shape).diagonal();
-  const double base = std::max(2 * original.edge_tolerance, stated_resolution);
+  const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
   std::optional<Sewn> best;
-  for (double relative : kSewRelative) {
-    const double tolerance = std::max(relative * diagonal, relative == kSewRelative[0] ? std::min(base, 1e-4 * diagonal) : 0.0);
+  for (const double tolerance : tolerances_to_try(diagonal, base, limits.largest)) {
     const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
     for (const bool by_component : {false, true}) {
       std::optional<Sewn> sewn = by_component ? sew_by_component(model, original, tolerance) : sew(original, {model.shape}, tolerance);

@@ -1,15 +1,20 @@
 // Joins faces that share no edges. Included inside lib/geometry only.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geometry/import_shape.h"
 
 namespace st::occt {
 
+struct SewingLimits {
+  double stated_resolution = 0;   ///< tolerance that the file states, 0 when none; unit of the shape
+  std::optional<double> largest;  ///< the last tolerance tried, unit of the shape, positive; absent: 1e-4 of the diagonal
+};
+
 /// Sews a model that has free edges; takes the smallest tolerance that closes it, else the one that leaves the fewest free edges. Faces,
 /// their order and attributes stay. A model without free edges is not touched.
-/// `stated_resolution`: tolerance that the file states, 0 when none. Lengths in the unit of the shape.
-void sew_if_open(ImportedShape& model, double stated_resolution, std::vector<ImportFinding>& findings);
+void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

@@ -123,7 +123,9 @@ std::string repairs_in_words(const ImportResult& r) {
 /// The first findings as text; the rest is counted.
 void say(const std::string& model, const ImportResult& r) {
   if (!r.is_closed)
-    log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there", model, r.n_free_edges));
+    log_warning(
+        fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges further apart)",
+                    model, r.n_free_edges));
   if (r.n_repairs > 0) log_warning(fmt::format("{}: repaired: {}; -v lists places and sizes", model, repairs_in_words(r)));
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -159,6 +161,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   ImportOptions options;
   options.unit = o.unit;
   options.small = o.small;
+  options.sew = o.sew;
   options.symmetry = o.symmetry;
   options.farfield = o.farfield;
   options.check_only = o.check;
@@ -179,6 +182,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.header.tool = "st-import";
     g.header.tool_version = ST_VERSION;
     nlohmann::json used{{"unit", o.unit}, {"small", o.small}};
+    if (!o.sew.empty()) used["sew"] = o.sew;
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();

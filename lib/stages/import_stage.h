@@ -13,6 +13,7 @@ struct ImportStageOptions {
   std::string output = "geometry.hdf";
   std::string unit;                  ///< convert to this unit; empty: the file's own
   std::string small = "0.01%";       ///< length: edges shorter and faces narrower than this are listed
+  std::string sew;                   ///< length: largest gap between free edges to close; empty: 0.01% of the diagonal
   std::optional<double> time_limit;  ///< s of processor time; absent: 30 and 5 per megabyte of the file
   std::string symmetry, farfield;    ///< of ImportOptions; empty: none
   std::string groups;                ///< groups file (TOML); empty: the groups of the CAD file

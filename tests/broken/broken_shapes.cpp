@@ -5,6 +5,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -49,6 +50,17 @@ std::vector<TopoDS_Shape> loose_faces_of(const TopoDS_Shape& solid) {
 TopoDS_Shape doubled_face() {
   std::vector<TopoDS_Shape> faces = loose_faces_of(box(60, 40, 20));
   faces.push_back(BRepBuilderAPI_Copy(faces[2]).Shape());
+  return compound(faces);
+}
+
+/// Every face of the box moved along its diagonal by a step of its own, up to 0.05.
+TopoDS_Shape gappy_box() {
+  std::vector<TopoDS_Shape> faces = loose_faces_of(box(60, 40, 20));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    gp_Trsf step;
+    step.SetTranslation(gp_Vec(0.01, 0.01, 0.01) * static_cast<double>(i));
+    faces[i] = BRepBuilderAPI_Transform(faces[i], step, true).Shape();
+  }
   return compound(faces);
 }
 
@@ -108,6 +120,7 @@ TopoDS_Shape bare_sphere() {
 const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
   static const std::map<std::string, std::function<TopoDS_Shape()>> all{
       {"doubled_face", doubled_face},
+      {"gappy_box", gappy_box},
       {"touching_boxes",
        [] {
          return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 10, 10).Shape()});

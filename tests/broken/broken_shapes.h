@@ -7,6 +7,7 @@ namespace st::test {
 
 /// Writes the shape `name` to `path`; an unknown name throws std::runtime_error.
 ///   doubled_face     the six loose faces of a box 60 x 40 x 20, one of them twice
+///   gappy_box        the six loose faces of that box with gaps up to 0.09
 ///   touching_boxes   two solids side by side that share a place, not a face
 ///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
 ///   loose_shell      the shell of that box, inward, no solid

@@ -9,7 +9,7 @@ from chain import *  # noqa: E402,F403
 N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
-    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
+    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--cell-per-length": "2", "--np": "1"},
     "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
@@ -27,7 +27,7 @@ OPTIONS = {
 }
 # Values that each option with a bounded value refuses.
 REFUSED = {
-    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
+    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
     "st-raster": {
         "--lmin": ["0", "-3", "x", "3pt", "nan"],
         "--lmax": ["0", "1e999"],

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   tool.output(o.output);
   tool.unit("--unit", o.unit, "unit of the artifact (mm, cm, m, in, ft); the file's own when not given");
   tool.length("--small", o.small, "0.01%", "edges shorter and faces narrower than this are listed");
+  tool.length("--sew", o.sew, "0.01%", "free edges up to this far apart are joined");
   tool.text("--symmetry", o.symmetry, "AXIS=VALUE", "cut or close the model at this plane (y=0; y=0- keeps the negative side)");
   tool.text("--farfield", o.farfield, "KIND:SIZE", "the fluid around the model: box:20, sphere:50 (half width, radius in diagonals)");
   tool.text("--groups", o.groups, "FILE", "groups of faces by name, part, colour, layer, place, surface (TOML)");

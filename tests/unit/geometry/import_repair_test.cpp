@@ -54,6 +54,22 @@ TEST(ImportRepair, removes_a_face_that_is_there_twice) {
   EXPECT_EQ(found[0].entity, "face 7 of the file");
 }
 
+TEST(ImportRepair, joins_edges_as_far_apart_as_asked_and_no_further) {
+  EXPECT_EQ(import_broken("gappy_box").n_free_edges, 24);
+  ImportOptions options;
+  options.sew = "0.01";
+  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 24);
+  options.sew = "0.15";
+  const ImportResult r = import_broken("gappy_box", options);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_NEAR(r.volume, 48000, 0.005 * 48000);
+  EXPECT_EQ(findings_of(r, "sewn").size(), 1u);
+  options.unit = "in";
+  options.sew = "0.5%";
+  EXPECT_TRUE(import_broken("gappy_box", options).is_closed);
+}
+
 TEST(ImportRepair, keeps_faces_of_solids_that_touch) {
   const ImportResult r = import_broken("touching_boxes");
   EXPECT_EQ(r.tables.n_faces(), 12);
