@@ -87,9 +87,21 @@ class Front {
         MeshNode p = at(share);
         p.request = p.h = w_.field->size(p.x, w_.hint);
         p.is_kept = true;
-        insert(p, m_.triangle_at(a), length / 3, na.h);
+        insert(p, inside_triangle_at(a), length / 3, na.h) || insert(p, inside_triangle_at(b), length / 3, na.h);
       }
     }
+  }
+
+  /// A triangle of the face at a boundary node, where a search may start: it does not leave the loops.
+  std::int32_t inside_triangle_at(std::int32_t node) const {
+    const std::int32_t first = m_.triangle_at(node);
+    std::int32_t t = first;
+    do {
+      const PlaneTriangle& r = m_.triangles[t];
+      if (r.state != kOutside) return t;
+      t = r.n[kPrev[r.v[0] == node ? 0 : r.v[1] == node ? 1 : 2]];
+    } while (t != first && t != kNone);
+    return first;
   }
 
   /// Pairs of plane nodes that are one node of a seam, by its id.
