@@ -88,9 +88,26 @@ ImportFinding repair(const std::string& what, const TopoDS_Shape& shape) {
   return {what, "", box.center(), box.diagonal(), true};
 }
 
+/// A lone face that closes on itself, as a sphere from IGES, becomes a shell of its own.
+bool shell_lone_faces(ImportedShape& model) {
+  bool is_changed = false;
+  const auto exchange = [&](const TopoDS_Shape& shape) -> TopoDS_Shape {
+    if (shape.ShapeType() != TopAbs_FACE || count_free_edges(shape) > 0) return shape;
+    TopoDS_Shell shell;
+    BRep_Builder builder;
+    builder.MakeShell(shell);
+    builder.Add(shell, shape);
+    is_changed = true;
+    return shell;
+  };
+  const TopoDS_Shape shelled = exchanged(model.shape, exchange);
+  return is_changed && model.replace(shelled, [](const TopoDS_Shape& face) { return face; });
+}
+
 }  // namespace
 
 bool repair_shells(ImportedShape& model, const FaceMeasures& measures, std::vector<ImportFinding>& findings) {
+  const bool is_shelled = shell_lone_faces(model);
   std::vector<LooseShell> shells = loose_closed_shells(model, measures);
   find_containers(shells);
   bool is_changed = false;
@@ -116,7 +133,7 @@ bool repair_shells(ImportedShape& model, const FaceMeasures& measures, std::vect
     return shape;
   };
   const TopoDS_Shape repaired = exchanged(model.shape, exchange);
-  return is_changed && model.replace(repaired, [](const TopoDS_Shape& face) { return face; });
+  return (is_changed && model.replace(repaired, [](const TopoDS_Shape& face) { return face; })) || is_shelled;
 }
 
 }  // namespace st::occt

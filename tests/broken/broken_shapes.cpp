@@ -1,5 +1,6 @@
 #include "broken/broken_shapes.h"
 
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -127,6 +128,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        }},
       {"inside_out", [] { return compound({box(60, 40, 20).Reversed()}); }},
       {"loose_shell", [] { return compound({shell_of(box(60, 40, 20)).Reversed()}); }},
+      {"lone_sphere", [] { return compound({TopExp_Explorer(BRepPrimAPI_MakeSphere(10).Shape(), TopAbs_FACE).Current()}); }},
       {"nested_shells",
        [] {
          return compound({shell_of(centred_cube(40)), shell_of(centred_cube(60)), shell_of(centred_cube(20))});

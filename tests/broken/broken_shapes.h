@@ -11,6 +11,7 @@ namespace st::test {
 ///   touching_boxes   two solids side by side that share a place, not a face
 ///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
 ///   loose_shell      the shell of that box, inward, no solid
+///   lone_sphere      the face of a sphere of radius 10, in no shell
 ///   nested_shells    shells of boxes of 60, 40 and 20 around one centre, no solid
 ///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)

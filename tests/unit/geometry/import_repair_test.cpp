@@ -96,6 +96,13 @@ TEST(ImportRepair, makes_a_closed_shell_an_outward_solid) {
   EXPECT_EQ(findings_of(r, "closed shell made a solid").size(), 1u);
 }
 
+TEST(ImportRepair, makes_a_lone_closed_face_a_solid) {
+  const ImportResult r = import_broken("lone_sphere");
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.tables.n_solids, 1);
+  EXPECT_NEAR(r.volume, 4000 * std::acos(-1.0) / 3, 1e-6);
+}
+
 TEST(ImportRepair, makes_shells_inside_shells_voids_and_solids_in_turn) {
   const ImportResult r = import_broken("nested_shells");
   EXPECT_EQ(r.tables.n_solids, 2);
