@@ -158,6 +158,13 @@ class BadOutput(ToolTest):
         self.expect_error(USAGE, "st-export", artifacts_of("box") / "mesh.hdf", "-o", self.folder / "m.xyz", says=".xyz")
         self.expect_nothing_left(self.folder)
 
+    def test_merged_mesh_takes_the_place_of_patches(self):
+        inputs = [artifacts_of("box") / name for name in READS["st-remesh"]]
+        self.expect_error(USAGE, "st-remesh", *inputs, "-o", self.folder / "p.hdf", "--merged", self.folder / "m.hdf", says=["--merged", "--output"])
+        self.expect_nothing_left(self.folder)
+        must("st-remesh", *inputs, "--merged", "patches.hdf", cwd=self.folder)  # the default of -o is not written, so its name is free
+        self.assertEqual(must("st-info", self.folder / "patches.hdf", "--json").json()["schema"], "mesh")
+
     def test_old_output_survives_a_failed_run(self):
         (self.folder / "g.hdf").write_text("the old one")
         (self.folder / "bad.step").write_text("no CAD file")

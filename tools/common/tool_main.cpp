@@ -137,6 +137,11 @@ void ToolMain::output_option(const std::string& flag, std::string& path, const s
   output_options_.push_back(app_.add_option(flag, path, help)->capture_default_str()->type_name("FILE"));
 }
 
+void ToolMain::output_instead(const std::string& flag, std::string& path, const std::string& help) {
+  output_option(flag, path, help);
+  output_options_.back()->excludes(output_options_.front());
+}
+
 void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
   output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
 }
@@ -208,10 +213,14 @@ void ToolMain::require_distinct_files() const {
     std::error_code none;
     return fs::equivalent(a, b, none) || fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
   };
+  const auto is_replaced = [](const CLI::Option* option) {
+    const auto& others = option->get_excludes();
+    return std::any_of(others.begin(), others.end(), [](const CLI::Option* other) { return other->count() > 0; });
+  };
   std::vector<std::string> outputs;
   for (const CLI::Option* option : output_options_) {
     auto paths = option->results();
-    if (paths.empty() && !option->get_default_str().empty()) paths.push_back(option->get_default_str());
+    if (paths.empty() && !is_replaced(option) && !option->get_default_str().empty()) paths.push_back(option->get_default_str());
     outputs.insert(outputs.end(), paths.begin(), paths.end());
   }
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -40,6 +40,8 @@ class ToolMain {
   void output(std::string& path, const std::string& help = "artifact to write");
   /// A further file to write, with the struct's default.
   void output_option(const std::string& flag, std::string& path, const std::string& help);
+  /// A file to write instead of that of -o,--output (declared before), which is refused beside it.
+  void output_instead(const std::string& flag, std::string& path, const std::string& help);
   /// A repeatable option naming a further file to write.
   void outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
   /// A length such as 3, 0.1%, 0.25mm or 2in; `default_text` stands in --help for an empty value.

@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
   tool.input("geometry", o.geometry, "geometry artifact the mesh was made on");
   tool.input("sizing", o.sizing, "new sizing artifact");
   tool.output(o.output);
-  tool.output_option("--merged", o.merged, "write the merged mesh to this artifact instead of patches");
+  tool.output_instead("--merged", o.merged, "write the merged mesh to this artifact instead of patches");
   tool.number("--too-long", o.too_long, "(1, 100]",
               "an edge longer than this times the requested length is redone where the sizes changed");
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
