@@ -1,34 +1,19 @@
 #include "io/groups_file.h"
 
-#define TOML_HEADER_ONLY 1
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "base/error.h"
 #include "base/hash.h"
+#include "io/text_file.h"
+#include "io/toml_entry.h"
 
 namespace st {
 namespace {
 
 constexpr const char* kKeys =
     "name, table, faces, parts, paths, layers, groups, colors, surfaces, inside, touching, role, tolerance, attributes, optional";
-
-std::string read_text(const std::string& path) {
-  std::error_code none;
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (std::filesystem::is_directory(path, none) || !file.is_open() || file.bad())
-    throw Error(ExitCode::kInput, path + ": cannot be read; name a file of groups");
-  return text.str();
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -37,25 +22,20 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// One table [[group]].
-class EntryReader {
+class EntryReader : TomlEntry {
  public:
-  EntryReader(const std::string& path, const toml::table& table) : path_(path), table_(table) { rule_.where = where(table); }
+  EntryReader(const std::string& path, const toml::table& table) : TomlEntry(path, table) { rule_.where = where(); }
 
   GroupRule run() {
-    for (const auto& [key, node] : table_) read(std::string(key.str()), node);
-    if (rule_.name.empty()) fail(table_, "name: is missing; every [[group]] has a name");
+    for (const auto& [key, node] : table()) read(std::string(key.str()), node);
+    if (rule_.name.empty()) fail(table(), "name: is missing; every [[group]] has a name");
     return std::move(rule_);
   }
 
  private:
-  std::string where(const toml::node& node) const { return path_ + ":" + std::to_string(node.source().begin.line); }
-  [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
-    throw Error(ExitCode::kUsage, where(node) + ": " + what);
-  }
-
   void read(const std::string& key, const toml::node& node) {
     if (std::vector<std::string>* list = names_of(key)) {
-      *list = names(key, node, key == "faces");
+      *list = names(key, node, key == "faces" ? "a number, a range \"3-7\"," : "");
     } else if (key == "name") {
       read_name(node);
     } else if (key == "table") {
@@ -89,32 +69,10 @@ class EntryReader {
                              : nullptr;
   }
 
-  /// A single value is a list of one.
-  template <class Function>
-  void for_each(const std::string& key, const toml::node& node, const Function& take) const {
-    const toml::array* list = node.as_array();
-    if (list && list->empty()) fail(node, key + ": an empty list; leave it out to select by other keys");
-    if (!list) return take(node);
-    for (const toml::node& n : *list) take(n);
-  }
-
   std::string text(const std::string& key, const toml::node& node) const {
     const auto* s = node.as_string();
     if (!s || s->get().empty()) fail(node, key + ": takes a text that is not empty");
     return s->get();
-  }
-
-  std::vector<std::string> names(const std::string& key, const toml::node& node, bool may_be_id) const {
-    std::vector<std::string> result;
-    for_each(key, node, [&](const toml::node& n) {
-      if (const auto* i = n.as_integer(); i && may_be_id)
-        result.push_back(std::to_string(i->get()));
-      else if (const auto* s = n.as_string(); s && !s->get().empty())
-        result.push_back(s->get());
-      else
-        fail(n, key + ": takes a name with * and ?" + (may_be_id ? ", a number, a range \"3-7\"," : "") + " or a list of these");
-    });
-    return result;
   }
 
   std::string one_of(const std::string& key, const toml::node& node, const std::vector<std::string>& allowed) const {
@@ -181,15 +139,6 @@ class EntryReader {
     return {result.value * *in_m, true};
   }
 
-  LengthSpec length(const std::string& key, const toml::node& node) const {
-    if (const auto value = node.is_number() ? node.value<double>() : std::nullopt) {
-      if (!(std::isfinite(*value) && *value > 0)) fail(node, key + ": must be positive");
-      return {LengthSpec::Kind::kModelUnit, *value, std::to_string(*value)};
-    }
-    if (!node.is_string()) fail(node, key + ": takes a length such as 0.2, \"5mm\" or \"0.1%\"");
-    return parse_length(node.as_string()->get(), where(node) + ": " + key);
-  }
-
   nlohmann::json value_of(const std::string& key, const toml::node& node) const {
     if (const auto* s = node.as_string()) return s->get();
     if (const auto* b = node.as_boolean()) return b->get();
@@ -214,31 +163,22 @@ class EntryReader {
     rule_.attributes = json.dump();
   }
 
-  const std::string& path_;
-  const toml::table& table_;
   GroupRule rule_;
 };
 
 }  // namespace
 
 GroupsFile read_groups(const std::string& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_text_file(path);
   GroupsFile file;
   file.hash = hash_hex(text.data(), text.size());
-  const auto fail = [&](const toml::source_region& place, const std::string& what) {
-    throw Error(ExitCode::kUsage, path + ":" + std::to_string(place.begin.line) + ": " + what);
-  };
-  try {
-    const toml::table table = toml::parse(text, path);
-    for (const auto& [key, node] : table) {
-      const toml::array* list = node.as_array();
-      if (key.str() != "group")
-        fail(node.source(), "unknown key '" + std::string(key.str()) + "'; a groups file has tables [[group]] only");
-      if (!list || !list->is_array_of_tables()) fail(node.source(), "groups are tables [[group]]");
-      for (const toml::node& item : *list) file.rules.push_back(EntryReader(path, *item.as_table()).run());
-    }
-  } catch (const toml::parse_error& e) {
-    fail(e.source(), std::string(e.description()));
+  const toml::table table = parse_toml(path, text, ExitCode::kUsage);
+  const TomlEntry top(path, table);
+  for (const auto& [key, node] : table) {
+    const toml::array* list = node.as_array();
+    if (key.str() != "group") top.fail(node, "unknown key '" + std::string(key.str()) + "'; a groups file has tables [[group]] only");
+    if (!list || !list->is_array_of_tables()) top.fail(node, "groups are tables [[group]]");
+    for (const toml::node& item : *list) file.rules.push_back(EntryReader(path, *item.as_table()).run());
   }
   if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": no table [[group]] in it; see docs/groups.md");
   return file;

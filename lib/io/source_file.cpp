@@ -1,32 +1,22 @@
 #include "io/source_file.h"
 
-#define TOML_HEADER_ONLY 1
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string_view>
 
-#include "base/error.h"
-#include "base/length.h"
+#include "io/text_file.h"
+#include "io/toml_entry.h"
 
 namespace st {
 namespace {
 
 std::string read_text(const std::string& path) {
-  std::error_code none;
-  if (std::filesystem::is_directory(path, none)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file.is_open() || file.bad()) throw Error(ExitCode::kInput, path + ": cannot be read; check name and permissions");
-  if (text.str().empty()) throw Error(ExitCode::kInput, path + ": empty file; write it again");
-  return text.str();
+  std::string text = read_text_file(path);
+  if (text.empty()) throw Error(ExitCode::kInput, path + ": empty file; write it again");
+  return text;
 }
 
 /// Words of a text file by lines, with the line number for messages.
@@ -240,8 +230,7 @@ class SourceTable {
   SourceTable(const std::string& path, const toml::table& table, const ModelScale& scale) : path_(path), table_(table), scale_(scale) {}
 
   [[noreturn]] void fail(const std::string& what, const toml::node* node = nullptr) const {
-    const auto line = (node ? node->source() : table_.source()).begin.line;
-    throw Error(ExitCode::kInput, path_ + ":" + std::to_string(line) + ": " + what);
+    throw Error(ExitCode::kInput, toml_place(path_, (node ? *node : table_).source()) + ": " + what);
   }
   bool has(const char* key) const { return table_.contains(key); }
   std::string text(const char* key) const {
@@ -376,18 +365,13 @@ SourceSpec read_source(const SourceTable& table) {
 }
 
 SourceFile read_toml(const std::string& path, const ModelScale& scale) {
-  toml::table file;
-  try {
-    file = toml::parse(read_text(path), path);
-  } catch (const toml::parse_error& e) {
-    throw Error(ExitCode::kInput, path + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
-  }
+  const toml::table file = parse_toml(path, read_text(path), ExitCode::kInput);
   SourceFile result;
   for (const auto& [key, node] : file) {
     const toml::array* list = node.as_array();
     if (key.str() != "source" || !list || !list->is_array_of_tables())
-      throw Error(ExitCode::kInput, path + ":" + std::to_string(node.source().begin.line) + ": '" + std::string(key.str()) +
-                                        "' is unknown; sources are tables [[source]]");
+      throw Error(ExitCode::kInput,
+                  toml_place(path, node.source()) + ": '" + std::string(key.str()) + "' is unknown; sources are tables [[source]]");
     for (const toml::node& item : *list) {
       const SourceTable table(path, *item.as_table(), scale);
       const toml::node* deleted = item.as_table()->get("delete");

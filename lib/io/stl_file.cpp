@@ -4,12 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <tuple>
 
 #include "base/error.h"
+#include "io/text_file.h"
 #include "mesh/adjacency.h"
 
 namespace st {
@@ -19,15 +17,6 @@ constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes of a binary file bef
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw Error(ExitCode::kInput, path + ": " + what + "; an STL file (binary or ASCII) is expected");
-}
-
-std::string read_bytes(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ExitCode::kInput, path + ": cannot be read; check name and permissions");
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
 }
 
 bool is_binary(const std::string& bytes) {
@@ -98,7 +87,7 @@ std::vector<NodeId> weld(const std::vector<Vec3>& corners, std::vector<Vec3>& no
 }  // namespace
 
 SurfaceMesh read_stl(const std::string& path) {
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = read_text_file(path);
   const std::vector<Vec3> corners = is_binary(bytes) ? binary_corners(bytes) : text_corners(path, bytes);
   if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
   for (const Vec3& x : corners)

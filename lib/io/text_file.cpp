@@ -1,11 +1,23 @@
 #include "io/text_file.h"
 
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "base/error.h"
 #include "io/temporary_file.h"
 
 namespace st {
+
+std::string read_text_file(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file.is_open() || file.bad()) throw Error(ExitCode::kInput, path + ": cannot be read; check name and permissions");
+  return std::move(text).str();
+}
 
 void write_text_file(const std::string& path, const std::string& text) {
   TemporaryFile temporary(path);

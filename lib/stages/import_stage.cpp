@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "io/artifact.h"
 #include "io/groups_file.h"
+#include "io/text_file.h"
 #include "io/triangulation_reader.h"
 #include "sizing/wing_edges.h"
 
@@ -22,11 +21,8 @@ namespace {
 constexpr int kFindingsShown = 10;
 
 std::string file_hash(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  const std::string text = bytes.str();
-  return hash_hex(text.data(), text.size());
+  const std::string bytes = read_text_file(path);
+  return hash_hex(bytes.data(), bytes.size());
 }
 
 nlohmann::json finding_json(const ImportFinding& f) {

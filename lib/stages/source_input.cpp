@@ -4,23 +4,19 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "io/text_file.h"
 
 namespace st {
 namespace {
 
 /// Reference to a file that is no artifact: name and hash of its bytes.
 InputRef file_ref(const std::string& role, const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  const std::string text = bytes.str();
+  const std::string text = read_text_file(path);
   return {role, std::filesystem::path(path).filename().string(), hash_hex(text.data(), text.size())};
 }
 

@@ -97,7 +97,7 @@ TEST(GroupsFile, without_groups_or_with_other_tables_is_refused) {
   write_bytes(dir / "single.toml", "[group]\nname = \"x\"\n");
   EXPECT_ERROR(read_groups(dir / "single.toml"), kUsage, "groups are tables [[group]]");
   EXPECT_ERROR(read_groups(dir / "none.toml"), kInput, "none.toml: cannot be read");
-  EXPECT_ERROR(read_groups(dir / "."), kInput, "cannot be read");
+  EXPECT_ERROR(read_groups(dir / "."), kInput, "is a directory");
 }
 
 TEST(GroupsFile, has_the_hash_of_its_bytes) {
