@@ -9,6 +9,7 @@
 #include "geometry/duplicate_faces.h"
 #include "geometry/half_model.h"
 #include "geometry/import_shape.h"
+#include "geometry/loop_repair.h"
 #include "geometry/model.h"
 #include "geometry/model_impl.h"
 #include "geometry/model_tables.h"
@@ -119,6 +120,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportedShape model = occt::collect_parts(file, path);
   occt::remove_duplicates(model, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options.sew), result.findings);
+  occt::rebuild_lost_loops(model, result.findings);
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);

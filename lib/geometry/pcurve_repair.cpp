@@ -3,25 +3,19 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom2dAPI_Interpolate.hxx>
-#include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <ShapeConstruct_ProjectCurveOnSurface.hxx>
 #include <Standard_Failure.hxx>
-#include <TColStd_HArray1OfReal.hxx>
-#include <TColgp_HArray1OfPnt2d.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
-#include <iterator>
-#include <map>
-#include <memory>
 
 #include "geometry/occt_evaluators.h"
+#include "geometry/pcurve_fit.h"
 
 namespace st::occt {
 namespace {
@@ -55,26 +49,6 @@ Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_sampl
     if (d > gap.distance) gap = {d, vec(p)};
   }
   return gap;
-}
-
-Handle(Geom2d_Curve) interpolated(const std::map<double, Vec2>& points) {
-  const int n = static_cast<int>(points.size());
-  Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
-  Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
-  int i = 1;
-  for (const auto& [t, uv] : points) {
-    poles->SetValue(i, {uv.x, uv.y});
-    parameters->SetValue(i++, t);
-  }
-  try {
-    Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-12);
-    maker.Perform();
-    Handle(Geom2d_Curve) curve;
-    if (maker.IsDone()) curve = maker.Curve();
-    return curve;
-  } catch (const Standard_Failure&) {
-    return {};
-  }
 }
 
 /// The multiple of `period` that brings `from` nearest to `to`.
@@ -116,37 +90,15 @@ Handle(Geom2d_Curve) projected(const Use& use) {
   }
 }
 
-/// Cubic through the projections of points of the space curve, more of them where it leaves the edge by more than `target`; null when a
-/// point has no projection near.
+/// Projected point by point from the old curve, which is near; null when a point has no projection there.
 Handle(Geom2d_Curve) resampled(const Use& use, const Handle(Geom2d_Curve) & old, double target) {
-  constexpr int kFirstPoints = 33, kMaxPoints = 1000, kRounds = 8;
   UvBounds bounds{};
   BRepTools::UVBounds(use.face, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
-  const std::unique_ptr<Surface> surface = make_surface(use.surface, bounds);
-  std::map<double, Vec2> points;
-  const auto add = [&](double t) {
-    const gp_Pnt2d guess = old->Value(t);
-    const auto uv = project_near(*surface, vec(use.curve->Value(t)), {guess.X(), guess.Y()});
-    if (uv) points[t] = *uv;
-    return uv.has_value();
+  const auto guess = [&](double t) {
+    const gp_Pnt2d uv = old->Value(t);
+    return Vec2{uv.X(), uv.Y()};
   };
-  for (int k = 0; k < kFirstPoints; ++k)
-    if (!add(use.t0 + (use.t1 - use.t0) * k / (kFirstPoints - 1))) return {};
-  Handle(Geom2d_Curve) curve;
-  for (int round = 0; round < kRounds; ++round) {
-    curve = interpolated(points);
-    if (curve.IsNull() || points.size() > kMaxPoints) return curve;
-    std::vector<double> finer;
-    for (auto p = points.begin(); std::next(p) != points.end(); ++p) {
-      const double t = 0.5 * (p->first + std::next(p)->first);
-      const gp_Pnt2d uv = curve->Value(t);
-      if (use.curve->Value(t).Distance(use.surface->Value(uv.X(), uv.Y())) > target) finer.push_back(t);
-    }
-    if (finer.empty()) break;
-    for (double t : finer)
-      if (!add(t)) return curve;
-  }
-  return curve;
+  return fit_pcurve({use.curve, use.t0, use.t1}, *make_surface(use.surface, bounds), guess, target);
 }
 
 std::string entity(int edge, int face) { return "edge " + std::to_string(edge) + " in face " + std::to_string(face); }

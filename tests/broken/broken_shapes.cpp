@@ -8,12 +8,15 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom2d_BezierCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
+#include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
@@ -112,6 +115,36 @@ TopoDS_Shape rectangle_with_side(double y, int power) {
   return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Shape();
 }
 
+/// A pin around z: radius 2, 10 long, its lower end rounded by a cubic from radius 0.8 at z = 0 to 2 at z = 1.2.
+TopoDS_Shape pin() {
+  TColgp_Array1OfPnt poles(1, 4);
+  poles(1) = gp_Pnt(0.8, 0, 0), poles(2) = gp_Pnt(1.46, 0, 0), poles(3) = gp_Pnt(2, 0, 0.54), poles(4) = gp_Pnt(2, 0, 1.2);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(0.8, 0, 0)).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
+  for (const auto& [a, b] : {std::pair{gp_Pnt(2, 0, 1.2), gp_Pnt(2, 0, 10)}, std::pair{gp_Pnt(2, 0, 10), gp_Pnt(0, 0, 10)},
+                             std::pair{gp_Pnt(0, 0, 10), gp_Pnt(0, 0, 0)}})
+    wire.Add(BRepBuilderAPI_MakeEdge(a, b).Edge());
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))).Shape();
+}
+
+TopoDS_Shape lost_fillet() {
+  const TopoDS_Shape solid = pin();
+  BRep_Builder builder;
+  for (TopExp_Explorer f(solid, TopAbs_FACE); f.More(); f.Next()) {
+    const TopoDS_Face face = TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD));
+    if (!BRep_Tool::Surface(face)->IsKind(STANDARD_TYPE(Geom_SurfaceOfRevolution))) continue;
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+      double t0, t1;
+      const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+      if (BRep_Tool::IsClosed(edge, face)) continue;
+      const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+      builder.UpdateEdge(edge, Handle(Geom2d_Curve)::DownCast(old->Translated(gp_Vec2d(3.14, 0))), face, 1e-7);
+    }
+    for (TopExp_Explorer v(face, TopAbs_VERTEX); v.More(); v.Next()) builder.UpdateVertex(TopoDS::Vertex(v.Current()), 1.0);
+  }
+  return solid;
+}
+
 TopoDS_Shape bare_sphere() {
   TopoDS_Face face;
   BRep_Builder().MakeFace(face, new Geom_SphericalSurface(gp_Ax3(), 10), 1e-7);
@@ -150,6 +183,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        [] {
          return polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 0.0001, 0}, {10, 10, 0}, {0, 10, 0}});
        }},
+      {"lost_fillet", lost_fillet},
       {"bare_sphere", bare_sphere},
       {"speeds",
        [] {

@@ -14,6 +14,8 @@ namespace st::test {
 ///   lone_sphere      the face of a sphere of radius 10, in no shell
 ///   nested_shells    shells of boxes of 60, 40 and 20 around one centre, no solid
 ///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
+///   lost_fillet      a pin of radius 2 whose rounded end (a surface of revolution, radius 1.2) has its circles half a turn away in (u,v), vertices
+///                    of tolerance 1
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
 ///   sliver           a plane face of 100 x 0.001
 ///   flat             a plane face without area: three sides on one line

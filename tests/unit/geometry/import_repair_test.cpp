@@ -119,6 +119,30 @@ TEST(ImportRepair, projects_a_trimming_curve_that_leaves_its_edge) {
   for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-5);
 }
 
+/// Volume of the pin of broken_shapes.cpp: its rounded end by Simpson's rule along the cubic, its shaft.
+double pin_volume() {
+  constexpr int n = 2000;
+  double end = 0;
+  for (int k = 0; k < n; ++k) {
+    const auto radius = [](double t) { return 0.8 + 1.98 * t - 0.36 * t * t - 0.42 * t * t * t; };
+    const auto height = [](double t) { return 1.62 * t * t - 0.42 * t * t * t; };
+    const double a = double(k) / n, b = double(k + 1) / n, r = radius(0.5 * (a + b));
+    end += kPi * r * r * (height(b) - height(a));
+  }
+  return end + kPi * 4 * 8.8;
+}
+
+TEST(ImportRepair, makes_loops_anew_that_are_elsewhere_on_the_surface) {
+  const ImportResult r = import_broken("lost_fillet");
+  const auto found = findings_of(r, "loops made anew from their edges");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.volume, pin_volume(), 1e-4);
+  const Model model(r.tables, r.brep);
+  for (FaceId f = 0; f < r.tables.n_faces(); ++f) EXPECT_LE(largest_gap(model, f), 1e-6) << f;
+  for (double tolerance : r.tables.vertex_tolerance) EXPECT_LE(tolerance, 1e-5);
+}
+
 TEST(ImportRepair, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at_different_speeds) {
   const ImportResult r = import_broken("speeds");
   EXPECT_EQ(r.n_free_edges, 6);
