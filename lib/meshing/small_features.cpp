@@ -36,15 +36,15 @@ class EdgeMerger {
   }
 
   std::vector<EdgeId> run() {
-    std::vector<EdgeId> candidates, merged;
+    std::vector<EdgeId> candidates;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (!t_.edge_is_degenerate[e] && t_.edge_length[e] < below_ * field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_))
         candidates.push_back(e);
     std::stable_sort(candidates.begin(), candidates.end(), [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
     for (const EdgeId e : candidates)
-      if (try_merge(e)) merged.push_back(e);
-    std::sort(merged.begin(), merged.end());
-    return merged;
+      if (!std::count(merged_.begin(), merged_.end(), e)) merge(e);
+    std::sort(merged_.begin(), merged_.end());
+    return merged_;
   }
 
  private:
@@ -63,33 +63,54 @@ class EdgeMerger {
         if (!t_.edge_is_degenerate[e]) at_vertex_[t_.edge_vertices[2 * e + k]].push_back(e);
   }
 
-  bool try_merge(EdgeId e) {
+  void merge(EdgeId e) {
     const VertexId a = sets_.root(t_.edge_vertices[2 * e]), b = sets_.root(t_.edge_vertices[2 * e + 1]);
-    if (a == b) return false;
-    std::vector<LoopId> loops = loops_[e];
-    std::sort(loops.begin(), loops.end());
-    if (std::adjacent_find(loops.begin(), loops.end()) != loops.end()) return false;  // a seam
-    for (const LoopId l : loops)
-      if (n_long_[l] < 3) return false;
+    if (a == b) {
+      if (is_point(e)) leave_out({e});
+      return;
+    }
     Box3 both = cluster_[a];
     both.add(cluster_[b]);
     const double limit = below_ * field_.size(both.center(), hint_);
-    if (both.diagonal() > limit || joins_short(a, b, e, 3 * limit)) return false;
+    const std::vector<EdgeId> edges = short_edges_between(a, b, e, 3 * limit);
+    const bool are_points = std::all_of(edges.begin(), edges.end(), [&](EdgeId k) { return is_point(k); });
+    if (both.diagonal() > limit || (edges.size() > 1 && !are_points) || !leave_out(edges)) return;
     sets_.unite(a, b);
     cluster_[std::min(a, b)] = both;
     auto &to = at_vertex_[std::min(a, b)], &from = at_vertex_[std::max(a, b)];
     to.insert(to.end(), from.begin(), from.end());
+  }
+
+  /// No longer than its vertices are exact.
+  bool is_point(EdgeId e) const {
+    const auto tolerance = [&](int k) { return t_.vertex_tolerance[t_.edge_vertices[2 * e + k]]; };
+    return t_.edge_length[e] <= std::max(tolerance(0), tolerance(1));
+  }
+
+  /// Merges the edges if none is a seam and each of their loops keeps two others.
+  bool leave_out(const std::vector<EdgeId>& edges) {
+    std::vector<LoopId> loops;
+    for (const EdgeId e : edges) {
+      std::vector<LoopId> own = loops_[e];
+      std::sort(own.begin(), own.end());
+      if (std::adjacent_find(own.begin(), own.end()) != own.end()) return false;
+      loops.insert(loops.end(), own.begin(), own.end());
+    }
+    for (const LoopId l : loops)
+      if (n_long_[l] < 2 + std::count(loops.begin(), loops.end(), l)) return false;
     for (const LoopId l : loops) --n_long_[l];
+    merged_.insert(merged_.end(), edges.begin(), edges.end());
     return true;
   }
 
-  /// Another edge between the two that is too short to be a loop of its own.
-  bool joins_short(VertexId a, VertexId b, EdgeId except, double limit) const {
-    for (const EdgeId e : at_vertex_[a]) {
-      const VertexId p = sets_.root(t_.edge_vertices[2 * e]), q = sets_.root(t_.edge_vertices[2 * e + 1]);
-      if (e != except && ((p == a && q == b) || (p == b && q == a)) && t_.edge_length[e] < limit) return true;
+  /// `e` and the others between the two that are too short to be a loop of their own with it.
+  std::vector<EdgeId> short_edges_between(VertexId a, VertexId b, EdgeId e, double limit) const {
+    std::vector<EdgeId> edges = {e};
+    for (const EdgeId k : at_vertex_[a]) {
+      const VertexId p = sets_.root(t_.edge_vertices[2 * k]), q = sets_.root(t_.edge_vertices[2 * k + 1]);
+      if (k != e && ((p == a && q == b) || (p == b && q == a)) && t_.edge_length[k] < limit) edges.push_back(k);
     }
-    return false;
+    return edges;
   }
 
   const ModelTables& t_;
@@ -100,11 +121,12 @@ class EdgeMerger {
   std::vector<Box3> cluster_;               // of each set, at its root
   std::vector<std::vector<LoopId>> loops_;  // of each edge
   std::vector<int> n_long_;                 // edges left in each loop
+  std::vector<EdgeId> merged_;
   std::vector<std::vector<EdgeId>> at_vertex_;
 };
 
-/// Chooses strips that may be closed: no edge belongs to two of them, no neighbour is a strip itself (the part is a needle), and the faces on both sides are two that do not already share an edge
-/// at its ends, or triangles in that corner would be the same in both.
+/// Chooses strips that may be closed: no edge belongs to two of them, no neighbour is a strip itself (the part is a needle), and the faces
+/// on both sides are two that do not already share an edge at its ends, or triangles in that corner would be the same in both.
 class StripMerger {
  public:
   StripMerger(const ModelTables& t, const std::vector<EdgeId>& merged_edges) : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0) {
@@ -117,9 +139,7 @@ class StripMerger {
 
   /// `narrow` [by face] all strips that might be closed.
   bool may_close(const Strip& strip, const std::vector<Strip>& narrow) {
-    const auto is_narrow = [&](FaceId f) {
-      return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
-    };
+    const auto is_narrow = [&](FaceId f) { return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; }); };
     const FaceId a = other_face(strip.edges[0], strip.face), b = other_face(strip.edges[1], strip.face);
     if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
     for (const EdgeId e : strip.edges)

@@ -15,10 +15,13 @@ namespace st {
 namespace {
 
 constexpr std::int32_t kEdgesPerTask = 24;
-constexpr double kLoopFloor = 1.0 / 16;       // of the requested length: refinement of loops, folds and narrow parts ends there
-constexpr double kCrossingFloor = 1.0 / 8;    // likewise for crossing facets
+// of the requested length, where refinements end
+constexpr double kLoopFloor = 1.0 / 16;           // of loops, folds and narrow parts
+constexpr double kCrossingFloor = 1.0 / 8;        // of crossing facets
+constexpr double kFewCrossingsFloor = 1.0 / 64;   // likewise where few cross
+constexpr std::size_t kFewCrossings = 200;        // places
 constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed in one round
-constexpr double kWorthwhile = 0.95;           // of the present length: a refinement that asks for more than this is no change
+constexpr double kWorthwhile = 0.95;              // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
   std::vector<std::int32_t> order(weight.size());
@@ -66,7 +69,8 @@ double box_distance(const Box3& b, Vec3 p) {
 }
 
 /// A face's mesh as a patch: boundary nodes once each, triangles out of the solid.
-FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh, const BoundaryNumbering& numbering) {
+FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
+                     const BoundaryNumbering& numbering) {
   FacePatch patch;
   patch.face = face;
   const std::int32_t n_local = static_cast<std::int32_t>(boundary.nodes.size());
@@ -199,20 +203,23 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     timer = Timer();
     wanted = find_crossings();
     times.crossing += timer.seconds();
-    if (n_crossing_rounds++ >= options_.max_crossing_rounds || !accept(wanted, kCrossingFloor, dirty_edges, dirty_faces)) break;
+    const bool are_few = wanted.size() <= kFewCrossings;
+    const int max_crossing_rounds = are_few ? options_.max_few_crossings_rounds : options_.max_crossing_rounds;
+    const double floor = are_few ? kFewCrossingsFloor : kCrossingFloor;
+    if (n_crossing_rounds++ >= max_crossing_rounds || !accept(wanted, floor, dirty_edges, dirty_faces)) break;
   }
   if (!comm_.is_root()) return;
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     folds.insert(folds.end(), face_fold_places_[f].begin(), face_fold_places_[f].end());
-    if (!face_cause_[f].empty())
-      failures.push_back({f, face_cause_[f], remedy_of(face_cause_[f]), face_cause_xyz_[f]});
+    if (!face_cause_[f].empty()) failures.push_back({f, face_cause_[f], remedy_of(face_cause_[f]), face_cause_xyz_[f]});
   }
   for (auto& [f, failed] : failed_faces_) failed_faces.push_back(std::move(failed));
 }
 
 double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
 
-/// New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none changes anything.
+/// New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none changes
+/// anything.
 bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges,
                          std::vector<FaceId>& dirty_faces) {
   const ModelTables& t = tables_;

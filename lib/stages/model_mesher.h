@@ -22,6 +22,7 @@ struct ModelMesherOptions {
   double max_turning_deg = 30;      ///< of a CAD edge along one segment
   int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
   int max_crossing_rounds = 4;      ///< refinements of crossing facets
+  int max_few_crossings_rounds = 10;  ///< likewise where few are left
   double merge_below = 0.05;        ///< of the requested length: shorter edges and narrower strips are merged for meshing; 0: none
   const MergedFeatures* merged = nullptr;   ///< of an earlier mesh: taken over instead of looking for them
 };

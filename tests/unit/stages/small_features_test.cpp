@@ -98,6 +98,42 @@ TEST(SmallFeatures, a_plate_thinner_than_the_bound_keeps_its_two_sides) {
   EXPECT_EQ(m.n_closed(), 2u) << "closing neighbouring rims would give both sides the same triangles in the corners";
 }
 
+/// Edges of a box that share no face, as if each were `length` long between the first vertex of the first and `end`.
+MergedFeatures merged_edges_of_box(double length, bool is_closed) {
+  const Model box = test::make_model("box");
+  ModelTables t = box.tables();
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  const auto is_apart = [&](EdgeId e) {
+    for (int i = 0; i < 2; ++i)
+      for (int k = 0; k < 2; ++k)
+        if (faces[offsets[e] + i] == faces[offsets[0] + k]) return false;
+    return true;
+  };
+  EdgeId other = 1;
+  while (!is_apart(other)) ++other;
+  for (const EdgeId e : {0, other}) {
+    t.edge_vertices[2 * e] = t.edge_vertices[0];
+    t.edge_vertices[2 * e + 1] = t.edge_vertices[is_closed ? 0 : 1];
+    t.edge_length[e] = length;
+  }
+  t.vertex_xyz[t.edge_vertices[1]] = t.vertex_xyz[t.edge_vertices[0]] + Vec3{length, 0, 0};
+  t.vertex_tolerance.assign(t.n_vertices(), 1e-6);
+  return find_merged_features(Model(t, box.brep()), UniformField(1), 0.05);
+}
+
+TEST(SmallFeatures, edges_shorter_than_their_vertices_are_exact_are_merged_even_where_they_close_on_themselves) {
+  EXPECT_EQ(merged_edges_of_box(1e-7, true).edge.size(), 2u)
+      << "a hole touches the rim: both loops run through an edge from a vertex to itself";
+  EXPECT_EQ(merged_edges_of_box(1e-7, false).edge.size(), 2u) << "likewise between two vertices";
+}
+
+TEST(SmallFeatures, short_edges_that_form_a_ring_are_kept) {
+  EXPECT_TRUE(merged_edges_of_box(1e-3, true).edge.empty());
+  EXPECT_TRUE(merged_edges_of_box(1e-3, false).edge.empty()) << "a tube as narrow as that would be cut in two";
+}
+
 TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
   const Model model = test::make_model("box");
   MergedFeatures merged;
