@@ -1,11 +1,9 @@
 #include "geometry/edit_model.h"
 
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRep_Builder.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "geometry/compound.h"
 #include "geometry/model_impl.h"
 #include "geometry/model_tables.h"
 
@@ -20,14 +19,6 @@ namespace st {
 namespace {
 
 constexpr double kSameAngle = 1e-9;  // of a map's rows: lengths alike, right angles
-
-TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& s : shapes) builder.Add(compound, s);
-  return compound;
-}
 
 /// `values[ids[i]]` for each i, in rows of `n_columns`.
 template <class T>
@@ -229,7 +220,7 @@ SubModel extract(const Model& model, std::span<const FaceId> wanted) {
   std::vector<FaceId> faces = checked(t, wanted);
   std::vector<TopoDS_Shape> shapes;
   for (const FaceId f : faces) shapes.push_back(whole.faces(f + 1).Oriented(t.face_is_reversed[f] ? TopAbs_REVERSED : TopAbs_FORWARD));
-  const TopoDS_Compound part = compound_of(shapes);
+  const TopoDS_Compound part = occt::compound_of(shapes);
   std::vector<EdgeId> edges = ids_of(part, TopAbs_EDGE, whole.edges);
   std::vector<VertexId> vertices = vertex_ids(part, edges, t, whole);
   ModelTables out;
@@ -295,7 +286,7 @@ Model append(const Model& first, const Model& second) {
   t.volume = first.tables().volume && s.volume ? std::optional(*first.tables().volume + *s.volume) : std::nullopt;
   // from bytes: shapes that both models share would count once
   const Model copy(s, second.brep());
-  return Model(std::move(t), occt::brep_bytes(compound_of({ModelEditor::brep(first).shape, ModelEditor::brep(copy).shape})));
+  return Model(std::move(t), occt::brep_bytes(occt::compound_of({ModelEditor::brep(first).shape, ModelEditor::brep(copy).shape})));
 }
 
 }  // namespace st

@@ -29,6 +29,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "geometry/compound.h"
 
 namespace st::occt {
 namespace {
@@ -86,12 +87,8 @@ bool is_in_plane(const TopoDS_Face& face, const Cut& cut) {
 }
 
 std::vector<TopoDS_Edge> free_edges(const Faces& faces) {
-  TopoDS_Compound all;
-  BRep_Builder builder;
-  builder.MakeCompound(all);
-  for (const TopoDS_Face& f : faces) builder.Add(all, f);
   TopTools_IndexedMapOfShape edges;
-  const std::vector<int> uses = edge_uses(all, edges);
+  const std::vector<int> uses = edge_uses(compound_of(faces), edges);
   std::vector<TopoDS_Edge> result;
   for (int i = 0; i < edges.Extent(); ++i)
     if (const TopoDS_Edge e = TopoDS::Edge(edges(i + 1)); uses[i] == 1 && !BRep_Tool::Degenerated(e)) result.push_back(e);
@@ -132,11 +129,7 @@ void cut_model(ImportedShape& model, const Cut& cut, const Box3& box, const std:
     if (common.IsDeleted(face)) return {};
     const TopTools_ListOfShape& pieces = common.Modified(face);
     if (pieces.IsEmpty()) return face;
-    TopoDS_Compound all;
-    BRep_Builder builder;
-    builder.MakeCompound(all);
-    for (const TopoDS_Shape& piece : pieces) builder.Add(all, piece);
-    return all;
+    return compound_of(pieces);
   };
   if (!common.IsDone() || common.HasErrors() || !model.replace(common.Shape(), image))
     throw Error(ExitCode::kGeometry, path + ": OpenCASCADE cannot cut the model at the symmetry plane; cut it in the CAD system");
@@ -330,14 +323,6 @@ TopoDS_Shape fluid_of(const std::vector<TopoDS_Shape>& shells, const TopoDS_Face
   return solid;
 }
 
-TopoDS_Shape body_of(const std::vector<TopoDS_Shape>& shells) {
-  TopoDS_Compound body;
-  BRep_Builder builder;
-  builder.MakeCompound(body);
-  for (const TopoDS_Shape& shell : shells) builder.Add(body, shell);
-  return body;
-}
-
 /// Faces of the body in the order of their ids: with a far field not those of cavities inside a solid, which no flow reaches.
 Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool leave_cavities, std::vector<ImportFinding>& findings) {
   TopTools_IndexedMapOfShape cavities;
@@ -397,7 +382,7 @@ void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, co
   faces.insert(faces.end(), symmetry.begin(), symmetry.end());
   faces.insert(faces.end(), outer.begin(), outer.end());
   const std::vector<TopoDS_Shape> shells = shells_of(faces);
-  take(model, far ? fluid_of(shells, outer.front()) : body_of(shells), symmetry, outer);
+  take(model, far ? fluid_of(shells, outer.front()) : TopoDS_Shape(compound_of(shells)), symmetry, outer);
 }
 
 }  // namespace st::occt

@@ -20,7 +20,6 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
@@ -54,7 +53,6 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -67,6 +65,8 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "geometry/compound.h"
 
 namespace st::test {
 namespace {
@@ -83,14 +83,6 @@ TopoDS_Shape moved(const TopoDS_Shape& shape, double x, double y, double z) {
   gp_Trsf shift;
   shift.SetTranslation(gp_Vec(x, y, z));
   return shape.Moved(TopLoc_Location(shift));
-}
-
-TopoDS_Shape compound(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound c;
-  BRep_Builder builder;
-  builder.MakeCompound(c);
-  for (const TopoDS_Shape& s : shapes) builder.Add(c, s);
-  return c;
 }
 
 TopoDS_Wire circle(double radius, bool reversed) {
@@ -331,7 +323,7 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"two_boxes",
        [] {
-         return compound({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});
+         return occt::compound_of({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});
        }},
       {"square", [] { return rectangle(10, 10); }},
       {"disc", disc},
@@ -369,7 +361,7 @@ const std::map<std::string, Factory>& factories() {
       {"revolution", [] { return face_of(new Geom_SurfaceOfRevolution(wavy_curve(), gp::OZ()), 0, 2.5, 0, 1); }},
       {"extrusion", [] { return face_of(new Geom_SurfaceOfLinearExtrusion(wavy_curve(), gp_Dir(0.2, 1, 0)), 0, 1, -2, 7); }},
       {"offset", [] { return face_of(new Geom_OffsetSurface(wave(6, 6, 3, 3, false), 0.25), 0.1, 2.9, 0.1, 1.9); }},
-      {"loose_box", [] { return compound(loose_faces()); }},
+      {"loose_box", [] { return occt::compound_of(loose_faces()); }},
       {"wire", [] { return circle(10, false); }},
       {"t_junction", t_junction},
   };
