@@ -185,9 +185,12 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
     return std::tuple(component[n], p.x, p.y, p.z);
   };
   std::sort(order.begin(), order.end(), [&](NodeId a, NodeId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  const auto is_vertex = [&](NodeId n) {
+    return !mesh.node_entity_dim.empty() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex);
+  };
   std::vector<NodeId> found;
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i]) == key(order[i - 1])) found.push_back(order[i]);
+    if (key(order[i]) == key(order[i - 1]) && !(is_vertex(order[i]) && is_vertex(order[i - 1]))) found.push_back(order[i]);
   std::sort(found.begin(), found.end());
   for (std::size_t i = 0; i < found.size(); ++i)
     duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
@@ -205,13 +208,14 @@ ShapeReport check_shape(const SurfaceMesh& mesh) {
   return r;
 }
 
-CrossingReport check_crossings(const SurfaceMesh& mesh) {
+CrossingReport check_crossings(const SurfaceMesh& mesh, const std::function<bool(const TrianglePair&)>& is_cad_contact) {
   CrossingReport r;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
     const bool is_contact = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
-    Defects& kind = is_contact ? r.contacts : p.n_shared ? r.overlapping_neighbours : r.crossings;
+    const bool is_own = !is_contact && is_cad_contact && is_cad_contact(p);
+    Defects& kind = is_contact ? r.contacts : is_own ? r.cad_contacts : p.n_shared ? r.overlapping_neighbours : r.crossings;
     kind.add({centroid(mesh, p.a), mesh.triangle_face[p.a], mesh.triangle_face[p.b]});
   }
   return r;

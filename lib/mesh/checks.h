@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "mesh/crossing.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -74,7 +76,7 @@ MeshMeasure measure_mesh(const SurfaceMesh& mesh);
 /// Where nodes and triangles lie.
 struct ShapeReport {
   Defects zero_area;        ///< three different nodes exactly on a line
-  Defects duplicate_nodes;  ///< nodes of one component at the coordinates of an earlier one
+  Defects duplicate_nodes;  ///< nodes of one component at the coordinates of an earlier one, CAD vertices both apart
   Defects folds;            ///< edges between triangles of one CAD face that turn back on each other (kFoldCosine)
   bool passes() const { return zero_area.count == 0 && duplicate_nodes.count == 0 && folds.count == 0; }
 };
@@ -87,10 +89,12 @@ struct CrossingReport {
   Defects crossings;               ///< pairs within one component without a common node that have a point in common
   Defects overlapping_neighbours;  ///< pairs with one or two common nodes that have more in common than these
   Defects contacts;                ///< pairs of different components that have a point in common: parts in contact, no defect
+  Defects cad_contacts;            ///< pairs of crossings and overlapping neighbours where the CAD touches itself
   bool passes() const { return crossings.count == 0 && overlapping_neighbours.count == 0; }
 };
 
-/// Local, n log n; a second per million triangles.
-CrossingReport check_crossings(const SurfaceMesh& mesh);
+/// Local, n log n; a second per million triangles. `is_cad_contact` says of a pair of one component that the CAD touches itself there; it
+/// is asked in the order of the pairs. Empty: never.
+CrossingReport check_crossings(const SurfaceMesh& mesh, const std::function<bool(const TrianglePair&)>& is_cad_contact = {});
 
 }  // namespace st

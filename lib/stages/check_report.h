@@ -32,6 +32,7 @@ struct Findings {
   TopologyReport topology;
   ShapeReport shape;
   CrossingReport crossings;
+  std::string crossing_note;  ///< whose crossings they are, empty when nothing is known
   MeshMeasure measure;
   QualityReport quality;
   std::optional<ConformityReport> conformity;  ///< with a sizing

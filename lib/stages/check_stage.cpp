@@ -16,6 +16,7 @@
 #include "io/sizing_artifact.h"
 #include "io/text_file.h"
 #include "io/triangulation_reader.h"
+#include "stages/cad_contacts.h"
 #include "stages/check_report.h"
 #include "stages/foreign_mesh.h"
 
@@ -150,32 +151,50 @@ Check check_cad_volume(const TopologyReport& topology, const MeshMeasure& measur
   return c;
 }
 
+/// Crossings, those apart where the CAD touches itself; how many of the others are the CAD's own.
+void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, Findings& f) {
+  if (!cad) {
+    f.crossings = check_crossings(mesh);
+    return;
+  }
+  CadContacts contacts(cad->model, mesh);
+  std::int64_t n_cad = 0;
+  f.crossings = check_crossings(mesh, [&](const TrianglePair& pair) {
+    if (contacts.touches(pair)) return true;
+    n_cad += contacts.crosses(pair);
+    return false;
+  });
+  if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
+}
+
 void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const CheckThresholds& allow, Findings& f) {
   const SurfaceMesh& mesh = artifact.mesh;
   f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
   f.shape = check_shape(mesh);
-  f.crossings = check_crossings(mesh);
+  check_crossings_and_contacts(mesh, cad, f);
   f.measure = measure_mesh(mesh);
   f.quality = measure_quality(mesh);
   const std::string open =
       f.topology.n_cad_boundary_edges ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges) : "";
   const std::string nonmanifold =
       f.topology.n_cad_nonmanifold_edges ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges) : "";
-  f.checks = {check_complete(artifact),
-              {"closed", "open edges", f.topology.boundary_edges, true, open},
-              {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
-              {"oriented", "misoriented edges", f.topology.misoriented_edges, true, ""},
-              {"repeated-nodes", "triangles that name a node twice", f.topology.repeated_nodes, true, ""},
-              {"zero-area", "triangles without area", f.shape.zero_area, true, ""},
-              {"duplicate-triangles", "triangles present twice", f.topology.duplicate_triangles, true, ""},
-              {"duplicate-nodes", "nodes at the place of another", f.shape.duplicate_nodes, true, ""},
-              {"folds", "folds", f.shape.folds, true, "", allow.max_folds},
-              {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, "", allow.max_crossings},
-              {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, "",
-               std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
-              {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
-              {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
-              check_volume(f.topology, f.measure)};
+  f.checks = {
+      check_complete(artifact),
+      {"closed", "open edges", f.topology.boundary_edges, true, open},
+      {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
+      {"oriented", "misoriented edges", f.topology.misoriented_edges, true, ""},
+      {"repeated-nodes", "triangles that name a node twice", f.topology.repeated_nodes, true, ""},
+      {"zero-area", "triangles without area", f.shape.zero_area, true, ""},
+      {"duplicate-triangles", "triangles present twice", f.topology.duplicate_triangles, true, ""},
+      {"duplicate-nodes", "nodes at the place of another", f.shape.duplicate_nodes, true, ""},
+      {"folds", "folds", f.shape.folds, true, "", allow.max_folds},
+      {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
+      {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, "",
+       std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
+      {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
+      {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself", f.crossings.cad_contacts, false, ""},
+      {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
+      check_volume(f.topology, f.measure)};
 }
 
 void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tolerance, Findings& f) {
@@ -289,7 +308,8 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
     artifact = read_mesh(o.mesh);
     cad = read_cad(o, artifact.header);
   } else if (o.geometry.empty()) {
-    if (!o.sizing.empty()) throw Error(ExitCode::kUsage, fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
+    if (!o.sizing.empty())
+      throw Error(ExitCode::kUsage, fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
     artifact.mesh = read_triangulation(o.mesh);
   } else {
     GeometryArtifact geometry = read_geometry(o.geometry);

@@ -1,0 +1,124 @@
+// Model::contacts(): where two faces meet although they share nothing there.
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Section.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
+#include <GeomLProp_SLProps.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <cmath>
+
+#include "geometry/import_shape.h"
+#include "geometry/model.h"
+#include "geometry/model_impl.h"
+
+namespace st {
+namespace {
+
+constexpr int kSamples = 33;
+constexpr double kTangent = 0.9998;  // cosine of 1 degree: the faces touch, they do not cross
+
+/// Edges and vertices as one shape to measure distances to; null when there is none.
+TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  if (shapes.empty()) return {};
+  TopoDS_Compound result;
+  BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (const TopoDS_Shape& s : shapes) builder.Add(result, s);
+  return result;
+}
+
+std::vector<TopoDS_Shape> subshapes(const TopoDS_Shape& face, TopAbs_ShapeEnum type) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(face, type, map);
+  std::vector<TopoDS_Shape> result;
+  for (int i = 1; i <= map.Extent(); ++i)
+    if (type != TopAbs_EDGE || !BRep_Tool::Degenerated(TopoDS::Edge(map(i)))) result.push_back(map(i));
+  return result;
+}
+
+/// What both faces have: edges and vertices.
+TopoDS_Shape shared_by(const TopoDS_Shape& a, const TopoDS_Shape& b) {
+  std::vector<TopoDS_Shape> shared;
+  for (const TopAbs_ShapeEnum type : {TopAbs_EDGE, TopAbs_VERTEX})
+    for (const TopoDS_Shape& s : subshapes(a, type))
+      for (const TopoDS_Shape& t : subshapes(b, type))
+        if (s.IsSame(t)) shared.push_back(s);
+  return compound_of(shared);
+}
+
+double distance_to(const TopoDS_Shape& shape, const gp_Pnt& p) {
+  if (shape.IsNull()) return 1e300;
+  const BRepExtrema_DistShapeShape d(BRepBuilderAPI_MakeVertex(p).Vertex(), shape);
+  return d.IsDone() ? d.Value() : 1e300;
+}
+
+gp_Vec normal_at(const TopoDS_Face& face, const gp_Pnt& p) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  GeomAPI_ProjectPointOnSurf foot(p, surface);
+  if (foot.NbPoints() == 0) return {};
+  double u, v;
+  foot.LowerDistanceParameters(u, v);
+  GeomLProp_SLProps properties(surface, u, v, 1, 1e-12);
+  return properties.IsNormalDefined() ? gp_Vec(properties.Normal()) : gp_Vec();
+}
+
+/// Both faces go on beyond the curve, and not the same way.
+bool passes_through(const TopoDS_Face& a, const TopoDS_Face& b, const gp_Pnt& p, double tolerance) {
+  if (distance_to(compound_of(subshapes(a, TopAbs_EDGE)), p) <= tolerance) return false;
+  if (distance_to(compound_of(subshapes(b, TopAbs_EDGE)), p) <= tolerance) return false;
+  return std::abs(normal_at(a, p).Dot(normal_at(b, p))) < kTangent;
+}
+
+/// The pieces of a section curve that keep away from what the faces share.
+void add_pieces(const TopoDS_Edge& edge, const TopoDS_Shape& shared, double tolerance, FaceContact contact,
+                std::vector<FaceContact>& result) {
+  const BRepAdaptor_Curve curve(edge);
+  const double t0 = curve.FirstParameter(), t1 = curve.LastParameter();
+  const auto finish = [&] {
+    if (!contact.points.empty()) result.push_back(contact);
+    contact.points.clear();
+  };
+  for (int k = 0; k < kSamples; ++k) {
+    const gp_Pnt p = curve.Value(t0 + (t1 - t0) * k / (kSamples - 1));
+    if (distance_to(shared, p) > tolerance)
+      contact.points.push_back(occt::vec(p));
+    else
+      finish();
+  }
+  finish();
+}
+
+}  // namespace
+
+std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
+  const TopoDS_Face a = TopoDS::Face(impl_->faces(first + 1)), b = TopoDS::Face(impl_->faces(second + 1));
+  const double tolerance = std::max({1e-6 * tables_.box().diagonal(), occt::max_edge_tolerance(a), occt::max_edge_tolerance(b)});
+  std::vector<FaceContact> result;
+  try {
+    BRepAlgoAPI_Section section(a, b, false);
+    section.Approximation(false);
+    section.Build();
+    if (!section.IsDone()) return {};
+    const TopoDS_Shape shared = shared_by(a, b);
+    for (TopExp_Explorer e(section.Shape(), TopAbs_EDGE); e.More(); e.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+      const BRepAdaptor_Curve curve(edge);
+      const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+      add_pieces(edge, shared, tolerance, {{}, passes_through(a, b, middle, tolerance)}, result);
+    }
+    for (TopExp_Explorer v(section.Shape(), TopAbs_VERTEX, TopAbs_EDGE); v.More(); v.Next())
+      if (const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(v.Current())); distance_to(shared, p) > tolerance)
+        result.push_back({{occt::vec(p)}, false});
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+  return result;
+}
+
+}  // namespace st
