@@ -64,6 +64,20 @@ TEST(Checks, know_genus_components_volume_and_area) {
   EXPECT_NEAR(measure_mesh(shapes::sphere(60)).volume, 4 * kPi / 3, 0.005);
 }
 
+TEST(Checks, count_a_lone_triangle_as_one_component) {
+  const TopologyReport t = check_topology(shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}));
+  EXPECT_EQ(t.n_components, 1);
+  EXPECT_EQ(t.euler, 1);
+}
+
+TEST(Checks, do_not_let_a_triangle_that_names_a_node_twice_change_the_genus) {
+  SurfaceMesh m = shapes::sphere(4);
+  m.triangles.push_back({{0, 0, 1}});
+  m = shapes::from(m.node_xyz, m.triangles);
+  EXPECT_EQ(check_topology(m).euler, 2);
+  EXPECT_EQ(check_topology(m).genus, 0);
+}
+
 TEST(Checks, find_a_hole_and_its_place) {
   SurfaceMesh m = shapes::cube(4);
   remove_triangle(m, 0);
@@ -200,6 +214,13 @@ TEST(Checks, do_not_take_a_sharp_seam_for_a_fold) {
   EXPECT_EQ(check_shape(m).folds.count, 1);
 }
 
+TEST(Checks, do_not_take_a_sharp_seam_that_ends_at_a_pole_for_a_fold) {
+  SurfaceMesh m = shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
+  m.node_entity_dim = {0, 1, 2, 2};
+  m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {0, 0}, {1, 1}, {0.6, 0.5}};  // node 0 has one (u,v) on both sides
+  EXPECT_EQ(check_shape(m).folds.count, 0);
+}
+
 TEST(Checks, find_crossing_triangles_within_one_part) {
   SurfaceMesh m = shapes::cube(8);
   m.node_xyz[node_at(m, {0.5, 0.5, 1})].z = -0.2;  // a spike through the opposite side
@@ -259,6 +280,16 @@ TEST(Checks, allow_open_and_nonmanifold_edges_only_where_the_cad_has_them) {
   open = {1, 0, 1, 1};
   EXPECT_EQ(find_all(m, {edge_vertices, open, {}}), (Found{{"boundary", 1}}));
   EXPECT_EQ(find_all(m), (Found{{"boundary", 5}}));
+}
+
+TEST(Checks, do_not_allow_a_hole_between_two_open_edges_of_the_cad) {
+  // A square cut off at a corner: nodes 3 and 4 lie inside the open edges 1 and 2, but nothing of the CAD runs from one to the other.
+  SurfaceMesh m = shapes::from({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 1, 0}, {1, 2, 0}}, {{{0, 1, 3}}, {{0, 3, 4}}, {{0, 4, 2}}});
+  m.node_entity_dim = {0, 0, 0, 1, 1};
+  m.node_entity = {0, 1, 3, 1, 2};
+  const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 0};
+  const std::vector<std::uint8_t> open{1, 1, 1, 1};
+  EXPECT_EQ(find_all(m, {edge_vertices, open, {}}), (Found{{"boundary", 1}}));
 }
 
 TEST(Checks, give_at_most_ten_places) {

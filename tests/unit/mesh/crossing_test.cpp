@@ -63,6 +63,13 @@ TEST(Crossing, of_triangles_with_one_common_node_needs_a_second_common_point) {
   EXPECT_FALSE(crosses({{0, 6, 7}})) << "same plane, other side of the node";
 }
 
+TEST(Crossing, of_flat_triangles_with_one_common_node_sees_a_narrow_angle_in_a_wide_one) {
+  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 1, 0}, {1, 4, 0}};
+  const Triangle wide{{0, 1, 2}}, narrow{{0, 3, 4}};
+  EXPECT_EQ(find_crossing_triangles(points, std::vector<Triangle>{wide, narrow}).size(), 1u);
+  EXPECT_EQ(find_crossing_triangles(points, std::vector<Triangle>{narrow, wide}).size(), 1u);
+}
+
 TEST(Crossing, of_triangles_with_a_common_edge_means_folded_flat) {
   const std::vector<Vec3> points{{0, 0, 0}, {4, 1, 3}, {0, 4, 1}, {1, 1.25, 1}, {4, -3, 2}, {0, 4, 1.5}};
   const auto crosses = [&](Triangle t) { return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty(); };

@@ -70,6 +70,19 @@ TEST(Merge, welds_by_ids_and_never_by_coordinates) {
   EXPECT_EQ(c.merge().n_nodes(), 26);
 }
 
+TEST(Merge, gives_a_vertex_the_request_of_the_edge_of_lowest_id_at_the_end_that_is_there) {
+  CubePatches c;
+  for (std::size_t i = 0; i < c.edges.node_xyz.size(); ++i) c.edges.node_request.push_back(100 + static_cast<double>(i));
+  const SurfaceMesh m = c.merge();
+  for (NodeId n = 0; n < 8; ++n) {
+    ASSERT_EQ(m.node_entity_dim[n], 0);
+    const VertexId v = m.node_entity[n];
+    const std::size_t end = std::find(c.edge_vertices.begin(), c.edge_vertices.end(), v) - c.edge_vertices.begin();
+    EXPECT_EQ(m.node_size[n], 100 + static_cast<double>(3 * (end / 2) + (end % 2 ? 2 : 0)));
+  }
+  for (NodeId n = 8; n < 20; ++n) EXPECT_EQ(m.node_size[n], 100 + 3 * m.node_entity[n] + 1) << "requests, not the lengths it was made for";
+}
+
 TEST(Merge, keeps_triangles_with_a_repeated_node) {
   CubePatches c;
   c.patches[2].triangles[0].n[1] = c.patches[2].triangles[0].n[0];
@@ -124,6 +137,29 @@ TEST(Orientation, turns_the_faces_that_disagree_with_their_neighbours) {
   const SurfaceMesh m = c.merge(report);
   EXPECT_EQ(report.turned_faces, (std::vector<FaceId>{1, 4}));
   EXPECT_TRUE(same(m, expected));
+}
+
+TEST(Orientation, of_a_face_follows_all_its_edges_whatever_one_triangle_says) {
+  const SurfaceMesh good = shapes::cube(4);
+  for (std::size_t t = 0; t < good.triangles.size(); ++t) {
+    SurfaceMesh m = good;
+    std::swap(m.triangles[t].n[1], m.triangles[t].n[2]);
+    const OrientationReport report = orient_outward(m);
+    EXPECT_TRUE(report.turned_faces.empty()) << t;
+    EXPECT_EQ(report.n_one_sided, 0) << t;
+  }
+}
+
+TEST(Orientation, turns_a_void_with_its_own_body_not_with_the_outermost) {
+  SurfaceMesh m = shapes::cube(1);
+  for (const auto& [lo, is_turned] : {std::pair(0.1, true), std::pair(0.2, true), std::pair(0.3, false)}) {
+    SurfaceMesh next = shapes::cube(1, {lo, lo, lo}, 1 - 2 * lo);
+    if (is_turned) shapes::turn(next);
+    m = shapes::join(m, next);
+  }
+  // as it should be: body, void, body, void; the second body and its void are inside out
+  EXPECT_EQ(orient_outward(m).turned_components, 2);
+  EXPECT_NEAR(shapes::volume(m), 1 - 0.512 + 0.216 - 0.064, 1e-12);
 }
 
 TEST(Orientation, turns_a_body_that_is_inside_out) {

@@ -173,5 +173,13 @@ TEST(PatchCrossing, survives_many_triangles_in_the_same_place) {
   EXPECT_EQ(Patches(shapes::from(points, triangles)).find().size(), 50u * 49 / 2);
 }
 
+TEST(PatchCrossing, finds_faces_whose_boxes_only_touch) {
+  // face 0 ends in a corner at x = 1, which lies on face 1, all of which lies at x = 1
+  const Patches p(
+      shapes::from({{-9, 0, 0}, {1, 0.3, 0}, {-9, 0.2, 0.1}, {1, 0, -1}, {1, 1, -1}, {1, 0.3, 1}}, {{{0, 1, 2}}, {{3, 4, 5}}}, {0, 1}));
+  EXPECT_EQ(p.find_all().size(), 1u);
+  EXPECT_TRUE(same(p.find(), p.find_all()));
+}
+
 }  // namespace
 }  // namespace st

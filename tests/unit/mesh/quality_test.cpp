@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
+#include "mesh/adjacency.h"
 #include "unit/mesh/shapes.h"
 
 namespace st {
@@ -165,6 +167,44 @@ TEST(Conformity, takes_a_seam_for_a_boundary) {
   for (std::size_t c = 0; c < m.corner_uv.size(); c += 6)
     for (int k = 0; k < 3; ++k) m.corner_uv[c + k].x += 100;  // no two triangles have a common (u,v)
   for (const ForcedPlace& p : measure_conformity(m, [](Vec3) { return 0.5; }).forced) EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
+}
+
+TEST(Conformity, excuses_short_edges_of_a_curve_of_three_segments_but_not_of_four) {
+  for (const int n_inside : {2, 3}) {
+    std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0.5, 3, 0}};
+    std::vector<Triangle> triangles;
+    for (int i = 1; i <= n_inside; ++i) points.push_back({static_cast<double>(i) / (n_inside + 1), 0, 0});
+    for (int i = 0; i <= n_inside; ++i) triangles.push_back({{i ? 2 + i : 0, i < n_inside ? 3 + i : 1, 2}});
+    SurfaceMesh m = shapes::from(points, triangles);
+    m.node_entity_dim.assign(m.node_xyz.size(), 1);
+    m.node_entity_dim[0] = m.node_entity_dim[1] = 0;
+    m.node_entity_dim[2] = 2;
+    const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
+    EXPECT_EQ(r.forced.size(), n_inside == 2 ? 1u : 0u) << n_inside;
+  }
+}
+
+TEST(Conformity, percentiles_have_one_of_a_hundred_edges_beyond_them) {
+  const SurfaceMesh m = shapes::sphere(8);
+  std::vector<double> length;
+  EdgeTable(m.triangles, m.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId>) {
+    length.push_back(distance(m.node_xyz[a], m.node_xyz[b]));
+  });
+  std::sort(length.begin(), length.end());
+  const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
+  const auto last = static_cast<double>(length.size() - 1);
+  EXPECT_NEAR(r.p1, length[static_cast<std::size_t>(0.01 * last)], 1e-12);
+  EXPECT_NEAR(r.p99, length[static_cast<std::size_t>(0.99 * last)], 1e-12);
+  EXPECT_LT(r.p1, r.p99);
+}
+
+TEST(Quality, first_percentile_has_one_of_a_hundred_triangles_below_it) {
+  const SurfaceMesh m = shapes::sphere(8);
+  std::vector<double> quality;
+  for (const Triangle& t : m.triangles) quality.push_back(triangle_quality(m.node_xyz[t.n[0]], m.node_xyz[t.n[1]], m.node_xyz[t.n[2]]));
+  std::sort(quality.begin(), quality.end());
+  ASSERT_LT(quality[quality.size() / 100], quality[quality.size() / 10]) << "a shape whose percentiles differ";
+  EXPECT_EQ(measure_quality(m).model.p1, quality[quality.size() / 100]);
 }
 
 }  // namespace
