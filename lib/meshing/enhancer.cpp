@@ -15,7 +15,7 @@ constexpr int kPrev[3] = {2, 0, 1};
 constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
 constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
-constexpr double kSteepCosine = 0.5;     // between a triangle's normal and the surface's: less costs quality
+constexpr double kSteepCosine = 0.5;    // between a triangle's normal and the surface's: less costs quality
 constexpr float kNoTriangle = 2;        // quality of what is outside or gone
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
@@ -162,9 +162,7 @@ class Enhancer {
   struct Ring {
     double worst = 2, mean = 0;  // quality
     /// Better than before at its worst, or on the mean where the worst stays fair.
-    bool improves(const Ring& before) const {
-      return worst > before.worst + 1e-4 || (worst > before.fair() && mean > before.mean + 1e-4);
-    }
+    bool improves(const Ring& before) const { return worst > before.worst + 1e-4 || (worst > before.fair() && mean > before.mean + 1e-4); }
     double fair() const { return std::max(0.6, worst - 0.05); }
   };
 
@@ -242,9 +240,24 @@ class Enhancer {
   }
 
   void collapse_sweep() {
+    find_short_edges();
     const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
     for (std::int32_t i = first; i < n; ++i)
-      if (m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept) try_collapse(i);
+      if ((at_short_edge_[i] || degree_[i] <= 4) && m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept) try_collapse(i);
+  }
+
+  void find_short_edges() {
+    at_short_edge_.assign(m_.nodes.size(), 0);
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      const PlaneTriangle& t = m_.triangles[i];
+      if (!is_inside(t)) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
+        const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
+        const double h = 0.5 * (a.h + b.h);
+        if (norm2(a.x - b.x) <= kShortEdge * kShortEdge * h * h) at_short_edge_[t.v[k]] = at_short_edge_[t.v[kNext[k]]] = 1;
+      }
+    }
   }
 
   void try_collapse(std::int32_t i) {
@@ -303,9 +316,10 @@ class Enhancer {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<float> ring_quality_;
-  std::vector<float> quality_;           // of each inside triangle, kept up to date
-  std::vector<std::uint8_t> is_active_;  // nodes to be smoothed: something about them changed
-  std::vector<std::int32_t> degree_;     // triangles at each node
+  std::vector<float> quality_;               // of each inside triangle, kept up to date
+  std::vector<std::uint8_t> at_short_edge_;  // nodes that may be worth a collapse
+  std::vector<std::uint8_t> is_active_;      // nodes to be smoothed: something about them changed
+  std::vector<std::int32_t> degree_;         // triangles at each node
   std::vector<std::int32_t> around_, tris_;
 };
 

@@ -12,18 +12,18 @@ constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 
 // KERNEL.md: found on 16,000 real faces.
-constexpr double kFinishedRadius = 0.68;    // circumradius over requested length; equilateral: 0.577
-constexpr double kNearNode = 0.65;          // of the side: a new node nearer than this to another is not made
-constexpr double kNearBoundary = 0.4;       // of the side: nor nearer than this to a boundary segment
-constexpr double kGrowth = 1.25;            // size of a new node over its base side
-constexpr double kVeryLong = 1.7;           // times the size: an edge so long is split even closer to other nodes
-constexpr double kCloseSplit = 0.55;        // the distances kept then
-constexpr double kShortBase = 0.8;          // of the size at its ends: a shorter base does not hold back the growth any more
-constexpr double kTurningFloor = 0.25;      // of the requested length: turning shortens sides no further
-constexpr double kTooLarge = 0.95;          // circumradius over requested length that is split when the front has ended
+constexpr double kFinishedRadius = 0.68;  // circumradius over requested length; equilateral: 0.577
+constexpr double kNearNode = 0.65;        // of the side: a new node nearer than this to another is not made
+constexpr double kNearBoundary = 0.4;     // of the side: nor nearer than this to a boundary segment
+constexpr double kGrowth = 1.25;          // size of a new node over its base side
+constexpr double kVeryLong = 1.7;         // times the size: an edge so long is split even closer to other nodes
+constexpr double kCloseSplit = 0.55;      // the distances kept then
+constexpr double kShortBase = 0.8;        // of the size at its ends: a shorter base does not hold back the growth any more
+constexpr double kTurningFloor = 0.25;    // of the requested length: turning shortens sides no further
+constexpr double kTooLarge = 0.95;        // circumradius over requested length that is split when the front has ended
 
-constexpr int kRingSamples = 8;             // chords that measure the way around a narrow part
-constexpr double kNarrowRing = 2.6;         // of the size: with more room the front makes the ring itself
+constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
+constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
 
 double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
   const Vec3 d = b - a;
@@ -51,11 +51,14 @@ class Front {
 
   bool is_finished(const PlaneTriangle& t) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
-    const double radius = w_.circumradius(t);
-    if (!(radius < kFinishedRadius * h)) return false;
+    const double radius2 = w_.circumradius2(t), finished = kFinishedRadius * h;
+    if (!(radius2 < finished * finished)) return false;
     const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
-    return !(radius > kTurningFloor * kFinishedRadius * request && turns_too_far(t));
+    const double least = kTurningFloor * kFinishedRadius * request;
+    return !(radius2 > least * least && turns_too_far(t));
   }
+
+  static bool is_done(const PlaneTriangle& t) { return t.state == kFinished || t.state == kRetired; }
 
   void start() {
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
@@ -64,8 +67,8 @@ class Front {
       if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
   }
 
-  /// Where a face closes on itself at a seam with little room, as at the tip of a cone or along a needle: rings of three nodes, which no size
-  /// asks for. With fewer the part would close to nothing at any size.
+  /// Where a face closes on itself at a seam with little room, as at the tip of a cone or along a needle: rings of three nodes, which no
+  /// size asks for. With fewer the part would close to nothing at any size.
   void ring_narrow_parts() {
     for (const auto& [a, b] : seam_twins()) {
       const MeshNode na = m_.nodes[a], nb = m_.nodes[b];
@@ -121,7 +124,7 @@ class Front {
     const PlaneTriangle& r = m_.triangles[t];
     for (int k = 0; k < 3; ++k) {
       const bool boundary = r.constrained >> k & 1;
-      if (boundary || (r.n[k] != kNone && m_.triangles[r.n[k]].state == kFinished)) queue_.push_back({t, r.v[k], r.v[kNext[k]]});
+      if (boundary || (r.n[k] != kNone && is_done(m_.triangles[r.n[k]]))) queue_.push_back({t, r.v[k], r.v[kNext[k]]});
     }
   }
 
@@ -144,7 +147,7 @@ class Front {
   }
 
   void retire(std::int32_t t) {
-    m_.triangles[t].state = kFinished;
+    m_.triangles[t].state = kRetired;
     const PlaneTriangle r = m_.triangles[t];
     for (int k = 0; k < 3; ++k) {
       const std::int32_t o = r.n[k];
@@ -217,6 +220,8 @@ class Front {
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside) return false;
     const Metric metric = metric_of(p.du, p.dv);
+    for (const std::int32_t v : m_.triangles[at].v)  // most crowded places show here, before the cavity is looked for
+      if (is_near(p, m_.nodes[v], metric, r)) return false;
     if (!m_.find_cavity(p.p, metric, at)) return false;
     if (is_crowded(p, metric, r)) return false;
     p.h = std::min(p.h, largest);
@@ -236,11 +241,15 @@ class Front {
     return true;
   }
 
-  bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
+  static bool is_near(const MeshNode& p, const MeshNode& node, const Metric& metric, double r) {
     const double near2 = kNearNode * kNearNode * r * r;
+    return norm2(node.x - p.x) < near2 && (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
+  }
+
+  bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
     for (const Triangulation::RingEdge& e : m_.ring()) {
       const MeshNode &a = m_.nodes[e.a], &b = m_.nodes[e.b];
-      if (norm2(a.x - p.x) < near2 && (a.is_pole || metric.length2(a.p - p.p) < 4 * near2)) return true;
+      if (is_near(p, a, metric, r)) return true;
       if (!e.constrained || (a.is_pole && b.is_pole)) continue;
       if (segment_distance(p.x, a.x, b.x) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r)) return true;
     }
@@ -262,9 +271,9 @@ class Front {
       const std::size_t n = m_.triangles.size();
       for (std::size_t i = 0; i < n; ++i) {
         const PlaneTriangle t = m_.triangles[i];
-        if (t.state == kOutside || t.state == kDead) continue;
-        const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
-        if (w_.circumradius(t) < kTooLarge * h) continue;
+        if (t.state != kUnfinished && t.state != kRetired) continue;
+        const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3, too_large = kTooLarge * h;
+        if (w_.circumradius2(t) < too_large * too_large) continue;
         changed |= split(static_cast<std::int32_t>(i), t, h);
       }
       advance();
@@ -323,23 +332,22 @@ void FaceWork::evaluate(MeshNode& n) const {
   n.normal = normalized(cross(n.du, n.dv));
 }
 
-double FaceWork::edge_length(std::int32_t ia, std::int32_t ib) const {
+double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
   const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
   const double chord2 = norm2(b.x - a.x);
   const Vec2 e = 0.5 * (b.p - a.p);
   const double along2 = norm2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv));
-  return std::sqrt(along2 > 4 * chord2 && !(a.is_pole && b.is_pole) ? along2 : chord2);
+  return along2 > 4 * chord2 && !(a.is_pole && b.is_pole) ? along2 : chord2;
 }
 
-double FaceWork::circumradius(const PlaneTriangle& t) const {
-  const double a = edge_length(t.v[0], t.v[1]), b = edge_length(t.v[1], t.v[2]), c = edge_length(t.v[2], t.v[0]);
-  const double longest = std::max({a, b, c});
+double FaceWork::circumradius2(const PlaneTriangle& t) const {
+  const double a2 = edge_length2(t.v[0], t.v[1]), b2 = edge_length2(t.v[1], t.v[2]), c2 = edge_length2(t.v[2], t.v[0]);
+  const double longest2 = std::max({a2, b2, c2});
   const Vec3 &x0 = mesh.nodes[t.v[0]].x, &x1 = mesh.nodes[t.v[1]].x, &x2 = mesh.nodes[t.v[2]].x;
-  const double area4 = 2 * norm(cross(x1 - x0, x2 - x0));
-  if (area4 <= 1e-12 * longest * longest) {  // a sliver, or no triangle in space (at a pole): as large as its longest side
-    return longest;
-  }
-  return std::max(a * b * c / area4 > 10 * longest ? 10 * longest : a * b * c / area4, longest / 2);
+  const double area4_2 = 4 * norm2(cross(x1 - x0, x2 - x0));  // (4 A)^2
+  if (area4_2 <= 1e-24 * longest2 * longest2)
+    return longest2;  // a sliver, or no triangle in space (at a pole): as large as its longest side
+  return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);
 }
 
 void advance_front(FaceWork& work) { Front(work).run(); }

@@ -1,6 +1,7 @@
 // The advancing front inside a constrained triangulation of the face (Rebay 1993; Marcum and Weatherill 1995): internal to lib/meshing.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "geometry/surface.h"
@@ -22,10 +23,11 @@ struct FaceWork {
   Vec2 to_uv(Vec2 p) const { return {p.x / scale.x, p.y / scale.y}; }
   /// Fills x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
-  /// Circumradius of triangle t in space; large where it does not resolve the surface (seam twins, sheets).
-  double circumradius(const PlaneTriangle& t) const;
-  /// Length of an edge: in space, or along the surface where that is much longer.
-  double edge_length(std::int32_t a, std::int32_t b) const;
+  /// Square of the circumradius of triangle t in space; large where it does not resolve the surface (seam twins, sheets).
+  double circumradius2(const PlaneTriangle& t) const;
+  /// Length of an edge, and its square: in space, or along the surface where that is much longer.
+  double edge_length(std::int32_t a, std::int32_t b) const { return std::sqrt(edge_length2(a, b)); }
+  double edge_length2(std::int32_t a, std::int32_t b) const;
 };
 
 Metric metric_of(Vec3 du, Vec3 dv);

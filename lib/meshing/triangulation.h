@@ -32,7 +32,8 @@ struct PlaneTriangle {
   std::uint8_t state = 0;         ///< TriangleState
 };
 
-enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3 };
+/// Retired: no node can be placed in it, though it is not small enough.
+enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3, kRetired = 4 };
 
 /// Symmetric metric E dx^2 + 2 F dx dy + G dy^2.
 struct Metric {
