@@ -327,6 +327,17 @@ void lower_vertex_tolerances(const TopoDS_Shape& shape, const std::vector<Face>&
     }
 }
 
+/// OpenCASCADE walks a loop where its ends meet within the vertices' tolerances in (u,v); they are raised until it does.
+void make_walkable(const TopoDS_Face& face, double largest) {
+  const auto is_walkable = [&] {
+    bool all = true;
+    for (TopoDS_Iterator w(face); w.More(); w.Next()) all &= can_be_walked(TopoDS::Wire(w.Value()), face);
+    return all;
+  };
+  for (double tolerance = kRaised * kAccurate; tolerance <= largest && !is_walkable(); tolerance *= kRaised)
+    for (TopExp_Explorer v(face, TopAbs_VERTEX); v.More(); v.Next()) BRep_Builder().UpdateVertex(TopoDS::Vertex(v.Current()), tolerance);
+}
+
 }  // namespace
 
 void rebuild_lost_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
@@ -343,7 +354,9 @@ void rebuild_lost_loops(ImportedShape& model, std::vector<ImportFinding>& findin
     const Box3 box = rough_box(face);
     findings.push_back({"loops made anew from their edges", "face " + std::to_string(i), box.center(), box.diagonal(), true});
   }
-  if (!faces.empty()) lower_vertex_tolerances(model.shape, faces);
+  if (faces.empty()) return;
+  lower_vertex_tolerances(model.shape, faces);
+  for (const Face& f : faces) make_walkable(f.face, 10 * harmless);
 }
 
 }  // namespace st::occt
