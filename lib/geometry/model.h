@@ -54,7 +54,7 @@ struct ModelTables {
   std::vector<std::string> group_role;               ///< one of group_roles() (groups.h): from the groups file, else role_of_name()
   FaceLabels labels;                                 ///< parts, attributes of groups, further tables of groups
   std::int32_t n_shells = 0, n_solids = 0;
-  std::optional<double> volume;                      ///< model unit cubed, of a closed model; negative where normals point inward
+  std::optional<double> volume;                      ///< model unit cubed, of a closed model without faces between solids; negative where normals point inward
   // unit
   std::string unit;                                  ///< "mm", "m", "in" ...; empty when the model has none
   std::optional<double> unit_in_m;

@@ -3,6 +3,8 @@
 #include <BRepCheck.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepCheck_ListIteratorOfListOfStatus.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_Curve.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -39,6 +41,27 @@ void report_edges(double small, ImportResult& result) {
     if (t.edge_length[e] < tolerance)
       result.findings.push_back({"tolerance larger than the edge is long", t.edge_label(e), middle(t, e), tolerance, false});
   }
+}
+
+/// Vertices whose edges end further apart than `small`: an edge is missing in the file, or the loops do not close.
+void report_gaps(const ImportedShape& model, double small, ImportResult& result) {
+  const ModelTables& t = result.tables;
+  std::vector<double> gap(t.n_vertices(), 0);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    if (t.edge_is_degenerate[e]) continue;
+    double t0, t1;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges(e + 1)), t0, t1);
+    if (curve.IsNull()) continue;
+    for (const auto& [end, at] : {std::pair{0, t0}, std::pair{1, t1}}) {
+      const VertexId v = t.edge_vertices[2 * e + end];
+      gap[v] = std::max(gap[v], distance(vec(curve->Value(at)), t.vertex_xyz[v]));
+    }
+  }
+  for (VertexId v = 0; v < t.n_vertices(); ++v)
+    if (gap[v] > small)
+      result.findings.push_back({"edges end away from their vertex", "vertex " + std::to_string(v + 1), t.vertex_xyz[v], gap[v], false});
 }
 
 double edge_tolerance(const ModelTables& t, FaceId f) {
@@ -102,12 +125,18 @@ void report_topology(const ImportedShape& model, const FaceMeasures& measures, d
   report_uses(result);
   report_faces(measures, small, result);
   report_edges(small, result);
+  report_gaps(model, small, result);
   result.is_closed = result.tables.n_shells > 0 && result.n_free_edges == 0;
   for (double a : result.tables.face_area) result.area += a;
   if (!result.is_closed) return;
-  for (TopExp_Explorer e(model.shape, TopAbs_FACE); e.More(); e.Next())
-    result.volume += (e.Current().Orientation() == TopAbs_REVERSED ? -1 : 1) * measures.cone_volume[model.faces.FindIndex(e.Current()) - 1];
-  result.tables.volume = result.volume;
+  std::vector<int> n_sides(result.tables.n_faces(), 0);
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE); e.More(); e.Next()) {
+    const int f = model.faces.FindIndex(e.Current()) - 1;
+    result.volume += (e.Current().Orientation() == TopAbs_REVERSED ? -1 : 1) * measures.cone_volume[f];
+    ++n_sides[f];
+  }
+  const bool has_interfaces = std::any_of(n_sides.begin(), n_sides.end(), [](int n) { return n > 1; });  // a mesh has them once
+  if (!has_interfaces) result.tables.volume = result.volume;
 }
 
 void report_validity(const ImportedShape& model, ImportResult& result) {
@@ -124,8 +153,8 @@ void report_validity(const ImportedShape& model, ImportResult& result) {
     for (int i = 1; i <= map.Extent(); ++i) {
       if (checker.IsValid(map(i))) continue;
       const Box3 box = rough_box(map(i));
-      result.findings.push_back({std::string("invalid ") + name + " (" + cause(checker, map(i)) + ")", std::string(name).append(" ").append(std::to_string(i)),
-                                 box.center(), box.diagonal(), false});
+      result.findings.push_back({std::string("invalid ") + name + " (" + cause(checker, map(i)) + ")",
+                                 std::string(name).append(" ").append(std::to_string(i)), box.center(), box.diagonal(), false});
     }
   }
 }

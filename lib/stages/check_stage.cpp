@@ -140,7 +140,7 @@ Check check_cad_volume(const TopologyReport& topology, const MeshMeasure& measur
   constexpr double kTolerance = 0.005;  // relative
   Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
   if (!tables.volume || !topology.is_closed() || topology.n_cad_boundary_edges > 0 || topology.n_cad_nonmanifold_edges > 0) {
-    c.note = "open or non-manifold: none";
+    c.note = tables.volume ? "open or non-manifold: none" : "open, or faces between solids: none";
     return c;
   }
   double explained = 0;

@@ -118,7 +118,9 @@ std::string repairs_in_words(const ImportResult& r) {
 
 /// The first findings as text; the rest is counted.
 void say(const std::string& model, const ImportResult& r) {
-  if (!r.is_closed)
+  if (!r.is_closed && r.n_free_edges == 0)
+    log_warning(fmt::format("{}: the model encloses no volume: its faces are in no shell", model));
+  else if (!r.is_closed)
     log_warning(
         fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges further apart)",
                     model, r.n_free_edges));

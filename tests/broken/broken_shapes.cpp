@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -15,6 +16,7 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_Line.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
@@ -99,6 +101,30 @@ TopoDS_Shape off_pcurve() {
   return face;
 }
 
+TopoDS_Shape stacked_boxes() {
+  const TopoDS_Shape lower = box(60, 40, 20);
+  TopExp_Explorer f(lower, TopAbs_FACE);
+  for (int k = 0; k < 5; ++k) f.Next();  // the side z = 20
+  return compound({lower, BRepPrimAPI_MakePrism(f.Current(), gp_Vec(0, 0, 10)).Shape()});
+}
+
+/// As a reader leaves it that found no edge between two vertices: one vertex in the middle, its tolerance reaching both.
+TopoDS_Shape parted_corner() {
+  BRep_Builder builder;
+  TopoDS_Vertex corner;
+  builder.MakeVertex(corner, gp_Pnt(9.75, 9.75, 0), 0.4);
+  TopoDS_Vertex others[3];
+  for (int k = 0; k < 3; ++k) builder.MakeVertex(others[k], gp_Pnt(k == 1 ? 10 : 0, k == 2 ? 10 : 0, 0), 1e-7);
+  const auto line = [](TopoDS_Vertex a, TopoDS_Vertex b, gp_Pnt from, gp_Dir along, double length) {
+    return BRepBuilderAPI_MakeEdge(new Geom_Line(from, along), a, b, 0, length).Edge();
+  };
+  BRepBuilderAPI_MakeWire wire(line(others[0], others[1], {0, 0, 0}, {1, 0, 0}, 10));
+  wire.Add(line(others[1], corner, {10, 0, 0}, {0, 1, 0}, 9.5));
+  wire.Add(TopoDS::Edge(line(others[2], corner, {0, 10, 0}, {1, 0, 0}, 9.5).Reversed()));
+  wire.Add(line(others[2], others[0], {0, 10, 0}, {0, -1, 0}, 10));
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Shape();
+}
+
 /// A rectangle [0,10] x [y0,y1] whose side on y = 0 runs as x = 10 t^power.
 TopoDS_Shape rectangle_with_side(double y, int power) {
   TColgp_Array1OfPnt poles(1, power + 1);
@@ -166,6 +192,8 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        [] {
          return compound({shell_of(centred_cube(40)), shell_of(centred_cube(60)), shell_of(centred_cube(20))});
        }},
+      {"stacked_boxes", stacked_boxes},
+      {"parted_corner", parted_corner},
       {"off_pcurve", off_pcurve},
       {"bow_tie",
        [] {

@@ -9,6 +9,8 @@ namespace st::test {
 ///   doubled_face     the six loose faces of a box 60 x 40 x 20, one of them twice
 ///   gappy_box        the six loose faces of that box with gaps up to 0.09
 ///   touching_boxes   two solids side by side that share a place, not a face
+///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in common
+///   parted_corner    a plane square of 10, two sides of which end 0.5 short of their corner at (10, 10, 0)
 ///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
 ///   loose_shell      the shell of that box, inward, no solid
 ///   lone_sphere      the face of a sphere of radius 10, in no shell

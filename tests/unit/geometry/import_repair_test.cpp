@@ -167,6 +167,23 @@ TEST(ImportReport, lists_a_loop_that_crosses_itself_with_its_place) {
   EXPECT_TRUE(findings_of(test::import_shape("plate_with_hole"), "loop crosses").empty());
 }
 
+TEST(ImportReport, lists_vertices_whose_edges_end_elsewhere) {
+  const auto found = findings_of(import_broken("parted_corner"), "edges end away from their vertex");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LE(distance(found[0].xyz, {9.75, 9.75, 0}), 1e-9);
+  EXPECT_NEAR(found[0].size, std::hypot(0.25, 0.25), 1e-9);
+  EXPECT_TRUE(findings_of(test::import_shape("drilled_block"), "edges end").empty());
+}
+
+TEST(ImportReport, leaves_the_volume_out_where_solids_have_a_face_in_common) {
+  const ImportResult r = import_broken("stacked_boxes");
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.tables.n_faces(), 11);
+  EXPECT_NEAR(r.volume, 60 * 40 * 30, 1e-6);
+  EXPECT_FALSE(r.tables.volume.has_value());
+  EXPECT_TRUE(import_broken("touching_boxes").tables.volume.has_value());
+}
+
 TEST(ImportReport, lists_sliver_faces_with_their_width) {
   const ImportResult r = import_broken("sliver");
   const auto found = findings_of(r, "sliver face");
