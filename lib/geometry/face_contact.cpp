@@ -75,23 +75,25 @@ bool passes_through(const TopoDS_Face& a, const TopoDS_Face& b, const gp_Pnt& p,
   return std::abs(normal_at(a, p).Dot(normal_at(b, p))) < kTangent;
 }
 
-/// The pieces of a section curve that keep away from what the faces share.
-void add_pieces(const TopoDS_Edge& edge, const TopoDS_Shape& shared, double tolerance, FaceContact contact,
+/// The pieces of a section curve that keep away from what the faces share, each up to the sample where it comes near.
+void add_pieces(const TopoDS_Edge& edge, const TopoDS_Shape& shared, double tolerance, bool passes_through,
                 std::vector<FaceContact>& result) {
   const BRepAdaptor_Curve curve(edge);
   const double t0 = curve.FirstParameter(), t1 = curve.LastParameter();
-  const auto finish = [&] {
-    if (!contact.points.empty()) result.push_back(contact);
-    contact.points.clear();
-  };
+  std::vector<Vec3> points;
+  std::vector<char> is_away;
   for (int k = 0; k < kSamples; ++k) {
     const gp_Pnt p = curve.Value(t0 + (t1 - t0) * k / (kSamples - 1));
-    if (distance_to(shared, p) > tolerance)
-      contact.points.push_back(occt::vec(p));
-    else
-      finish();
+    points.push_back(occt::vec(p));
+    is_away.push_back(distance_to(shared, p) > tolerance);
   }
-  finish();
+  for (int first = 0; first < kSamples; ++first) {
+    if (!is_away[first]) continue;
+    int last = first;
+    while (last + 1 < kSamples && is_away[last + 1]) ++last;
+    result.push_back({{points.begin() + std::max(0, first - 1), points.begin() + std::min(kSamples, last + 2)}, passes_through});
+    first = last;
+  }
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
       const TopoDS_Edge edge = TopoDS::Edge(e.Current());
       const BRepAdaptor_Curve curve(edge);
       const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-      add_pieces(edge, shared, tolerance, {{}, passes_through(a, b, middle, tolerance)}, result);
+      add_pieces(edge, shared, tolerance, passes_through(a, b, middle, tolerance), result);
     }
     for (TopExp_Explorer v(section.Shape(), TopAbs_VERTEX, TopAbs_EDGE); v.More(); v.Next())
       if (const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(v.Current())); distance_to(shared, p) > tolerance)

@@ -39,6 +39,9 @@ TEST(FaceContact, passes_through_where_a_plane_cuts_a_cylinder) {
   const auto found = model.contacts(side, square);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].passes_through);
+  const auto [low, high] = std::minmax_element(found[0].points.begin(), found[0].points.end(), [](Vec3 p, Vec3 q) { return p.z < q.z; });
+  EXPECT_NEAR(low->z, 0, 1e-6);  // up to the rims, which the faces do not share
+  EXPECT_NEAR(high->z, 10, 1e-6);
   for (const Vec3 p : found[0].points) EXPECT_LE(std::hypot(p.x - 6, p.y - 8), 1e-6);
 }
 
