@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "geometry/duplicate_faces.h"
+#include "geometry/embedded_edges.h"
 #include "geometry/half_model.h"
 #include "geometry/import_shape.h"
 #include "geometry/loop_repair.h"
@@ -120,6 +121,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportedShape model = occt::collect_parts(file, path);
   occt::remove_duplicates(model, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options.sew), result.findings);
+  occt::open_slits(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -52,6 +53,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
@@ -286,6 +288,18 @@ TopoDS_Shape t_junction() {
   return sewing.SewedShape();
 }
 
+/// As a boolean operation leaves it: the sheet's rim is an edge INTERNAL to the floor.
+TopoDS_Shape baffled_box() {
+  const gp_Pln plane(gp_Ax3(gp_Pnt(5, 5, 0), gp_Dir(1, 0, 0), gp_Dir(0, 1, 0)));
+  TopTools_ListOfShape parts;
+  parts.Append(BRepPrimAPI_MakeBox(10, 10, 10).Shape());
+  parts.Append(BRepBuilderAPI_MakeFace(plane, -2, 2, -4, 0).Shape());
+  BRepAlgoAPI_BuilderAlgo builder;
+  builder.SetArguments(parts);
+  builder.Build();
+  return builder.Shape();
+}
+
 using Factory = std::function<TopoDS_Shape()>;
 
 const std::map<std::string, Factory>& factories() {
@@ -364,6 +378,7 @@ const std::map<std::string, Factory>& factories() {
       {"loose_box", [] { return occt::compound_of(loose_faces()); }},
       {"wire", [] { return circle(10, false); }},
       {"t_junction", t_junction},
+      {"baffled_box", baffled_box},
   };
   return all;
 }

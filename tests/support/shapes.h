@@ -18,6 +18,7 @@ namespace st::test {
 ///   sheets   wave rational_wave high_degree_wave bezier rational_bezier stretched kinked
 ///   tubes    periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)
 ///   others   revolution extrusion offset loose_box (six faces that share nothing) wire (no face) t_junction (an edge of three faces)
+///            baffled_box (a cube of 10 with a sheet of 4 x 4 standing on the middle of its floor, outside)
 std::vector<std::string> all_shapes();
 
 void write_brep(const std::string& shape, const std::string& path);

@@ -143,6 +143,21 @@ TEST(ImportRepair, makes_loops_anew_that_are_elsewhere_on_the_surface) {
   for (double tolerance : r.tables.vertex_tolerance) EXPECT_LE(tolerance, 1e-5);
 }
 
+TEST(ImportRepair, makes_slits_of_edges_inside_a_face_on_which_others_end) {
+  const ImportResult r = test::import_shape("baffled_box");
+  ASSERT_EQ(findings_of(r, "edges inside, on which other faces end").size(), 1u);
+  const ModelTables& t = r.tables;
+  ASSERT_EQ(t.n_faces(), 7);
+  EXPECT_NEAR(r.area, 616, 1e-6);
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  int n_rims = 0;
+  for (EdgeId e = 0; e < t.n_edges(); ++e) n_rims += offsets[e + 1] - offsets[e] == 3;
+  EXPECT_EQ(n_rims, 1);
+  EXPECT_EQ(r.n_free_edges, 3);
+}
+
 TEST(ImportRepair, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at_different_speeds) {
   const ImportResult r = import_broken("speeds");
   EXPECT_EQ(r.n_free_edges, 6);

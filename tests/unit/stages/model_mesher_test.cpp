@@ -175,6 +175,16 @@ TEST(ModelMesher, joins_three_faces_at_one_edge) {
   EXPECT_NEAR(measure_mesh(m.mesh).area, 150, 1e-6);
 }
 
+TEST(ModelMesher, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
+  set_verbosity(Verbosity::kQuiet);
+  const Meshed m("baffled_box", 1);
+  EXPECT_TRUE(m.mesher.failures.empty());
+  EXPECT_EQ(check_topology(m.mesh).nonmanifold_edges.count, 4);
+  EXPECT_EQ(check_crossings(m.mesh).crossings.count, 0);
+  EXPECT_EQ(check_crossings(m.mesh).contacts.count, 0);
+  EXPECT_NEAR(measure_mesh(m.mesh).area, 616, 1e-6);
+}
+
 TEST(ModelMesher, redoes_nothing_when_nothing_is_to_be_redone) {
   set_verbosity(Verbosity::kQuiet);
   Meshed m("cylinder", 1);
