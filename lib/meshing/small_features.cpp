@@ -13,6 +13,8 @@
 namespace st {
 namespace {
 
+constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to another between the same vertices is no ring with it
+
 class VertexSets {
  public:
   explicit VertexSets(std::int32_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -29,9 +31,10 @@ class VertexSets {
 /// Draws short edges together, the shortest first.
 class EdgeMerger {
  public:
-  EdgeMerger(const ModelTables& t, const SizeField& field, double below) : t_(t), field_(field), below_(below), sets_(t.n_vertices()) {
-    cluster_.resize(t.n_vertices());
-    for (VertexId v = 0; v < t.n_vertices(); ++v) cluster_[v].add(t.vertex_xyz[v]);
+  EdgeMerger(const Model& model, const SizeField& field, double below)
+      : model_(model), t_(model.tables()), field_(field), below_(below), sets_(t_.n_vertices()) {
+    cluster_.resize(t_.n_vertices());
+    for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
     edge_loops();
   }
 
@@ -73,8 +76,8 @@ class EdgeMerger {
     both.add(cluster_[b]);
     const double limit = below_ * field_.size(both.center(), hint_);
     const std::vector<EdgeId> edges = short_edges_between(a, b, e, 3 * limit);
-    const bool are_points = std::all_of(edges.begin(), edges.end(), [&](EdgeId k) { return is_point(k); });
-    if (both.diagonal() > limit || (edges.size() > 1 && !are_points) || !leave_out(edges)) return;
+    const bool are_one = std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k) || coincide(e, k); });
+    if (both.diagonal() > limit || !are_one || !leave_out(edges)) return;
     sets_.unite(a, b);
     cluster_[std::min(a, b)] = both;
     auto &to = at_vertex_[std::min(a, b)], &from = at_vertex_[std::max(a, b)];
@@ -85,6 +88,14 @@ class EdgeMerger {
   bool is_point(EdgeId e) const {
     const auto tolerance = [&](int k) { return t_.vertex_tolerance[t_.edge_vertices[2 * e + k]]; };
     return t_.edge_length[e] <= std::max(tolerance(0), tolerance(1));
+  }
+
+  bool are_points(EdgeId a, EdgeId b) const { return is_point(a) && is_point(b); }
+
+  /// Two edges between the same vertices that run beside each other.
+  bool coincide(EdgeId a, EdgeId b) const {
+    const auto middle = [&](EdgeId e) { return model_.curve(e)->point(0.5 * (t_.edge_range[2 * e] + t_.edge_range[2 * e + 1])); };
+    return distance(middle(a), middle(b)) < kBeside * std::min(t_.edge_length[a], t_.edge_length[b]);
   }
 
   /// Merges the edges if none is a seam and each of their loops keeps two others.
@@ -113,6 +124,7 @@ class EdgeMerger {
     return edges;
   }
 
+  const Model& model_;
   const ModelTables& t_;
   const SizeField& field_;
   double below_;
@@ -203,7 +215,7 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   MergedFeatures merged;
   if (!(below > 0)) return merged;
   const ModelTables& t = model.tables();
-  merged.edge = EdgeMerger(t, field, below).run();
+  merged.edge = EdgeMerger(model, field, below).run();
   StripMerger merger(t, merged.edge);
   const std::vector<Strip> strips = narrow_strips(model, field, below);
   for (const Strip& strip : strips) {
