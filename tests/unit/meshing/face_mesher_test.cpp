@@ -188,6 +188,52 @@ TEST(MeshFace, tells_nodes_that_nearly_coincide_apart_by_their_ids) {
   EXPECT_EQ(std::count(mesh.corners.begin(), mesh.corners.end(), 2), 0);
 }
 
+TEST(MeshFace, reports_triangles_turned_against_the_surface) {
+  FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}, 100);
+  for (auto& n : b.nodes) n.x = {-n.uv.x, n.uv.y, 0};  // all of it mirrored: no two neighbours are folded
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(100), {});
+  EXPECT_EQ(mesh.n_folds, 2);
+  EXPECT_EQ(mesh.refinement.size(), 2u);
+}
+
+TEST(MeshFace, reports_neighbours_folded_onto_each_other) {
+  // A dart, whose only diagonal is a ridge; both sides drop by 72.5 degrees, so that none is turned against the plane.
+  FaceBoundary b = polygons({{{3, 3}, {8, 5}, {3, 7}, {5, 5}}}, 100);
+  const double y = 2 * std::cos(radians(72.5)), z = -2 * std::sin(radians(72.5));
+  b.nodes[0].x = {3, 5 - y, z};
+  b.nodes[2].x = {3, 5 + y, z};
+  const FaceMesh mesh = mesh_face(kPlane, b, UniformField(100), {});
+  ASSERT_EQ(mesh.corners.size(), 6u);
+  EXPECT_EQ(mesh.n_folds, 1);
+  EXPECT_FALSE(mesh.refinement.empty());
+}
+
+/// Sizes from far too coarse to fine, uniform and falling towards a boundary node.
+class FaceAtEverySize : public testing::TestWithParam<const char*> {};
+
+TEST_P(FaceAtEverySize, is_valid_or_says_where_to_refine) {
+  const Model model = test::make_model(GetParam());
+  const double size = model.tables().reference_diagonal();
+  for (double share = 0.6; share > 0.04; share *= 0.75) {
+    const UniformField uniform(share * size);
+    const test::LinearField falling(FaceCase(GetParam(), uniform).boundary.nodes[0].x, 0.2 * share * size, 0.3);
+    for (const SizeField* field : {static_cast<const SizeField*>(&uniform), static_cast<const SizeField*>(&falling)}) {
+      const FaceCase face(GetParam(), *field);
+      const FaceMesh mesh = face.mesh(*field);
+      if (mesh.cause.empty() && mesh.n_folds == 0)
+        test::expect_valid(face.boundary, mesh);
+      else
+        EXPECT_FALSE(mesh.refinement.empty()) << mesh.cause;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FaceAtEverySize,
+                         testing::Values("disc", "annulus", "sphere", "cone_side", "torus", "stretched", "wave", "periodic_tube",
+                                         "rational_torus", "drilled_cylinder", "plate_with_hole", "thin_crescent", "sharp_triangle",
+                                         "tube_window", "kinked", "sphere_octant", "closed_tube"),
+                         [](const auto& info) { return std::string(info.param); });
+
 TEST(MeshFace, stops_a_runaway) {
   /// Asks for next to nothing off the boundary where expected_nodes() does not look: on the diagonal line x = y.
   class Trap : public UniformField {

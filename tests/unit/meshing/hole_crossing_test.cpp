@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/crossing.h"
+
 namespace st::test {
 namespace {
 
@@ -38,7 +40,21 @@ TEST(HoleCrossing, leaves_crossings_of_old_triangles_to_the_check) {
   EXPECT_EQ(find_new_crossings(four_triangles({kNone, 1, 2, 3}), kOneShell).size(), 1u);
 }
 
-TEST(HoleCrossing, does_not_compare_shells) { EXPECT_TRUE(find_new_crossings(four_triangles({0, 1, kNone, 3}), std::vector<std::int32_t>{0, 0, 1, 1}).empty()); }
+TEST(HoleCrossing, leaves_triangles_with_one_common_node_alone) {
+  SurfaceMesh m = four_triangles({kNone, 1, kNone, 3});
+  EXPECT_EQ(find_new_crossings(m, kOneShell).size(), 2u);
+  m.triangles[0].n[2] = m.triangles[2].n[1];
+  m.node_xyz[m.triangles[0].n[0]] = {0.3, 0.1, -1};
+  m.node_xyz[m.triangles[0].n[1]] = {0.2, 0.3, 1};
+  int n_shared = 0;
+  ASSERT_TRUE(triangles_cross(m.node_xyz, m.triangles[0], m.triangles[2], n_shared));
+  ASSERT_EQ(n_shared, 1);
+  for (const TrianglePair& p : find_new_crossings(m, kOneShell)) EXPECT_NE(std::pair(p.a, p.b), std::pair(0, 2));
+}
+
+TEST(HoleCrossing, does_not_compare_shells) {
+  EXPECT_TRUE(find_new_crossings(four_triangles({0, 1, kNone, 3}), std::vector<std::int32_t>{0, 0, 1, 1}).empty());
+}
 
 }  // namespace
 }  // namespace st::test

@@ -8,7 +8,7 @@
 #include "meshing/hole_mesh.h"
 #include "meshing/nearest_node.h"
 #include "meshing/part_matching.h"
-#include "unit/meshing/faces.h"
+#include "unit/meshing/shape_mesh.h"
 
 namespace st::test {
 namespace {
@@ -137,6 +137,40 @@ TEST(PartMatching, tells_touching_boxes_apart) {
   add_box(mesh, box.lo, 0.5 * (box.lo + box.hi));
   EXPECT_EQ(match_parts(mesh, model.tables()).n_parts, 2);
 }
+
+class AssociatedSolid : public testing::TestWithParam<const char*> {};
+
+TEST_P(AssociatedSolid, has_the_entities_and_parameters_it_was_made_with) {
+  const ShapeMesh solid(GetParam(), 0.05);
+  SurfaceMesh foreign;  // points and triangles alone
+  foreign.node_xyz = solid.mesh.node_xyz;
+  foreign.triangles = solid.mesh.triangles;
+  foreign.node_size = solid.mesh.node_size;
+  const AssociatedMesh a = associate_mesh(foreign, solid.model, {});
+  EXPECT_EQ(a.report.n_turned, 0);
+  ASSERT_EQ(a.mesh.n_nodes(), solid.mesh.n_nodes());
+  ASSERT_EQ(a.mesh.n_triangles(), solid.mesh.n_triangles());
+  for (NodeId n = 0; n < a.mesh.n_nodes(); ++n) {
+    EXPECT_EQ(a.mesh.node_entity_dim[n], solid.mesh.node_entity_dim[a.file_node[n]]);
+    EXPECT_EQ(a.mesh.node_entity[n], solid.mesh.node_entity[a.file_node[n]]);
+    EXPECT_NEAR(a.mesh.node_t[n], solid.mesh.node_t[a.file_node[n]], 1e-6);
+  }
+  for (TriangleId t = 0; t < a.mesh.n_triangles(); ++t) {
+    const TriangleId old = a.file_triangle[t];
+    EXPECT_EQ(a.mesh.triangle_face[t], solid.mesh.triangle_face[old]);
+    const auto surface = solid.model.surface(a.mesh.triangle_face[t]);
+    double area = 0, area_before = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 p = a.mesh.corner_uv[3 * t + k], q = a.mesh.corner_uv[3 * t + (k + 1) % 3];
+      EXPECT_LE(distance(surface->point(p), a.mesh.node_xyz[a.mesh.triangles[t].n[k]]), 1e-5);
+      area += cross(p, q);
+      area_before += cross(solid.mesh.corner_uv[3 * old + k], solid.mesh.corner_uv[3 * old + (k + 1) % 3]);
+    }
+    EXPECT_GT(area * area_before, 0) << "on the right side of a seam, and of a pole";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, AssociatedSolid, testing::ValuesIn(kSolids), [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace st::test

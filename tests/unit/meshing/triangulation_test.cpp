@@ -200,6 +200,15 @@ TEST(Triangulation, reports_a_node_on_a_segment) {
   EXPECT_EQ(conflicts[0].other_b, 4);
 }
 
+TEST(Triangulation, reports_a_node_on_a_segment_behind_others_that_it_crosses) {
+  // between 4 and 5 the edge 6-7 is crossed first, then comes node 8
+  Triangulation m = with_nodes({{-5, -5}, {15, -5}, {15, 5}, {-5, 5}, {0, 0}, {10, 0}, {2, 0.5}, {2, -0.5}, {5, 0}});
+  const auto conflicts = m.build(joined(ring(0, 4), {{4, 5}}));
+  ASSERT_EQ(conflicts.size(), 1u);
+  EXPECT_EQ(conflicts[0].other_a, 8);
+  EXPECT_EQ(conflicts[0].other_b, 8);
+}
+
 TEST(Triangulation, reports_two_nodes_at_one_place) {
   Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {4, 4}});
   EXPECT_EQ(m.build(ring(0, 4)).size(), 1u);
