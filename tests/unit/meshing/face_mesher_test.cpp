@@ -208,6 +208,35 @@ TEST(MeshFace, reports_neighbours_folded_onto_each_other) {
   EXPECT_FALSE(mesh.refinement.empty());
 }
 
+TEST(MeshFace, leaves_no_edge_far_longer_than_its_size_and_hardly_a_node_with_four_neighbours) {
+  std::ptrdiff_t n_of_four = 0, n_inner = 0;
+  for (const char* shape : {"square", "disc", "sphere", "torus", "wave", "stretched", "periodic_tube", "drilled_cylinder"}) {
+    const double size = test::make_model(shape).tables().reference_diagonal();
+    for (const double share : {0.02, 0.04}) {
+      const UniformField uniform(share * size);
+      const test::LinearField steep(FaceCase(shape, uniform).boundary.nodes[0].x, 0.1 * share * size, 0.4);
+      for (const SizeField* field : {static_cast<const SizeField*>(&uniform), static_cast<const SizeField*>(&steep)}) {
+        const FaceCase face(shape, *field);
+        const FaceMesh mesh = face.mesh(*field);
+        const MeshView view{face.boundary, mesh};
+        double most = 0;
+        std::vector<int> degree(face.boundary.nodes.size() + mesh.inner.size(), 0);
+        for (const std::int32_t corner : mesh.corners) ++degree[corner];
+        for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+          const std::int32_t a = mesh.corners[i], b = mesh.corners[i % 3 == 2 ? i - 2 : i + 1];
+          if (std::min(a, b) < view.n_boundary()) continue;
+          const double ratio = distance(view.x(a), view.x(b)) / (0.5 * (field->size(view.x(a)) + field->size(view.x(b))));
+          most = std::max(most, ratio);
+        }
+        n_of_four += std::count_if(degree.begin() + view.n_boundary(), degree.end(), [](int d) { return d <= 4; });
+        n_inner += static_cast<std::ptrdiff_t>(mesh.inner.size());
+        EXPECT_LT(most, 1.6) << shape << " " << share;
+      }
+    }
+  }
+  EXPECT_LT(n_of_four, n_inner / 2000);
+}
+
 /// Sizes from far too coarse to fine, uniform and falling towards a boundary node.
 class FaceAtEverySize : public testing::TestWithParam<const char*> {};
 

@@ -138,23 +138,27 @@ TEST(PartMatching, tells_touching_boxes_apart) {
   EXPECT_EQ(match_parts(mesh, model.tables()).n_parts, 2);
 }
 
-class AssociatedSolid : public testing::TestWithParam<const char*> {};
+/// Points and triangles alone.
+SurfaceMesh bare(const SurfaceMesh& mesh) {
+  SurfaceMesh m;
+  m.node_xyz = mesh.node_xyz;
+  m.triangles = mesh.triangles;
+  m.node_size = mesh.node_size;
+  return m;
+}
 
-TEST_P(AssociatedSolid, has_the_entities_and_parameters_it_was_made_with) {
-  const ShapeMesh solid(GetParam(), 0.05);
-  SurfaceMesh foreign;  // points and triangles alone
-  foreign.node_xyz = solid.mesh.node_xyz;
-  foreign.triangles = solid.mesh.triangles;
-  foreign.node_size = solid.mesh.node_size;
-  const AssociatedMesh a = associate_mesh(foreign, solid.model, {});
-  EXPECT_EQ(a.report.n_turned, 0);
-  ASSERT_EQ(a.mesh.n_nodes(), solid.mesh.n_nodes());
-  ASSERT_EQ(a.mesh.n_triangles(), solid.mesh.n_triangles());
+void expect_entities(const AssociatedMesh& a, const SurfaceMesh& made) {
+  ASSERT_EQ(a.mesh.n_nodes(), made.n_nodes());
   for (NodeId n = 0; n < a.mesh.n_nodes(); ++n) {
-    EXPECT_EQ(a.mesh.node_entity_dim[n], solid.mesh.node_entity_dim[a.file_node[n]]);
-    EXPECT_EQ(a.mesh.node_entity[n], solid.mesh.node_entity[a.file_node[n]]);
-    EXPECT_NEAR(a.mesh.node_t[n], solid.mesh.node_t[a.file_node[n]], 1e-6);
+    EXPECT_EQ(a.mesh.node_entity_dim[n], made.node_entity_dim[a.file_node[n]]);
+    EXPECT_EQ(a.mesh.node_entity[n], made.node_entity[a.file_node[n]]);
+    EXPECT_NEAR(a.mesh.node_t[n], made.node_t[a.file_node[n]], 1e-6);
   }
+}
+
+/// Triangles on their faces, and on the right side of seams and poles.
+void expect_parameters(const AssociatedMesh& a, const ShapeMesh& solid) {
+  ASSERT_EQ(a.mesh.n_triangles(), solid.mesh.n_triangles());
   for (TriangleId t = 0; t < a.mesh.n_triangles(); ++t) {
     const TriangleId old = a.file_triangle[t];
     EXPECT_EQ(a.mesh.triangle_face[t], solid.mesh.triangle_face[old]);
@@ -166,8 +170,48 @@ TEST_P(AssociatedSolid, has_the_entities_and_parameters_it_was_made_with) {
       area += cross(p, q);
       area_before += cross(solid.mesh.corner_uv[3 * old + k], solid.mesh.corner_uv[3 * old + (k + 1) % 3]);
     }
-    EXPECT_GT(area * area_before, 0) << "on the right side of a seam, and of a pole";
+    EXPECT_GT(area * area_before, 0) << t;
   }
+}
+
+class AssociatedSolid : public testing::TestWithParam<const char*> {};
+
+TEST_P(AssociatedSolid, has_the_entities_and_parameters_it_was_made_with) {
+  const ShapeMesh solid(GetParam(), 0.05);
+  const AssociatedMesh a = associate_mesh(bare(solid.mesh), solid.model, {});
+  EXPECT_EQ(a.report.n_turned, 0);
+  expect_entities(a, solid.mesh);
+  expect_parameters(a, solid);
+}
+
+TEST_P(AssociatedSolid, is_the_same_when_some_of_its_triangles_were_turned) {
+  const ShapeMesh solid(GetParam(), 0.05);
+  SurfaceMesh foreign = bare(solid.mesh);
+  for (std::size_t t = 0; t < foreign.triangles.size(); t += 5) std::swap(foreign.triangles[t].n[1], foreign.triangles[t].n[2]);
+  const AssociatedMesh a = associate_mesh(foreign, solid.model, {});
+  EXPECT_EQ(a.report.n_turned, (solid.mesh.n_triangles() + 4) / 5);
+  expect_entities(a, solid.mesh);
+  expect_parameters(a, solid);
+}
+
+TEST(AssociatedMesh, that_lies_elsewhere_or_has_a_node_on_no_face_is_refused) {
+  const ShapeMesh solid("cylinder", 0.05);
+  const double size = solid.model.tables().reference_diagonal();
+  const auto message = [&](const SurfaceMesh& m) -> std::string {
+    try {
+      associate_mesh(m, solid.model, {});
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  SurfaceMesh moved = bare(solid.mesh);
+  for (Vec3& x : moved.node_xyz) x.x += 0.2 * size;
+  EXPECT_NE(message(moved).find("lies elsewhere"), std::string::npos) << message(moved);
+  SurfaceMesh dented = bare(solid.mesh);
+  ASSERT_EQ(solid.mesh.node_entity_dim.back(), 2);
+  dented.node_xyz.back() = dented.node_xyz.back() + Vec3{0.01 * size, 0.01 * size, 0.01 * size};
+  EXPECT_NE(message(dented).find("lie on no face"), std::string::npos) << message(dented);
 }
 
 INSTANTIATE_TEST_SUITE_P(, AssociatedSolid, testing::ValuesIn(kSolids), [](const auto& info) { return std::string(info.param); });
