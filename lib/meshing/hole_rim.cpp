@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "mesh/adjacency.h"
+
 namespace st {
 namespace {
 
@@ -77,23 +79,14 @@ class RimFinder {
     return static_cast<std::int32_t>(node_corner_.size()) - 1;
   }
 
-  std::int32_t root(std::int32_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-
   /// Triangles with a common node belong to one hole.
   void find_parts() {
-    parent_.resize(node_corner_.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
+    connected_ = DisjointSets(static_cast<std::int64_t>(node_corner_.size()));
     for (std::size_t i = 0; i < local_.size(); i += 3)
-      for (int k = 1; k < 3; ++k) {
-        const std::int32_t a = root(local_[i]), b = root(local_[i + k]);
-        parent_[std::max(a, b)] = std::min(a, b);
-      }
+      for (int k = 1; k < 3; ++k) connected_.join(local_[i], local_[i + k]);
     part_.assign(node_corner_.size(), kNone);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      std::int32_t& part = part_[root(local_[3 * i])];
+      std::int32_t& part = part_[connected_.find(local_[3 * i])];
       if (part == kNone) {
         part = static_cast<std::int32_t>(rims_.size());
         add_rim();
@@ -126,7 +119,7 @@ class RimFinder {
     for (std::size_t i = 0; i < local_.size(); ++i) {
       const Side s{local_[i], local_[i - i % 3 + (i + 1) % 3]};
       if (is_cad_side(node_at(node_corner_[s.first]), node_at(node_corner_[s.second]))) {
-        HoleRim& rim = rims_[part_[root(s.first)]];
+        HoleRim& rim = rims_[part_[connected_.find(s.first)]];
         rim.cad_sides.push_back(in_rim(rim, s));
         continue;
       }
@@ -146,7 +139,7 @@ class RimFinder {
         const auto is_same = [&](const Side& s) { return std::max(s.first, s.second) == std::max(sides_[i].first, sides_[i].second); };
         const auto begin = sides_.begin() + begin_[n], end = sides_.begin() + begin_[n + 1];
         if (std::find_if(begin, end, is_same) != sides_.begin() + i || std::count_if(begin, end, is_same) % 2 == 0) continue;
-        HoleRim& rim = rims_[part_[root(sides_[i].first)]];
+        HoleRim& rim = rims_[part_[connected_.find(sides_[i].first)]];
         rim.free_sides.push_back(in_rim(rim, sides_[i]));
       }
   }
@@ -171,7 +164,7 @@ class RimFinder {
   std::vector<TriangleId> triangles_;      // marked
   std::vector<std::int32_t> local_;        // [3*triangles_] local node
   std::vector<std::int32_t> node_corner_;  // [local nodes] a corner of the mesh with it
-  std::vector<std::int32_t> parent_;       // [local nodes] union-find
+  DisjointSets connected_{0};              // of local nodes
   std::vector<std::int32_t> part_;         // [local nodes] hole, at roots
   std::vector<std::int32_t> in_rim_;       // [local nodes] number in its rim
   std::vector<EdgeId> face_edges_;         // sorted
