@@ -126,6 +126,11 @@ TEST(FaceBoundary, gives_nodes_of_short_segments_a_size_of_their_own) {
     }
 }
 
+TEST(FaceBoundary, judges_a_node_by_the_segments_on_both_sides) {
+  const FaceCase c("strip", UniformField(0.5));  // at the corners one segment is 0.2 long, the other 0.5
+  for (const auto& n : c.boundary.nodes) EXPECT_NEAR(n.h, 0.5, 1e-12);
+}
+
 TEST(MinSegments, are_three_for_a_closed_edge_two_for_a_pair_one_else) {
   for (int n : min_segments_per_edge(test::make_model("box").tables())) EXPECT_EQ(n, 1);
   EXPECT_EQ(min_segments_per_edge(test::make_model("disc").tables()), std::vector<int>{3});
