@@ -12,6 +12,7 @@
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_BezierCurve.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
@@ -141,6 +142,32 @@ TopoDS_Shape rectangle_with_side(double y, int power) {
   return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Shape();
 }
 
+/// Trimming curve of `edge` with its ends and a bulge of `by` in u.
+Handle(Geom2d_Curve) bulged(const TopoDS_Edge& edge, const TopoDS_Face& face, double by) {
+  double t0, t1;
+  const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  TColgp_Array1OfPnt2d poles(1, 3);
+  poles(1) = old->Value(t0), poles(3) = old->Value(t1);
+  poles(2) = gp_Pnt2d(0.5 * (poles(1).X() + poles(3).X()) + by, 0.5 * (poles(1).Y() + poles(3).Y()));
+  TColStd_Array1OfReal knots(1, 2);
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  knots(1) = t0, knots(2) = t1;
+  multiplicities(1) = multiplicities(2) = 3;
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 2);
+}
+
+TopoDS_Shape off_meridian() {
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(new Geom_SphericalSurface(gp_Ax3(), 10), -0.25 * M_PI, 0.25 * M_PI, 0, 0.5 * M_PI, 1e-7).Face();
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    double t0, t1;
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+    if (std::abs(old->Value(t0).X() - old->Value(t1).X()) > 1e-9) continue;
+    BRep_Builder().UpdateEdge(edge, bulged(edge, face, 0.1), face, 1e-7);
+  }
+  return face;
+}
+
 /// A pin around z: radius 2, 10 long, its lower end rounded by a cubic from radius 0.8 at z = 0 to 2 at z = 1.2.
 TopoDS_Shape pin() {
   TColgp_Array1OfPnt poles(1, 4);
@@ -211,6 +238,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        [] {
          return polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 0.0001, 0}, {10, 10, 0}, {0, 10, 0}});
        }},
+      {"off_meridian", off_meridian},
       {"lost_fillet", lost_fillet},
       {"bare_sphere", bare_sphere},
       {"speeds",

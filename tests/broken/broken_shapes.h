@@ -18,6 +18,8 @@ namespace st::test {
 ///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
 ///   lost_fillet      a pin of radius 2 whose rounded end (a surface of revolution, radius 1.2) has its circles half a turn away in (u,v), vertices
 ///                    of tolerance 1
+///   off_meridian     an eighth of a sphere of radius 10 across the seam, both sides of which leave their meridian by 0.3 on the way to
+///                    the pole
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
 ///   sliver           a plane face of 100 x 0.001
 ///   flat             a plane face without area: three sides on one line

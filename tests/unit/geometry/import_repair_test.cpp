@@ -32,6 +32,7 @@ double largest_gap(const Model& model, FaceId f) {
   double gap = 0;
   for (std::int32_t c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c) {
     const EdgeId e = t.coedge_edge[c];
+    if (t.edge_is_degenerate[e]) continue;
     const auto curve = model.curve(e);
     const auto pcurve = model.pcurve(f, c);
     for (int k = 0; k <= 100; ++k) {
@@ -167,6 +168,15 @@ TEST(ImportRepair, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at
   for (FaceId f = 0; f < 2; ++f) EXPECT_LE(largest_gap(model, f), 1e-3) << f;
 }
 
+TEST(ImportRepair, keeps_the_period_and_the_pole_of_a_trimming_curve_projected_anew) {
+  const ImportResult r = import_broken("off_meridian");
+  ASSERT_EQ(findings_of(r, "trimming curve off its edge, projected anew").size(), 2u);
+  EXPECT_EQ(r.tables.n_coedges(), 4);  // the pole among them
+  EXPECT_NEAR(r.area, 50 * kPi, 1e-4);
+  EXPECT_NEAR(r.tables.face_uv_bounds[1] - r.tables.face_uv_bounds[0], 0.5 * kPi, 1e-6);
+  EXPECT_LE(largest_gap(Model(r.tables, r.brep), 0), 1e-5);
+}
+
 TEST(ImportRepair, bounds_a_face_without_loops) {
   const ImportResult r = import_broken("bare_sphere");
   EXPECT_EQ(r.tables.n_loops(), 1);
@@ -230,7 +240,7 @@ std::pair<Vec2, Vec2> ends(const Model& model, FaceId f, CoedgeId c) {
 }
 
 TEST(ImportReport, recovers_loops_of_broken_faces_head_to_tail) {
-  for (const char* shape : {"bow_tie", "sliver", "flat", "short_edge", "bare_sphere", "off_pcurve"}) {
+  for (const char* shape : {"bow_tie", "sliver", "flat", "short_edge", "bare_sphere", "off_pcurve", "off_meridian"}) {
     const ImportResult r = import_broken(shape);
     const Model model(r.tables, r.brep);
     const ModelTables& t = model.tables();
