@@ -7,8 +7,9 @@
 
 namespace st::occt {
 
-/// Faces without loops get their natural bounds; wires that cannot be walked, edges without a trimming curve and unequal parameters are
-/// repaired, each said in `findings`. A model that needs nothing is not touched, but for trimming curves on planes, which are stored.
+/// Faces without loops, and rings whose loops enclose nothing, get their natural bounds; wires that cannot be walked, edges without a
+/// trimming curve and unequal parameters are repaired, each said in `findings`. A model that needs nothing is not touched, but for trimming
+/// curves on planes, which are stored.
 void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

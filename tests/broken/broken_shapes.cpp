@@ -14,12 +14,14 @@
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_BezierCurve.hxx>
+#include <Geom2d_Line.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
@@ -204,6 +206,21 @@ TopoDS_Shape bare_sphere() {
   return face;
 }
 
+TopoDS_Shape ring() {
+  TopoDS_Face face;
+  BRep_Builder builder;
+  const Handle(Geom_ToroidalSurface) torus = new Geom_ToroidalSurface(gp_Ax3(), 10, 2);
+  builder.MakeFace(face, torus, 1e-7);
+  const TopoDS_Edge circle = BRepBuilderAPI_MakeEdge(torus->UIso(0)).Edge();
+  builder.UpdateEdge(circle, new Geom2d_Line(gp_Pnt2d(0, 0), gp_Dir2d(0, 1)), face, 1e-7);
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  builder.Add(wire, circle);
+  builder.Add(wire, circle.Reversed());
+  builder.Add(face, wire);
+  return face;
+}
+
 const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
   static const std::map<std::string, std::function<TopoDS_Shape()>> all{
       {"doubled_face", doubled_face},
@@ -241,6 +258,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
       {"off_meridian", off_meridian},
       {"lost_fillet", lost_fillet},
       {"bare_sphere", bare_sphere},
+      {"ring", ring},
       {"speeds",
        [] {
          return compound({rectangle_with_side(5, 1), rectangle_with_side(-5, 3)});

@@ -25,6 +25,7 @@ namespace st::test {
 ///   flat             a plane face without area: three sides on one line
 ///   short_edge       a plane face with an edge of 0.0001
 ///   bare_sphere      a spherical face without loops
+///   ring             the face of a torus of radii 10 and 2 whose loop is one circle around the tube, there and back
 ///   speeds           two rectangles whose common side both run at different speeds
 void write_broken(const std::string& name, const std::string& path);
 

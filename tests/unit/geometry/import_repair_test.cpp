@@ -184,6 +184,15 @@ TEST(ImportRepair, bounds_a_face_without_loops) {
   EXPECT_GE(r.n_repairs, 1);
 }
 
+TEST(ImportRepair, bounds_a_ring_whose_loop_encloses_nothing) {
+  const ImportResult r = import_broken("ring");
+  EXPECT_EQ(findings_of(r, "ring without bounds").size(), 1u);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, 80 * kPi * kPi, 1e-3);
+  EXPECT_NEAR(r.volume, 80 * kPi * kPi, 1e-3);
+  EXPECT_TRUE(findings_of(test::import_shape("torus"), "ring").empty());
+}
+
 TEST(ImportReport, lists_a_loop_that_crosses_itself_with_its_place) {
   const auto found = findings_of(import_broken("bow_tie"), "loop crosses");
   ASSERT_EQ(found.size(), 1u);
