@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/analytic.h"
 #include "geometry/bspline.h"
 #include "unit/meshing/faces.h"
@@ -68,9 +70,60 @@ TEST(DiscretiseCurve, limits_the_turning_of_a_segment) {
   for (double turning : {10.0, 30.0, 45.0})
     EXPECT_EQ(discretise_curve(circle, UniformField(10), {turning, 3}).t.size(), std::round(360 / turning) + 1);
   const EllipseCurve flat(kFrame, 10, 1, 0, 2 * kPi);
-  const CurveNodes n = discretise_curve(flat, UniformField(3), {30, 3});
+  const CurveNodes n = discretise_curve(flat, UniformField(0.2), {30, 3});
   for (std::size_t i = 1; i < n.t.size(); ++i)
     EXPECT_LE(degrees(angle_between(flat.evaluate(n.t[i - 1]).d1, flat.evaluate(n.t[i]).d1)), 1.25 * 30);
+}
+
+/// Largest distance of the curve from the chords.
+double largest_sagitta(const Curve& c, const CurveNodes& n) {
+  double largest = 0;
+  for (std::size_t i = 1; i < n.t.size(); ++i)
+    for (int k = 1; k < 100; ++k) {
+      const Vec3 a = n.x[i - 1], ab = n.x[i] - a, x = c.point(n.t[i - 1] + (n.t[i] - n.t[i - 1]) * 0.01 * k) - a;
+      const double along = std::clamp(dot(x, ab) / norm2(ab), 0.0, 1.0);
+      largest = std::max(largest, norm(x - along * ab));
+    }
+  return largest;
+}
+
+TEST(DiscretiseCurve, stays_near_arcs_far_smaller_than_the_length) {
+  for (double radius : {0.02, 0.05, 0.1, 0.3, 0.5, 1.0}) {
+    const EllipseCurve arc(kFrame, radius, radius, 0.5, 0.5 + kPi);
+    EXPECT_LE(largest_sagitta(arc, discretise_curve(arc, UniformField(1), {})), 0.05) << radius;
+  }
+  const EllipseCurve flat(kFrame, 10, 1, 0, 2 * kPi);
+  EXPECT_LE(largest_sagitta(flat, discretise_curve(flat, UniformField(3), {30, 3})), 0.05 * 3);
+}
+
+/// Straight from (0, 0) to (length, 0), then an arc that turns by `angle_deg`, then straight on for `rest`.
+BsplineCurve hook(double length, double radius, double angle_deg, double rest) {
+  const double a = radians(angle_deg), w = std::cos(0.5 * a);
+  const Vec3 corner{length + radius * std::tan(0.5 * a), 0, 0}, on{std::cos(a), std::sin(a), 0};
+  const Vec3 end = corner + radius * std::tan(0.5 * a) * on, last = end + rest * on, first{0, 0, 0}, start{length, 0, 0};
+  const auto pole = [](Vec3 x, double weight) { return Pole{{weight * x.x, weight * x.y, weight * x.z, weight}}; };
+  const double s = length / (length + rest);
+  return BsplineCurve(KnotSpans(2, {0, 0, 0, 0.9 * s, 0.9 * s, 0.9 * s + 0.1, 0.9 * s + 0.1, 1, 1, 1}, 0),
+                      {pole(first, 1), pole(0.5 * (first + start), 1), pole(start, 1), pole(corner, w), pole(end, 1),
+                       pole(0.5 * (end + last), 1), pole(last, 1)},
+                      true, 0, 1);
+}
+
+TEST(DiscretiseCurve, makes_no_tiny_segments_at_a_hook_far_smaller_than_the_length) {
+  for (double radius : {1e-6, 1e-4, 1e-3, 5e-3})
+    for (double rest : {0.01, 0.1, 0.3, 1.2, 3.0}) {
+      const BsplineCurve c = hook(5, radius, 80, rest);
+      const CurveNodes n = discretise_curve(c, UniformField(1), {});
+      for (double l : segment_lengths(n)) EXPECT_GE(l, 0.2) << radius << " " << rest;
+      EXPECT_LE(largest_sagitta(c, n), 0.25) << radius << " " << rest;
+    }
+}
+
+TEST(DiscretiseCurve, puts_one_node_at_a_sharp_kink) {
+  const BsplineCurve c = hook(5.3, 1e-5, 90, 3.2);
+  const CurveNodes n = discretise_curve(c, UniformField(1), {});
+  EXPECT_EQ(std::count_if(n.x.begin(), n.x.end(), [](Vec3 x) { return distance(x, {5.3, 0, 0}) < 0.01; }), 1);
+  EXPECT_LE(largest_sagitta(c, n), 0.01);
 }
 
 TEST(DiscretiseCurve, follows_a_graded_field) {
@@ -103,7 +156,8 @@ TEST(DiscretiseCurve, does_not_multiply_segments_at_a_corner) {
   const UniformField field(0.5);
   const CurveNodes n = discretise_curve(corner, field, {});
   expect_ends_and_order(corner, n, field);
-  EXPECT_NEAR(static_cast<double>(n.t.size()), 21, 2);
+  EXPECT_EQ(n.t.size(), 21u);
+  EXPECT_LE(distance(n.x[10], {5, 0, 0}), 0.01 * 0.5);
 }
 
 TEST(DiscretiseCurve, does_not_depend_on_the_fields_hint) {
