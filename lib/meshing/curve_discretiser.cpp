@@ -10,6 +10,7 @@ constexpr int kInitialIntervals = 16;
 constexpr int kMaxDepth = 24;
 constexpr double kSamplesPerLength = 2.0;  // samples of the size along one requested length
 constexpr double kFullRadius = 0.5;        // of the length: circles from this radius on get segments of max_turning
+constexpr double kMostDense = 1.5;         // segments for one of such a circle, however small the radius
 constexpr double kCorner = 0.01;           // of the length: what turns by more than max_turning within this is a corner
 constexpr double kCornerReach = 0.25;      // lengths: a corner nearer to an end or another corner has no node of its own
 
@@ -74,7 +75,8 @@ class Discretiser {
       const Sample &a = samples_[i - 1], &b = samples_[i];
       const double by_size = distance(a.x, b.x) * 0.5 * (1 / a.h + 1 / b.h);
       const double by_turning = turning(i) / max_turning_;
-      const double by_chord = std::sqrt(by_turning * by_size / (kFullRadius * max_turning_));
+      const double at_full_radius = by_size / (kFullRadius * max_turning_);
+      const double by_chord = std::min(std::sqrt(by_turning * at_full_radius), kMostDense * at_full_radius);
       share_.push_back(share_.back() + std::max(by_size, std::min(by_turning, by_chord)));
       lengths_.push_back(lengths_.back() + by_size);
     }

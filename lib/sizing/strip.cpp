@@ -1,20 +1,26 @@
 #include "sizing/strip.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "geometry/projection.h"
 #include "sizing/arc_table.h"
 
 namespace st {
 namespace {
 
-constexpr int kStations = 32;           // intervals of a strip
-constexpr double kNarrow = 0.25;        // of its length: wider faces are no strips
-constexpr double kShortEnd = 0.5;       // of the long edges: all other edges of a strip together are shorter
-constexpr double kWidthsPerLength = 1.5;  // of the triangles
-constexpr double kResolved = 0.17;      // of the smallest length: narrower strips are not worth resolving
-constexpr double kWorthwhile = 0.9;     // of the largest length: more asks for nothing
-constexpr double kSpacing = 1;          // lengths between two boxes
-constexpr int kMaxBoxes = 20000;        // per strip
+constexpr int kMinStations = 32;  // intervals of a strip
+constexpr int kMaxStations = 2048;
+constexpr double kStationTurning = radians(10);  // of a strip's edge, between two stations
+constexpr int kTurningSamples = 512;             // of an edge
+constexpr double kNarrow = 0.25;                 // of its length: wider faces are no strips
+constexpr double kShortEnd = 0.5;                // of the long edges: all other edges of a strip together are shorter
+constexpr double kWidthsPerLength = 1.25;        // of the triangles: right-angled ones have a quality of 0.85, others more
+constexpr double kResolved = 0.17;               // of the smallest length: narrower strips are not worth resolving
+constexpr double kWorthwhile = 0.9;              // of the largest length: more asks for nothing
+constexpr double kSpacing = 1;                   // lengths between two boxes
+constexpr int kMaxBoxes = 20000;                 // per strip
 
 /// How often each edge is used by coedges of any face.
 std::vector<int> count_uses(const ModelTables& t) {
@@ -43,6 +49,25 @@ bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, St
   return t.face_area[f] < kNarrow * strip.length * strip.length;
 }
 
+/// So many intervals that each turns little.
+int count_stations(const Curve& curve) {
+  double turning = 0;
+  Vec3 last = curve.evaluate(curve.t_min()).d1;
+  for (int i = 1; i <= kTurningSamples; ++i) {
+    const Vec3 d1 = curve.evaluate(curve.t_min() + (curve.t_max() - curve.t_min()) * i / kTurningSamples).d1;
+    turning += angle_between(last, d1);
+    last = d1;
+  }
+  return std::clamp(static_cast<int>(std::ceil(turning / kStationTurning)), kMinStations, kMaxStations);
+}
+
+/// From x to the curve, near the parameter where its other edge is as long so far.
+double width_at(Vec3 x, const Curve& other, double t) {
+  const double facing = distance(x, other.point(t));
+  const std::optional<double> foot = project_near(other, x, t);
+  return foot ? std::min(facing, distance(x, other.point(std::clamp(*foot, other.t_min(), other.t_max())))) : facing;
+}
+
 void measure_strip(const Model& model, Strip& strip) {
   const ModelTables& t = model.tables();
   const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
@@ -50,10 +75,11 @@ void measure_strip(const Model& model, Strip& strip) {
   strip.is_opposed = distance(end(strip.edges[0], 0), end(strip.edges[1], 1)) + distance(end(strip.edges[0], 1), end(strip.edges[1], 0)) <
                      distance(end(strip.edges[0], 0), end(strip.edges[1], 0)) + distance(end(strip.edges[0], 1), end(strip.edges[1], 1));
   const ArcTable a(*kept), b(*closed);
-  for (int i = 0; i <= kStations; ++i) {
-    const double share = static_cast<double>(i) / kStations;
+  const int n = count_stations(*kept);
+  for (int i = 0; i <= n; ++i) {
+    const double share = static_cast<double>(i) / n;
     const Vec3 x = kept->point(a.parameter_at(share));
-    strip.stations.push_back({x, distance(x, closed->point(b.parameter_at(strip.is_opposed ? 1 - share : share)))});
+    strip.stations.push_back({x, width_at(x, *closed, b.parameter_at(strip.is_opposed ? 1 - share : share))});
   }
 }
 
@@ -73,14 +99,15 @@ std::vector<Strip> find_strips(const Model& model) {
 }
 
 void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
+  const double least_width = kResolved * limits.min_length;
   double share = 0;
   for (int n = 0; share <= 1 && n < kMaxBoxes; ++n) {
-    const double at = share * kStations;
+    const double at = share * static_cast<double>(strip.stations.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
     const Strip::Station &a = strip.stations[i], &b = strip.stations[i + 1];
     const double part = at - static_cast<double>(i), width = a.width + part * (b.width - a.width);
-    const double length = std::clamp(kWidthsPerLength * width, limits.min_length, limits.max_length);
-    if (width > kResolved * limits.min_length && length < kWorthwhile * limits.max_length)
+    const double length = std::clamp(kWidthsPerLength * width, kWidthsPerLength * least_width, limits.max_length);
+    if (width > least_width && length < kWorthwhile * limits.max_length)
       boxes.push_back(
           {a.x + part * (b.x - a.x), static_cast<float>(0.5 * limits.cell_per_length * length), static_cast<float>(length), cause});
     share += std::max(kSpacing * length / strip.length, 1.0 / kMaxBoxes);

@@ -9,7 +9,7 @@
 
 namespace st {
 
-/// A face with one loop of two long edges, measured at equal shares of their lengths.
+/// A face with one loop of two long edges, measured at equal shares of their lengths, closely enough to follow the turns of a helix.
 struct Strip {
   FaceId face = kNone;
   EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
@@ -26,8 +26,9 @@ struct Strip {
 /// wide on average, ascending. Local.
 std::vector<Strip> find_strips(const Model& model);
 
-/// Appends boxes along the strip that ask for 1.5 times its width (triangles as good as their neighbours), where the limits allow
-/// that: nothing where it is narrower than a sixth of the smallest length.
+/// Appends boxes along the strip that ask for 1.25 times its width (triangles as good as their neighbours), at most the largest length;
+/// nothing where it is narrower than a sixth of the smallest length. Above that the smallest length is no bound: the triangles across the
+/// strip have sides as short as it is wide anyway, and longer ones along it make them flat.
 void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes);
 
 }  // namespace st

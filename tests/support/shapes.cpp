@@ -29,6 +29,7 @@
 #include <GeomConvert.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
+#include <GeomFill.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
@@ -241,6 +242,27 @@ TopoDS_Shape tapered_bar() {
   return loft.Shape();
 }
 
+/// Three faces between helices of eight turns with a pitch of 3: radii 10 and 10.3 at one height, and one 0.3 above the inner one.
+TopoDS_Shape helical_ribbon() {
+  const auto helix = [](double radius, double z) {
+    constexpr int kTurns = 8, kPerTurn = 24;
+    Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kTurns * kPerTurn + 1);
+    for (int i = 0; i <= kTurns * kPerTurn; ++i) {
+      const double a = 2 * M_PI * i / kPerTurn;
+      points->SetValue(i + 1, gp_Pnt(radius * std::cos(a), radius * std::sin(a), z + 3 * a / (2 * M_PI)));
+    }
+    GeomAPI_Interpolate through(points, false, 1e-9);
+    through.Perform();
+    return through.Curve();
+  };
+  const Handle(Geom_BSplineCurve) a = helix(10, 0), b = helix(10.3, 0), c = helix(10, 0.3);
+  BRepBuilderAPI_Sewing sewing(1e-4);
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+    sewing.Add(BRepBuilderAPI_MakeFace(GeomFill::Surface(from, to), 1e-6).Shape());
+  sewing.Perform();
+  return sewing.SewedShape();
+}
+
 /// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last coefficient, 0.1036 ends in a
 /// point, 0.1015 is 0.0252 thick at the end.
 Handle(Geom_BSplineCurve) aerofoil(double closing) {
@@ -316,6 +338,7 @@ const std::map<std::string, Factory>& factories() {
        [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"wedge_strip", [] { return tapered_bar(); }},
+      {"helical_ribbon", helical_ribbon},
       {"thin_crescent",
        [] {
          const auto circle = [](double x, double r) {
