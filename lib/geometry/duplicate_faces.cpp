@@ -22,16 +22,18 @@ struct Candidate {
   TopoDS_Face face;
   Box3 box;
   double tolerance;
+  bool is_loose;  ///< in no solid
 };
 
-std::vector<Candidate> loose_faces(const ImportedShape& model) {
+/// All faces in the order of their boxes; none when all belong to solids.
+std::vector<Candidate> candidates(const ImportedShape& model) {
+  std::vector<char> is_loose(model.faces.Extent() + 1, 0);
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next()) is_loose[model.faces.FindIndex(e.Current())] = 1;
   std::vector<Candidate> result;
-  TopTools_IndexedMapOfShape seen;
-  for (TopExp_Explorer e(model.shape, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next()) {
-    if (seen.Contains(e.Current())) continue;
-    seen.Add(e.Current());
-    result.push_back({model.faces.FindIndex(e.Current()), TopoDS::Face(e.Current().Oriented(TopAbs_FORWARD)), rough_box(e.Current()),
-                      max_edge_tolerance(e.Current())});
+  if (std::find(is_loose.begin(), is_loose.end(), 1) == is_loose.end()) return result;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Shape& face = model.faces(i);
+    result.push_back({i, TopoDS::Face(face.Oriented(TopAbs_FORWARD)), rough_box(face), max_edge_tolerance(face), is_loose[i] != 0});
   }
   std::sort(result.begin(), result.end(),
             [](const Candidate& a, const Candidate& b) { return a.box.lo.x != b.box.lo.x ? a.box.lo.x < b.box.lo.x : a.id < b.id; });
@@ -74,7 +76,7 @@ bool coincide(const Candidate& a, const Candidate& b, double tolerance) {
 }  // namespace
 
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  const std::vector<Candidate> faces = loose_faces(model);
+  const std::vector<Candidate> faces = candidates(model);
   const double place = kSamePlace * rough_box(model.shape).diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   std::vector<char> is_removed(faces.size(), 0);
@@ -82,9 +84,10 @@ void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& finding
     for (std::size_t k = i + 1; k < faces.size(); ++k) {
       const double tolerance = std::max({place, faces[i].tolerance, faces[k].tolerance});
       if (faces[k].box.lo.x - faces[i].box.lo.x > 2 * tolerance) break;
+      if (!faces[i].is_loose && !faces[k].is_loose) continue;
       if (is_removed[i] || is_removed[k] || !same_name(model, faces[i].id, faces[k].id) || !coincide(faces[i], faces[k], tolerance))
         continue;
-      const bool keep_i = faces[i].id < faces[k].id;
+      const bool keep_i = faces[i].is_loose == faces[k].is_loose ? faces[i].id < faces[k].id : !faces[i].is_loose;
       const Candidate& gone = keep_i ? faces[k] : faces[i];
       is_removed[keep_i ? k : i] = 1;
       reshape->Remove(gone.face);

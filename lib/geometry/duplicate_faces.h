@@ -7,8 +7,8 @@
 
 namespace st::occt {
 
-/// Removes faces at the place of an earlier one: same vertices, box, area and surface within the tolerances. Faces of solids stay: parts
-/// that touch have coincident faces by right.
+/// Removes faces outside solids at the place of an earlier one, or of a solid's: same vertices, box, area and surface within the tolerances.
+/// Faces of solids stay: parts that touch have coincident faces by right.
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

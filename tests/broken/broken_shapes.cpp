@@ -62,6 +62,12 @@ TopoDS_Shape doubled_face() {
   return compound(faces);
 }
 
+TopoDS_Shape sheet_on_solid() {
+  const TopoDS_Shape solid = box(60, 40, 20);
+  const std::vector<TopoDS_Shape> faces = loose_faces_of(solid);
+  return compound({faces[1], faces[4], solid});
+}
+
 /// Every face of the box moved along its diagonal by a step of its own, up to 0.05.
 TopoDS_Shape gappy_box() {
   std::vector<TopoDS_Shape> faces = loose_faces_of(box(60, 40, 20));
@@ -224,6 +230,7 @@ TopoDS_Shape ring() {
 const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
   static const std::map<std::string, std::function<TopoDS_Shape()>> all{
       {"doubled_face", doubled_face},
+      {"sheet_on_solid", sheet_on_solid},
       {"gappy_box", gappy_box},
       {"touching_boxes",
        [] {

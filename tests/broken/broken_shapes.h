@@ -7,6 +7,7 @@ namespace st::test {
 
 /// Writes the shape `name` to `path`; an unknown name throws std::runtime_error.
 ///   doubled_face     the six loose faces of a box 60 x 40 x 20, one of them twice
+///   sheet_on_solid   that box as a solid, and before it in the file two of its faces as sheets
 ///   gappy_box        the six loose faces of that box with gaps up to 0.09
 ///   touching_boxes   two solids side by side that share a place, not a face
 ///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in common

@@ -55,6 +55,15 @@ TEST(ImportRepair, removes_a_face_that_is_there_twice) {
   EXPECT_EQ(found[0].entity, "face 7 of the file");
 }
 
+TEST(ImportRepair, removes_sheets_that_lie_on_a_solid) {
+  const ImportResult r = import_broken("sheet_on_solid");
+  EXPECT_EQ(findings_of(r, "duplicated face").size(), 2u);
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_EQ(r.tables.n_solids, 1);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.volume, 48000, 1e-6);
+}
+
 TEST(ImportRepair, joins_edges_as_far_apart_as_asked_and_no_further) {
   EXPECT_EQ(import_broken("gappy_box").n_free_edges, 24);
   ImportOptions options;
