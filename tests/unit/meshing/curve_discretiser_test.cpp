@@ -109,6 +109,14 @@ BsplineCurve hook(double length, double radius, double angle_deg, double rest) {
                       true, 0, 1);
 }
 
+TEST(DiscretiseCurve, keeps_arcs_round_that_are_far_smaller_than_the_length) {
+  for (double radius : {1e-4, 0.01, 0.1})
+    for (double angle : {90.0, 180.0, 270.0, 360.0}) {
+      const EllipseCurve arc(kFrame, radius, radius, 0, radians(angle));
+      EXPECT_GE(static_cast<double>(discretise_curve(arc, UniformField(1), {}).t.size()) - 1, angle / 52) << radius << " " << angle;
+    }
+}
+
 TEST(DiscretiseCurve, makes_no_tiny_segments_at_a_hook_far_smaller_than_the_length) {
   for (double radius : {1e-6, 1e-4, 1e-3, 5e-3})
     for (double rest : {0.01, 0.1, 0.3, 1.2, 3.0}) {
