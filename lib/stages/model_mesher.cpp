@@ -18,8 +18,9 @@ constexpr std::int32_t kEdgesPerTask = 24;
 // of the requested length, where refinements end
 constexpr double kLoopFloor = 1.0 / 16;           // of loops, folds and narrow parts
 constexpr double kCrossingFloor = 1.0 / 8;        // of crossing facets
-constexpr double kFewCrossingsFloor = 1.0 / 64;   // likewise where few cross
+constexpr double kPromisingFloor = 1.0 / 64;      // likewise where few cross, or ever fewer
 constexpr std::size_t kFewCrossings = 200;        // places
+constexpr double kPromising = 0.8;                // of the places before: as many or less is getting better
 constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed in one round
 constexpr double kWorthwhile = 0.95;              // of the present length: a refinement that asks for more than this is no change
 
@@ -114,10 +115,7 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
   min_segments_ = min_segments_per_edge(t);
   if (static_cast<std::int32_t>(face_weight_.size()) != t.n_faces()) face_weight_ = t.face_area;
   patches.resize(t.n_faces());
-  face_folds_.assign(t.n_faces(), 0);
-  face_cause_.resize(t.n_faces());
-  face_cause_xyz_.resize(t.n_faces());
-  face_fold_places_.resize(t.n_faces());
+  outcomes_.resize(t.n_faces());
   face_is_fresh_.assign(t.n_faces(), 1);
   edges.edge_offsets.assign(t.n_edges() + 1, 0);
   edge_in_scope_.assign(t.n_edges(), 1);
@@ -190,6 +188,7 @@ void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patche
 
 void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces) {
   int n_crossing_rounds = 0;
+  std::size_t n_last = 0;  // places of the last search for crossings
   for (;;) {
     Timer timer;
     mesh_edges(dirty_edges);
@@ -199,21 +198,59 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     times.faces += timer.seconds();
     ++n_rounds;
     const bool may_refine = n_rounds - n_crossing_rounds <= options_.max_rounds;
-    if (may_refine && accept(wanted, kLoopFloor, dirty_edges, dirty_faces)) continue;
+    if (may_refine && accept(wanted, kLoopFloor, dirty_edges, dirty_faces)) {
+      keep_whole(dirty_faces);
+      continue;
+    }
+    const bool restored = restore_whole();
     timer = Timer();
     wanted = find_crossings();
     times.crossing += timer.seconds();
-    const bool are_few = wanted.size() <= kFewCrossings;
-    const int max_crossing_rounds = are_few ? options_.max_few_crossings_rounds : options_.max_crossing_rounds;
-    const double floor = are_few ? kFewCrossingsFloor : kCrossingFloor;
-    if (n_crossing_rounds++ >= max_crossing_rounds || !accept(wanted, floor, dirty_edges, dirty_faces)) break;
+    const bool is_promising = wanted.size() <= kFewCrossings || wanted.size() < kPromising * n_last;
+    const int max_crossing_rounds = is_promising ? options_.max_promising_rounds : options_.max_crossing_rounds;
+    if (restored || wanted.empty() || n_crossing_rounds++ >= max_crossing_rounds) break;
+    n_last = wanted.size();
+    if (!accept(wanted, is_promising ? kPromisingFloor : kCrossingFloor, dirty_edges, dirty_faces)) break;
+    keep_whole(dirty_faces);
   }
   if (!comm_.is_root()) return;
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
-    folds.insert(folds.end(), face_fold_places_[f].begin(), face_fold_places_[f].end());
-    if (!face_cause_[f].empty()) failures.push_back({f, face_cause_[f], remedy_of(face_cause_[f]), face_cause_xyz_[f]});
+    const FaceOutcome& o = outcomes_[f];
+    folds.insert(folds.end(), o.fold_places.begin(), o.fold_places.end());
+    if (!o.cause.empty()) failures.push_back({f, o.cause, remedy_of(o.cause), o.cause_xyz});
   }
   for (auto& [f, failed] : failed_faces_) failed_faces.push_back(std::move(failed));
+}
+
+/// Before `dirty` are redone.
+void ModelMesher::keep_whole(const std::vector<FaceId>& dirty) {
+  if (!comm_.is_root()) return;
+  if (failed_faces_.empty()) whole_ = WholeMesh{edges, {}};
+  if (!whole_) return;
+  for (const FaceId f : dirty) whole_->faces.try_emplace(f, patches[f], outcomes_[f]);
+}
+
+/// Collective. Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.
+bool ModelMesher::restore_whole() {
+  Packer p;
+  p.add(std::vector<char>{whole_ && !failed_faces_.empty()});
+  Bytes bytes = p.take();
+  comm_.broadcast(bytes);
+  std::vector<char> restores;
+  Unpacker(bytes).get(restores);
+  if (!restores[0]) return false;
+  if (comm_.is_root()) {
+    edges = std::move(whole_->edges);
+    for (auto& [f, before] : whole_->faces) {
+      patches[f] = std::move(before.first);
+      outcomes_[f] = std::move(before.second);
+      face_is_fresh_[f] = 1;
+    }
+    failed_faces_.clear();
+  }
+  broadcast_edges();
+  numbering_.emplace(tables_, edges, merged);
+  return true;
 }
 
 double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
@@ -405,13 +442,14 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
         Unpacker u(result);
         unpack(u, patches[f]);
         face_is_fresh_[f] = 1;
-        u.get(face_cause_[f]);
+        FaceOutcome& o = outcomes_[f];
+        u.get(o.cause);
         u.get(wanted[task]);
-        u.get(face_folds_[f]);
+        u.get(o.n_folds);
         failed_faces_.erase(f);
-        if (!face_cause_[f].empty()) unpack(u, failed_faces_[f]);
-        face_fold_places_[f] = face_folds_[f] ? wanted[task] : std::vector<RefinementPoint>();
-        face_cause_xyz_[f] = wanted[task].empty() ? tables_.face_box[f].center() : wanted[task][0].x;
+        if (!o.cause.empty()) unpack(u, failed_faces_[f]);
+        o.fold_places = o.n_folds ? wanted[task] : std::vector<RefinementPoint>();
+        o.cause_xyz = wanted[task].empty() ? tables_.face_box[f].center() : wanted[task][0].x;
         progress.update(static_cast<double>(++n_done));
       });
   std::vector<RefinementPoint> all;

@@ -21,8 +21,8 @@ struct ModelMesherOptions {
   int enhance_rounds = 5;
   double max_turning_deg = 30;      ///< of a CAD edge along one segment
   int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
-  int max_crossing_rounds = 4;      ///< refinements of crossing facets
-  int max_few_crossings_rounds = 10;  ///< likewise where few are left
+  int max_crossing_rounds = 8;      ///< refinements of crossing facets
+  int max_promising_rounds = 14;    ///< likewise where few are left, or ever fewer
   double merge_below = 0.05;        ///< of the requested length: shorter edges and narrower strips are merged for meshing; 0: none
   const MergedFeatures* merged = nullptr;   ///< of an earlier mesh: taken over instead of looking for them
 };
@@ -59,15 +59,26 @@ class ModelMesher {
   ModelMesherTimes times;
 
  private:
-  struct FaceOutcome;
+  struct FaceOutcome {
+    std::string cause;                          // why it failed, empty where it did not
+    Vec3 cause_xyz;
+    int n_folds = 0;
+    std::vector<RefinementPoint> fold_places;
+  };
   struct FacetPair {  // two triangles by face and place in its patch
     FaceId face_a, face_b;
     std::int32_t index_a, index_b;
     auto operator<=>(const FacetPair&) const = default;
   };
+  struct WholeMesh {  // no face failed: what has been redone since, as it was
+    EdgeMesh edges;
+    std::map<FaceId, std::pair<FacePatch, FaceOutcome>> faces;
+  };
   void find_small_features(const MergedFeatures* given);
   void add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const;
   void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
+  void keep_whole(const std::vector<FaceId>& dirty);
+  bool restore_whole();
   void limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in);
   void mesh_edges(const std::vector<EdgeId>& dirty);
   std::vector<RefinementPoint> mesh_faces(const std::vector<FaceId>& dirty);
@@ -91,11 +102,9 @@ class ModelMesher {
   std::vector<char> edge_in_scope_, face_in_scope_;   // what may be meshed (again)
   std::vector<RefinementPoint> points_;      // all refinements so far
   std::vector<double> point_reach_;
-  std::vector<int> face_folds_;
-  std::vector<std::string> face_cause_;
+  std::vector<FaceOutcome> outcomes_;        // by face, on rank 0
   std::map<FaceId, FailedFace> failed_faces_;
-  std::vector<Vec3> face_cause_xyz_;
-  std::vector<std::vector<RefinementPoint>> face_fold_places_;
+  std::optional<WholeMesh> whole_;           // the last one, on rank 0
   std::vector<char> face_is_fresh_;          // meshed since the last search for crossings
   std::vector<FacetPair> crossing_pairs_;    // found so far and still there, sorted
 };

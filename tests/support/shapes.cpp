@@ -7,28 +7,28 @@
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GC_MakeArcOfCircle.hxx>
-#include <GeomAdaptor_Curve.hxx>
-#include <GeomConvert.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomConvert.hxx>
 #include <GeomFill.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -263,8 +263,8 @@ TopoDS_Shape helical_ribbon() {
   return sewing.SewedShape();
 }
 
-/// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last coefficient, 0.1036 ends in a
-/// point, 0.1015 is 0.0252 thick at the end.
+/// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last coefficient, 0.1036 ends in
+/// a point, 0.1015 is 0.0252 thick at the end.
 Handle(Geom_BSplineCurve) aerofoil(double closing) {
   constexpr int kHalf = 30;
   Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 2 * kHalf + 1);
@@ -334,8 +334,13 @@ const std::map<std::string, Factory>& factories() {
       {"drilled_cylinder", drilled_cylinder},
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
-      {"stepped_box",
-       [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
+      {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
+      {"thin_pipe",
+       [] {
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 20).Shape(), moved(BRepPrimAPI_MakeCylinder(9.95, 22).Shape(), 0, 0, -1))
+             .Shape();
+       }},
+      {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"wedge_strip", [] { return tapered_bar(); }},
       {"helical_ribbon", helical_ribbon},

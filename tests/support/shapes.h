@@ -12,6 +12,7 @@ namespace st::test {
 
 /// Shapes of one or more faces, by name. make_shape() knows them all; an unknown name throws std::runtime_error.
 ///   solids   box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes thin_cylinder
+///            thin_pipe (radius 10, wall 0.05) spindle_torus (crosses itself on its axis)
 ///            drilled_block stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
 ///            sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
 ///   faces    square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees) l_face plate_with_hole cone_side sphere_octant

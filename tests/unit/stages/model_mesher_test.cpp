@@ -185,6 +185,24 @@ TEST(ModelMesher, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
   EXPECT_NEAR(measure_mesh(m.mesh).area, 616, 1e-6);
 }
 
+TEST(ModelMesher, refines_walls_thinner_than_their_chords_until_they_stand_apart) {
+  set_verbosity(Verbosity::kQuiet);
+  for (const double length : {1.5, 2.0, 3.0}) {
+    const Meshed m("thin_pipe", length);
+    EXPECT_EQ(m.mesher.n_crossing_pairs, 0) << length;
+    EXPECT_TRUE(check_topology(m.mesh).is_closed());
+  }
+}
+
+TEST(ModelMesher, makes_no_hole_where_refining_cannot_part_what_crosses) {
+  set_verbosity(Verbosity::kQuiet);
+  for (const double length : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
+    const Meshed m("spindle_torus", length);
+    EXPECT_TRUE(m.mesher.failures.empty()) << length;
+    EXPECT_TRUE(check_topology(m.mesh).is_closed()) << length;
+  }
+}
+
 TEST(ModelMesher, redoes_nothing_when_nothing_is_to_be_redone) {
   set_verbosity(Verbosity::kQuiet);
   Meshed m("cylinder", 1);
