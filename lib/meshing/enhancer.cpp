@@ -252,6 +252,7 @@ class Enhancer {
       const PlaneTriangle& t = m_.triangles[i];
       if (!is_inside(t)) continue;
       for (int k = 0; k < 3; ++k) {
+        if (are_one_pole(t.v[k], t.v[kNext[k]])) at_short_edge_[t.v[kPrev[k]]] = 1;
         if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
         const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
         const double h = 0.5 * (a.h + b.h);
@@ -260,17 +261,28 @@ class Enhancer {
     }
   }
 
+  /// Nodes of the plane that are one pole in space: no side between them.
+  bool are_one_pole(std::int32_t a, std::int32_t b) const {
+    const MeshNode &p = m_.nodes[a], &q = m_.nodes[b];
+    return p.is_pole && q.is_pole && p.id == q.id;
+  }
+
   void try_collapse(std::int32_t i) {
     if (!m_.ring_of(i, around_, tris_)) return;
     const MeshNode& node = m_.nodes[i];
     const int n = static_cast<int>(around_.size());
+    int n_sides = 0;  // in space
+    double before = 2;
+    for (int k = 0; k < n; ++k) {
+      if (are_one_pole(around_[k], around_[(k + 1) % n])) continue;
+      ++n_sides;
+      before = std::min<double>(before, quality_[tris_[k]]);
+    }
     double shortest = 1e300;
     for (std::int32_t j : around_) shortest = std::min(shortest, distance(node.x, m_.nodes[j].x) / (0.5 * (node.h + m_.nodes[j].h)));
-    if (shortest > kShortEdge && n > 4) return;
-    double before = 2;
-    for (std::int32_t t : tris_) before = std::min<double>(before, quality_[t]);
+    if (shortest > kShortEdge && n_sides > 4) return;
     int best = -1;
-    double best_quality = n <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;
+    double best_quality = n_sides <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;
     for (int c = 0; c < n; ++c) {
       const double q = collapsed_quality(c);
       if (q > best_quality) {
@@ -301,7 +313,7 @@ class Enhancer {
       if (k == c || l == c) continue;
       const MeshNode &a = m_.nodes[around_[k]], &b = m_.nodes[around_[l]];
       if (orient2d(target.p, a.p, b.p) <= 0) return -2;
-      worst = std::min(worst, quality(target, a, b));
+      if (!are_one_pole(around_[k], around_[l])) worst = std::min(worst, quality(target, a, b));
     }
     // edges that appear: target to every ring node but its neighbours
     for (int k = 0; k < n; ++k) {

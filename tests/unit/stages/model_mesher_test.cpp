@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
+#include "mesh/quality.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -183,6 +184,15 @@ TEST(ModelMesher, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
   EXPECT_EQ(check_crossings(m.mesh).crossings.count, 0);
   EXPECT_EQ(check_crossings(m.mesh).contacts.count, 0);
   EXPECT_NEAR(measure_mesh(m.mesh).area, 616, 1e-6);
+}
+
+TEST(ModelMesher, meshes_poles_as_well_as_any_other_place) {
+  set_verbosity(Verbosity::kQuiet);
+  for (const double length : {0.7, 1.0, 1.2, 1.5, 1.8, 2.2, 2.7}) {
+    const QualityStats quality = measure_quality(Meshed("sphere", length).mesh).model;
+    EXPECT_GT(quality.min_angle_deg, 32) << length;
+    EXPECT_GT(quality.mean, 0.98) << length;
+  }
 }
 
 TEST(ModelMesher, refines_walls_thinner_than_their_chords_until_they_stand_apart) {
