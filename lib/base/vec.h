@@ -50,6 +50,14 @@ inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 /// Angle between two directions, radians in [0, pi]; 0 when one of them is zero.
 inline double angle_between(Vec3 a, Vec3 b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
+/// From p to the segment a-b.
+inline double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 d = b - a;
+  const double length2 = norm2(d);
+  const double s = length2 > 0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
+  return distance(p, a + s * d);
+}
+
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double radians(double deg) { return deg * (kPi / 180.0); }
 inline constexpr double degrees(double rad) { return rad * (180.0 / kPi); }

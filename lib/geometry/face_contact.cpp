@@ -3,16 +3,15 @@
 #include <BRepAlgoAPI_Section.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <GeomLProp_SLProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <cmath>
 
+#include "geometry/compound.h"
 #include "geometry/import_shape.h"
 #include "geometry/model.h"
 #include "geometry/model_impl.h"
@@ -24,14 +23,7 @@ constexpr int kSamples = 33;
 constexpr double kTangent = 0.9998;  // cosine of 1 degree: the faces touch, they do not cross
 
 /// Edges and vertices as one shape to measure distances to; null when there is none.
-TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
-  if (shapes.empty()) return {};
-  TopoDS_Compound result;
-  BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (const TopoDS_Shape& s : shapes) builder.Add(result, s);
-  return result;
-}
+TopoDS_Shape as_one(const std::vector<TopoDS_Shape>& shapes) { return shapes.empty() ? TopoDS_Shape() : occt::compound_of(shapes); }
 
 std::vector<TopoDS_Shape> subshapes(const TopoDS_Shape& face, TopAbs_ShapeEnum type) {
   TopTools_IndexedMapOfShape map;
@@ -49,7 +41,7 @@ TopoDS_Shape shared_by(const TopoDS_Shape& a, const TopoDS_Shape& b) {
     for (const TopoDS_Shape& s : subshapes(a, type))
       for (const TopoDS_Shape& t : subshapes(b, type))
         if (s.IsSame(t)) shared.push_back(s);
-  return compound_of(shared);
+  return as_one(shared);
 }
 
 double distance_to(const TopoDS_Shape& shape, const gp_Pnt& p) {
@@ -70,8 +62,8 @@ gp_Vec normal_at(const TopoDS_Face& face, const gp_Pnt& p) {
 
 /// Both faces go on beyond the curve, and not the same way.
 bool passes_through(const TopoDS_Face& a, const TopoDS_Face& b, const gp_Pnt& p, double tolerance) {
-  if (distance_to(compound_of(subshapes(a, TopAbs_EDGE)), p) <= tolerance) return false;
-  if (distance_to(compound_of(subshapes(b, TopAbs_EDGE)), p) <= tolerance) return false;
+  for (const TopoDS_Face& face : {a, b})
+    if (distance_to(as_one(subshapes(face, TopAbs_EDGE)), p) <= tolerance) return false;
   return std::abs(normal_at(a, p).Dot(normal_at(b, p))) < kTangent;
 }
 

@@ -25,13 +25,6 @@ constexpr double kTooLarge = 0.95;        // circumradius over requested length 
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
 
-double segment_distance(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double l2 = norm2(d);
-  const double s = l2 > 0 ? std::clamp(dot(p - a, d) / l2, 0.0, 1.0) : 0.0;
-  return distance(p, a + s * d);
-}
-
 class Front {
  public:
   explicit Front(FaceWork& work)

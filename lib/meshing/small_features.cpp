@@ -33,6 +33,7 @@ class EdgeMerger {
  public:
   EdgeMerger(const Model& model, const SizeField& field, double below)
       : model_(model), t_(model.tables()), field_(field), below_(below), sets_(t_.n_vertices()) {
+    is_merged_.assign(t_.n_edges(), 0);
     cluster_.resize(t_.n_vertices());
     for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
     edge_loops();
@@ -45,9 +46,11 @@ class EdgeMerger {
         candidates.push_back(e);
     std::stable_sort(candidates.begin(), candidates.end(), [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
     for (const EdgeId e : candidates)
-      if (!std::count(merged_.begin(), merged_.end(), e)) merge(e);
-    std::sort(merged_.begin(), merged_.end());
-    return merged_;
+      if (!is_merged_[e]) merge(e);
+    std::vector<EdgeId> merged;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (is_merged_[e]) merged.push_back(e);
+    return merged;
   }
 
  private:
@@ -110,7 +113,7 @@ class EdgeMerger {
     for (const LoopId l : loops)
       if (n_long_[l] < 2 + std::count(loops.begin(), loops.end(), l)) return false;
     for (const LoopId l : loops) --n_long_[l];
-    merged_.insert(merged_.end(), edges.begin(), edges.end());
+    for (const EdgeId e : edges) is_merged_[e] = 1;
     return true;
   }
 
@@ -133,7 +136,7 @@ class EdgeMerger {
   std::vector<Box3> cluster_;               // of each set, at its root
   std::vector<std::vector<LoopId>> loops_;  // of each edge
   std::vector<int> n_long_;                 // edges left in each loop
-  std::vector<EdgeId> merged_;
+  std::vector<char> is_merged_;
   std::vector<std::vector<EdgeId>> at_vertex_;
 };
 

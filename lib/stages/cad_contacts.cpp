@@ -5,16 +5,10 @@
 namespace st {
 namespace {
 
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double length2 = norm2(d), t = length2 > 0 ? std::clamp(dot(p - a, d) / length2, 0.0, 1.0) : 0.0;
-  return distance(p, a + t * d);
-}
-
 double distance_to(const FaceContact& contact, Vec3 p) {
   double nearest = distance(p, contact.points.front());
   for (std::size_t k = 1; k < contact.points.size(); ++k)
-    nearest = std::min(nearest, distance_to_segment(p, contact.points[k - 1], contact.points[k]));
+    nearest = std::min(nearest, segment_distance(p, contact.points[k - 1], contact.points[k]));
   return nearest;
 }
 
