@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "comm/share.h"
 #include "mesh/patch_crossing.h"
-#include "meshing/refined_field.h"
 #include "meshing/small_features.h"
 #include "stages/face_patch.h"
 #include "stages/joined_patches.h"
@@ -23,7 +23,6 @@ constexpr double kPromisingFloor = 1.0 / 64;      // likewise where few cross, o
 constexpr std::size_t kFewCrossings = 200;        // places
 constexpr double kPromising = 0.8;                // of the places before: as many or less is getting better
 constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed in one round
-constexpr double kWorthwhile = 0.95;              // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
   std::vector<std::int32_t> order(weight.size());
@@ -39,16 +38,11 @@ void pack(Packer& p, EdgeId e, const CurveNodes& nodes) {
   p.add(nodes.h);
 }
 
-double box_distance(const Box3& b, Vec3 p) {
-  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
-  return norm(Vec3{out(b.lo.x, b.hi.x, p.x), out(b.lo.y, b.hi.y, p.y), out(b.lo.z, b.hi.z, p.z)});
-}
-
 }  // namespace
 
 ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
                          const Communicator& comm)
-    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), comm_(comm) {
+    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), comm_(comm), refinements_(field) {
   find_small_features(options.merged);
   const ModelTables& t = tables_;
   min_segments_ = min_segments_per_edge(t);
@@ -61,10 +55,15 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
   face_in_scope_.assign(t.n_faces(), 1);
 }
 
-/// The same on every rank.
+/// Collective.
 void ModelMesher::find_small_features(const MergedFeatures* given) {
   const ModelTables& t = model_.tables();
-  merged = given ? *given : find_merged_features(model_, field_, options_.merge_below);
+  if (given) {
+    merged = *given;
+  } else {
+    if (comm_.is_root()) merged = find_merged_features(model_, field_, options_.merge_below);
+    share(comm_, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
+  }
   tables_ = with_merged_edges(t, merged);
   strip_of_kept_.assign(t.n_edges(), kNone);
   kept_of_closed_.assign(t.n_edges(), kNone);
@@ -171,13 +170,9 @@ void ModelMesher::keep_whole(const std::vector<FaceId>& dirty) {
 
 /// Collective. Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.
 bool ModelMesher::restore_whole() {
-  Packer p;
-  p.add(std::vector<char>{whole_ && !failed_faces_.empty()});
-  Bytes bytes = p.take();
-  comm_.broadcast(bytes);
-  std::vector<char> restores;
-  Unpacker(bytes).get(restores);
-  if (!restores[0]) return false;
+  char restores = whole_ && !failed_faces_.empty();
+  share(comm_, restores);
+  if (!restores) return false;
   if (comm_.is_root()) {
     edges = std::move(whole_->edges);
     for (auto& [f, before] : whole_->faces) {
@@ -192,51 +187,50 @@ bool ModelMesher::restore_whole() {
   return true;
 }
 
-double ModelMesher::reach(const RefinementPoint& p) const { return std::max(0.0, (field_.size(p.x) - p.length) / kRefinementSlope); }
-
-/// New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none changes
-/// anything.
+/// Collective. New places become part of the field, no finer than `floor` times the request; what they reach is done again. False when none
+/// changes anything. Rank 0 decides.
 bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges,
                          std::vector<FaceId>& dirty_faces) {
+  const std::size_t n_before = refinements_.all().size();
+  std::vector<Refinement> all;
+  std::vector<EdgeId> edges_again;
+  std::vector<FaceId> faces_again;
+  if (comm_.is_root()) {
+    for (const RefinementPoint& p : points) refinements_.add(p, floor);
+    all = refinements_.all();
+    if (all.size() > n_before) find_dirty(n_before, edges_again, faces_again);
+  }
+  share(comm_, all, edges_again, faces_again);
+  if (all.size() == n_before) return false;
+  n_refinements += static_cast<int>(all.size() - n_before);
+  log_info("refining at " + std::to_string(all.size() - n_before) + " places: " + std::to_string(edges_again.size()) + " edges, " +
+           std::to_string(faces_again.size()) + " faces again");
+  refinements_.assign(std::move(all));
+  dirty_edges = std::move(edges_again);
+  dirty_faces = std::move(faces_again);
+  return true;
+}
+
+/// Local. Edges and faces that refinements from this one on reach, with all faces of these edges; within the scope.
+void ModelMesher::find_dirty(std::size_t first_refinement, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces) const {
   const ModelTables& t = tables_;
   std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
-  int n_accepted = 0;
-  for (RefinementPoint p : points) {
-    p.length = std::max(p.length, floor * field_.size(p.x));
-    Box3 at;
-    at.add(p.x);
-    if (p.length > kWorthwhile * RefinedField(field_, points_near(at)).size(p.x)) continue;
-    ++n_accepted;
-    points_.push_back(p);
-    point_reach_.push_back(reach(p));
+  const std::vector<Refinement>& all = refinements_.all();
+  for (std::size_t r = first_refinement; r < all.size(); ++r) {
     for (EdgeId e = 0; e < t.n_edges(); ++e)
       for (std::int32_t i = edges.edge_offsets[e]; !edge_dirty[e] && i < edges.edge_offsets[e + 1]; ++i)
-        edge_dirty[e] = distance(edges.node_xyz[i], p.x) < point_reach_.back() + edges.node_size[i];
-    for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], p.x) < point_reach_.back();
+        edge_dirty[e] = distance(edges.node_xyz[i], all[r].x) < all[r].reach + edges.node_size[i];
+    for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], all[r].x) < all[r].reach;
   }
-  if (n_accepted == 0) return false;
-  n_refinements += n_accepted;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (kept_of_closed_[e] != kNone) edge_dirty[e] = edge_dirty[kept_of_closed_[e]] |= edge_dirty[e];
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l)
       for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
-  dirty_edges.clear();
-  dirty_faces.clear();
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (edge_dirty[e] && edge_in_scope_[e]) dirty_edges.push_back(e);
   for (FaceId f = 0; f < t.n_faces(); ++f)
     if (face_dirty[f] && face_in_scope_[f]) dirty_faces.push_back(f);
-  log_info("refining at " + std::to_string(n_accepted) + " places: " + std::to_string(dirty_edges.size()) + " edges, " +
-           std::to_string(dirty_faces.size()) + " faces again");
-  return true;
-}
-
-std::vector<RefinementPoint> ModelMesher::points_near(const Box3& box) const {
-  std::vector<RefinementPoint> near;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (box_distance(box, points_[i].x) <= point_reach_[i]) near.push_back(points_[i]);
-  return near;
 }
 
 Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
@@ -251,7 +245,7 @@ Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
     const double margin = 0.05 * box.diagonal();
     box.lo -= {margin, margin, margin};
     box.hi += {margin, margin, margin};
-    const RefinedField field(field_, points_near(box));
+    const RefinedField field(field_, refinements_.near(box));
     CurveNodes nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
     nodes.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
     nodes.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
@@ -316,25 +310,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
   numbering_.emplace(tables_, edges, merged);
 }
 
-void ModelMesher::broadcast_edges() {
-  if (comm_.size() == 1) return;
-  Bytes bytes;
-  if (comm_.is_root()) {
-    Packer p;
-    p.add(edges.edge_offsets);
-    p.add(edges.node_t);
-    p.add(edges.node_xyz);
-    p.add(edges.node_size);
-    bytes = p.take();
-  }
-  comm_.broadcast(bytes);
-  if (comm_.is_root()) return;
-  Unpacker u(bytes);
-  u.get(edges.edge_offsets);
-  u.get(edges.node_t);
-  u.get(edges.node_xyz);
-  u.get(edges.node_size);
-}
+void ModelMesher::broadcast_edges() { share(comm_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size); }
 
 Bytes ModelMesher::compute_face(FaceId f) const {
   FaceMesh mesh;
@@ -347,7 +323,7 @@ Bytes ModelMesher::compute_face(FaceId f) const {
     const bool is_closed_strip = boundary.nodes.empty() && numbering_->strip_of(f) != kNone;
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
-    const std::vector<RefinementPoint> near = points_near(tables_.face_box[f]);
+    const std::vector<Refinement> near = refinements_.near(tables_.face_box[f]);
     if (is_closed_strip) {
       // no triangles: its neighbours share its nodes
     } else if (near.empty()) {
@@ -393,21 +369,13 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
       });
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted) all.insert(all.end(), w.begin(), w.end());
-  Bytes bytes;
-  if (comm_.is_root()) {
-    Packer p;
-    p.add(all);
-    bytes = p.take();
-  }
-  comm_.broadcast(bytes);
-  Unpacker(bytes).get(all);
+  share(comm_, all);
   return all;
 }
 
 /// Facets of one part that cross: both are refined. Searched are only pairs with a facet made since the last search.
 std::vector<RefinementPoint> ModelMesher::find_crossings() {
   std::vector<RefinementPoint> places;
-  Bytes bytes;
   if (comm_.is_root()) {
     const JoinedPatches m = join_patches(*numbering_, patches);
     std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
@@ -427,12 +395,8 @@ std::vector<RefinementPoint> ModelMesher::find_crossings() {
       places.push_back(m.refinement_of(m.face_begin[p.face_a] + p.index_a));
       places.push_back(m.refinement_of(m.face_begin[p.face_b] + p.index_b));
     }
-    Packer p;
-    p.add(places);
-    bytes = p.take();
   }
-  comm_.broadcast(bytes);
-  Unpacker(bytes).get(places);
+  share(comm_, places);
   return places;
 }
 

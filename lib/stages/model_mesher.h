@@ -12,6 +12,7 @@
 #include "meshing/curve_discretiser.h"
 #include "meshing/face_boundary.h"
 #include "meshing/face_mesher.h"
+#include "meshing/refinements.h"
 #include "sizing/size_field.h"
 #include "stages/failed_face.h"
 
@@ -84,8 +85,7 @@ class ModelMesher {
   std::vector<RefinementPoint> mesh_faces(const std::vector<FaceId>& dirty);
   std::vector<RefinementPoint> find_crossings();
   bool accept(const std::vector<RefinementPoint>& points, double floor, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces);
-  std::vector<RefinementPoint> points_near(const Box3& box) const;
-  double reach(const RefinementPoint& p) const;
+  void find_dirty(std::size_t first_refinement, std::vector<EdgeId>& dirty_edges, std::vector<FaceId>& dirty_faces) const;
   Bytes compute_edges(const std::vector<EdgeId>& batch) const;
   Bytes compute_face(FaceId f) const;
   void broadcast_edges();
@@ -100,8 +100,7 @@ class ModelMesher {
   const Communicator& comm_;
   std::vector<int> min_segments_;
   std::vector<char> edge_in_scope_, face_in_scope_;   // what may be meshed (again)
-  std::vector<RefinementPoint> points_;      // all refinements so far
-  std::vector<double> point_reach_;
+  Refinements refinements_;
   std::vector<FaceOutcome> outcomes_;        // by face, on rank 0
   std::map<FaceId, FailedFace> failed_faces_;
   std::optional<WholeMesh> whole_;           // the last one, on rank 0

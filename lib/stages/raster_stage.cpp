@@ -11,7 +11,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "comm/packer.h"
+#include "comm/share.h"
 #include "io/artifact.h"
 #include "io/size_rule_file.h"
 #include "io/sizing_artifact.h"
@@ -206,12 +206,7 @@ Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
 std::vector<GapPatch> share_patches(const Samples& samples, const Communicator& comm) {
   std::vector<GapPatch> all;
   for (const std::vector<GapPatch>& p : samples.patches) all.insert(all.end(), p.begin(), p.end());
-  if (comm.size() == 1) return all;
-  Packer packer;
-  packer.add(all);
-  Bytes bytes = packer.take();
-  comm.broadcast(bytes);
-  Unpacker(bytes).get(all);
+  share(comm, all);
   return all;
 }
 
@@ -341,8 +336,13 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
-  const std::vector<WingEdge> wing_edges = detect_edges(model, roles, rules);
-  const ModelLimits limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
+  std::vector<WingEdge> wing_edges;
+  ModelLimits limits;
+  if (comm.is_root()) {
+    wing_edges = detect_edges(model, roles, rules);
+    limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
+  }
+  share(comm, limits.face, limits.edge, limits.far, limits.min_length, limits.wants_gaps, limits.far_length);
   times.end("opening");
 
   RasterArtifact artifact;

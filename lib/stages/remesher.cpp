@@ -7,10 +7,9 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "comm/packer.h"
+#include "comm/share.h"
 #include "meshing/hole_crossing.h"
 #include "meshing/hole_merger.h"
-#include "meshing/refined_field.h"
 
 namespace st {
 namespace {
@@ -19,30 +18,11 @@ constexpr std::int32_t kRunsPerTask = 64;
 constexpr int kGrowth[] = {2, 6};                // layers by which a hole grows when it cannot be filled; then the whole face is done again
 constexpr double kCrossingFloor = 1.0 / 8;       // of the requested length: refinement of crossing facets ends there
 constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
-constexpr double kWorthwhile = 0.95;             // of the present length: a refinement that asks for more than this is no change
 
 std::vector<std::int32_t> in_order(std::size_t n) {
   std::vector<std::int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   return order;
-}
-
-template <class T>
-void share(const Communicator& comm, std::vector<T>& values) {
-  if (comm.size() == 1) return;
-  Bytes bytes;
-  if (comm.is_root()) {
-    Packer p;
-    p.add(values);
-    bytes = p.take();
-  }
-  comm.broadcast(bytes);
-  Unpacker(bytes).get(values);
-}
-
-double distance_outside(const Box3& box, Vec3 p) {
-  const auto out = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
-  return norm(Vec3{out(box.lo.x, box.hi.x, p.x), out(box.lo.y, box.hi.y, p.y), out(box.lo.z, box.hi.z, p.z)});
 }
 
 void pack(Packer& p, const HoleRim& rim) {
@@ -81,7 +61,7 @@ void unpack(Unpacker& u, HoleFill& fill) {
 
 Remesher::Remesher(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field, const RemesherOptions& options,
                    const Communicator& comm)
-    : model_(model), old_(mesh), share_(share), field_(field), options_(options), comm_(comm) {}
+    : model_(model), old_(mesh), share_(share), field_(field), options_(options), comm_(comm), refinements_(field) {}
 
 void Remesher::analyse() {
   const Timer timer;
@@ -94,6 +74,7 @@ void Remesher::analyse() {
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n)
     if (is_needed[n]) wanted_[n] = field_.size(old_.mesh.node_xyz[n], hint);
+  share_curve_lengths();
   mark();
   n_marked_triangles = marks.n_triangles();
   n_marked_segments = std::count(marks.segment.begin(), marks.segment.end(), 1);
@@ -104,18 +85,24 @@ void Remesher::analyse() {
   seconds_analysis = timer.seconds();
 }
 
+/// Collective. Which segments of curves go is decided by rank 0's lengths: all ranks act on it.
+void Remesher::share_curve_lengths() {
+  std::vector<double> on_edges(wanted_.begin(), wanted_.begin() + old_.inner_begin[0]);
+  share(comm_, on_edges);
+  std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
+}
+
 /// The requested lengths with the refinements so far.
 std::vector<double> Remesher::refined_lengths() const {
   std::vector<double> wanted = wanted_;
-  const auto refine = [&](NodeId n, std::size_t i) {
-    if (const double d = distance(old_.mesh.node_xyz[n], points_[i].x); d < point_reach_[i])
-      wanted[n] = std::min(wanted[n], points_[i].length + kRefinementSlope * d);
+  const auto refine = [&](NodeId n, const Refinement& r) {
+    if (const double d = distance(old_.mesh.node_xyz[n], r.x); d < r.reach) wanted[n] = std::min(wanted[n], r.length + kRefinementSlope * d);
   };
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    for (NodeId n = 0; n < old_.inner_begin[0]; ++n) refine(n, i);
+  for (const Refinement& r : refinements_.all()) {
+    for (NodeId n = 0; n < old_.inner_begin[0]; ++n) refine(n, r);
     for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-      if (distance_outside(model_.tables().face_box[f], points_[i].x) <= point_reach_[i])
-        for (NodeId n = old_.inner_begin[f]; n < old_.inner_begin[f + 1]; ++n) refine(n, i);
+      if (box_distance(model_.tables().face_box[f], r.x) <= r.reach)
+        for (NodeId n = old_.inner_begin[f]; n < old_.inner_begin[f + 1]; ++n) refine(n, r);
   }
   return wanted;
 }
@@ -253,7 +240,7 @@ void Remesher::redo_curves() {
     for (std::int32_t r = first(task); r < last(task); ++r) {
       Box3 box;
       for (std::int32_t i = runs[r].first; i <= runs[r].last; ++i) box.add(old_.edges.node_xyz[i]);
-      const RefinedField field(field_, points_near(box));
+      const RefinedField field(field_, refinements_.near(box));
       const CurveNodes n =
           discretise_run(old_, runs[r], *model_.curve(runs[r].edge), field, {options_.max_turning_deg, least[runs[r].edge]});
       p.add(n.t);
@@ -289,7 +276,7 @@ void Remesher::request_curve_lengths() {
 HoleFill Remesher::fill_hole(const HoleRim& rim) const {
   HoleFill fill;
   try {
-    const std::vector<RefinementPoint> near = points_near(model_.tables().face_box[rim.face]);
+    const std::vector<Refinement> near = refinements_.near(model_.tables().face_box[rim.face]);
     const RefinedField refined(field_, near);
     const SizeField& field = near.empty() ? field_ : refined;
     const auto surface = model_.surface(rim.face);
@@ -345,23 +332,16 @@ void Remesher::renew_surrounded_nodes() {
   update_.edges.node_request = edges.node_request;
 }
 
-std::vector<RefinementPoint> Remesher::points_near(const Box3& box) const {
-  std::vector<RefinementPoint> near;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    if (distance_outside(box, points_[i].x) <= point_reach_[i]) near.push_back(points_[i]);
-  return near;
-}
-
-/// False when the place is as fine already, or cannot become finer.
-bool Remesher::accept(const RefinementPoint& point) {
-  Box3 at;
-  at.add(point.x);
-  const double request = field_.size(point.x), length = std::max(point.length, kCrossingFloor * request);
-  if (length > kWorthwhile * RefinedField(field_, points_near(at)).size(point.x)) return false;
-  points_.push_back({point.x, length});
-  point_reach_.push_back(std::max(0.0, (request - length) / kRefinementSlope));
-  ++n_refinements;
-  return true;
+/// Collective. False when all places are as fine already, or cannot become finer. Rank 0 decides.
+bool Remesher::accept(const std::vector<RefinementPoint>& places) {
+  const std::size_t n_before = refinements_.all().size();
+  for (const RefinementPoint& p : places) refinements_.add(p, kCrossingFloor);
+  std::vector<Refinement> all = refinements_.all();
+  share(comm_, all);
+  n_refinements += static_cast<int>(all.size() - n_before);
+  const bool any = all.size() > n_before;
+  refinements_.assign(std::move(all));
+  return any;
 }
 
 /// Triangles that cross a new one: both are asked to be half as large and done again. False when there are none, or no help.
@@ -381,11 +361,10 @@ bool Remesher::refine_crossings() {
       }
     }
   }
-  share(comm_, places);
-  if (places.empty() || n_rounds > options_.max_crossing_rounds) return false;
-  bool any = false;
-  for (const RefinementPoint& p : places) any |= accept(p);
-  share(comm_, options_.mark.redo);
+  char crosses = !places.empty();
+  share(comm_, crosses, options_.mark.redo);
+  if (!crosses || n_rounds > options_.max_crossing_rounds) return false;
+  const bool any = accept(places);
   if (any && comm_.is_root()) log_info("refining where new triangles cross others");
   return any;
 }

@@ -8,6 +8,7 @@
 #include "comm/communicator.h"
 #include "geometry/model.h"
 #include "meshing/hole_filler.h"
+#include "meshing/refinements.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -57,9 +58,9 @@ class Remesher {
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
   bool refine_crossings();
-  bool accept(const RefinementPoint& point);
-  std::vector<RefinementPoint> points_near(const Box3& box) const;
+  bool accept(const std::vector<RefinementPoint>& places);
   void mark();
+  void share_curve_lengths();
   std::vector<double> refined_lengths() const;
   std::vector<TouchedNode> exchange(const std::vector<TouchedNode>& own) const;
   void collect_marks();
@@ -71,8 +72,7 @@ class Remesher {
   RemesherOptions options_;
   const Communicator& comm_;
   std::vector<double> wanted_;           // [n_nodes] requested lengths, of the nodes that the share needs
-  std::vector<RefinementPoint> points_;  // refinements of crossings so far
-  std::vector<double> point_reach_;
+  Refinements refinements_;              // of crossings so far
   EdgeUpdate update_;
   std::optional<HoleNumbering> numbering_;    // of update_
   std::vector<std::vector<HoleFill>> fills_;  // [n_faces] on rank 0: of its holes; none: the face is as it was, or failed

@@ -1,0 +1,78 @@
+#include "meshing/refinements.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace st {
+namespace {
+
+Refinement at(Vec3 x, double length) { return {x, length, 0}; }
+
+TEST(RefinedField, is_the_length_of_the_place_there_and_grows_with_the_distance) {
+  const UniformField base(10);
+  const RefinedField f(base, {at({0, 0, 0}, 1), at({100, 0, 0}, 2)});
+  EXPECT_DOUBLE_EQ(f.size({0, 0, 0}), 1);
+  EXPECT_DOUBLE_EQ(f.size({10, 0, 0}), 1 + 10 * kRefinementSlope);
+  EXPECT_DOUBLE_EQ(f.size({100, 0, 0}), 2);
+  EXPECT_DOUBLE_EQ(f.size({50, 0, 0}), 10);
+  EXPECT_DOUBLE_EQ(f.min_size(), 1);
+  EXPECT_DOUBLE_EQ(f.slope(), kRefinementSlope);
+}
+
+TEST(RefinedField, is_never_coarser_than_its_base) {
+  const UniformField base(0.5);
+  const RefinedField f(base, {at({0, 0, 0}, 1)});
+  EXPECT_DOUBLE_EQ(f.size({0, 0, 0}), 0.5);
+  EXPECT_DOUBLE_EQ(f.min_size(), 0.5);
+  EXPECT_DOUBLE_EQ(RefinedField(base, {}).size({1, 2, 3}), 0.5);
+}
+
+TEST(RefinedField, finds_the_same_length_to_the_bit_as_a_visit_of_all_places) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(0, 10), length(0.01, 2);
+  std::vector<Refinement> places;
+  for (int i = 0; i < 1000; ++i) places.push_back(at({coordinate(random), coordinate(random), 0.1 * coordinate(random)}, length(random)));
+  for (int i = 0; i < 50; ++i) places.push_back(places[0]);  // many at one place
+  const UniformField base(3);
+  const RefinedField f(base, places);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x = i < 1000 ? places[i].x : Vec3{coordinate(random), coordinate(random), coordinate(random)};
+    double expected = 3;
+    for (const Refinement& r : places) expected = std::min(expected, r.length + kRefinementSlope * distance(x, r.x));
+    EXPECT_EQ(f.size(x), expected);
+  }
+}
+
+TEST(Refinements, take_a_place_no_finer_than_the_floor_of_the_request) {
+  const UniformField base(8);
+  Refinements r(base);
+  EXPECT_TRUE(r.add({{0, 0, 0}, 0.001}, 0.25));
+  ASSERT_EQ(r.all().size(), 1u);
+  EXPECT_DOUBLE_EQ(r.all()[0].length, 2);
+  EXPECT_DOUBLE_EQ(r.all()[0].reach, 6 / kRefinementSlope);
+}
+
+TEST(Refinements, refuse_a_place_that_is_about_as_fine_already) {
+  const UniformField base(8);
+  Refinements r(base);
+  EXPECT_FALSE(r.add({{0, 0, 0}, 7.9}, 0.1));
+  EXPECT_TRUE(r.add({{0, 0, 0}, 2}, 0.1));
+  EXPECT_FALSE(r.add({{0.01, 0, 0}, 2}, 0.1));
+  EXPECT_EQ(r.all().size(), 1u);
+}
+
+TEST(Refinements, are_near_a_box_when_they_reach_into_it) {
+  const UniformField base(8);
+  Refinements r(base);
+  r.add({{0, 0, 0}, 2}, 0.1);  // reaches 20
+  Box3 box;
+  box.add({19, 0, 0});
+  box.add({30, 1, 1});
+  EXPECT_EQ(r.near(box).size(), 1u);
+  box.lo.x = 21;
+  EXPECT_TRUE(r.near(box).empty());
+}
+
+}  // namespace
+}  // namespace st
