@@ -8,28 +8,25 @@
 #include <string>
 #include <vector>
 
+#include "base/executor.h"
+
 namespace st {
 
-using Bytes = std::vector<std::byte>;
-
 /// The process group of this run. Without a launcher MPI is never initialised and the group has one rank.
-class Communicator {
+class Communicator : public Executor {
  public:
   /// Initialises MPI when a launcher (Open MPI, PMI/PMIx, Slurm) started this process. One object per process, made in main.
   Communicator();
   /// Collective: finalises MPI.
-  ~Communicator();
+  ~Communicator() override;
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
 
-  int rank() const;
-  int size() const;
-  bool is_root() const { return rank() == 0; }
+  int rank() const override;
+  int size() const override;
 
-  /// Collective: rank 0's bytes on every rank.
-  void broadcast(Bytes& bytes) const;
-  /// Collective: the bytes of every rank on rank 0, by rank; nothing elsewhere.
-  std::vector<Bytes> gather(Bytes own) const;
+  void broadcast(Bytes& bytes) const override;
+  std::vector<Bytes> gather(Bytes own) const override;
   /// Collective: entry by entry the smallest of all ranks' values, on rank 0; the other ranks' are left as they are. Same length
   /// everywhere.
   void reduce_min(std::vector<std::uint64_t>& values) const;
@@ -38,15 +35,11 @@ class Communicator {
   /// Local: ends every rank at once with this exit code (mpirun takes some tenths of a second). Call after the message was printed.
   [[noreturn]] void abort(int exit_code) const;
 
-  /// Collective. Runs `compute(task)` once for each task in [0, n_tasks), on any rank, and `collect(task, result)` on rank 0 only, in
-  /// arrival order (a collector that must not depend on it stores by task id). `order`: the sequence in which tasks are handed out
-  /// (heaviest first), a permutation of [0, n_tasks), same on every rank. Rank 0 computes, too: `compute` runs there on a thread of its
-  /// own, so it must not call MPI nor share unguarded state with `collect`, which runs on the main thread; both cores of a two-rank run are
-  /// busy. At one rank everything runs on the main thread. An exception out of `compute` on any rank is thrown on rank 0 as an Error with
-  /// its text and exit code (once: the first that arrives); the other ranks stay in the call, so the job can then only be ended with
-  /// abort().
+  /// As Executor says. Rank 0 computes, too: `compute` runs there on a thread of its own, so it must not call MPI nor share unguarded state with
+  /// `collect`, which runs on the main thread; both cores of a two-rank run are busy. At one rank everything runs on the main thread. Of several
+  /// exceptions the first that arrives is thrown; the other ranks stay in the call, so the job can then only be ended with abort().
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order, const std::function<Bytes(std::int32_t task)>& compute,
-                 const std::function<void(std::int32_t task, Bytes&& result)>& collect) const;
+                 const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
 
  private:
   struct Impl;

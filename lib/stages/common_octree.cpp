@@ -1,6 +1,6 @@
 #include "stages/common_octree.h"
 
-#include "comm/packer.h"
+#include "base/packer.h"
 #include "sizing/octree_nodes.h"
 
 namespace st {

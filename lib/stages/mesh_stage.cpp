@@ -14,7 +14,7 @@
 #include "base/memory.h"
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "stages/patches_result.h"
 
 namespace st {

@@ -5,7 +5,7 @@
 
 #include "base/log.h"
 #include "io/artifact.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "stages/summary.h"
 
 namespace st {

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "comm/packer.h"
+#include "base/packer.h"
 
 namespace st {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "comm/share.h"
+#include "base/share.h"
 #include "io/artifact.h"
 #include "io/size_rule_file.h"
 #include "io/sizing_artifact.h"

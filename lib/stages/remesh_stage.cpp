@@ -22,9 +22,9 @@
 #include "meshing/small_features.h"
 #include "sizing/node_field.h"
 #include "stages/foreign_mesh.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "stages/patches_result.h"
-#include "stages/remesher.h"
+#include "meshing/remesher.h"
 
 namespace st {
 namespace {

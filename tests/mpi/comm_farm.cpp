@@ -17,7 +17,7 @@
 
 #include "base/error.h"
 #include "comm/communicator.h"
-#include "comm/packer.h"
+#include "base/packer.h"
 
 namespace st {
 namespace {

@@ -11,7 +11,7 @@
 #include "comm/communicator.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {

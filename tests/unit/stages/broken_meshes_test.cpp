@@ -14,7 +14,7 @@
 #include "io/artifact.h"
 #include "mesh/merge.h"
 #include "stages/check_stage.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {

@@ -9,7 +9,7 @@
 #include "base/log.h"
 #include "mesh/merge.h"
 #include "stages/cad_corners.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {

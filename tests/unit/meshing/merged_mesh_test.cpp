@@ -9,16 +9,13 @@
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
 namespace {
 
-const Communicator& one_rank() {
-  static const Communicator comm;
-  return comm;
-}
+const SerialExecutor one_rank;
 
 struct Meshed {
   Model model;
@@ -27,7 +24,7 @@ struct Meshed {
   SurfaceMesh mesh;
 
   Meshed(const std::string& shape, double length, double merge_below)
-      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options(merge_below), one_rank()) {
+      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options(merge_below), one_rank) {
     set_verbosity(Verbosity::kQuiet);
     mesher.run();
     OrientationReport orientation;

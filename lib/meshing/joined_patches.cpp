@@ -1,4 +1,4 @@
-#include "stages/joined_patches.h"
+#include "meshing/joined_patches.h"
 
 #include <algorithm>
 #include <compare>

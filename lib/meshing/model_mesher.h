@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "comm/communicator.h"
-#include "comm/packer.h"
+#include "base/executor.h"
+#include "base/packer.h"
 #include "geometry/model.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/curve_discretiser.h"
@@ -14,7 +14,7 @@
 #include "meshing/face_mesher.h"
 #include "meshing/refinements.h"
 #include "sizing/size_field.h"
-#include "stages/failed_face.h"
+#include "meshing/failed_face.h"
 
 namespace st {
 
@@ -37,7 +37,7 @@ class ModelMesher {
  public:
   /// `face_weight`: expected work per face, [n_faces] or empty. All references outlive the object.
   ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
-              const Communicator& comm);
+              const Executor& executor);
 
   /// Collective. Meshes everything.
   void run();
@@ -97,7 +97,7 @@ class ModelMesher {
   std::optional<BoundaryNumbering> numbering_;                 // of the present edges
   std::vector<double> face_weight_;
   ModelMesherOptions options_;
-  const Communicator& comm_;
+  const Executor& executor_;
   std::vector<int> min_segments_;
   std::vector<char> edge_in_scope_, face_in_scope_;   // what may be meshed (again)
   Refinements refinements_;

@@ -1,7 +1,7 @@
 // A face's patch: made from its mesh, sent between ranks.
 #pragma once
 
-#include "comm/packer.h"
+#include "base/packer.h"
 #include "geometry/model.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face_boundary.h"

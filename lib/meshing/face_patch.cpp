@@ -1,4 +1,4 @@
-#include "stages/face_patch.h"
+#include "meshing/face_patch.h"
 
 #include <algorithm>
 

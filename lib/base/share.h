@@ -1,24 +1,24 @@
 // What rank 0 decides, on every rank.
 #pragma once
 
-#include "comm/communicator.h"
-#include "comm/packer.h"
+#include "base/executor.h"
+#include "base/packer.h"
 
 namespace st {
 
 /// Collective. Rank 0's values on every rank. A decision that all ranks act on is made on rank 0 and shared: processors of different makes round
 /// sines and powers differently, and two ranks that decide for themselves could disagree.
 template <class... Values>
-void share(const Communicator& comm, Values&... values) {
-  if (comm.size() == 1) return;
+void share(const Executor& executor, Values&... values) {
+  if (executor.size() == 1) return;
   Bytes bytes;
-  if (comm.is_root()) {
+  if (executor.is_root()) {
     Packer p;
     (p.add(values), ...);
     bytes = p.take();
   }
-  comm.broadcast(bytes);
-  if (comm.is_root()) return;
+  executor.broadcast(bytes);
+  if (executor.is_root()) return;
   Unpacker u(bytes);
   (u.get(values), ...);
 }

@@ -1,15 +1,17 @@
 // Plain-old-data arrays to bytes and back, for messages between ranks.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "comm/communicator.h"
-
 namespace st {
+
+using Bytes = std::vector<std::byte>;
 
 /// Appends values to a byte buffer.
 class Packer {

@@ -1,4 +1,4 @@
-#include "stages/remesher.h"
+#include "meshing/remesher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "comm/share.h"
+#include "base/share.h"
 #include "meshing/hole_crossing.h"
 #include "meshing/hole_merger.h"
 
@@ -60,8 +60,8 @@ void unpack(Unpacker& u, HoleFill& fill) {
 }  // namespace
 
 Remesher::Remesher(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field, const RemesherOptions& options,
-                   const Communicator& comm)
-    : model_(model), old_(mesh), share_(share), field_(field), options_(options), comm_(comm), refinements_(field) {}
+                   const Executor& executor)
+    : model_(model), old_(mesh), share_(share), field_(field), options_(options), executor_(executor), refinements_(field) {}
 
 void Remesher::analyse() {
   const Timer timer;
@@ -88,7 +88,7 @@ void Remesher::analyse() {
 /// Collective. Which segments of curves go is decided by rank 0's lengths: all ranks act on it.
 void Remesher::share_curve_lengths() {
   std::vector<double> on_edges(wanted_.begin(), wanted_.begin() + old_.inner_begin[0]);
-  share(comm_, on_edges);
+  share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
 }
 
@@ -110,7 +110,7 @@ std::vector<double> Remesher::refined_lengths() const {
 /// Collective.
 void Remesher::mark() {
   NodeExchange exchange;
-  if (comm_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
+  if (executor_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
   marks = mark_share(old_, share_, refined_lengths(), options_.mark, exchange);
   collect_marks();
   dirty_faces.clear();
@@ -125,8 +125,8 @@ std::vector<TouchedNode> Remesher::exchange(const std::vector<TouchedNode>& own)
   Packer p;
   p.add(own);
   Bytes all;
-  for (const Bytes& bytes : comm_.gather(p.take())) all.insert(all.end(), bytes.begin(), bytes.end());
-  comm_.broadcast(all);
+  for (const Bytes& bytes : executor_.gather(p.take())) all.insert(all.end(), bytes.begin(), bytes.end());
+  executor_.broadcast(all);
   std::vector<TouchedNode> touched, part;
   for (Unpacker u(all); !u.is_empty();) {
     u.get(part);
@@ -137,11 +137,11 @@ std::vector<TouchedNode> Remesher::exchange(const std::vector<TouchedNode>& own)
 
 /// Collective. The marks of all ranks' triangles on rank 0.
 void Remesher::collect_marks() {
-  if (comm_.size() == 1) return;
+  if (executor_.size() == 1) return;
   Packer p;
   p.add(share_.first_triangle + share_.begin);
   p.add(std::vector<char>(marks.triangle.begin() + share_.begin, marks.triangle.begin() + share_.end));
-  for (const Bytes& bytes : comm_.gather(p.take())) {
+  for (const Bytes& bytes : executor_.gather(p.take())) {
     TriangleId first = 0;
     std::vector<char> part;
     Unpacker u(bytes);
@@ -163,7 +163,7 @@ void Remesher::run() {
     edges = update_.edges;
     if (!failed_faces.empty()) return;
     timer = Timer();
-    if (comm_.is_root()) {
+    if (executor_.is_root()) {
       renew_surrounded_nodes();
       mesh = insert_fills(*numbering_, marks, fills_);
     }
@@ -178,7 +178,7 @@ void Remesher::run() {
 
 std::vector<FacePatch> Remesher::all_patches() const {
   std::vector<FacePatch> all;
-  for (FaceId f = 0; comm_.is_root() && f < model_.tables().n_faces(); ++f)
+  for (FaceId f = 0; executor_.is_root() && f < model_.tables().n_faces(); ++f)
     all.push_back(make_hole_patch(f, marks, *numbering_, fills_[f]));
   return all;
 }
@@ -194,7 +194,7 @@ void Remesher::redo_holes() {
       if (faces.empty() || faces.back() != rims[i].face) faces.push_back(rims[i].face);
       if (step > std::size(kGrowth)) continue;
       ++n_grown;
-      if (comm_.is_root()) grow(rims[i], step);
+      if (executor_.is_root()) grow(rims[i], step);
     }
     for (const FaceId f : faces) fills_[f].clear();
     if (step <= std::size(kGrowth)) continue;
@@ -214,15 +214,15 @@ void Remesher::grow(const HoleRim& rim, std::size_t step) {
 /// Collective. By face; on every rank, their triangles on rank 0.
 std::vector<HoleRim> Remesher::find_rims(const std::vector<FaceId>& faces) const {
   std::vector<HoleRim> rims;
-  if (comm_.is_root())
+  if (executor_.is_root())
     for (const FaceId f : faces)
       for (HoleRim& rim : find_hole_rims(old_, marks, f)) rims.push_back(std::move(rim));
-  if (comm_.size() == 1) return rims;
+  if (executor_.size() == 1) return rims;
   Packer p;
   for (const HoleRim& rim : rims) pack(p, rim);
   Bytes bytes = p.take();
-  comm_.broadcast(bytes);
-  if (comm_.is_root()) return rims;
+  executor_.broadcast(bytes);
+  if (executor_.is_root()) return rims;
   for (Unpacker u(bytes); !u.is_empty();) unpack(u, rims.emplace_back());
   return rims;
 }
@@ -250,9 +250,9 @@ void Remesher::redo_curves() {
     return p.take();
   };
   std::vector<Bytes> results(n_tasks);
-  comm_.run_tasks(n_tasks, in_order(n_tasks), compute, [&](std::int32_t task, Bytes&& result) { results[task] = std::move(result); });
+  executor_.run_tasks(n_tasks, in_order(n_tasks), compute, [&](std::int32_t task, Bytes&& result) { results[task] = std::move(result); });
   for (std::int32_t task = 0; task < n_tasks; ++task) {
-    comm_.broadcast(results[task]);
+    executor_.broadcast(results[task]);
     Unpacker u(results[task]);
     for (std::int32_t r = first(task); r < last(task); ++r) {
       u.get(fresh[r].t);
@@ -295,25 +295,25 @@ HoleFill Remesher::fill_hole(const HoleRim& rim) const {
 /// Collective. Fills the holes; returns those where it failed, ascending.
 std::vector<std::int32_t> Remesher::fill(const std::vector<HoleRim>& rims) {
   std::vector<std::int32_t> order = in_order(rims.size()), failed;
-  if (comm_.is_root())
+  if (executor_.is_root())
     std::stable_sort(order.begin(), order.end(),
                      [&](std::int32_t a, std::int32_t b) { return rims[a].triangles.size() > rims[b].triangles.size(); });
-  share(comm_, order);
+  share(executor_, order);
   std::vector<HoleFill> fills(rims.size());
   const auto compute = [&](std::int32_t task) {
     Packer p;
     pack(p, fill_hole(rims[task]));
     return p.take();
   };
-  comm_.run_tasks(static_cast<std::int32_t>(rims.size()), order, compute, [&](std::int32_t task, Bytes&& result) {
+  executor_.run_tasks(static_cast<std::int32_t>(rims.size()), order, compute, [&](std::int32_t task, Bytes&& result) {
     Unpacker u(result);
     unpack(u, fills[task]);
   });
-  for (std::size_t i = 0; comm_.is_root() && i < rims.size(); ++i) {
+  for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
     if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
-  share(comm_, failed);
+  share(executor_, failed);
   return failed;
 }
 
@@ -337,7 +337,7 @@ bool Remesher::accept(const std::vector<RefinementPoint>& places) {
   const std::size_t n_before = refinements_.all().size();
   for (const RefinementPoint& p : places) refinements_.add(p, kCrossingFloor);
   std::vector<Refinement> all = refinements_.all();
-  share(comm_, all);
+  share(executor_, all);
   n_refinements += static_cast<int>(all.size() - n_before);
   const bool any = all.size() > n_before;
   refinements_.assign(std::move(all));
@@ -347,7 +347,7 @@ bool Remesher::accept(const std::vector<RefinementPoint>& places) {
 /// Triangles that cross a new one: both are asked to be half as large and done again. False when there are none, or no help.
 bool Remesher::refine_crossings() {
   std::vector<RefinementPoint> places;
-  if (comm_.is_root()) {
+  if (executor_.is_root()) {
     n_crossing_pairs = 0;
     for (const TrianglePair& pair : find_new_crossings(mesh, model_.tables().face_shell)) {
       ++n_crossing_pairs;
@@ -362,10 +362,10 @@ bool Remesher::refine_crossings() {
     }
   }
   char crosses = !places.empty();
-  share(comm_, crosses, options_.mark.redo);
+  share(executor_, crosses, options_.mark.redo);
   if (!crosses || n_rounds > options_.max_crossing_rounds) return false;
   const bool any = accept(places);
-  if (any && comm_.is_root()) log_info("refining where new triangles cross others");
+  if (any && executor_.is_root()) log_info("refining where new triangles cross others");
   return any;
 }
 

@@ -1,4 +1,4 @@
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "comm/share.h"
+#include "base/share.h"
 #include "mesh/patch_crossing.h"
 #include "meshing/small_features.h"
-#include "stages/face_patch.h"
-#include "stages/joined_patches.h"
+#include "meshing/face_patch.h"
+#include "meshing/joined_patches.h"
 
 namespace st {
 namespace {
@@ -41,8 +41,8 @@ void pack(Packer& p, EdgeId e, const CurveNodes& nodes) {
 }  // namespace
 
 ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
-                         const Communicator& comm)
-    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), comm_(comm), refinements_(field) {
+                         const Executor& executor)
+    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), executor_(executor), refinements_(field) {
   find_small_features(options.merged);
   const ModelTables& t = tables_;
   min_segments_ = min_segments_per_edge(t);
@@ -61,8 +61,8 @@ void ModelMesher::find_small_features(const MergedFeatures* given) {
   if (given) {
     merged = *given;
   } else {
-    if (comm_.is_root()) merged = find_merged_features(model_, field_, options_.merge_below);
-    share(comm_, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
+    if (executor_.is_root()) merged = find_merged_features(model_, field_, options_.merge_below);
+    share(executor_, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
   }
   tables_ = with_merged_edges(t, merged);
   strip_of_kept_.assign(t.n_edges(), kNone);
@@ -151,7 +151,7 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
     if (!accept(wanted, is_promising ? kPromisingFloor : kCrossingFloor, dirty_edges, dirty_faces)) break;
     keep_whole(dirty_faces);
   }
-  if (!comm_.is_root()) return;
+  if (!executor_.is_root()) return;
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     folds.insert(folds.end(), o.fold_places.begin(), o.fold_places.end());
@@ -162,7 +162,7 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
 
 /// Before `dirty` are redone.
 void ModelMesher::keep_whole(const std::vector<FaceId>& dirty) {
-  if (!comm_.is_root()) return;
+  if (!executor_.is_root()) return;
   if (failed_faces_.empty()) whole_ = WholeMesh{edges, {}};
   if (!whole_) return;
   for (const FaceId f : dirty) whole_->faces.try_emplace(f, patches[f], outcomes_[f]);
@@ -171,9 +171,9 @@ void ModelMesher::keep_whole(const std::vector<FaceId>& dirty) {
 /// Collective. Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.
 bool ModelMesher::restore_whole() {
   char restores = whole_ && !failed_faces_.empty();
-  share(comm_, restores);
+  share(executor_, restores);
   if (!restores) return false;
-  if (comm_.is_root()) {
+  if (executor_.is_root()) {
     edges = std::move(whole_->edges);
     for (auto& [f, before] : whole_->faces) {
       patches[f] = std::move(before.first);
@@ -195,12 +195,12 @@ bool ModelMesher::accept(const std::vector<RefinementPoint>& points, double floo
   std::vector<Refinement> all;
   std::vector<EdgeId> edges_again;
   std::vector<FaceId> faces_again;
-  if (comm_.is_root()) {
+  if (executor_.is_root()) {
     for (const RefinementPoint& p : points) refinements_.add(p, floor);
     all = refinements_.all();
     if (all.size() > n_before) find_dirty(n_before, edges_again, faces_again);
   }
-  share(comm_, all, edges_again, faces_again);
+  share(executor_, all, edges_again, faces_again);
   if (all.size() == n_before) return false;
   n_refinements += static_cast<int>(all.size() - n_before);
   log_info("refining at " + std::to_string(all.size() - n_before) + " places: " + std::to_string(edges_again.size()) + " edges, " +
@@ -276,7 +276,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
     const auto last = static_cast<std::size_t>(task + 1) * kEdgesPerTask < dirty.size() ? first + kEdgesPerTask : dirty.end();
     return std::vector<EdgeId>(first, last);
   };
-  comm_.run_tasks(
+  executor_.run_tasks(
       n_tasks, order, [&](std::int32_t task) { return compute_edges(batch_of(task)); },
       [&](std::int32_t, Bytes&& result) {
         Unpacker u(result);
@@ -288,7 +288,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
           u.get(fresh[e].h);
         }
       });
-  if (comm_.is_root()) {
+  if (executor_.is_root()) {
     EdgeMesh next;
     next.edge_offsets.push_back(0);
     for (EdgeId e = 0; e < n_edges; ++e) {
@@ -310,7 +310,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
   numbering_.emplace(tables_, edges, merged);
 }
 
-void ModelMesher::broadcast_edges() { share(comm_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size); }
+void ModelMesher::broadcast_edges() { share(executor_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size); }
 
 Bytes ModelMesher::compute_face(FaceId f) const {
   FaceMesh mesh;
@@ -350,7 +350,7 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
   std::vector<std::vector<RefinementPoint>> wanted(dirty.size());
   Progress progress("meshing", static_cast<double>(dirty.size()));
   std::size_t n_done = 0;
-  comm_.run_tasks(
+  executor_.run_tasks(
       static_cast<std::int32_t>(dirty.size()), heaviest_first(weight), [&](std::int32_t task) { return compute_face(dirty[task]); },
       [&](std::int32_t task, Bytes&& result) {
         const FaceId f = dirty[task];
@@ -369,14 +369,14 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
       });
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted) all.insert(all.end(), w.begin(), w.end());
-  share(comm_, all);
+  share(executor_, all);
   return all;
 }
 
 /// Facets of one part that cross: both are refined. Searched are only pairs with a facet made since the last search.
 std::vector<RefinementPoint> ModelMesher::find_crossings() {
   std::vector<RefinementPoint> places;
-  if (comm_.is_root()) {
+  if (executor_.is_root()) {
     const JoinedPatches m = join_patches(*numbering_, patches);
     std::erase_if(crossing_pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
     std::vector<TrianglePair> pairs = find_crossing_patches({m.points, m.triangles, m.face_begin, tables_.face_shell, face_is_fresh_});
@@ -396,7 +396,7 @@ std::vector<RefinementPoint> ModelMesher::find_crossings() {
       places.push_back(m.refinement_of(m.face_begin[p.face_b] + p.index_b));
     }
   }
-  share(comm_, places);
+  share(executor_, places);
   return places;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "comm/communicator.h"
+#include "base/executor.h"
 #include "geometry/model.h"
 #include "meshing/hole_filler.h"
 #include "meshing/refinements.h"
@@ -24,7 +24,7 @@ class Remesher {
  public:
   /// `mesh`: the whole mesh on rank 0, at least its `share` on others. It and all other references outlive the object.
   Remesher(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field, const RemesherOptions& options,
-           const Communicator& comm);
+           const Executor& executor);
 
   /// Collective. Finds what no longer respects the sizes.
   void analyse();
@@ -70,7 +70,7 @@ class Remesher {
   MeshShare share_;
   const SizeField& field_;
   RemesherOptions options_;
-  const Communicator& comm_;
+  const Executor& executor_;
   std::vector<double> wanted_;           // [n_nodes] requested lengths, of the nodes that the share needs
   Refinements refinements_;              // of crossings so far
   EdgeUpdate update_;

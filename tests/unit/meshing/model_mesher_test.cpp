@@ -1,5 +1,5 @@
 // Whole models through ModelMesher at one rank: what is merged from its patches is the closed model.
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,7 @@
 namespace st {
 namespace {
 
-const Communicator& one_rank() {
-  static const Communicator comm;
-  return comm;
-}
+const SerialExecutor one_rank;
 
 /// A model meshed with one length.
 struct Meshed {
@@ -28,7 +25,7 @@ struct Meshed {
   OrientationReport orientation;
 
   Meshed(const std::string& shape, double length, const ModelMesherOptions& options = {})
-      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options, one_rank()) {
+      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options, one_rank) {
     mesher.run();
     merge();
   }
@@ -216,7 +213,7 @@ TEST(ModelMesher, makes_no_hole_where_refining_cannot_part_what_crosses) {
 TEST(ModelMesher, redoes_nothing_when_nothing_is_to_be_redone) {
   set_verbosity(Verbosity::kQuiet);
   Meshed m("cylinder", 1);
-  ModelMesher again(m.model, m.field, {}, {}, one_rank());
+  ModelMesher again(m.model, m.field, {}, {}, one_rank);
   again.run_from(m.mesher.edges, m.mesher.patches, {});
   EXPECT_EQ(again.edges.node_t, m.mesher.edges.node_t);
   ASSERT_EQ(again.patches.size(), m.mesher.patches.size());
@@ -231,7 +228,7 @@ TEST(ModelMesher, redoes_one_face_on_the_nodes_its_neighbours_keep) {
   set_verbosity(Verbosity::kQuiet);
   Meshed m("box", 4);
   const UniformField fine(1);
-  ModelMesher again(m.model, fine, {}, {}, one_rank());
+  ModelMesher again(m.model, fine, {}, {}, one_rank);
   again.run_from(m.mesher.edges, m.mesher.patches, {2});
   EXPECT_EQ(again.edges.node_t, m.mesher.edges.node_t);
   for (FaceId f = 0; f < 6; ++f) {

@@ -1,4 +1,4 @@
-#include "stages/failed_face.h"
+#include "meshing/failed_face.h"
 
 #include <algorithm>
 #include <limits>

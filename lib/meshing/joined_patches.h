@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/crossing.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 
 namespace st {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "comm/packer.h"
+#include "base/packer.h"
 #include "mesh/failed_face.h"
 #include "meshing/face_boundary.h"
 #include "meshing/face_mesher.h"

@@ -1,5 +1,5 @@
 // What is kept of a face that could not be meshed.
-#include "stages/failed_face.h"
+#include "meshing/failed_face.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/log.h"
-#include "stages/model_mesher.h"
+#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -17,7 +17,7 @@ namespace {
 struct Edges {
   Model model;
   UniformField field;
-  Communicator one_rank;
+  SerialExecutor one_rank;
   ModelMesher mesher;
   BoundaryNumbering numbering;
 

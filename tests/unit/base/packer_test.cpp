@@ -1,4 +1,4 @@
-#include "comm/packer.h"
+#include "base/packer.h"
 
 #include <gtest/gtest.h>
 
