@@ -1,8 +1,23 @@
 #include "base/memory.h"
 
 #include <malloc.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
 
 namespace st {
+namespace {
+
+/// The number in a file; `otherwise` when there is none ("max").
+double number_in(const char* path, double otherwise) {
+  std::ifstream file(path);
+  double value = 0;
+  return file >> value && value > 0 ? value : otherwise;
+}
+
+}  // namespace
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
@@ -10,6 +25,18 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   mallopt(M_TOP_PAD, 1 << 26);
 #endif
+}
+
+double memory_limit() {
+  double limit = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  for (const char* group : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+    limit = std::min(limit, number_in(group, limit));
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit r{};
+    if (getrlimit(resource, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
+      limit = std::min(limit, static_cast<double>(r.rlim_cur));
+  }
+  return limit;
 }
 
 }  // namespace st

@@ -6,12 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include "base/error.h"
+#include "base/supervised_program.h"
+#include "comm/mpirun_report.h"
 #include "comm/task_farm.h"
 
 namespace st {
@@ -164,32 +165,57 @@ void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_
   }
 }
 
-void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_without_np) {
-  if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is no number of ranks; give 1 or more");
-  if (n == 1 || launched_ranks() != 0) return;
-  // Settings of the user win (no overwriting).
-  const std::pair<const char*, const char*> settings[] = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
-                                                          {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-                                                          {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-                                                          {"OMPI_MCA_mpi_yield_when_idle", "1"},
-                                                          {"OMPI_MCA_hwloc_base_binding_policy", "none"},
-                                                          {"OMPI_MCA_orte_execute_quiet", "1"},
-                                                          {"PMIX_MCA_gds", "hash"},  // the default warns where it may not share memory
-                                                          {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
-                                                          {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
+namespace {
+
+/// What the ranks need of Open MPI. Settings of the user win (no overwriting).
+void set_launch_environment() {
+  const std::pair<const char*, const char*> settings[] = {
+      {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+      {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+      {"OMPI_MCA_mpi_yield_when_idle", "1"},
+      {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+      {"OMPI_MCA_opal_signal", ""},                                 // no stack trace: the signal is reported
+      {"PMIX_MCA_gds", "hash"},                                     // the default warns where it may not share memory
+      {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
+      {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
   for (const auto& [name, value] : settings) setenv(name, value, 0);
+  setenv("OMPI_MCA_orte_execute_quiet", "0",
+         1);  // its banners name the rank that a signal ended; they are not passed on
   if (!may_read_other_processes()) setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+}
+
+/// The code of the job, or what ended it as an Error.
+int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
+  if (end.passed_signal > 0) return 128 + end.passed_signal;
+  if (lost) throw Error(static_cast<ExitCode>(128 + lost->signal), describe_lost_rank(*lost));
+  if (end.is_signalled)
+    throw Error(static_cast<ExitCode>(end.exit_code),
+                "mpirun was ended by " + signal_text(end.exit_code - 128) + ", and with it all ranks; run again");
+  return end.exit_code;
+}
+
+}  // namespace
+
+std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& arguments_without_np,
+                                    const std::function<void(const std::string& text)>& on_error_text) {
+  if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is no number of ranks; give 1 or more");
+  if (n == 1 || launched_ranks() != 0) return std::nullopt;
+  set_launch_environment();
   char self[4096];
   const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
   if (length <= 0) throw Error(ExitCode::kInternal, "cannot find the path of this program; start it with mpirun -np " + std::to_string(n));
   std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), std::string(self, length)};
   words.insert(words.end(), arguments_without_np.begin(), arguments_without_np.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  execvp("mpirun", argv.data());
-  throw Error(ExitCode::kInternal,
-              std::string("mpirun cannot be started (") + std::strerror(errno) + "); install Open MPI (openmpi-bin) or leave --np out");
+  MpirunReport report;
+  ProgramEnd end;
+  try {
+    end = run_supervised(words, [&](const std::string& line) { on_error_text(report.add(line)); });
+  } catch (const Error& e) {
+    throw Error(e.code(), std::string(e.what()) + "; install Open MPI (openmpi-bin) or leave --np out");
+  }
+  on_error_text(report.rest());
+  return code_of(end, report.lost_rank());
 }
 
 }  // namespace st

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,12 @@ class Communicator : public Executor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Replaces this process by `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than
-/// cores, idle ranks that yield, no binding, quiet). Returns only when n == 1 or a launcher already started us. Throws Error(kUsage) when n
-/// < 1 and Error(kInternal) when mpirun is missing.
-void relaunch_under_mpirun(int n, const std::vector<std::string>& arguments_without_np);
+/// Runs `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than cores,
+/// idle ranks that yield, no binding) and waits for its end. Returns the exit code of the job; nothing, and nothing was
+/// run, when n == 1 or a launcher already started us. Without mpirun's banners: a rank that a signal ended is an Error
+/// with rank, host and signal, of code 128 + signal. Signals to this process reach the ranks. `on_error_text` gets what
+/// the ranks write to stderr. Throws Error(kUsage) when n < 1 and Error(kInternal) when mpirun is missing.
+std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& arguments_without_np,
+                                    const std::function<void(const std::string& text)>& on_error_text);
 
 }  // namespace st

@@ -86,6 +86,9 @@ MeshArtifact read_mesh(const std::string& path);
 /// Removes the temporary files of this process; called by the signal handlers of the tools (async-signal-safe).
 void remove_temporaries() noexcept;
 
+/// Removes what processes of this machine that have ended left while writing `path`.
+void remove_left_temporaries(const std::string& path);
+
 /// Throws Error(kMismatch) unless both go back to the same geometry; the message names both files.
 void require_same_geometry(const std::string& path_a, const ArtifactHeader& a, const std::string& path_b, const ArtifactHeader& b);
 

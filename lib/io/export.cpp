@@ -2,14 +2,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <map>
 
+#include "base/limits.h"
 #include "io/artifact.h"
 #include "io/export_formats.h"
 #include "io/face_numbers.h"
 
 namespace st {
 
+static_assert(kMaxTriangles <= std::numeric_limits<std::uint32_t>::max(),
+              "binary STL counts its triangles so; MSH, PLY and FRO count further");
 static_assert(std::endian::native == std::endian::little, "the binary formats below are written as they are in memory");
 
 Vec3 triangle_normal(const SurfaceMesh& m, const Triangle& t) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/artifact_checks.h"
 #include "io/face_labels_io.h"
 #include "io/face_numbers.h"
@@ -61,6 +62,8 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
   const std::vector<std::int64_t> connectivity = r.read<std::int64_t>("/VTKHDF/Connectivity");
   if (connectivity.size() % 3 != 0) r.fail("/VTKHDF/Connectivity", "is not made of triangles");
   const std::size_t n = connectivity.size() / 3;
+  require_countable(n, "triangles of one mesh", kMaxTriangles);
+  require_countable(n_nodes, "nodes of one mesh");
   const std::vector<std::int64_t> offsets = r.read_rows<std::int64_t>("/VTKHDF/Offsets", n + 1);
   const std::vector<std::uint8_t> types = r.read_rows<std::uint8_t>("/VTKHDF/Types", n);
   std::vector<Triangle> triangles(n);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "io/artifact_checks.h"
 #include "io/merged_features.h"
 
@@ -100,6 +101,8 @@ MeshPart read_mesh_part(const std::string& path, int part, int n_parts) {
   result.artifact.is_complete = r.int_attribute("/st", "is_complete") != 0;
   SurfaceMesh& m = result.artifact.mesh;
   const std::size_t n_triangles = rows.n_rows("/VTKHDF/CellData/face"), n_nodes = rows.n_rows("/VTKHDF/PointData/entity_dim");
+  require_countable(n_triangles, "triangles of one mesh", kMaxTriangles);
+  require_countable(n_nodes, "nodes of one mesh");
   const std::size_t begin = n_triangles * part / n_parts, n = n_triangles * (part + 1) / n_parts - begin;
   const std::vector<std::int64_t> nodes = rows.read<std::int64_t>("/VTKHDF/Connectivity", 3 * begin, 3 * n);
   const NodeRange range = find_range(r, nodes, count_edge_nodes(rows, n_nodes), n_nodes);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/artifact_checks.h"
 #include "io/face_labels_io.h"
 #include "io/hdf5_file.h"
@@ -35,7 +36,9 @@ namespace {
 
 constexpr int kOpenSizingVersion = 2;   // of a sizing without a surface in it
 constexpr int kPlainRasterVersion = 2;  // of a raster without samples
+constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
 constexpr const char* kSizing = "/st/sizing";
+constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
 constexpr const char* kLeafKey = "/st/octree/leaf_key";
 constexpr const char* kLeafLevel = "/st/octree/leaf_level";
@@ -96,6 +99,7 @@ void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
 void require_shape(const Hdf5Reader& file, std::size_t n_leaves, std::size_t n_levels, std::size_t n_children, double edge) {
   if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1)
     file.fail(kLeafKey, "number of leaves does not fit the tree");
+  require_countable(n_leaves, "cells of one octree");
   if (n_levels != n_leaves) file.fail(kLeafLevel, "length does not fit the number of leaves");
   if (!(edge > 0)) file.fail(kRoot, "root cube has no size");
 }
@@ -220,9 +224,11 @@ std::string cause_text(const CauseNames& names, std::int32_t cause) {
 
 std::string write_raster(const std::string& path, const RasterArtifact& raster) {
   ArtifactHeader header = raster.header;
-  header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kRasterVersion;
+  header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kSampledRasterVersion;
+  if (raster.n_not_sampled > 0) header.schema_version = kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
+  if (raster.n_not_sampled > 0) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
@@ -247,6 +253,7 @@ RasterArtifact read_raster(const std::string& path) {
   RasterArtifact raster;
   raster.header = file.header();
   raster.numbers = read_numbers(file);
+  if (raster.header.schema_version >= kRasterVersion) raster.n_not_sampled = file.int_attribute(kSizing, kNotSampled);
   raster.octree.shape = read_shape(file);
   const std::size_t n = raster.octree.shape.leaf_keys.size();
   raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);

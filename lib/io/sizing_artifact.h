@@ -15,7 +15,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 3, kSizingVersion = 3;
+inline constexpr int kRasterVersion = 4, kSizingVersion = 3;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -45,6 +45,8 @@ struct RasterArtifact {
   std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
   FaceCells faces;                    ///< where in the octree each face lies, with its area there
   CauseNames names;
+  std::int64_t n_not_sampled =
+      0;  ///< faces and batches of edges that could not be sampled; > 0: the raster is incomplete
   std::vector<std::string> group_name;    ///< main groups, for slopes of groups
   std::vector<std::int32_t> face_group;   ///< [n_faces], or empty
   FaceLabels labels;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/text_file.h"
 #include "mesh/adjacency.h"
 
@@ -92,6 +93,7 @@ SurfaceMesh read_stl(const std::string& path) {
   if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
   for (const Vec3& x : corners)
     if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) fail(path, "a coordinate is not finite");
+  if (corners.size() / 3 > kMaxTriangles) fail(path, "has more triangles than can be numbered");
   SurfaceMesh mesh;
   const std::vector<NodeId> node = weld(corners, mesh.node_xyz);
   for (std::size_t i = 0; i < node.size(); i += 3)

@@ -71,9 +71,10 @@ pid_t maker_of(const std::string& name, const std::string& base) {
   return name.rfind(start, 0) == 0 ? static_cast<pid_t>(std::atol(name.c_str() + start.size())) : 0;
 }
 
-/// Removes what processes that were killed while writing `path` have left. A minute's grace: it might be a process of another machine.
-void remove_stale(const std::string& path) {
-  constexpr auto kGrace = std::chrono::minutes(1);
+constexpr auto kGrace = std::chrono::minutes(1);  // it might be a process of another machine
+
+/// Removes what processes that were killed while writing `path` have left, when it is as old as this.
+void remove_stale(const std::string& path, std::chrono::seconds grace) {
   namespace fs = std::filesystem;
   std::error_code error;
   for (fs::directory_iterator it(directory_of(path), error), end; !error && it != end; it.increment(error)) {
@@ -81,7 +82,7 @@ void remove_stale(const std::string& path) {
     if (maker <= 0 || kill(maker, 0) == 0 || errno != ESRCH) continue;
     std::error_code gone;
     const auto written = fs::last_write_time(it->path(), gone);
-    if (!gone && fs::file_time_type::clock::now() - written > kGrace) fs::remove(it->path(), gone);
+    if (!gone && fs::file_time_type::clock::now() - written >= grace) fs::remove(it->path(), gone);
   }
 }
 
@@ -91,6 +92,8 @@ void remove_temporaries() noexcept {
   for (Slot& slot : g_slots)
     if (slot.state.load() == 2) unlink(slot.name);
 }
+
+void remove_left_temporaries(const std::string& path) { remove_stale(path, std::chrono::seconds(0)); }
 
 void require_writable(const std::string& path) {
   if (path.empty()) throw Error(ExitCode::kOutput, "empty output name; give a file name with -o");
@@ -111,7 +114,7 @@ void require_writable(const std::string& path) {
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   static std::atomic<int> counter{0};
   require_writable(path);
-  remove_stale(path);
+  remove_stale(path, kGrace);
   name_ = directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + std::to_string(counter++);
   if (name_.size() >= kNameLength || base_of(path).size() > 220) fail(path, "the name is too long", "choose a shorter one");
   slot_ = reserve_slot(name_);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/artifact.h"
 #include "io/byte_cursor.h"
 #include "io/stl_file.h"
@@ -22,7 +23,6 @@ enum class Format { kNone, kHdf5, kMsh, kVtu, kStl, kFro };
 constexpr const char* kHdf5Signature = "\x89HDF\r\n\x1a\n";
 constexpr std::size_t kHead = 512;                       // bytes from which a format is known
 constexpr std::size_t kStlHeader = 84, kStlRecord = 50;  // of binary STL
-constexpr std::size_t kMaxTriangles = 700000000;         // their sides must be countable in 32 bits
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw Error(ExitCode::kInput, path + ": " + what); }
 

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/limits.h"
+
 namespace st {
 
 namespace {
@@ -25,6 +27,7 @@ void for_each_side(std::span<const Triangle> triangles, const Visit& visit) {
 }  // namespace
 
 EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes) : offsets_(n_nodes + 1, 0) {
+  require_countable(triangles.size(), "triangles of one mesh, with their sides,", kMaxTriangles);
   for_each_side(triangles, [&](NodeId low, NodeId, SideId) { ++offsets_[low + 1]; });
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
   high_.resize(offsets_.back());

@@ -17,7 +17,8 @@ using SideId = std::int32_t;
 /// Triangles with a repeated node have no sides here. 24 bytes per triangle and 4 per node.
 class EdgeTable {
  public:
-  /// Precondition: node ids in [0, n_nodes), at most 715 million triangles. Linear time but for the log of the valence.
+  /// Precondition: node ids in [0, n_nodes). Throws Error(kUsage) beyond kMaxTriangles. Linear time but for the log of
+  /// the valence.
   EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes);
 
   /// Calls visit(lower node, higher node, sides) once per mesh edge, ascending; `sides`: span of SideId, ascending.

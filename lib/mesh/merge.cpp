@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/limits.h"
 
 namespace st {
 
@@ -185,8 +186,11 @@ SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report) {
   std::size_t n_inner = 0, n_triangles = 0;
   NodeNumbers numbers = mark_used(input, patches, n_inner, n_triangles);
   const auto n_used = [](const std::vector<NodeId>& v) { return v.size() - std::count(v.begin(), v.end(), kNone); };
+  const std::size_t n_nodes = n_used(numbers.vertex) + n_used(numbers.edge_node) + n_inner;
+  require_countable(n_nodes, "nodes of the merged mesh");
+  require_countable(n_triangles, "triangles of the merged mesh", kMaxTriangles);
   SurfaceMesh mesh;
-  reserve(mesh, n_used(numbers.vertex) + n_used(numbers.edge_node) + n_inner, n_triangles);
+  reserve(mesh, n_nodes, n_triangles);
   append_boundary_nodes(input, numbers, mesh);
   for (const FacePatch* p : patches) append_patch(input, *p, numbers, mesh);
   append_previous(input, patches, numbers, mesh);

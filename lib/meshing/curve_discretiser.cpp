@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/limits.h"
+
 namespace st {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr int kMaxDepth = 24;
 constexpr double kSamplesPerLength = 2.0;  // samples of the size along one requested length
 constexpr double kFullRadius = 0.4;        // of the length: circles from this radius on get segments of max_turning
 constexpr double kMostDense = 1.5;         // segments for one of such a circle, however small the radius
+constexpr std::uint64_t kMaxSegments = 100'000'000;  // of one edge between two corners
 constexpr double kCorner = 0.01;           // of the length: what turns by more than max_turning within this is a corner
 constexpr double kCornerReach = 0.25;      // lengths: a corner nearer to an end or another corner has no node of its own
 
@@ -105,7 +108,8 @@ class Discretiser {
   void share_segments(int min_segments) {
     int n = 0;
     for (std::size_t part = 0; part + 1 < stops_.size(); ++part) {
-      n_segments_.push_back(std::max(1, static_cast<int>(std::lround(std::min(part_share(part), 1e8)))));
+      const auto n_part = static_cast<std::uint64_t>(std::llround(std::min(part_share(part), 1e18)));
+      n_segments_.push_back(std::max(1, checked_id(n_part, "segments of one CAD edge", kMaxSegments)));
       n += n_segments_.back();
     }
     for (; n < min_segments; ++n) {

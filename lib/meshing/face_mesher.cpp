@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/limits.h"
 #include "base/predicates.h"
 #include "meshing/front.h"
 
@@ -17,6 +18,7 @@ constexpr double kSingular = 0.02;         // of its mean: a derivative shorter 
 constexpr double kFoldCosine = -0.8;        // between the normals of neighbours: folded onto each other
 constexpr int kProbe = 6;                  // grid of the scale of the plane
 constexpr int kAreaProbe = 10;             // grid of the expected number of nodes
+constexpr double kMaxNodesOfFace = kMaxTriangles / 2.0;  // two triangles to a node
 constexpr double kRunaway = 30;            // times the expected number of nodes
 
 /// Work on one face: the named steps of meshing.
@@ -145,7 +147,7 @@ class FaceMesher {
         n += norm(cross(s.du, s.dv)) * du * dv / (h * h);
       }
     const double boundary = static_cast<double>(boundary_.nodes.size());
-    return static_cast<std::size_t>(std::min(1e9, kRunaway * (n + boundary * boundary) + 10000));
+    return static_cast<std::size_t>(std::min(kMaxNodesOfFace, kRunaway * (n + boundary * boundary) + 10000));
   }
 
   void collect(FaceMesh& result) const {

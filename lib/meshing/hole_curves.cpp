@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
+
 namespace st {
 namespace {
 
@@ -74,7 +76,7 @@ EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& run
       end_size = n.h.back();
       i = runs[r++].last - 1;
     }
-    u.edges.edge_offsets.push_back(static_cast<std::int32_t>(u.edges.node_t.size()));
+    u.edges.edge_offsets.push_back(checked_id(u.edges.node_t.size(), "nodes on CAD edges"));
   }
   return u;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
+
 namespace st {
 namespace {
 
@@ -52,6 +54,8 @@ class Inserter {
         n_triangles += fill.triangles.size();
       }
     }
+    require_countable(n_nodes, "nodes of the old and the new mesh");
+    require_countable(n_triangles, "triangles of the old and the new mesh", kMaxTriangles);
     mesh_.node_xyz.reserve(n_nodes);
     mesh_.node_entity_dim.reserve(n_nodes);
     mesh_.node_entity.reserve(n_nodes);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/limits.h"
+
 namespace st {
 
 FaceId JoinedPatches::face_of(TriangleId t) const {
@@ -24,6 +26,8 @@ JoinedPatches join_patches(const BoundaryNumbering& numbering, const std::vector
   const EdgeMesh& edges = numbering.edges;
   std::size_t n_points = numbering.first_inner.back(), n_triangles = 0;
   for (const FacePatch& p : patches) n_points += p.inner_xyz.size(), n_triangles += p.triangles.size();
+  require_countable(n_points, "nodes of all patches");
+  require_countable(n_triangles, "triangles of all patches", kMaxTriangles);
   m.points.reserve(n_points);
   m.triangles.reserve(n_triangles);
   m.n_boundary = numbering.first_inner.back();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/log.h"
 #include "base/share.h"
 #include "mesh/patch_crossing.h"
@@ -302,7 +303,7 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
         next.node_xyz.insert(next.node_xyz.end(), edges.node_xyz.begin() + a, edges.node_xyz.begin() + b);
         next.node_size.insert(next.node_size.end(), edges.node_size.begin() + a, edges.node_size.begin() + b);
       }
-      next.edge_offsets.push_back(static_cast<std::int32_t>(next.node_t.size()));
+      next.edge_offsets.push_back(checked_id(next.node_t.size(), "nodes on CAD edges"));
     }
     edges = std::move(next);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/limits.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -57,7 +58,7 @@ void Triangulation::start_box() {
 }
 
 std::vector<LoopConflict> Triangulation::build(const std::vector<std::pair<std::int32_t, std::int32_t>>& segments) {
-  n_boundary = static_cast<std::int32_t>(nodes.size());
+  n_boundary = checked_id(nodes.size(), "nodes on the boundary of one face", kMaxTriangles / 4);
   start_box();
   Vec2 lo = nodes[n_boundary].p, hi = nodes[n_boundary + 2].p;
   const double scale = 1.0 / std::max(hi.x - lo.x, hi.y - lo.y);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/limits.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -262,6 +263,7 @@ class Blanker {
   /// Rows of all sites that touch a cut cell or are cut.
   void link_sites() {
     const std::int32_t n = octree_.n_leaves(), n_split = static_cast<std::int32_t>(result_.split_leaf.size());
+    require_countable(result_.colour.size() + result_.split_leaf.size(), "cells and parts of cells");
     result_.site_links.assign(static_cast<std::size_t>(n + n_split), kNone);
     for (std::int32_t leaf = 0; leaf < n; ++leaf) {
       bool is_near = is_cut(leaf);

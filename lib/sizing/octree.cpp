@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/limits.h"
+#include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
 #include "sizing/radix_sort.h"
 
@@ -66,10 +68,31 @@ std::vector<std::uint8_t> required_levels(double root_edge, std::span<const Rast
   return levels;
 }
 
+/// Collects keys of one level; sorts repeated ones out whenever their number has doubled.
+class KeyCollector {
+ public:
+  explicit KeyCollector(std::vector<std::uint64_t>& keys) : keys_(keys) {}
+  /// True when the keys were sorted.
+  bool add(std::uint64_t key) {
+    if (!filter_.is_new(key)) return false;
+    keys_.push_back(key);
+    if (keys_.size() < next_sort_) return false;
+    sort_unique(keys_);
+    next_sort_ = std::max(kFirstSort, 2 * keys_.size());
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kFirstSort = std::size_t{1} << 22;
+  std::vector<std::uint64_t>& keys_;
+  RepeatFilter filter_;
+  std::size_t next_sort_ = kFirstSort;
+};
+
 /// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight per box).
 void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels,
-                            NodeLevels& nodes) {
-  std::array<RepeatFilter, kMaxLevel> filters;
+                            NodeLevels& nodes, std::uint64_t max_cells) {
+  std::vector<KeyCollector> collectors(nodes.begin(), nodes.end());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (levels[i] == 0) continue;
     const GridBox range = grid_box(shape, boxes[i], boxes[i].half);
@@ -79,7 +102,7 @@ void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox>
       for (std::uint32_t y = range.lo.y >> shift; y <= range.hi.y >> shift; ++y)
         for (std::uint32_t x = range.lo.x >> shift; x <= range.hi.x >> shift; ++x) {
           const std::uint64_t key = morton::encode({x, y, z});
-          if (filters[parent].is_new(key)) nodes[parent].push_back(key);
+          if (collectors[parent].add(key)) require_cells(7.0 * static_cast<double>(nodes[parent].size()), max_cells);
         }
   }
 }
@@ -115,6 +138,7 @@ void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
   std::array<std::size_t, kMaxLevel + 1> offset{}, cursor{};
   for (std::size_t l = 0; l < kMaxLevel; ++l) offset[l + 1] = offset[l] + nodes[l].size();
   const std::size_t n_nodes = offset[kMaxLevel];
+  require_countable(7 * n_nodes + 1, "cells of the octree");
   shape.leaf_keys.clear();
   shape.leaf_levels.clear();
   shape.leaf_keys.reserve(7 * n_nodes + 1);
@@ -257,12 +281,19 @@ void octree_root(const Box3& box, Vec3& lo, double& edge) {
   lo = c - Vec3{0.5 * edge, 0.5 * edge, 0.5 * edge};
 }
 
-NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes) {
+std::uint64_t count_leaves(const NodeLevels& nodes) {
+  std::uint64_t n = 0;
+  for (const std::vector<std::uint64_t>& level : nodes) n += level.size();
+  return 7 * n + 1;
+}
+
+NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes, std::uint64_t max_cells) {
   OctreeShape shape;
   octree_root(root, shape.lo, shape.edge);
   NodeLevels nodes;
-  collect_required_nodes(shape, boxes, required_levels(shape.edge, boxes), nodes);
+  collect_required_nodes(shape, boxes, required_levels(shape.edge, boxes), nodes, max_cells);
   close_nodes(nodes);
+  require_cells(static_cast<double>(count_leaves(nodes)), max_cells);
   return nodes;
 }
 
@@ -283,6 +314,7 @@ OctreeShape make_shape(const Box3& root, const NodeLevels& nodes) {
 }
 
 PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> boxes) {
+  require_countable(boxes.size(), "samples on one rank");
   const std::vector<std::uint8_t> levels = required_levels(shape.edge, boxes);
   std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
   for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/limits.h"
 #include "sizing/octree.h"
 
 namespace st {
@@ -19,8 +20,13 @@ void close_nodes(NodeLevels& nodes);
 /// Numbers the nodes level by level and the leaves in Morton order, and links them. `shape` has its root cube already.
 void link_tree(const NodeLevels& nodes, OctreeShape& shape);
 
-/// Inner cells that these boxes ask for, closed. Those of all boxes are the union of those of any parts: see unite_nodes.
-NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes);
+/// Inner cells that these boxes ask for, closed. Those of all boxes are the union of those of any parts: see
+/// unite_nodes. Throws TooManyCells as soon as they make more than `max_cells` leaves; their own memory is a fraction
+/// of that.
+NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes, std::uint64_t max_cells = kMaxIds);
+
+/// Leaves of the octree with these inner cells.
+std::uint64_t count_leaves(const NodeLevels& nodes);
 
 /// Union, level by level; all sorted and unique, as close_nodes leaves them.
 void unite_nodes(NodeLevels& nodes, const NodeLevels& other);

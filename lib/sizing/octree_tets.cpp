@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "sizing/radix_sort.h"
 
 namespace st {
@@ -43,6 +44,7 @@ class TetMaker {
       result_.node_xyz.push_back({octree_.lo.x + p.x * unit, octree_.lo.y + p.y * unit, octree_.lo.z + p.z * unit});
     }
     result_.n_corners = static_cast<std::int64_t>(corners_.size());
+    require_countable(corners_.size() + octree_.leaf_keys.size(), "corners and centres of the octree's cells");
     for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) result_.node_xyz.push_back(octree_.leaf_center(leaf));
   }
 

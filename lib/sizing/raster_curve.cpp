@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sizing/cell_limit.h"
+
 namespace st {
 namespace {
 
@@ -32,6 +34,7 @@ class CurveMeasurer {
 
  private:
   void measure(double ta, const CurvePoint& a, double tb, const CurvePoint& b, int depth) {
+    require_samples(table_.t.size(), limits_.max_samples);
     const double tm = 0.5 * (ta + tb);
     const CurvePoint m = curve_.evaluate(tm);
     const double length = distance(a.x, m.x) + distance(m.x, b.x);

@@ -21,7 +21,8 @@ struct CurveTable {
       corners;  ///< entries at which a corner (jump of the tangent by more than alpha) has its near side; the next entry is its far side
 };
 
-/// Measures a curve. Cost: some ten evaluations per sample length.
+/// Measures a curve. Throws TooManyCells when that takes more than max_samples entries. Cost: some ten evaluations per
+/// sample length.
 CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits);
 
 /// Cuts the curve into consecutive segments with arc length in [min_length, max_length] whose tangent turns by at most alpha unless that

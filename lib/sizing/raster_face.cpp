@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sizing/cell_limit.h"
 #include "sizing/patch_walk.h"
 
 namespace st {
@@ -200,7 +201,7 @@ class FaceRaster {
     boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
     report_.area += inside_area(patch);
-    ++report_.n_patches;
+    require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
   }
 
   GapPatch gap_patch(const CurvaturePatch& patch, double length) const {

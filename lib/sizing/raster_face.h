@@ -29,6 +29,7 @@ struct FaceRasterReport {
 /// space decide, so poles and stretched iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil
 /// points lie too far apart; halving patches covers the surface by construction.)
 /// `patches`, where wanted, gets one patch per box whose middle is no singular point; normals are along du x dv.
+/// Throws TooManyCells beyond max_samples boxes.
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
                              std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches = nullptr);
 

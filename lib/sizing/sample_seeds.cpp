@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/limits.h"
+
 namespace st {
 namespace {
 
@@ -29,6 +31,7 @@ void visit_leaves(const OctreeView& octree, std::int32_t node, Vec3 middle, doub
 class Limits {
  public:
   Limits(const OctreeView& octree, std::span<const LengthSample> samples) : octree_(octree), samples_(samples) {
+    require_countable(samples.size(), "samples of the raster");
     std::vector<std::int32_t> leaf_of;
     first_.assign(octree.leaf_keys.size() + 1, 0);
     for (const LengthSample& s : samples) {

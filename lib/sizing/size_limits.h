@@ -1,6 +1,7 @@
 // The numbers that drive the sampling of curves and surfaces.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -18,6 +19,7 @@ struct SamplingLimits {
   double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry, model unit
   std::optional<int> gap_cells = std::nullopt;             ///< lengths across gaps and thin walls; nullopt: gaps do not matter
   std::optional<int> edge_cells = std::nullopt;            ///< lengths along each CAD edge at least, down to min_length; nullopt: one
+  std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 
 }  // namespace st

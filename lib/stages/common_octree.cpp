@@ -1,6 +1,7 @@
 #include "stages/common_octree.h"
 
 #include "base/packer.h"
+#include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
 
 namespace st {
@@ -31,9 +32,11 @@ NodeLevels unite_over_ranks(NodeLevels nodes, const Communicator& comm) {
 
 }  // namespace
 
-RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, const Communicator& comm) {
-  NodeLevels nodes = split_cells(root, own_boxes);
+RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, std::uint64_t max_cells,
+                                 const Communicator& comm) {
+  NodeLevels nodes = split_cells(root, own_boxes, max_cells);
   if (comm.size() > 1) nodes = unite_over_ranks(std::move(nodes), comm);
+  require_cells(static_cast<double>(count_leaves(nodes)), max_cells);
   OctreeShape shape = make_shape(root, nodes);
   PackedLengths packed = store_boxes(shape, own_boxes);
   comm.reduce_min(packed);

@@ -10,10 +10,12 @@
 
 namespace st {
 
-/// Collective. What build_octree makes of the boxes of all ranks: the shape on every rank, the stored lengths complete on rank 0 only. Each
-/// rank looks for the cells that its own boxes split and meet; rank 0 unites them. The result does not depend on which rank has which box.
-/// `root`: the same on every rank.
-RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, const Communicator& comm);
+/// Collective. What build_octree makes of the boxes of all ranks: the shape on every rank, the stored lengths complete
+/// on rank 0 only. Each rank looks for the cells that its own boxes split and meet; rank 0 unites them. The result does
+/// not depend on which rank has which box. `root`, `max_cells`: the same on every rank. Throws TooManyCells, before
+/// most of the memory is used, on some rank at least.
+RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, std::uint64_t max_cells,
+                                 const Communicator& comm);
 
 /// Collective. The samples of all ranks with their places, on rank 0; see sorted_samples.
 std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, const Communicator& comm);

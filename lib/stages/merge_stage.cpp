@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "io/artifact.h"
@@ -45,7 +46,7 @@ void append_edge(const EdgeMesh& from, std::size_t e, EdgeMesh& to) {
   to.node_size.insert(to.node_size.end(), from.node_size.begin() + begin, from.node_size.begin() + end);
   const std::vector<double>& request = from.node_request.empty() ? from.node_size : from.node_request;
   to.node_request.insert(to.node_request.end(), request.begin() + begin, request.begin() + end);
-  to.edge_offsets.push_back(static_cast<std::int32_t>(to.node_t.size()));
+  to.edge_offsets.push_back(checked_id(to.node_t.size(), "nodes on CAD edges"));
 }
 
 bool has_same_nodes(const EdgeMesh& a, const EdgeMesh& b, std::size_t e) {

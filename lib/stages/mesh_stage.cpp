@@ -15,6 +15,7 @@
 #include "io/artifact.h"
 #include "io/sizing_artifact.h"
 #include "meshing/model_mesher.h"
+#include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
 
 namespace st {
@@ -78,6 +79,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   options.max_turning_deg = o.max_turning_deg;
   options.merge_below = o.merge_below;
   const std::vector<FaceId> faces = select_faces(o, model.tables());
+  require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing);
   EdgeMesh fixed;
   MergedFeatures merged;
   if (!o.edges.empty()) {

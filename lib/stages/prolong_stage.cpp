@@ -9,9 +9,11 @@
 #include <numeric>
 #include <utility>
 
+#include "base/limits.h"
 #include "base/log.h"
 #include "io/sizing_artifact.h"
 #include "stages/blank_input.h"
+#include "stages/expected_triangles.h"
 #include "stages/size_report.h"
 #include "stages/slope_input.h"
 #include "stages/source_input.h"
@@ -21,8 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Equilateral triangles of the local length, per unit of the integral of 1/h^2.
-const double kTrianglesPerWeight = 4 / std::sqrt(3.0);
+constexpr double kMostExact = 9e15;  // triangles that are still written as a whole number
 
 void require_valid(const ProlongStageOptions& o) {
   if (!(o.slope > 0 && o.slope <= 2)) throw Error(ExitCode::kUsage, fmt::format("--slope {}: not in (0, 2]", o.slope));
@@ -42,6 +43,7 @@ std::string options_json(const ProlongStageOptions& o, double scale) {
   if (!o.blank.empty()) json["blank_side"] = o.blank_side;
   if (!o.transform.empty()) json["transform"] = o.transform;
   if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
+  if (o.allow_incomplete) json["allow_incomplete"] = true;
   return json.dump();
 }
 
@@ -57,11 +59,6 @@ ArtifactHeader sizing_header(const ProlongStageOptions& o, const ArtifactHeader&
   return header;
 }
 
-/// About this many triangles: equilateral ones of the local length.
-double expected_triangles(const std::vector<double>& face_weight) {
-  return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
-}
-
 /// The scale of all lengths that gives this many triangles: N(s) = a/s^2 + b/s, solved for 1/s.
 double scale_to(int target_triangles, const std::vector<FaceWeight>& weights) {
   double a = 0, b = 0;
@@ -70,6 +67,18 @@ double scale_to(int target_triangles, const std::vector<FaceWeight>& weights) {
     b += kTrianglesPerWeight * w.graded;
   }
   return 2 * a / (std::sqrt(b * b + 4 * a * target_triangles) - b);
+}
+
+void require_complete(const ProlongStageOptions& o, const RasterArtifact& raster) {
+  if (raster.n_not_sampled == 0) return;
+  const std::string what =
+      fmt::format("{}: incomplete, {} parts of the model could not be sampled", o.raster, raster.n_not_sampled);
+  if (!o.allow_incomplete)
+    throw Error(
+        ExitCode::kIncomplete,
+        what +
+            "; repair them and run st-raster again, or take their sizes from their neighbours with --allow-incomplete");
+  log_warning(what + ": their sizes come from their neighbours");
 }
 
 SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
@@ -121,6 +130,10 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   const auto n_cut = std::count(colour.begin(), colour.end(), CellColour::kCut);
   const std::string blanked =
       colour.empty() ? "" : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut, sizing.blanking.split.size());
+  if (n > static_cast<double>(kMaxTriangles))
+    log_warning(fmt::format(
+        "the mesh would have about {:.4g} triangles; st-mesh takes up to {}: give a larger --scale or larger lengths",
+        n, kMaxTriangles));
   StageSummary summary;
   summary.line = fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
                              sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
@@ -136,7 +149,7 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
       {"lmax", hi},
       {"slope", o.slope},
       {"scale", sizing.scale},
-      {"expected_triangles", std::llround(n)},
+      {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
       {"hash", sizing.header.content_hash},
       {"seconds",
        seconds}}.dump();
@@ -150,7 +163,9 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   require_valid(o);
   require_writable(o.output);
   if (!o.sample.empty()) require_writable(o.sample_output);
-  SizingArtifact sizing = prolong_raster(o, read_raster(o.raster));
+  RasterArtifact raster = read_raster(o.raster);
+  require_complete(o, raster);
+  SizingArtifact sizing = prolong_raster(o, std::move(raster));
   if (!o.sample.empty()) {
     sample_sizes(OctreeField(sizing.field_data(), nullptr), sizing.names, o.sample, o.sample_output);
   }

@@ -23,6 +23,7 @@ struct ProlongStageOptions {
   std::string blank_side = "auto";      ///< "inside", "outside", or "auto": outside when a group of the mesh is the far field
   std::string sample;                   ///< CSV of points at which lengths are written to `sample_output`; empty: none
   std::string sample_output = "sizes.csv";
+  bool allow_incomplete = false;        ///< take a raster of which parts could not be sampled
 };
 
 /// Local. Throws Error.

@@ -4,23 +4,27 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "base/length.h"
+#include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
 #include "io/artifact.h"
 #include "io/size_rule_file.h"
 #include "io/sizing_artifact.h"
+#include "sizing/cell_limit.h"
 #include "sizing/face_cells.h"
 #include "sizing/gap_sizes.h"
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
 #include "sizing/strip.h"
+#include "stages/cell_budget.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
 
@@ -126,6 +130,10 @@ class RasterTasks {
         raster_edges(task, own_boxes);
       else
         raster_one_face(task - n_batches_, own_boxes, patches);
+    } catch (const TooManyCells&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& e) {
       own_boxes.resize(n_before);
       patches.clear();
@@ -181,8 +189,8 @@ struct Samples {
   std::vector<std::vector<GapPatch>> patches;
 };
 
-/// Collective.
-Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
+/// Collective. Throws TooManyCells beyond `max_samples`.
+Samples sample_model(const RasterTasks& tasks, std::uint64_t max_samples, const Communicator& comm) {
   Samples samples;
   const auto n = static_cast<std::size_t>(tasks.count());
   samples.n_boxes.resize(n);
@@ -190,16 +198,26 @@ Samples sample_model(const RasterTasks& tasks, const Communicator& comm) {
   samples.patches.resize(n);
   Progress progress("sampling", tasks.count());
   std::int32_t n_done = 0;
+  std::uint64_t n_samples = 0;
   comm.run_tasks(
       tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task, samples.own_boxes); },
       [&](std::int32_t task, Bytes&& result) {
         Unpacker unpacker(result);
         unpacker.get(samples.n_boxes[task]);
+        require_samples(n_samples += samples.n_boxes[task], max_samples);
         unpacker.get(samples.failures[task]);
         unpacker.get(samples.patches[task]);
         progress.update(++n_done);
       });
   return samples;
+}
+
+/// No curve and no face may make more.
+void limit_samples(std::uint64_t max_samples, ModelLimits& limits) {
+  limits.far.max_samples = max_samples;
+  for (auto* all : {&limits.face, &limits.edge})
+    for (std::optional<SamplingLimits>& own : *all)
+      if (own) own->max_samples = max_samples;
 }
 
 /// Collective. The patches of all faces on every rank, by task.
@@ -210,10 +228,12 @@ std::vector<GapPatch> share_patches(const Samples& samples, const Communicator& 
   return all;
 }
 
-/// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0.
-std::size_t sample_gaps(Samples& samples, double cell_per_length, const Communicator& comm) {
+/// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0. Throws
+/// TooManyCells beyond `max_samples`.
+std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t max_samples, const Communicator& comm) {
   const std::vector<GapPatch> patches = share_patches(samples, comm);
   const GapFinder finder(patches, cell_per_length);
+  require_countable(patches.size(), "samples that look for gaps");
   const auto n_tasks = static_cast<std::int32_t>((patches.size() + kPatchesPerTask - 1) / kPatchesPerTask);
   std::size_t n_boxes = 0;
   comm.run_tasks(
@@ -228,13 +248,14 @@ std::size_t sample_gaps(Samples& samples, double cell_per_length, const Communic
       [&](std::int32_t, Bytes&& result) {
         std::uint64_t n = 0;
         Unpacker(result).get(n);
-        n_boxes += n;
+        require_samples(n_boxes += n, max_samples);
       });
   return n_boxes;
 }
 
 struct SampleCounts {
   std::size_t n_boxes = 0, n_failures = 0, n_gap_boxes = 0;
+  DepthLimit depth;
 };
 
 /// Counts, and warns of what could not be sampled.
@@ -290,14 +311,36 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   return faces;
 }
 
+void warn_of_depth(const DepthLimit& depth) {
+  if (depth.n_samples == 0) return;
+  log_warning(fmt::format(
+      "{} samples with lengths down to {:.4g} ask for smaller cells than the octree has at its depth of "
+      "{}, {:.4g}: their lengths hold in cells of that size; mesh in a smaller domain, or use larger lengths",
+      depth.n_samples, depth.smallest_length, kMaxLevel, depth.smallest_cell));
+}
+
+nlohmann::json depth_json(const DepthLimit& depth) {
+  nlohmann::json json{
+      {"deepest_level", kMaxLevel}, {"smallest_cell", depth.smallest_cell}, {"samples", depth.n_samples}};
+  if (depth.n_samples > 0) json["smallest_length"] = depth.smallest_length;
+  return json;
+}
+
+/// Incomplete: the artifact is written, and says so.
+ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
+  return counts.n_failures == 0 || o.allow_incomplete ? ExitCode::kOk : ExitCode::kIncomplete;
+}
+
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
                        std::size_t n_wing_edges, const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
-  summary.line =
-      fmt::format("{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, counts.n_boxes, n_cells, a.numbers.min_length,
-                  a.numbers.max_length, counts.n_failures ? fmt::format(", {} parts not sampled", counts.n_failures) : "", seconds);
+  summary.code = code_of(o, counts);
+  summary.line = fmt::format(
+      "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
+      a.numbers.min_length, a.numbers.max_length,
+      counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = nlohmann::json{
       {"tool", "st-raster"},
       {"output", o.output},
@@ -312,6 +355,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       {"wing_edges", n_wing_edges},
       {"gap_samples", counts.n_gap_boxes},
       {"not_sampled", counts.n_failures},
+      {"beyond_depth", depth_json(counts.depth)},
       {"hash", a.header.content_hash},
       {"seconds", seconds},
       {"seconds_of", times.wall()},
@@ -343,17 +387,21 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
   }
   share(comm, limits.face, limits.edge, limits.far, limits.min_length, limits.wants_gaps, limits.far_length);
+  const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
+  require_cells(least_cells(model.tables(), limits), budget.max_cells);
+  limit_samples(budget.max_samples, limits);
   times.end("opening");
 
   RasterArtifact artifact;
   SampleCounts counts;
   {
-    Samples samples = sample_model(RasterTasks(model, limits), comm);
+    Samples samples = sample_model(RasterTasks(model, limits), budget.max_samples, comm);
     times.end("sampling");
     if (comm.is_root()) counts = report_samples(samples);
-    if (limits.wants_gaps) counts.n_gap_boxes = sample_gaps(samples, o.cell_per_length, comm);
+    if (limits.wants_gaps) counts.n_gap_boxes = sample_gaps(samples, o.cell_per_length, budget.max_samples, comm);
     times.end("gaps");
-    artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, comm);
+    artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, budget.max_cells, comm);
+    counts.depth = gather_depth_limit(find_depth_limit(model.tables().box(), samples.own_boxes), comm);
     if (o.cell_per_length > kUsualCellPerLength) artifact.samples = gather_samples(samples.own_boxes, comm);
     times.end("octree");
   }
@@ -362,6 +410,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   times.gather(comm);
   if (!comm.is_root()) return {};
 
+  warn_of_depth(counts.depth);
+  artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
   artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   artifact.group_name = model.tables().group_name;

@@ -22,9 +22,12 @@ struct RasterStageOptions {
   std::string trailing_edges;     ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
   std::string leading_edges;      ///< likewise at leading edges
   double cell_per_length = 2;     ///< raster boxes reach this many sample lengths, [1, 8]
+  std::optional<int> max_cells;   ///< of the octree, >= 1: refused beyond; nullopt: what fits 80 % of the memory. No
+                                  ///< part of the content
+  bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
 };
 
-/// Collective. Throws Error.
+/// Collective. Summary code kIncomplete when a part could not be sampled; the artifact is flagged then. Throws Error.
 StageSummary run_raster(const RasterStageOptions& options, const Communicator& comm);
 
 }  // namespace st

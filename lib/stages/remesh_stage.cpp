@@ -21,6 +21,7 @@
 #include "meshing/mesh_gaps.h"
 #include "meshing/small_features.h"
 #include "sizing/node_field.h"
+#include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
 #include "meshing/model_mesher.h"
 #include "stages/patches_result.h"
@@ -315,6 +316,14 @@ StageSummary with_association(StageSummary summary, const std::optional<StageSum
   return summary;
 }
 
+/// Before anything is remeshed; faces that are kept count for nothing.
+void require_countable_sizes(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarkOptions& mark) {
+  std::vector<FaceId> faces;
+  for (FaceId f = 0; f < in.model.tables().n_faces(); ++f)
+    if (mark.keep_face.empty() || !mark.keep_face[f]) faces.push_back(f);
+  if (!faces.empty()) require_countable_mesh(in.model.tables(), in.sizing.face_weight, faces, o.sizing);
+}
+
 }  // namespace
 
 StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
@@ -334,6 +343,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   options.mark.redo = in.spoilt;
   const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  if (!on_nodes) require_countable_sizes(o, in, options.mark);
   std::optional<StageSummary> association;
   if (in.foreign) association = association_summary(o.mesh, in.old.mesh, in.foreign->report);
   if (association && comm.is_root()) log_info(association->line);

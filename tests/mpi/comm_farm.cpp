@@ -242,7 +242,9 @@ int run(int argc, char** argv) {
     if (np != arguments.end()) {
       const int n = std::stoi(np[1]);
       arguments.erase(np, np + 2);
-      relaunch_under_mpirun(n, arguments);
+      if (const auto job_code =
+              run_under_mpirun(n, arguments, [](const std::string& text) { std::fputs(text.c_str(), stderr); }))
+        return *job_code;
     }
     comm = std::make_unique<Communicator>();
     scenarios.at(arguments.at(0))(*comm);

@@ -1,16 +1,17 @@
 #!/bin/bash
 # Stands for every tool of the chain in the tests of the make rules: copies what it was given into its output, atomically.
-# FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact); FAKE_KILL=<tool> makes it hang over a half-written temporary.
+# FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
 tool=$(basename "$0")
 if [ "${1-}" = --print-options ]; then echo "# options of $tool"; exit 0; fi
 echo "$tool" >> "${FAKE_LOG:?}"
-inputs=() output=
+inputs=() output= allowed=
 while [ $# -gt 0 ]; do
   case $1 in
     -o) output=$2; shift 2 ;;
     --np) shift 2 ;;
     --options | --geometry | --sizing) inputs+=("$2"); shift 2 ;;
+    --allow-incomplete) allowed=1; shift ;;
     --*) shift ;;
     *) inputs+=("$1"); shift ;;
   esac
@@ -28,5 +29,5 @@ if [ "${FAKE_KILL:-}" = "$tool" ]; then
 fi
 [ "${FAKE_FAIL:-}" != "$tool 3" ] || { rm "$temporary"; echo "$tool: error: told to" >&2; exit 3; }
 mv "$temporary" "$output"
-[ "${FAKE_FAIL:-}" != "$tool 5" ] || exit 5
+[ "${FAKE_FAIL:-}" != "$tool 5" ] || [ -n "$allowed" ] || exit 5
 echo "$output: made"

@@ -114,6 +114,15 @@ unset FAKE_FAIL
 run MODEL=e.step
 expect "afterwards make goes on where it stopped" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
 
+later touch out/e/st-raster.toml
+export FAKE_FAIL="st-raster 5"
+run MODEL=e.step
+expect "a raster of which parts are missing stops make" "$status $ran" "2 st-raster "
+expect "and is kept under a name that no rule trusts" "$(ls out/e/raster*)" out/e/raster.incomplete.hdf
+run MODEL=e.step ALLOW_INCOMPLETE=1
+expect "raster and sizing are allowed to be incomplete when asked" "$status $ran" "0 st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+unset FAKE_FAIL
+
 later touch out/e/st-mesh.toml
 export FAKE_FAIL="st-mesh 5"
 run MODEL=e.step

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "comm/communicator.h"
 #include "common/tool_main.h"
+#include "io/artifact.h"
 
 namespace st {
 namespace {
@@ -31,26 +32,44 @@ void wait_for_lower_ranks(int rank) {
   if (rank > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1000 + 200 * std::min(rank, 20)));
 }
 
+/// What ranks say, as it comes.
+void print_error_text(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
+
+std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& arguments) const {
+  try {
+    return run_under_mpirun(n_ranks_, arguments, print_error_text);
+  } catch (const Error&) {
+    for (const std::string& path : output_paths()) remove_left_temporaries(path);
+    throw;
+  }
+}
 
 int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage) {
   begin(argc, argv);
   app_.add_option("--np", n_ranks_, "number of MPI ranks; starts itself under mpirun")->type_name("INTEGER")->capture_default_str();
   std::optional<std::string> text;
+  std::optional<int> job_code;  // of ranks that were started here
   std::exception_ptr usage_error;
   std::unique_ptr<Communicator> comm;
   const auto start = [&] {
     try {
       text = parse(argc, argv);
-      if (!text) relaunch_under_mpirun(n_ranks_, arguments_without_np(argc, argv));
+      if (!text) job_code = start_ranks(arguments_without_np(argc, argv));
     } catch (...) {
       usage_error = std::current_exception();
     }
+    if (job_code) return;
     comm = std::make_unique<Communicator>();
     if (usage_error) std::rethrow_exception(usage_error);
   };
   const auto action = [&] {
     start();
+    if (job_code) return static_cast<ExitCode>(*job_code);
     if (!comm->is_root()) set_verbosity(Verbosity::kQuiet);
     if (text) {
       if (comm->is_root()) std::fputs(text->c_str(), stdout);

@@ -207,12 +207,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   return std::nullopt;
 }
 
-void ToolMain::require_distinct_files() const {
-  namespace fs = std::filesystem;
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code none;
-    return fs::equivalent(a, b, none) || fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
-  };
+std::vector<std::string> ToolMain::output_paths() const {
   const auto is_replaced = [](const CLI::Option* option) {
     const auto& others = option->get_excludes();
     return std::any_of(others.begin(), others.end(), [](const CLI::Option* other) { return other->count() > 0; });
@@ -223,6 +218,17 @@ void ToolMain::require_distinct_files() const {
     if (paths.empty() && !is_replaced(option) && !option->get_default_str().empty()) paths.push_back(option->get_default_str());
     outputs.insert(outputs.end(), paths.begin(), paths.end());
   }
+  return outputs;
+}
+
+void ToolMain::require_distinct_files() const {
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code none;
+    return fs::equivalent(a, b, none) ||
+           fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
+  };
+  const std::vector<std::string> outputs = output_paths();
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
       if (same(outputs[i], outputs[j])) throw Error(ExitCode::kUsage, outputs[i] + ": named twice as an output");

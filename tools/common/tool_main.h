@@ -70,6 +70,10 @@ class ToolMain {
   void begin(int argc, char** argv);
   /// Command line, then option file. Returns the text of --help or --version when asked for. Throws Error(kUsage).
   std::optional<std::string> parse(int argc, char** argv);
+  /// What this run writes: what is given, else the defaults.
+  std::vector<std::string> output_paths() const;
+  /// See run_under_mpirun; what a killed rank leaves half-written is removed.
+  std::optional<int> start_ranks(const std::vector<std::string>& arguments) const;
   /// Throws Error(kUsage) when an output would overwrite an input or another output.
   void require_distinct_files() const;
   /// Prints the summary to stdout. Throws Error(kOutput) when stdout takes nothing.

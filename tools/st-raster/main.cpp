@@ -17,5 +17,9 @@ int main(int argc, char** argv) {
   tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX", "find trailing edges and give them these lengths");
   tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX", "find leading edges and give them these lengths");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
+  tool.number("--max-cells", o.max_cells, "[1, 2147483647]",
+              "refuse an octree with more cells; default: what fits 80% of the memory");
+  tool.flag("--allow-incomplete", o.allow_incomplete,
+            "exit code 0 although parts could not be sampled; the artifact is flagged");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

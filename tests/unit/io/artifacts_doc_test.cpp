@@ -89,6 +89,7 @@ RasterArtifact sample_raster() {
   r.group_name = {"body", "wing"};
   r.face_group = {0, 1, 0};
   r.labels = sample_labels(3);
+  r.n_not_sampled = 1;
   return r;
 }
 

@@ -53,6 +53,17 @@ class SizingArtifacts : public testing::Test {
   TemporaryDirectory dir_;
 };
 
+TEST_F(SizingArtifacts, a_raster_of_which_parts_are_missing_says_so_and_older_programs_refuse_it) {
+  RasterArtifact raster = sample_raster();
+  const std::string complete = write_raster(file("a.hdf"), raster);
+  raster.n_not_sampled = 3;
+  EXPECT_NE(write_raster(file("b.hdf"), raster), complete);
+  EXPECT_EQ(read_raster(file("a.hdf")).n_not_sampled, 0);
+  EXPECT_EQ(read_raster(file("b.hdf")).n_not_sampled, 3);
+  EXPECT_EQ(read_raster(file("a.hdf")).header.schema_version, 3);
+  EXPECT_EQ(read_raster(file("b.hdf")).header.schema_version, 4);
+}
+
 TEST_F(SizingArtifacts, raster_is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = write_raster(file("a.hdf"), sample_raster());
   EXPECT_EQ(write_raster(file("b.hdf"), read_raster(file("a.hdf"))), hash);

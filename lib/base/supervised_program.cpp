@@ -1,0 +1,138 @@
+#include "base/supervised_program.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+constexpr std::array kPassedOn = {SIGINT, SIGTERM, SIGHUP};
+
+// What a signal handler may look at.
+volatile pid_t g_program = 0;
+volatile std::sig_atomic_t g_passed_signal = 0;
+
+/// A terminal has sent its signal to the program as well.
+extern "C" void pass_on(int signal, siginfo_t* info, void*) {
+  g_passed_signal = signal;
+  if (info->si_code <= 0 && g_program > 0) kill(g_program, signal);
+}
+
+/// Passes signals on as long as it lives; those that are ignored (nohup) stay ignored.
+class SignalPassing {
+ public:
+  explicit SignalPassing(pid_t program) {
+    g_program = program;
+    g_passed_signal = 0;
+    for (std::size_t i = 0; i < kPassedOn.size(); ++i) {
+      sigaction(kPassedOn[i], nullptr, &old_[i]);
+      if (!(old_[i].sa_flags & SA_SIGINFO) && old_[i].sa_handler == SIG_IGN) continue;
+      struct sigaction action {};
+      action.sa_flags = SA_SIGINFO | SA_RESTART;
+      action.sa_sigaction = pass_on;
+      sigaction(kPassedOn[i], &action, nullptr);
+    }
+  }
+  ~SignalPassing() {
+    for (std::size_t i = 0; i < kPassedOn.size(); ++i) sigaction(kPassedOn[i], &old_[i], nullptr);
+    g_program = 0;
+  }
+  SignalPassing(const SignalPassing&) = delete;
+  SignalPassing& operator=(const SignalPassing&) = delete;
+
+ private:
+  std::array<struct sigaction, kPassedOn.size()> old_{};
+};
+
+struct Pipe {
+  Pipe() {
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw Error(ExitCode::kInternal, std::string("pipe: ") + std::strerror(errno) + "; close some files");
+  }
+  ~Pipe() {
+    close_end(0);
+    close_end(1);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  void close_end(int i) {
+    if (ends[i] >= 0) close(ends[i]);
+    ends[i] = -1;
+  }
+  int ends[2] = {-1, -1};
+};
+
+/// The child: becomes the program. What goes wrong is told through `failure`.
+[[noreturn]] void become(std::vector<std::string> words, pid_t parent, int errors, int failure) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(128 + SIGTERM);
+  dup2(errors, STDERR_FILENO);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execvp(argv[0], argv.data());
+  const int error = errno;
+  if (write(failure, &error, sizeof error) < 0) _exit(126);
+  _exit(127);
+}
+
+/// Up to the end of the file.
+void read_lines(int fd, const std::function<void(const std::string&)>& on_line) {
+  std::string text;
+  char buffer[4096];
+  for (;;) {
+    const ssize_t n = read(fd, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    text.append(buffer, static_cast<std::size_t>(n));
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+      on_line(text.substr(begin, end + 1 - begin));
+    text.erase(0, begin);
+  }
+  if (!text.empty()) on_line(text);
+}
+
+void require_started(int failure, const std::string& program) {
+  int error = 0;
+  ssize_t n = 0;
+  while ((n = read(failure, &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  if (n == sizeof error)
+    throw Error(ExitCode::kInternal, program + " cannot be started (" + std::strerror(error) + ")");
+}
+
+}  // namespace
+
+std::string signal_text(int signal) { return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"; }
+
+ProgramEnd run_supervised(const std::vector<std::string>& words,
+                          const std::function<void(const std::string& line)>& on_error_line) {
+  Pipe errors, failure;
+  std::fflush(nullptr);
+  const pid_t self = getpid(), program = fork();
+  if (program < 0)
+    throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
+  if (program == 0) become(words, self, errors.ends[1], failure.ends[1]);
+  const SignalPassing passing(program);
+  errors.close_end(1);
+  failure.close_end(1);
+  read_lines(errors.ends[0], on_error_line);
+  int status = 0;
+  while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
+  }
+  require_started(failure.ends[0], words[0]);
+  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), WIFSIGNALED(status), g_passed_signal};
+}
+
+}  // namespace st

@@ -1,0 +1,94 @@
+#include "comm/mpirun_report.h"
+
+#include <csignal>
+#include <regex>
+#include <utility>
+
+#include "base/supervised_program.h"
+
+namespace st {
+namespace {
+
+bool is_rule(const std::string& line) {
+  constexpr std::size_t kRuleLength = 70;  // mpirun draws 74
+  const std::size_t end = line.find_first_not_of('-');
+  return end >= kRuleLength && (end == std::string::npos || line.find_first_not_of("\r\n", end) == std::string::npos);
+}
+
+/// Whether a banner that begins with this line tells how the job ended.
+bool tells_the_end(const std::string& line) {
+  static const std::regex beginnings(
+      "^(Primary job|(mpirun|mpiexec|prterun|orterun) (noticed|detected)|MPI_ABORT was invoked)");
+  return std::regex_search(line, beginnings);
+}
+
+/// What Open MPI adds when several ranks abort.
+bool is_repetition(const std::string& line) {
+  static const std::regex repetition(
+      "^\\[.*\\] (\\d+ more process(es)? .*mpi-abort|Set MCA parameter .orte_base_help_aggregate.)");
+  return std::regex_search(line, repetition);
+}
+
+std::string advice(int signal) {
+  switch (signal) {
+    case SIGKILL:
+      return "out of memory? the host's system log tells: use larger lengths, fewer ranks or a machine with more "
+             "memory";
+    case SIGSEGV:
+    case SIGABRT:
+    case SIGBUS:
+    case SIGFPE:
+    case SIGILL:
+      return "a defect of the tool: please report it with the input";
+    case SIGXCPU:
+    case SIGALRM:
+    case SIGPROF:
+      return "a time limit was reached: ask for more time, or use larger lengths";
+    default:
+      return "somebody or the batch system ended it: run again";
+  }
+}
+
+}  // namespace
+
+std::string MpirunReport::add(const std::string& line) {
+  read_line(line);
+  if (is_rule(line)) {
+    block_ += line;
+    is_in_block_ = !is_in_block_;
+    return is_in_block_ ? "" : rest();
+  }
+  if (!is_in_block_) return is_repetition(line) ? "" : line;
+  is_own_block_ = is_own_block_ || tells_the_end(line);
+  block_ += line;
+  return "";
+}
+
+std::string MpirunReport::rest() {
+  std::string text = std::exchange(block_, "");
+  if (std::exchange(is_own_block_, false)) text.clear();
+  is_in_block_ = false;
+  return text;
+}
+
+void MpirunReport::read_line(const std::string& line) {
+  static const std::regex signalled(
+      "noticed that process rank (\\d+) with PID \\d+ on node (\\S+) exited on signal (\\d+)");
+  static const std::regex process("Process name: \\[\\[\\d+,\\d+\\],(\\d+)\\]"), exit_code("Exit code: +(\\d+)");
+  if (lost_) return;
+  std::smatch match;
+  if (std::regex_search(line, match, signalled)) {
+    lost_ = LostRank{std::stoi(match[1]), match[2], std::stoi(match[3])};
+  } else if (std::regex_search(line, match, process)) {
+    exited_rank_ = std::stoi(match[1]);
+  } else if (exited_rank_ >= 0 && std::regex_search(line, match, exit_code) && std::stoi(match[1]) > 128) {
+    lost_ = LostRank{exited_rank_, "", std::stoi(match[1]) - 128};
+  }
+}
+
+std::string describe_lost_rank(const LostRank& lost) {
+  return "rank " + std::to_string(lost.rank) + (lost.host.empty() ? "" : " on " + lost.host) + " was ended by " +
+         signal_text(lost.signal) + "; " + advice(lost.signal);
+}
+
+}  // namespace st

@@ -1,0 +1,39 @@
+// What mpirun says on stderr: its own banners apart from the words of the ranks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace st {
+
+/// A rank that a signal ended.
+struct LostRank {
+  int rank = 0;
+  std::string host;  ///< empty: not said
+  int signal = 0;
+};
+
+/// Reads the stderr of Open MPI's mpirun (4 and 5) line by line. Local, no MPI.
+class MpirunReport {
+ public:
+  /// What of this line (with its end), and of lines before that were held back, is for the user: everything but
+  /// mpirun's banners on how the job ended.
+  std::string add(const std::string& line);
+  /// What is still held back, at the end.
+  std::string rest();
+  /// The first rank that a signal ended, if mpirun named one.
+  const std::optional<LostRank>& lost_rank() const { return lost_; }
+
+ private:
+  void read_line(const std::string& line);
+
+  std::string block_;  ///< a banner so far, from its first rule on
+  bool is_in_block_ = false, is_own_block_ = false;
+  int exited_rank_ = -1;
+  std::optional<LostRank> lost_;
+};
+
+/// "rank 1 on node17 was ended by signal 9 (Killed); out of memory? ..."
+std::string describe_lost_rank(const LostRank& lost);
+
+}  // namespace st

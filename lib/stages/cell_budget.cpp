@@ -1,0 +1,95 @@
+#include "stages/cell_budget.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "base/memory.h"
+#include "base/packer.h"
+#include "sizing/gap_patch.h"
+#include "sizing/sample_seeds.h"
+
+namespace st {
+namespace {
+
+constexpr double kShare = 0.8;  // of the memory
+constexpr double kUnlimited = 1e30;
+
+std::string host_name() {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+/// Bytes.
+struct HostMemory {
+  double of_rank = 0;  ///< least share of a rank in the memory of its host
+  double of_host = 0;  ///< least memory of a host
+};
+
+/// Collective, the same on every rank.
+HostMemory least_memory(const Communicator& comm) {
+  Packer own;
+  own.add(host_name());
+  own.add(memory_limit());
+  std::map<std::string, std::pair<double, int>> hosts;  // memory and ranks
+  for (const Bytes& bytes : comm.gather(own.take())) {
+    std::string host;
+    double memory = 0;
+    Unpacker unpacker(bytes);
+    unpacker.get(host);
+    unpacker.get(memory);
+    auto& [least, n_ranks] = hosts.try_emplace(host, memory, 0).first->second;
+    least = std::min(least, memory);
+    ++n_ranks;
+  }
+  HostMemory least{kUnlimited, kUnlimited};
+  for (const auto& [host, of] : hosts)
+    least = {std::min(least.of_rank, of.first / of.second), std::min(least.of_host, of.first)};
+  Packer packer;
+  packer.add(least);
+  Bytes bytes = packer.take();
+  comm.broadcast(bytes);
+  Unpacker(bytes).get(least);
+  return least;
+}
+
+/// What fits here, and into st-prolong afterwards.
+double fitting_cells(const HostMemory& memory) {
+  return kShare * std::min(memory.of_rank / kRasterBytesPerCell, memory.of_host / kProlongBytesPerCell);
+}
+
+double bytes_per_sample(const ModelLimits& limits) {
+  const bool keeps_places = limits.far.cell_per_length > kUsualCellPerLength;
+  return static_cast<double>(sizeof(RasterBox) + (limits.wants_gaps ? sizeof(GapPatch) : 0) +
+                             (keeps_places ? sizeof(RasterBox) + sizeof(LengthSample) : 0));
+}
+
+}  // namespace
+
+CellBudget make_cell_budget(std::optional<int> max_cells, const ModelLimits& limits, const Communicator& comm) {
+  const auto countable = [](double n) {
+    return static_cast<std::uint64_t>(std::clamp(n, 1.0, static_cast<double>(kMaxIds)));
+  };
+  CellBudget budget;
+  budget.max_cells = max_cells ? static_cast<std::uint64_t>(*max_cells) : countable(fitting_cells(least_memory(comm)));
+  budget.max_samples =
+      countable(static_cast<double>(budget.max_cells) * kRasterBytesPerCell / bytes_per_sample(limits));
+  return budget;
+}
+
+DepthLimit gather_depth_limit(const DepthLimit& own, const Communicator& comm) {
+  Packer packer;
+  packer.add(own);
+  DepthLimit all;
+  for (const Bytes& bytes : comm.gather(packer.take())) {
+    DepthLimit of_rank;
+    Unpacker(bytes).get(of_rank);
+    all.add(of_rank);
+  }
+  return all;
+}
+
+}  // namespace st

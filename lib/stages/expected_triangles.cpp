@@ -1,0 +1,38 @@
+#include "stages/expected_triangles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace st {
+
+double expected_triangles(std::span<const double> face_weight) {
+  return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
+}
+
+void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
+                            std::span<const FaceId> faces, const std::string& sizing, double limit) {
+  if (face_weight.size() != static_cast<std::size_t>(tables.n_faces()) || face_weight.empty()) return;
+  std::vector<double> weight(face_weight.begin(), face_weight.end());  // of faces that are not meshed: 0
+  if (!faces.empty()) weight.assign(weight.size(), 0.0);
+  for (const FaceId f : faces) weight[f] = face_weight[f];
+  const double n = expected_triangles(weight);
+  if (n <= limit) return;
+  const auto heaviest = static_cast<FaceId>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  const double n_heaviest = kTrianglesPerWeight * weight[heaviest];
+  throw Error(
+      ExitCode::kUsage,
+      fmt::format("{}: asks for about {:.3g} triangles ({:.3g} of them on {}), and at most {:.0f} can be numbered; {}",
+                  sizing, n, n_heaviest, tables.face_label(heaviest), limit,
+                  n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
+                                     : "use larger lengths, or mesh parts with --faces"));
+}
+
+void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
+                            std::span<const FaceId> faces, const std::string& sizing) {
+  require_countable_mesh(tables, face_weight, faces, sizing, static_cast<double>(kMaxTriangles));
+}
+
+}  // namespace st

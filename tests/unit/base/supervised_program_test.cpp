@@ -1,0 +1,52 @@
+// run_supervised(): the end of a program, its stderr, and signals that are passed on.
+#include "base/supervised_program.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+ProgramEnd run_shell(const std::string& script, std::string* errors = nullptr) {
+  return run_supervised({"sh", "-c", script}, [&](const std::string& line) {
+    if (errors) *errors += "[" + line + "]";
+  });
+}
+
+TEST(SupervisedProgram, gives_exit_code_and_lines_of_stderr) {
+  std::string errors;
+  const ProgramEnd end = run_shell("echo one >&2; printf two >&2; exit 5", &errors);
+  EXPECT_EQ(end.exit_code, 5);
+  EXPECT_FALSE(end.is_signalled);
+  EXPECT_EQ(errors, "[one\n][two]");
+}
+
+TEST(SupervisedProgram, tells_of_the_signal_that_ended_it) {
+  const ProgramEnd end = run_shell("kill -KILL $$");
+  EXPECT_EQ(end.exit_code, 128 + SIGKILL);
+  EXPECT_TRUE(end.is_signalled);
+}
+
+TEST(SupervisedProgram, passes_signals_on) {
+  const ProgramEnd end = run_shell("trap 'exit 3' TERM; kill -TERM $PPID; while :; do sleep 0.01; done");
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_EQ(end.passed_signal, SIGTERM);
+}
+
+TEST(SupervisedProgram, cannot_be_one_that_does_not_exist) {
+  try {
+    run_supervised({"/no/such/program"}, [](const std::string&) {});
+    FAIL() << "started";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kInternal);
+    EXPECT_NE(std::string(e.what()).find("/no/such/program cannot be started"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace st

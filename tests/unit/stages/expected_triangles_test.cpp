@@ -1,0 +1,56 @@
+// The number of triangles that a sizing will give is refused when it cannot be numbered.
+#include "stages/expected_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+class ExpectedTriangles : public testing::Test {
+ protected:
+  std::string refusal(std::vector<double> triangles, std::vector<FaceId> faces, double limit) const {
+    for (double& t : triangles) t /= kTrianglesPerWeight;
+    try {
+      require_countable_mesh(model_.tables(), triangles, faces, "sizing.hdf", limit);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kUsage);
+      return e.what();
+    }
+    return "";
+  }
+  const Model model_ = test::make_model("box");
+  const std::vector<double> triangles_{100, 100, 100, 300, 100, 100};
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(ExpectedTriangles, are_taken_up_to_the_limit) {
+  EXPECT_EQ(refusal(triangles_, {}, 801), "");
+  EXPECT_NE(refusal(triangles_, {}, 799), "");
+  EXPECT_EQ(refusal({}, {}, 1), "") << "no weights: nothing is known";
+}
+
+TEST_F(ExpectedTriangles, count_on_the_faces_that_are_meshed) {
+  EXPECT_EQ(refusal(triangles_, {0, 1}, 201), "");
+  EXPECT_NE(refusal(triangles_, {0, 3}, 201), "");
+}
+
+TEST_F(ExpectedTriangles, name_the_number_the_heaviest_face_and_what_to_do) {
+  const std::string whole = refusal(triangles_, {}, 500), one = refusal(triangles_, {}, 200);
+  EXPECT_TRUE(has(whole, "sizing.hdf: asks for about 800 triangles (300 of them on face 4") &&
+              has(whole, "at most 500") && has(whole, "--faces"))
+      << whole;
+  EXPECT_TRUE(has(one, "larger --scale") && !has(one, "--faces")) << one;
+}
+
+TEST_F(ExpectedTriangles, are_refused_by_default_where_sides_pass_32_bits) {
+  const std::vector<double> most(6, static_cast<double>(kMaxTriangles) / 6 / kTrianglesPerWeight);
+  EXPECT_NO_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 0.999 * most[0]), {}, "s"));
+  EXPECT_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 1.001 * most[0]), {}, "s"), Error);
+  EXPECT_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 1e300), {}, "s"), Error);
+}
+
+}  // namespace
+}  // namespace st
