@@ -8,7 +8,7 @@ build_packages=(
   libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev libocct-data-exchange-dev
   libtbb-dev libfontconfig-dev  # OpenCASCADE's CMake targets name them, its packages do not
   libhdf5-dev zlib1g-dev libopenmpi-dev openmpi-bin
-  libcli11-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
+  libcli11-dev libeigen3-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
 )
 check_packages=(
   libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9

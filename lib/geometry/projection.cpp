@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/samples.h"
+#include "geometry/surface_forms.h"
 
 namespace st {
 namespace {
@@ -34,20 +35,21 @@ struct Bounds {
 /// Newton step of half the squared distance, in the directions that are free: a parameter at its bound stays there when the distance falls
 /// outwards. Where the distance is not convex the Gauss-Newton step, which always descends.
 Vec2 free_step(const SurfacePoint2& p, Vec3 r, Vec2 uv, const Bounds& b) {
-  const Vec2 g{dot(r, p.du), dot(r, p.dv)};
-  const bool u_free = !(uv.x <= b.lo.x && g.x >= 0) && !(uv.x >= b.hi.x && g.x <= 0);
-  const bool v_free = !(uv.y <= b.lo.y && g.y >= 0) && !(uv.y >= b.hi.y && g.y <= 0);
-  const double e = norm2(p.du), f = dot(p.du, p.dv), h = norm2(p.dv);
-  const double a = e + dot(r, p.duu), c = h + dot(r, p.dvv), m = f + dot(r, p.duv);
-  const auto along = [](double gradient, double newton, double gauss) {
-    return newton > 1e-12 * gauss ? -gradient / newton : gauss > 0 ? -gradient / gauss : 0.0;
+  const Eigen::Vector2d slope = along_tangents(p.du, p.dv, r);
+  const bool u_free = !(uv.x <= b.lo.x && slope.x() >= 0) && !(uv.x >= b.hi.x && slope.x() <= 0);
+  const bool v_free = !(uv.y <= b.lo.y && slope.y() >= 0) && !(uv.y >= b.hi.y && slope.y() <= 0);
+  const Eigen::Matrix2d gauss = first_form(p.du, p.dv), newton = gauss + second_form(p, r);
+  const auto along = [&](int i) {
+    const double bend = newton(i, i) > 1e-12 * gauss(i, i) ? newton(i, i) : gauss(i, i);
+    return bend > 0 ? -slope(i) / bend : 0.0;
   };
   if (!u_free && !v_free) return {};
-  if (!v_free) return {along(g.x, a, e), 0};
-  if (!u_free) return {0, along(g.y, c, h)};
-  for (const auto& [k, l, n] : {std::array{a, m, c}, std::array{e, f, h}})
-    if (const double det = k * n - l * l; k > 0 && det > 1e-12 * e * h) return {-(n * g.x - l * g.y) / det, -(k * g.y - l * g.x) / det};
-  return {along(g.x, a, e), along(g.y, c, h)};  // singular: each by itself
+  if (!v_free) return {along(0), 0};
+  if (!u_free) return {0, along(1)};
+  const double least = 1e-12 * gauss(0, 0) * gauss(1, 1);
+  for (const Eigen::Matrix2d& m : {newton, gauss})
+    if (const auto back = solve(m, slope, least); back && m(0, 0) > 0) return to_vec2(-*back);
+  return {along(0), along(1)};  // singular: each by itself
 }
 
 SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& b) {

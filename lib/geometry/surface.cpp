@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/samples.h"
+#include "geometry/surface_forms.h"
 
 namespace st {
 namespace {
@@ -44,17 +45,20 @@ Vec3 surface_normal(const Surface& surface, Vec2 uv) {
 Curvature principal_curvature(const SurfacePoint2& p) {
   const Vec3 n3 = cross(p.du, p.dv);
   const double area = norm(n3);
-  const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv);
-  const double det = e * g - f * f;
-  if (!(area > 0) || !(det > 1e-20 * e * g) || !(det > 0)) return {};
-  const Vec3 n = n3 / area;
-  const double l = dot(p.duu, n), m = dot(p.duv, n), k = dot(p.dvv, n);
-  const double mean = (e * k - 2 * f * m + g * l) / (2 * det);
-  const double gauss = (l * k - m * m) / det;
+  const Eigen::Matrix2d first = first_form(p.du, p.dv);
+  if (!(area > 0) || !(first.determinant() > 1e-20 * first(0, 0) * first(1, 1))) return {};
+  const Eigen::Matrix2d second = second_form(p, n3 / area);
+  const double mean = 0.5 * (first.inverse() * second).trace(), gauss = second.determinant() / first.determinant();
   const double root = std::sqrt(std::max(0.0, mean * mean - gauss));
   Curvature c{mean + root, mean - root};
   if (std::abs(c.k2) > std::abs(c.k1)) std::swap(c.k1, c.k2);
   return c;
+}
+
+std::optional<Vec2> tangent_step(Vec3 du, Vec3 dv, Vec3 d, double singular) {
+  const Eigen::Matrix2d first = first_form(du, dv);
+  const auto step = solve(first, along_tangents(du, dv, d), singular * first(0, 0) * first(1, 1));
+  return step ? std::optional(to_vec2(*step)) : std::nullopt;
 }
 
 Box3 bounding_box(const Surface& surface) {
@@ -98,16 +102,12 @@ std::optional<Vec2> project_near(const Surface& surface, Vec3 target, Vec2 uv) {
   for (int step = 0; step < 20; ++step) {
     const SurfacePoint2 p = surface.evaluate2(uv);
     const Vec3 r = p.x - target;
-    const double fu = dot(r, p.du), fv = dot(r, p.dv);
-    double a = norm2(p.du) + dot(r, p.duu), b = dot(p.du, p.dv) + dot(r, p.duv), c = norm2(p.dv) + dot(r, p.dvv);
-    if (!(a * c - b * b > 1e-12 * norm2(p.du) * norm2(p.dv))) {  // not convex here: Gauss-Newton
-      a = norm2(p.du);
-      b = dot(p.du, p.dv);
-      c = norm2(p.dv);
-    }
-    const double det = a * c - b * b;
-    if (!(det > 0)) return std::nullopt;
-    const Vec2 next{std::clamp(uv.x - (c * fu - b * fv) / det, lo_u, hi_u), std::clamp(uv.y - (a * fv - b * fu) / det, lo_v, hi_v)};
+    const Eigen::Matrix2d gauss = first_form(p.du, p.dv);
+    const Eigen::Vector2d slope = along_tangents(p.du, p.dv, r);
+    auto back = solve<2>(gauss + second_form(p, r), slope, 1e-12 * gauss(0, 0) * gauss(1, 1));
+    if (!back) back = solve(gauss, slope, 0);  // not convex here: Gauss-Newton
+    if (!back) return std::nullopt;
+    const Vec2 next{std::clamp(uv.x - back->x(), lo_u, hi_u), std::clamp(uv.y - back->y(), lo_v, hi_v)};
     const Vec2 move = next - uv;
     uv = next;
     if (norm(move.x * p.du + move.y * p.dv) <= 1e-12 * (norm(p.x) + norm(p.du) * range_u)) return uv;

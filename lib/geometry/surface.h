@@ -85,6 +85,10 @@ struct Curvature {
 };
 Curvature principal_curvature(const SurfacePoint2& p);
 
+/// The step in (u,v) whose way u * du + v * dv in the tangent plane is nearest to `d`. nullopt where the squared sine of
+/// the angle between du and dv is not above `singular`, or one of them is zero.
+std::optional<Vec2> tangent_step(Vec3 du, Vec3 dv, Vec3 d, double singular = 0);
+
 /// Box of the surface over its bounds. Samples on a grid through the knots, enlarged by what second derivatives allow between them.
 Box3 bounding_box(const Surface& surface);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/predicates.h"
 #include "meshing/front.h"
@@ -210,14 +211,11 @@ class Enhancer {
       weights += weight;
     }
     const Vec3 target = (middle + kHalfSqrt3 * cross(old.normal, edge)) / weights;
-    const Metric m = metric_of(old.du, old.dv);
-    const double det = m.e * m.g - m.f * m.f;
-    if (!(det > 0)) return;
-    for (double step : {1.0, 0.4}) {
-      const Vec3 move = step * (target - old.x);
-      const double mu = dot(move, old.du), mv = dot(move, old.dv);
+    const std::optional<Vec2> move = tangent_step(old.du, old.dv, target - old.x);
+    if (!move) return;
+    for (double part : {1.0, 0.4}) {
       MeshNode moved = old;
-      moved.p = old.p + Vec2{(m.g * mu - m.f * mv) / det, (m.e * mv - m.f * mu) / det};
+      moved.p = old.p + part * *move;
       if (!is_valid_at(moved.p)) continue;
       w_.evaluate(moved);
       if (ring_about(moved, before).improves(before)) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "geometry/projection.h"
+#include "geometry/surface_forms.h"
 
 namespace st {
 namespace {
@@ -190,11 +191,8 @@ class FaceParameters {
   /// From the neighbour's (u,v) a step in its tangent plane.
   Vec2 step(const Fan& from, Vec3 x) const {
     const SurfacePoint p = surface_->evaluate(from.uv);
-    const Vec3 d = x - v_.mesh.node_xyz[from.node];
-    const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), det = e * g - f * f;
-    if (!(det > 1e-10 * e * g)) return from.uv;
-    const double a = dot(d, p.du), b = dot(d, p.dv);
-    return within_bounds(from.uv + Vec2{(a * g - b * f) / det, (b * e - a * f) / det});
+    const auto step = tangent_step(p.du, p.dv, x - v_.mesh.node_xyz[from.node], 1e-10);
+    return step ? within_bounds(from.uv + *step) : from.uv;
   }
 
   void project(Fan& fan, const Fan* from) {
@@ -227,10 +225,11 @@ class FaceParameters {
     SurfacePoint p = surface_->evaluate(uv);
     for (int i = 0; i < kSteps && damping < 1e12; ++i) {
       const Vec3 r = p.x - x;
-      const double e = norm2(p.du) * (1 + damping), f = dot(p.du, p.dv), g = norm2(p.dv) * (1 + damping), det = e * g - f * f;
-      if (!(det > 0)) break;
-      const double a = -dot(r, p.du), b = -dot(r, p.dv);
-      const Vec2 next = within_bounds(uv + Vec2{(a * g - b * f) / det, (b * e - a * f) / det});
+      Eigen::Matrix2d damped = first_form(p.du, p.dv);
+      damped.diagonal() *= 1 + damping;
+      const auto step = solve(damped, along_tangents(p.du, p.dv, r), 0);
+      if (!step) break;
+      const Vec2 next = within_bounds(uv - to_vec2(*step));
       const SurfacePoint q = surface_->evaluate(next);
       if (norm2(q.x - x) < norm2(r)) {
         uv = next, p = q, damping *= 0.2;

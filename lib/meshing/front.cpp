@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigen.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -170,11 +171,11 @@ class Front {
       const double la = norm(ra), lb = norm(rb);
       if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
       if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
-      const double a11 = 2 * dot(ra, p.du), a12 = 2 * dot(ra, p.dv), a21 = 2 * dot(rb, p.du), a22 = 2 * dot(rb, p.dv);
-      const double f1 = r * r - la * la, f2 = r * r - lb * lb, d = a11 * a22 - a12 * a21;
-      const double size = std::abs(a11 * a22) + std::abs(a12 * a21);
-      if (!(std::abs(d) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
-      Vec2 move{(f1 * a22 - f2 * a12) / d, (a11 * f2 - a21 * f1) / d};
+      Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
+      m << dot(ra, p.du), dot(ra, p.dv), dot(rb, p.du), dot(rb, p.dv);
+      const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
+      if (!(std::abs(m.determinant()) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      Vec2 move = to_vec2(m.inverse() * (0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb)));
       const double length = norm(move.x * p.du + move.y * p.dv);
       if (length > 0.5 * r) move = (0.5 * r / length) * move;
       p.p = p.p + move;

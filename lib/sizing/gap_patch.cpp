@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigen.h"
+
 namespace st {
 namespace {
 
@@ -11,14 +13,6 @@ constexpr double kRidge = 1e-6;    // of the largest moment: keeps the fit of a 
 
 /// Component of `d` across `n`, unit; zero where there is none.
 Vec3 across(Vec3 d, Vec3 n) { return normalized(d - dot(d, n) * n); }
-
-/// Solves the symmetric 3 x 3 system of the fit by Cramer's rule.
-std::array<double, 3> solve(const std::array<std::array<double, 3>, 3>& m, const std::array<double, 3>& r) {
-  const Vec3 a{m[0][0], m[1][0], m[2][0]}, b{m[0][1], m[1][1], m[2][1]}, c{m[0][2], m[1][2], m[2][2]}, d{r[0], r[1], r[2]};
-  const double det = dot(a, cross(b, c));
-  if (!(std::abs(det) > 0)) return {};
-  return {dot(d, cross(b, c)) / det, dot(a, cross(d, c)) / det, dot(a, cross(b, d)) / det};
-}
 
 }  // namespace
 
@@ -82,19 +76,17 @@ GapPatch fit_patch(const std::array<Vec3, 9>& points, Vec3 normal) {
   if (!(scale > 0)) return patch;
   const double overlap_s = kOverlap * (patch.s_hi - patch.s_lo), overlap_t = kOverlap * (patch.t_hi - patch.t_lo);
   patch.s_lo -= overlap_s, patch.s_hi += overlap_s, patch.t_lo -= overlap_t, patch.t_hi += overlap_t;
-  std::array<std::array<double, 3>, 3> moments{};
-  std::array<double, 3> right{};
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 9; ++k) {
     const double a = s[k] / scale, b = t[k] / scale;
-    const std::array<double, 3> row{0.5 * a * a, a * b, 0.5 * b * b};
-    for (std::size_t i = 0; i < 3; ++i) {
-      right[i] += row[i] * h[k] / scale;
-      for (std::size_t j = 0; j < 3; ++j) moments[i][j] += row[i] * row[j];
-    }
+    const Eigen::Vector3d row(0.5 * a * a, a * b, 0.5 * b * b);
+    moments += row * row.transpose();
+    right += h[k] / scale * row;
   }
-  for (std::size_t i = 0; i < 3; ++i) moments[i][i] += kRidge * (moments[0][0] + moments[1][1] + moments[2][2]);
-  const std::array<double, 3> k = solve(moments, right);
-  patch.k_ss = k[0] / scale, patch.k_st = k[1] / scale, patch.k_tt = k[2] / scale;
+  moments.diagonal().array() += kRidge * moments.trace();
+  const auto k = solve(moments, right, 0);
+  if (k) patch.k_ss = k->x() / scale, patch.k_st = k->y() / scale, patch.k_tt = k->z() / scale;
   return patch;
 }
 

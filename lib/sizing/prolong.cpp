@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/eigen.h"
 #include "sizing/neighbours.h"
 
 namespace st {
@@ -100,19 +101,20 @@ void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking
 
 /// Normal equations of the least-squares gradient: sum over neighbours of (step . g - difference)^2 / step^2.
 struct GradientFit {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0;
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  // symmetric: the upper half alone is summed
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
 
-  void add(double x, double y, double z, double difference) {
-    const double w = 1.0 / (x * x + y * y + z * z);
-    xx += w * x * x, xy += w * x * y, xz += w * x * z, yy += w * y * y, yz += w * y * z, zz += w * z * z;
-    bx += w * x * difference, by += w * y * difference, bz += w * z * difference;
+  void add(const Eigen::Vector3d& step, double difference) {
+    const Eigen::Vector3d weighted = (1 / step.squaredNorm()) * step;
+    const Eigen::Matrix3d square = weighted * step.transpose();
+    matrix.triangularView<Eigen::Upper>() += square;
+    right += difference * weighted;
   }
-  Vec3 solve() const {
-    const double c0 = yy * zz - yz * yz, c1 = xz * yz - xy * zz, c2 = xy * yz - xz * yy;
-    const double det = xx * c0 + xy * c1 + xz * c2;
-    if (!(det > 1e-9 * (xx + yy + zz) * (xx + yy + zz) * (xx + yy + zz))) return {};
-    return {(c0 * bx + c1 * by + c2 * bz) / det, (c1 * bx + (xx * zz - xz * xz) * by + (xy * xz - xx * yz) * bz) / det,
-            (c2 * bx + (xy * xz - xx * yz) * by + (xx * yy - xy * xy) * bz) / det};
+  Vec3 gradient() const {
+    constexpr double kFlat = 1e-9;  // determinant over cubed trace: the neighbours lie in a plane
+    const Eigen::Matrix3d full = matrix.selfadjointView<Eigen::Upper>();
+    const double trace = matrix.trace();
+    return to_vec3(solve(full, right, kFlat * trace * trace * trace).value_or(Eigen::Vector3d::Zero()));
   }
 };
 
@@ -143,13 +145,13 @@ CellLength fit_cell(const FitInput& in, std::int32_t site) {
     const double unit = step.fine_level > level ? 0.25 : 0.5;  // halves of the smaller cell, in edges of this one
     smallest = std::min(smallest, other_length);
     largest = std::max(largest, other_length);
-    fit.add(unit * step.x, unit * step.y, unit * step.z, other_length - length);
+    fit.add(unit * Eigen::Vector3d(step.x, step.y, step.z), other_length - length);
   });
   CellLength cell{static_cast<float>(length), {0, 0, 0}, static_cast<float>(largest)};
   if (!(length > smallest)) return cell;
   const double edge = in.octree.cell_edge(level);
   const double slope = in.options.cell_slope.empty() ? in.options.slope : static_cast<double>(in.options.cell_slope[leaf]);
-  Vec3 gradient = fit.solve() / edge;
+  Vec3 gradient = fit.gradient() / edge;
   const double steepness = norm(gradient);
   if (steepness > slope) gradient = gradient * (slope / steepness);
   const double reach = 0.5 * edge * (std::abs(gradient.x) + std::abs(gradient.y) + std::abs(gradient.z));

@@ -139,10 +139,7 @@ class WingEdgeFinder {
 
   /// Rates of u and v for a way along `direction`, tangent to the surface; zero at a singular point.
   static Vec2 rates(const SurfacePoint2& p, Vec3 direction) {
-    const double e = dot(p.du, p.du), f = dot(p.du, p.dv), g = dot(p.dv, p.dv), det = e * g - f * f;
-    if (!(det > 1e-20 * e * g)) return {};
-    const double a = dot(direction, p.du), b = dot(direction, p.dv);
-    return {(g * a - f * b) / det, (e * b - f * a) / det};
+    return tangent_step(p.du, p.dv, direction, 1e-20).value_or(Vec2{});
   }
 
   /// Smallest radius of the nose at the edge; 0: no nose.

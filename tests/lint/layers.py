@@ -29,6 +29,9 @@ HOMES = {
     "CLI11": (re.compile(r"^CLI/.*|^CLI11\.hpp$"), "tools"),
     "toml++": (re.compile(r"^toml(\+\+)?/.*|^toml\.hpp$"), "tools or io"),
 }
+EIGEN_HOME = "lib/base/eigen.h"  # includes Eigen for all others, which use its fixed sizes alone
+EIGEN_HEADER = re.compile(r"^(unsupported/)?Eigen/")
+EIGEN_DYNAMIC = re.compile(r"\bEigen::(Dynamic|(Matrix|RowVector|Vector|Array)X)")
 MAIN_LIMIT = 80
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 SUFFIXES = {".h", ".hpp", ".cpp", ".cc", ".inl"}
@@ -84,6 +87,18 @@ def layer_violations(root, home_of):
                 yield f"{where}:{line}: a library must not include {header}"
 
 
+def eigen_violations(root):
+    for path in sources(root / "lib") + sources(root / "tools"):
+        where = str(path.relative_to(root))
+        for line, header in includes(path):
+            if EIGEN_HEADER.match(header) and where != EIGEN_HOME:
+                yield f"{where}:{line}: {header} may only be included in {EIGEN_HOME}"
+        text = path.read_text(encoding="utf-8", errors="replace")
+        for m in EIGEN_DYNAMIC.finditer(text):
+            line = text.count("\n", 0, m.start()) + 1
+            yield f"{where}:{line}: {m.group()}: only matrices of fixed size are used"
+
+
 def main_violations(root):
     for path in sorted((root / "tools").glob("st-*/main.cpp")):
         n_lines = len(path.read_text(encoding="utf-8").splitlines())
@@ -99,7 +114,8 @@ def violations(root):
         parts = path.relative_to(root).parts
         return parts[1] if parts[0] == "lib" else "tools"
 
-    return [*foreign_violations(root, home_of), *layer_violations(root, home_of), *main_violations(root)]
+    found = [*foreign_violations(root, home_of), *layer_violations(root, home_of)]
+    return [*found, *eigen_violations(root), *main_violations(root)]
 
 
 PLANTS = {
@@ -112,6 +128,8 @@ PLANTS = {
     "lib/geometry/planted.cpp": '#include "mesh/surface_mesh.h"\n',
     "lib/comm/planted.cpp": '#include "sizing/size_field.h"\n',
     "lib/io/planted.cpp": '#include "comm/communicator.h"\n',
+    "lib/mesh/planted_eigen.cpp": "#include <Eigen/Dense>\n",
+    "lib/sizing/planted_dynamic.cpp": "Eigen::MatrixXd m;\n",
     "lib/mesh/planted_main.cpp": "int main() {}\n",
     "tools/st-planted/main.cpp": "\n" * MAIN_LIMIT,
     "lib/odd/planted.cpp": "\n",

@@ -3,10 +3,12 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
@@ -39,6 +41,7 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <gp_Elips.hxx>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -116,6 +119,16 @@ TopoDS_Shape curved_slot() {
   const gp_Ax2 axis(gp_Pnt(20, -5, 4), gp_Dir(0, 0, 1));
   const TopoDS_Shape ring = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 15.3, 20).Shape(), BRepPrimAPI_MakeCylinder(axis, 14.7, 20).Shape()).Shape();
   return BRepAlgoAPI_Cut(box(40, 20, 10), ring).Shape();
+}
+
+/// The half of an ellipsoid of revolution above its base: radii of curvature from 10/3 at the tip (a pole) to 90 along
+/// the wall at its foot, and a sharp circular edge.
+TopoDS_Shape dome() {
+  const gp_Ax2 frame(gp_Pnt(0, 0, 0), gp_Dir(0, -1, 0), gp_Dir(0, 0, 1));  // the long axis upwards
+  const gp_Pnt centre(0, 0, 0), tip(0, 0, 30), rim(10, 0, 0);
+  BRepBuilderAPI_MakeEdge arc(gp_Elips(frame, 30, 10), rim, tip), axis(tip, centre), base(centre, rim);
+  BRepBuilderAPI_MakeWire profile(arc, axis, base);
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(profile.Wire()).Face(), gp_Ax1(centre, gp_Dir(0, 0, 1))).Shape();
 }
 
 void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
@@ -198,6 +211,7 @@ void write_all(const fs::path& dir) {
   write_assembly(dir / "assembly.step");
   write_brep(dir / "crossed_loop.brep", crossed_loop());
   write_brep(dir / "curved_slot.brep", curved_slot());
+  write_brep(dir / "dome.brep", dome());
 }
 
 }  // namespace

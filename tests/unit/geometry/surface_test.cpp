@@ -80,6 +80,21 @@ TEST(PrincipalCurvature, is_zero_where_the_surface_is_singular) {
   EXPECT_EQ(c.k2, 0);
 }
 
+TEST(TangentStep, leads_to_the_nearest_point_of_the_tangent_plane) {
+  const Vec3 du{2, 0, 0}, dv{1, 0.1, 0};  // neither unit nor at right angles
+  const auto step = tangent_step(du, dv, 3 * du - 0.5 * dv + Vec3{0, 0, 7});
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(step->x, 3, 1e-12);
+  EXPECT_NEAR(step->y, -0.5, 1e-12);
+}
+
+TEST(TangentStep, there_is_none_without_a_tangent_plane) {
+  EXPECT_FALSE(tangent_step({1, 0, 0}, {2, 0, 0}, {1, 1, 0}));
+  EXPECT_FALSE(tangent_step({}, {1, 0, 0}, {1, 1, 0}));
+  EXPECT_FALSE(tangent_step({1, 0, 0}, {1, 1e-4, 0}, {1, 1, 0}, 1e-6));
+  EXPECT_TRUE(tangent_step({1, 0, 0}, {1, 1e-4, 0}, {1, 1, 0}, 1e-10));
+}
+
 TEST(ProjectNear, finds_the_foot_of_a_point_off_the_surface) {
   for (const AxialSurface* s : {&kSphere, &kCylinder, &kTorus})
     for (double off : {-0.5, 0.0, 0.5, 2.0}) {

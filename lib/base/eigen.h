@@ -1,0 +1,32 @@
+// Fixed-size linear algebra: the only place that includes Eigen, and the way from our vectors to Eigen's and back.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <optional>
+
+#include "base/vec.h"
+
+namespace st {
+
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
+
+inline Eigen::Vector2d to_eigen(Vec2 a) { return {a.x, a.y}; }
+inline Eigen::Vector3d to_eigen(Vec3 a) { return {a.x, a.y, a.z}; }
+inline Vec2 to_vec2(const Eigen::Vector2d& a) { return {a.x(), a.y()}; }
+inline Vec3 to_vec3(const Eigen::Vector3d& a) { return {a.x(), a.y(), a.z()}; }
+
+/// The symmetric matrix {{a, b}, {b, c}}.
+inline Eigen::Matrix2d symmetric(double a, double b, double c) { return (Eigen::Matrix2d() << a, b, b, c).finished(); }
+
+/// x of m x = b, for 2 x 2 and 3 x 3 (more would need pivots). nullopt unless the determinant is above
+/// `least_determinant` (>= 0): m is too near to singular, of negative determinant, or not a number.
+template <int N>
+std::optional<Eigen::Matrix<double, N, 1>> solve(const Eigen::Matrix<double, N, N>& m,
+                                                 const Eigen::Matrix<double, N, 1>& b, double least_determinant) {
+  static_assert(N == 2 || N == 3);
+  if (!(m.determinant() > least_determinant)) return std::nullopt;
+  return m.inverse() * b;
+}
+
+}  // namespace st
