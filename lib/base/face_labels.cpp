@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 
 namespace st {
 namespace {
@@ -66,6 +67,35 @@ std::vector<std::string> full_names(const GroupTable& table) {
   return names;
 }
 
+/// Ids of the groups that `is_wanted` takes, ascending.
+template <class Predicate>
+std::vector<std::int32_t> members(const std::vector<EntityGroup>& groups, const Predicate& is_wanted) {
+  std::vector<std::int32_t> ids;
+  for (const EntityGroup& g : groups)
+    if (is_wanted(g)) ids.insert(ids.end(), g.ids.begin(), g.ids.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// Attribute "tolerance" of a group, 0: none.
+double tolerance_in(const std::string& attributes) {
+  const nlohmann::json json = nlohmann::json::parse(attributes, nullptr, false);
+  const auto it = json.is_object() ? json.find("tolerance") : json.end();
+  return it != json.end() && it->is_number() ? it->get<double>() : 0;
+}
+
+/// Raises the tolerances of faces to those of their groups.
+void raise_tolerances(const std::vector<std::string>& attributes, const std::vector<std::int32_t>& face_group,
+                      std::vector<double>& of_face) {
+  std::vector<double> of_group;
+  for (const std::string& a : attributes) of_group.push_back(tolerance_in(a));
+  for (std::size_t f = 0; f < face_group.size(); ++f) {
+    const std::int32_t g = face_group[f];
+    if (g >= 0 && static_cast<std::size_t>(g) < of_group.size()) of_face[f] = std::max(of_face[f], of_group[g]);
+  }
+}
+
 /// Words of a name in small letters: runs of letters, a capital behind a small letter begins a new one. Bytes beyond ASCII are letters.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> words(1);
@@ -109,6 +139,49 @@ std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupName
   for (const std::vector<std::string>* part : {&labels.part_name, &labels.part_path})
     if (!is_found()) add_matches(pattern, *part, labels.face_part, is_in);
   return is_found() ? is_in : std::vector<std::uint8_t>();
+}
+
+std::vector<EntityGroup> select_groups(const std::vector<EntityGroup>& groups, std::span<const std::int32_t> place) {
+  std::vector<EntityGroup> selected;
+  for (const EntityGroup& g : groups) {
+    EntityGroup part{g.name, g.table, g.attributes, {}};
+    for (const std::int32_t id : g.ids)
+      if (place[id] != kNone) part.ids.push_back(place[id]);
+    std::sort(part.ids.begin(), part.ids.end());
+    if (!part.ids.empty()) selected.push_back(std::move(part));
+  }
+  return selected;
+}
+
+void append_groups(std::vector<EntityGroup>& to, const std::vector<EntityGroup>& more, std::int32_t shift) {
+  for (const EntityGroup& g : more) {
+    auto it = std::find_if(to.begin(), to.end(),
+                           [&](const EntityGroup& own) { return own.name == g.name && own.table == g.table; });
+    if (it == to.end()) it = to.insert(it, {g.name, g.table, g.attributes, {}});
+    for (const std::int32_t id : g.ids) it->ids.push_back(id + shift);
+  }
+}
+
+std::vector<std::int32_t> find_members(const std::string& pattern, const std::vector<EntityGroup>& groups) {
+  const auto main = members(groups, [&](const EntityGroup& g) { return g.table.empty() && matches(pattern, g.name); });
+  if (!main.empty()) return main;
+  return members(groups, [&](const EntityGroup& g) {
+    return !g.table.empty() && (matches(pattern, g.name) || matches(pattern, g.table + ":" + g.name));
+  });
+}
+
+std::string say_other_kind(const std::string& pattern, const FaceLabels& labels) {
+  if (!find_members(pattern, labels.edge_groups).empty()) return " (it names a group of edges)";
+  return find_members(pattern, labels.vertex_groups).empty() ? "" : " (it names a group of vertices)";
+}
+
+std::vector<double> face_tolerances(const GroupNames& names) {
+  std::vector<double> of_face(names.face_group.size(), 0);
+  raise_tolerances(names.labels.group_attributes, names.face_group, of_face);
+  for (const GroupTable& table : names.labels.tables)
+    raise_tolerances(table.group_attributes, table.face_group, of_face);
+  const bool has_any = std::any_of(of_face.begin(), of_face.end(), [](double t) { return t > 0; });
+  return has_any ? of_face : std::vector<double>();
 }
 
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken) {

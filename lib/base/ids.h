@@ -13,6 +13,9 @@ using FaceId = std::int32_t;
 using LoopId = std::int32_t;
 using CoedgeId = std::int32_t;
 
+/// What an entity of the CAD model is, and so what a node lies on.
+enum class EntityDim : std::uint8_t { kVertex = 0, kEdge = 1, kFace = 2 };
+
 /// The one sentinel: "no entity".
 inline constexpr std::int32_t kNone = -1;
 

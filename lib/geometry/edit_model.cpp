@@ -85,6 +85,8 @@ void select_edges(const ModelTables& t, const std::vector<EdgeId>& e, const std:
   out.edge_tolerance = gather(t.edge_tolerance, e);
   out.edge_is_degenerate = gather(t.edge_is_degenerate, e);
   out.edge_name = gather(t.edge_name, e);
+  out.labels.edge_groups = select_groups(t.labels.edge_groups, places(e, t.n_edges()));
+  out.labels.vertex_groups = select_groups(t.labels.vertex_groups, vertex_place);
 }
 
 /// Loops of the faces of a part.
@@ -183,6 +185,8 @@ void append_topology(ModelTables& t, const ModelTables& s) {
   add_shifted(t.loop_coedge_offsets, std::span(s.loop_coedge_offsets).subspan(1), n_coedges);
   add_shifted(t.coedge_edge, s.coedge_edge, n_edges);
   add_all(t.coedge_is_reversed, s.coedge_is_reversed);
+  append_groups(t.labels.edge_groups, s.labels.edge_groups, n_edges);
+  append_groups(t.labels.vertex_groups, s.labels.vertex_groups, n_vertices);
 }
 
 void append_faces(ModelTables& t, const ModelTables& s) {

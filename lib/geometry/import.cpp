@@ -2,6 +2,7 @@
 #include <BRepBuilderAPI_Transform.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -104,12 +105,60 @@ void require_closed(const ImportResult& result, const std::string& path) {
                                          " free edges; close it in the CAD system, or import without --require-closed");
 }
 
-occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, const ImportedShape& model, const std::string& sew) {
-  occt::SewingLimits limits{file.resolution_mm, std::nullopt};
+/// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field gives anew.
+bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
+  if (options.symmetry.empty() && options.farfield.empty()) return false;
+  return std::any_of(rule.faces.begin(), rule.faces.end(),
+                     [](const std::string& item) { return item.find_first_not_of("0123456789-") == std::string::npos; });
+}
+
+/// Rules of faces that can be told before sewing, none of which has to match yet.
+std::vector<GroupRule> rules_before_sewing(const ImportOptions& options) {
+  std::vector<GroupRule> rules;
+  for (GroupRule rule : options.groups) {
+    if (rule.of != EntityDim::kFace || is_known_late(rule, options)) continue;
+    rule.is_optional = true;
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
+/// Tolerances of the faces' groups, unit of the shape; empty when no group has one.
+std::vector<double> group_tolerances(const ImportedShape& model, const ModelUnit& unit, const ImportOptions& options) {
+  const auto has_tolerance = [](const GroupRule& rule) { return rule.tolerance.has_value(); };
+  if (std::none_of(options.groups.begin(), options.groups.end(), has_tolerance)) return {};
+  ModelTables t = occt::make_face_tables(model, 1.0 / unit.shape_units);
+  t.unit_in_m = unit.in_m;
+  apply_groups(rules_before_sewing(options), t);
+  std::vector<double> tolerances = face_tolerances(t.group_names());
+  for (double& tolerance : tolerances) tolerance *= unit.shape_units;
+  return tolerances;
+}
+
+void say_what_is_not_sewn(const ImportOptions& options, std::vector<ImportFinding>& findings) {
+  for (const GroupRule& rule : options.groups)
+    if (rule.tolerance && is_known_late(rule, options))
+      findings.push_back({"tolerance not used for sewing: the faces are named by numbers, which --symmetry and "
+                          "--farfield give anew",
+                          "group \"" + rule.name + "\"",
+                          {},
+                          0,
+                          false});
+}
+
+occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, const ImportedShape& model,
+                                 const ImportOptions& options) {
+  occt::SewingLimits limits{file.resolution_mm, std::nullopt, group_tolerances(model, unit, options)};
+  const std::string& sew = options.sew;
   if (sew.empty()) return limits;
   const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
   limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), diagonal, unit.in_m, "--sew");
   return limits;
+}
+
+std::string without_members(const EmptyGroup& group) {
+  const char* const member = group.of == EntityDim::kFace ? "face" : group.of == EntityDim::kEdge ? "edge" : "vertex";
+  return std::string("optional group without ") + (group.of == EntityDim::kEdge ? "an " : "a ") + member;
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
@@ -120,7 +169,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.format = file.format;
   ImportedShape model = occt::collect_parts(file, path);
   occt::remove_duplicates(model, result.findings);
-  occt::sew_if_open(model, sewing_limits(file, unit, model, options.sew), result.findings);
+  say_what_is_not_sewn(options, result.findings);
+  occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
   occt::open_slits(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);
   occt::repair_loops(model, result.findings);
@@ -134,8 +184,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
-  for (const std::string& name : apply_groups(options.groups, result.tables))
-    result.findings.push_back({"optional group without a face", "group \"" + name + "\"", {}, 0, false});
+  for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
+    result.findings.push_back({without_members(group), "group \"" + group.name + "\"", {}, 0, false});
   const double small = resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);

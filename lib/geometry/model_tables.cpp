@@ -1,6 +1,9 @@
 #include "geometry/model_tables.h"
 
+#include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -28,7 +31,24 @@ class TableWriter {
     fill_shells_and_solids();
     fill_parts();
     fill_groups();
+    measures_.edge_box = std::move(edge_box_);
     return {std::move(tables_), std::move(measures_)};
+  }
+
+  ModelTables faces_alone(double scale) {
+    ModelTables& t = tables_;
+    for (int i = 0; i < model_.faces.Extent(); ++i) {
+      const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1));
+      const Box3 box = exact_box(f);
+      t.face_box.push_back({scale * box.lo, scale * box.hi});
+      t.face_tolerance.push_back(scale * BRep_Tool::Tolerance(f));
+      t.face_is_reversed.push_back(0);
+      t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
+      fill_labels(i);
+    }
+    fill_parts();
+    fill_groups();
+    return std::move(tables_);
   }
 
  private:
@@ -91,12 +111,28 @@ class TableWriter {
       t.face_is_reversed.push_back(orientation[i] == TopAbs_REVERSED);
       t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
       t.face_tolerance.push_back(BRep_Tool::Tolerance(f));
-      t.face_name.push_back(model_.attributes[i].name);
-      t.face_layer.push_back(model_.attributes[i].layer);
-      t.face_color.push_back(model_.attributes[i].color);
+      fill_labels(i);
       fill_loops(domain);
       measure(f, domain);
     }
+  }
+
+  /// What the file says of a face.
+  void fill_labels(int i) {
+    tables_.face_name.push_back(model_.attributes[i].name);
+    tables_.face_layer.push_back(model_.attributes[i].layer);
+    tables_.face_color.push_back(model_.attributes[i].color);
+  }
+
+  /// Of surface and trimming, where OpenCASCADE can say; else the rough one.
+  static Box3 exact_box(const TopoDS_Face& face) {
+    try {
+      Bnd_Box box;
+      BRepBndLib::AddOptimal(face, box, false, false);
+      if (!box.IsVoid()) return {vec(box.CornerMin()), vec(box.CornerMax())};
+    } catch (const Standard_Failure&) {  // a face whose loops need repair
+    }
+    return rough_box(face);
   }
 
   void fill_loops(const FaceDomain& domain) {
@@ -193,7 +229,7 @@ class TableWriter {
   }
 
   const ImportedShape& model_;
-  const std::string& path_;
+  const std::string path_;
   Vec3 origin_;
   ModelTables tables_;
   FaceMeasures measures_;
@@ -204,5 +240,9 @@ class TableWriter {
 }  // namespace
 
 ModelOfFile make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
+
+ModelTables make_face_tables(const ImportedShape& model, double scale) {
+  return TableWriter(model, "").faces_alone(scale);
+}
 
 }  // namespace st::occt

@@ -14,6 +14,7 @@ namespace st::occt {
 struct FaceMeasures {
   std::vector<double> cone_volume;                    ///< [n_faces] over the face as du x dv orients it, from one common point
   std::vector<std::optional<LoopCrossing>> crossing;  ///< [n_faces]
+  std::vector<Box3> edge_box;                         ///< [n_edges] empty for poles
 };
 
 struct ModelOfFile {
@@ -24,5 +25,9 @@ struct ModelOfFile {
 /// Tables of `model`: ids in TopExp order; unit and findings are left to the caller. Throws Error(kGeometry) naming `path` for an edge
 /// without a vertex.
 ModelOfFile make_tables(const ImportedShape& model, const std::string& path);
+
+/// Only what groups of faces are chosen by, of a model whose loops may need repair: names, colours, layers, parts,
+/// kinds of surfaces, groups of the file, and boxes, whose lengths are multiplied by `scale`.
+ModelTables make_face_tables(const ImportedShape& model, double scale);
 
 }  // namespace st::occt

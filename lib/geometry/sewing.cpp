@@ -16,6 +16,10 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
+
+#include "geometry/compound.h"
 
 namespace st::occt {
 namespace {
@@ -29,8 +33,9 @@ struct Sewn {
   TopoDS_Shape shape;
   std::vector<TopoDS_Shape> images;
   int n_free = 0;
-  double tolerance = 0;       ///< that it was sewn with
-  double edge_tolerance = 0;  ///< largest of its edges
+  double tolerance = 0;        ///< that it was sewn with
+  double group_tolerance = 0;  ///< that groups of it were sewn with before
+  double edge_tolerance = 0;   ///< largest of its edges
 };
 
 bool keeps_faces(const Sewn& sewn, int n_faces) {
@@ -89,6 +94,31 @@ std::optional<Sewn> sew_by_component(const ImportedShape& model, const Sewn& bef
     parts.push_back(state->shape);
   }
   return sew(*state, parts, tolerance);
+}
+
+/// Faces with tolerances of their own, sewn among themselves: those of at least each tolerance with it, the smallest
+/// first. They and the other faces are in one compound, which is still to be sewn; the original where nothing is gained.
+Sewn sew_groups(const ImportedShape& model, const Sewn& original, const std::vector<double>& of_face) {
+  std::set<double> tolerances(of_face.begin(), of_face.end());
+  tolerances.erase(0);
+  Sewn state = original;
+  for (const double tolerance : tolerances) {
+    std::vector<TopoDS_Shape> members;
+    for (std::size_t f = 0; f < of_face.size(); ++f)
+      if (of_face[f] >= tolerance) members.push_back(state.images[f]);
+    std::optional<Sewn> sewn = sew(state, members, tolerance);
+    if (!sewn) continue;
+    std::vector<TopoDS_Shape> all = {sewn->shape};
+    for (std::size_t f = 0; f < of_face.size(); ++f)
+      if (of_face[f] < tolerance) all.push_back(sewn->images[f]);
+    sewn->shape = compound_of(all);
+    if (!keeps_faces(*sewn, model.faces.Extent())) continue;
+    sewn->n_free = count_free_edges(sewn->shape);
+    sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+    sewn->group_tolerance = tolerance;
+    if (sewn->n_free < state.n_free) state = *sewn;
+  }
+  return state;
 }
 
 /// Fewer free edges first, then smaller edge tolerance; a result whose tolerance has grown beyond reason only when there is no other.
@@ -174,21 +204,28 @@ void tighten_tolerances(const TopoDS_Shape& shape, double sewing_tolerance, doub
   }
 }
 
-/// The sewn shape takes the model's place; what was done is said.
-void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
+/// The sewn shape takes the model's place.
+void take_over(ImportedShape& model, const Sewn& sewn) {
   const int n_faces = model.faces.Extent();
   const std::vector<TopoDS_Shape> face_images(sewn.images.begin(), sewn.images.begin() + n_faces);
   for (std::size_t k = 0; k < model.edge_names.size(); ++k) model.edge_names[k].first = sewn.images[n_faces + k];
   const TopTools_IndexedMapOfShape originals = model.faces;
   model.replace(in_order(sewn.shape, face_images), [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
-  findings.push_back({"sewn: " + std::to_string(original.n_free) + " free edges before, " + std::to_string(sewn.n_free) + " after",
-                      "",
-                      {},
-                      sewn.tolerance,
-                      true});
-  const double reasonable = kToleranceGrowth * std::max(sewn.tolerance, original.edge_tolerance);
+}
+
+ImportFinding sewn_finding(const std::string& how, const Sewn& before, const Sewn& after, double tolerance) {
+  const std::string numbers =
+      std::to_string(before.n_free) + " free edges before, " + std::to_string(after.n_free) + " after";
+  return {how + ": " + numbers, "", {}, tolerance, true};
+}
+
+/// Likewise; tolerances beyond reason are set back.
+void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
+  take_over(model, sewn);
+  const double tolerance = std::max(sewn.tolerance, sewn.group_tolerance);
+  const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
   if (sewn.edge_tolerance <= reasonable) return;
-  tighten_tolerances(model.shape, sewn.tolerance, reasonable);
+  tighten_tolerances(model.shape, tolerance, reasonable);
   findings.push_back(
       {"sewing left tolerances far above its own; trimming curves there are compared anew", "", {}, sewn.edge_tolerance, true});
 }
@@ -203,6 +240,26 @@ std::vector<double> tolerances_to_try(double diagonal, double base, std::optiona
   return list;
 }
 
+/// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
+/// none helps. After sew_groups() one that leaves as many will do: it makes shells.
+std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const std::vector<double>& tolerances) {
+  const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
+  std::optional<Sewn> best;
+  for (const double tolerance : tolerances) {
+    const double reasonable = kToleranceGrowth * std::max(tolerance, start.edge_tolerance);
+    for (const bool by_component : {false, true}) {
+      std::optional<Sewn> sewn =
+          by_component ? sew_by_component(model, start, tolerance) : sew(start, {start.shape}, tolerance);
+      if (!sewn || !keeps_faces(*sewn, model.faces.Extent())) continue;
+      sewn->n_free = count_free_edges(sewn->shape);
+      sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+      if (sewn->n_free <= n_allowed && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
+      if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) return best;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
@@ -215,20 +272,14 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   original.edge_tolerance = max_edge_tolerance(model.shape);
   const double diagonal = rough_box(model.shape).diagonal();
   const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
-  std::optional<Sewn> best;
-  for (const double tolerance : tolerances_to_try(diagonal, base, limits.largest)) {
-    const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
-    for (const bool by_component : {false, true}) {
-      std::optional<Sewn> sewn = by_component ? sew_by_component(model, original, tolerance) : sew(original, {model.shape}, tolerance);
-      if (!sewn || !keeps_faces(*sewn, model.faces.Extent())) continue;
-      sewn->n_free = count_free_edges(sewn->shape);
-      sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
-      if (sewn->n_free < original.n_free && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
-      if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) break;
-    }
-    if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) break;
-  }
-  if (best) adopt(model, original, *best, findings);
+  const Sewn start = sew_groups(model, original, limits.of_face);
+  const bool is_group_sewn = start.n_free < original.n_free;
+  if (is_group_sewn)
+    findings.push_back(sewn_finding("sewn by the tolerance of their group", original, start, start.group_tolerance));
+  const std::optional<Sewn> best = sew_all(model, start, tolerances_to_try(diagonal, base, limits.largest));
+  if (best && best->n_free < start.n_free)
+    findings.push_back(sewn_finding("sewn", start, *best, best->tolerance));
+  if (best || is_group_sewn) adopt(model, original, best.value_or(start), findings);
 }
 
 }  // namespace st::occt

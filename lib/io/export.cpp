@@ -9,6 +9,7 @@
 #include "io/artifact.h"
 #include "io/export_formats.h"
 #include "io/face_numbers.h"
+#include "mesh/edge_segments.h"
 
 namespace st {
 
@@ -91,6 +92,33 @@ static std::string obj_groups(const SurfaceMesh& m, const std::vector<FaceNumber
   return words;
 }
 
+/// "g edge_group_1_TE" and the lines of that group, "g vertex_group_1_TIP" and its points, for every group of edges and
+/// vertices.
+static std::string obj_lines(const SurfaceMesh& m) {
+  std::string text;
+  const auto begin = [&](const char* kind, std::size_t number, const EntityGroup& g) {
+    text += "g " + std::string(kind) + std::to_string(number + 1) + "_" + (g.table.empty() ? "" : g.table + ":") +
+            clean_name(g.name, true) + "\n";
+  };
+  const auto has = [](const EntityGroup& g, std::int32_t id) {
+    return std::binary_search(g.ids.begin(), g.ids.end(), id);
+  };
+  for (std::size_t k = 0; k < m.labels.edge_groups.size(); ++k) {
+    begin("edge_group_", k, m.labels.edge_groups[k]);
+    for (std::size_t i = 0; i < m.segment_edge.size(); ++i)
+      if (has(m.labels.edge_groups[k], m.segment_edge[i]))
+        text += "l " + std::to_string(m.segment_nodes[2 * i] + 1) + " " +
+                std::to_string(m.segment_nodes[2 * i + 1] + 1) + "\n";
+  }
+  for (std::size_t k = 0; k < m.labels.vertex_groups.size(); ++k) {
+    begin("vertex_group_", k, m.labels.vertex_groups[k]);
+    for (std::size_t n = 0;
+         n < m.node_entity.size() && m.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex); ++n)
+      if (has(m.labels.vertex_groups[k], m.node_entity[n])) text += "p " + std::to_string(n + 1) + "\n";
+  }
+  return text;
+}
+
 /// Wavefront OBJ: groups of each CAD face, its group, part and groups of further tables. Triangles of a face follow one another in a
 /// canonical mesh.
 void export_obj(Output& out, const SurfaceMesh& m) {
@@ -113,14 +141,15 @@ void export_obj(Output& out, const SurfaceMesh& m) {
     buffer += '\n';
     if (buffer.size() > 60000) flush();
   }
+  buffer += obj_lines(m);
   flush();
 }
 
-/// Binary PLY with the CAD face and the group of each triangle, parts and further tables, and the requested length of each node. Names are
-/// comments: "comment group 2 WING".
+/// Binary PLY with the CAD face and the group of each triangle, parts and further tables, the requested length and
+/// groups of edges and vertices of each node. Names are comments: "comment group 2 WING".
 void export_ply(Output& out, const SurfaceMesh& m) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment surface mesh\n",
-              properties = "property int face\nproperty int group\n";
+              properties = "property int face\nproperty int group\n", node_properties = "property double size\n";
   const auto add_names = [&](const std::string& what, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)
       if (!names[i].empty()) header += "comment " + what + " " + std::to_string(i + 1) + " " + clean_name(names[i], false) + "\n";
@@ -133,12 +162,19 @@ void export_ply(Output& out, const SurfaceMesh& m) {
     properties += "property int " + d.name + "\n";
     numbers.push_back(triangle_numbers(m, d));
   }
+  const std::vector<NodeGroups> of_nodes = node_groups(m);
+  for (const NodeGroups& n : of_nodes) {
+    add_names(n.name, n.group_name);
+    node_properties += "property int " + n.name + "\n";
+  }
   out.text(header + "element vertex " + std::to_string(m.n_nodes()) +
-           "\nproperty double x\nproperty double y\nproperty double z\nproperty double size\nelement face " +
-           std::to_string(m.n_triangles()) + "\nproperty list uchar int vertex_indices\n" + properties + "end_header\n");
+           "\nproperty double x\nproperty double y\nproperty double z\n" + node_properties + "element face " +
+           std::to_string(m.n_triangles()) + "\nproperty list uchar int vertex_indices\n" + properties +
+           "end_header\n");
   for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
     out.value(m.node_xyz[i]);
     out.value(m.node_size[i]);
+    for (const NodeGroups& n : of_nodes) out.value(n.of_node[i]);
   }
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {
     out.value(std::uint8_t{3});
@@ -151,18 +187,23 @@ void export_ply(Output& out, const SurfaceMesh& m) {
 
 namespace {
 
-using Exporter = void (*)(Output&, const SurfaceMesh&);
+/// How a format is written.
+struct Format {
+  void (*write)(Output&, const SurfaceMesh&);
+  bool has_entity_groups;  ///< holds groups of edges and vertices
+};
 
-Exporter exporter_of(const std::string& path) {
-  static const std::map<std::string, Exporter> exporters = {{".stl", export_stl}, {".vtu", export_vtu}, {".obj", export_obj},
-                                                            {".ply", export_ply}, {".msh", export_msh}, {".fro", export_fro}};
+Format format_of(const std::string& path) {
+  static const std::map<std::string, Format> formats = {{".stl", {export_stl, false}}, {".vtu", {export_vtu, true}},
+                                                        {".obj", {export_obj, true}},  {".ply", {export_ply, true}},
+                                                        {".msh", {export_msh, true}},  {".fro", {export_fro, false}}};
   std::string name = path.substr(path.rfind('/') + 1);
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".ascii.stl")) return export_ascii_stl;
+  if (name.ends_with(".ascii.stl")) return {export_ascii_stl, false};
   const std::size_t dot = name.rfind('.');
   const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
-  const auto it = exporters.find(suffix);
-  if (it == exporters.end())
+  const auto it = formats.find(suffix);
+  if (it == formats.end())
     throw Error(ExitCode::kUsage,
                 path + ": unknown suffix '" + suffix + "' for an export; use .stl, .ascii.stl, .vtu, .obj, .ply, .msh or .fro");
   return it->second;
@@ -170,13 +211,14 @@ Exporter exporter_of(const std::string& path) {
 
 }  // namespace
 
-void require_export_suffix(const std::string& path) { exporter_of(path); }
+void require_export_suffix(const std::string& path) { format_of(path); }
 
-void export_mesh(const std::string& path, const SurfaceMesh& mesh) {
-  const Exporter exporter = exporter_of(path);
+std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
+  const Format format = format_of(path);
   Output out(path);
-  exporter(out, mesh);
+  format.write(out, mesh);
   out.commit();
+  return format.has_entity_groups ? 0 : mesh.labels.edge_groups.size() + mesh.labels.vertex_groups.size();
 }
 
 }  // namespace st

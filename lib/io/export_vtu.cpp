@@ -3,6 +3,7 @@
 
 #include "io/export_formats.h"
 #include "io/face_numbers.h"
+#include "mesh/edge_segments.h"
 
 namespace st {
 namespace {
@@ -56,6 +57,7 @@ std::string field_data(const SurfaceMesh& m, VtuArrays& arrays) {
   if (!m.face_name.empty()) text += arrays.add_strings("face_name", m.face_name);
   if (!m.group_name.empty()) text += arrays.add_strings("group_name", m.group_name);
   for (const FaceNumbers& d : face_numbers(m)) text += arrays.add_strings(d.name + "_name", *d.names);
+  for (const NodeGroups& n : node_groups(m)) text += arrays.add_strings(n.name + "_name", n.group_name);
   return text + "</FieldData>\n";
 }
 
@@ -83,8 +85,11 @@ void export_vtu(Output& out, const SurfaceMesh& m) {
   out.text("<CellData>\n" + arrays.add("Int32", "face", 1, face) + arrays.add("Int32", "group", 1, group));
   for (const FaceNumbers& d : face_numbers(m)) out.text(arrays.add("Int32", d.name, 1, numbers.emplace_back(triangle_numbers(m, d))));
   out.text("</CellData>\n");
-  out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) + arrays.add("Int32", "entity_id", 1, entity) +
-           arrays.add("Float64", "size", 1, m.node_size) + "</PointData>\n");
+  out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) +
+           arrays.add("Int32", "entity_id", 1, entity) + arrays.add("Float64", "size", 1, m.node_size));
+  for (NodeGroups& n : node_groups(m))
+    out.text(arrays.add("Int32", n.name, 1, numbers.emplace_back(std::move(n.of_node))));
+  out.text("</PointData>\n");
   out.text("</Piece>\n</UnstructuredGrid>\n");
   arrays.write(out);
   out.text("</VTKFile>\n");

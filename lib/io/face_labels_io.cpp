@@ -1,6 +1,7 @@
 #include "io/face_labels_io.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "io/artifact_checks.h"
 
@@ -47,6 +48,44 @@ std::vector<GroupTable> read_tables(const Hdf5Reader& r, std::size_t n_faces) {
   return tables;
 }
 
+/// Groups of edges or vertices behind one another, under `path` ("/st/edge_group"); none: nothing.
+void write_entity_groups(Hdf5Writer& w, const std::string& path, const std::vector<EntityGroup>& groups) {
+  if (groups.empty()) return;
+  std::vector<std::string> name, table, attributes;
+  std::vector<std::int32_t> offsets = {0}, ids;
+  for (const EntityGroup& g : groups) {
+    name.push_back(g.name);
+    table.push_back(g.table);
+    attributes.push_back(g.attributes);
+    ids.insert(ids.end(), g.ids.begin(), g.ids.end());
+    offsets.push_back(static_cast<std::int32_t>(ids.size()));
+  }
+  w.write_strings(path + "/name", name);
+  w.write_strings(path + "/table", table);
+  w.write_strings(path + "/attributes", attributes);
+  w.write(path + "/offsets", offsets);
+  w.write(path + "/ids", ids);
+}
+
+std::vector<EntityGroup> read_entity_groups(const Hdf5Reader& r, const std::string& path) {
+  std::vector<EntityGroup> groups;
+  if (!r.has(path + "/name")) return groups;
+  const std::vector<std::string> name = r.read_strings(path + "/name"),
+                                 table = r.read_string_rows(path + "/table", name.size()),
+                                 attributes = r.read_string_rows(path + "/attributes", name.size());
+  const std::vector<std::int32_t> ids = r.read<std::int32_t>(path + "/ids"),
+                                  offsets = r.read_rows<std::int32_t>(path + "/offsets", name.size() + 1);
+  require_offsets(r, path + "/offsets", offsets, ids.size());
+  for (std::size_t g = 0; g < name.size(); ++g) {
+    groups.push_back({name[g], table[g], attributes[g], {ids.begin() + offsets[g], ids.begin() + offsets[g + 1]}});
+    const auto& own = groups.back().ids;
+    if (own.empty() || own.front() < 0 ||
+        std::adjacent_find(own.begin(), own.end(), std::greater_equal<>()) != own.end())
+      r.fail(path + "/ids", "are not those of a group: none, or not ascending");
+  }
+  return groups;
+}
+
 }  // namespace
 
 void write_labels(Hdf5Writer& w, const FaceLabels& labels) {
@@ -58,6 +97,8 @@ void write_labels(Hdf5Writer& w, const FaceLabels& labels) {
     w.write("/st/face/part", labels.face_part);
   }
   if (!labels.tables.empty()) write_tables(w, labels.tables);
+  write_entity_groups(w, "/st/edge_group", labels.edge_groups);
+  write_entity_groups(w, "/st/vertex_group", labels.vertex_groups);
 }
 
 FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces, std::size_t n_groups) {
@@ -70,6 +111,8 @@ FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces, std::size_t n_g
     require_ids(r, "/st/face/part", labels.face_part, labels.part_name.size(), kNone);
   }
   if (r.has("/st/table/name")) labels.tables = read_tables(r, n_faces);
+  labels.edge_groups = read_entity_groups(r, "/st/edge_group");
+  labels.vertex_groups = read_entity_groups(r, "/st/vertex_group");
   return labels;
 }
 

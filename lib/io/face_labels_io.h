@@ -6,7 +6,8 @@
 
 namespace st {
 
-/// Datasets /st/group/attributes, /st/part/*, /st/face/part, /st/table/*: docs/artifacts.md. What is empty is left out.
+/// Datasets /st/group/attributes, /st/part/*, /st/face/part, /st/table/*, /st/edge_group/*, /st/vertex_group/*:
+/// docs/artifacts.md. What is empty is left out.
 void write_labels(Hdf5Writer& w, const FaceLabels& labels);
 
 /// Empty where the artifact holds none. Throws Error(kInput) for numbers that do not fit.

@@ -105,6 +105,9 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
   t.face_group = r.read_rows<std::int32_t>("/st/face/group", n);
   require_ids(r, "/st/face/group", t.face_group, t.group_name.size());
   t.labels = read_labels(r, n, t.group_name.size());
+  for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
+  for (const EntityGroup& g : t.labels.vertex_groups)
+    require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());
   t.n_shells = static_cast<std::int32_t>(r.int_attribute("/st", "n_shells"));
   t.n_solids = static_cast<std::int32_t>(r.int_attribute("/st", "n_solids"));
   t.face_shell = r.read_rows<std::int32_t>("/st/face/shell", n);

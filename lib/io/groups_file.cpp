@@ -12,10 +12,23 @@
 namespace st {
 namespace {
 
-constexpr const char* kKeys =
-    "name, table, faces, parts, paths, layers, groups, colors, surfaces, inside, touching, role, tolerance, attributes, optional";
+using Words = std::vector<std::string>;
 
-std::string joined(const std::vector<std::string>& words) {
+/// Values of `of`, in the order of EntityDim.
+const Words kKinds = {"vertices", "edges", "faces"};
+
+/// Keys of a group of each kind, in that order.
+const Words kKeys[] = {
+    {"name", "of", "table", "vertices", "on", "inside", "touching", "attributes", "optional"},
+    {"name", "of", "table", "edges", "between", "rim", "on", "inside", "touching", "attributes", "optional"},
+    {"name", "of", "table", "faces", "parts", "paths", "layers", "groups", "colors", "surfaces", "inside", "touching",
+     "role", "tolerance", "attributes", "optional"}};
+
+bool contains(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string joined(const Words& words) {
   std::string text;
   for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
   return text;
@@ -27,15 +40,38 @@ class EntryReader : TomlEntry {
   EntryReader(const std::string& path, const toml::table& table) : TomlEntry(path, table) { rule_.where = where(); }
 
   GroupRule run() {
-    for (const auto& [key, node] : table()) read(std::string(key.str()), node);
+    if (const toml::node* of = table().get("of")) read_kind(*of);
+    for (const auto& [key, node] : table()) {
+      require_key(std::string(key.str()), node);
+      read(std::string(key.str()), node);
+    }
     if (rule_.name.empty()) fail(table(), "name: is missing; every [[group]] has a name");
     return std::move(rule_);
   }
 
  private:
+  void read_kind(const toml::node& node) {
+    const std::string word = one_of("of", node, kKinds);
+    rule_.of = static_cast<EntityDim>(std::find(kKinds.begin(), kKinds.end(), word) - kKinds.begin());
+  }
+
+  /// Each kind of group has keys of its own.
+  void require_key(const std::string& key, const toml::node& node) const {
+    const auto own = static_cast<std::size_t>(rule_.of);
+    if (contains(kKeys[own], key)) return;
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
+      if (contains(kKeys[kind], key))
+        fail(node, key + ": is no key of a group of " + kKinds[own] + " but of " + kKinds[kind] + "; allowed are " +
+                       joined(kKeys[own]) + "; of = \"edges\" or \"vertices\" makes a group of these");
+    fail(node, "unknown key '" + key + "' of a [[group]]; allowed are " + joined(kKeys[own]));
+  }
+
   void read(const std::string& key, const toml::node& node) {
     if (std::vector<std::string>* list = names_of(key)) {
-      *list = names(key, node, key == "faces" ? "a number, a range \"3-7\"," : "");
+      const bool has_numbers = contains(kKinds, key);
+      *list = names(key, node, has_numbers ? "a number, a range \"3-7\"," : "");
+      if (key == "between" && list->size() != 2)
+        fail(node, "between: takes two names of groups, such as [\"WING*\", \"BODY\"]");
     } else if (key == "name") {
       read_name(node);
     } else if (key == "table") {
@@ -55,18 +91,17 @@ class EntryReader : TomlEntry {
     } else if (key == "optional") {
       if (!node.is_boolean()) fail(node, "optional: takes true or false");
       rule_.is_optional = node.as_boolean()->get();
-    } else {
-      fail(node, "unknown key '" + key + "' of a [[group]]; allowed are " + kKeys);
     }
   }
 
   std::vector<std::string>* names_of(const std::string& key) {
-    return key == "faces"    ? &rule_.faces
-           : key == "parts"  ? &rule_.parts
-           : key == "paths"  ? &rule_.paths
-           : key == "layers" ? &rule_.layers
-           : key == "groups" ? &rule_.groups
-                             : nullptr;
+    const std::pair<const char*, std::vector<std::string>*> lists[] = {
+        {"faces", &rule_.faces},   {"parts", &rule_.parts}, {"paths", &rule_.paths},       {"layers", &rule_.layers},
+        {"groups", &rule_.groups}, {"edges", &rule_.edges}, {"vertices", &rule_.vertices}, {"between", &rule_.between},
+        {"rim", &rule_.rim},       {"on", &rule_.on}};
+    for (const auto& [name, list] : lists)
+      if (key == name) return list;
+    return nullptr;
   }
 
   std::string text(const std::string& key, const toml::node& node) const {

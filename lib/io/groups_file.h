@@ -1,4 +1,4 @@
-// Groups of faces, as TOML.
+// Groups of faces, edges and vertices, as TOML.
 #pragma once
 
 #include <string>

@@ -7,6 +7,7 @@
 #include "io/face_labels_io.h"
 #include "io/face_numbers.h"
 #include "io/merged_features.h"
+#include "mesh/edge_segments.h"
 
 namespace st {
 namespace {
@@ -53,6 +54,10 @@ void write_vtk(Hdf5Writer& w, const SurfaceMesh& m) {
     w.write("/VTKHDF/PointData/previous_id", m.node_previous);
   }
   for (const FaceNumbers& n : face_numbers(m)) w.write("/VTKHDF/CellData/" + n.name, triangle_numbers(m, n));
+  for (const NodeGroups& n : node_groups(m)) {
+    w.write("/VTKHDF/PointData/" + n.name, n.of_node);
+    w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", n.group_name);
+  }
   if (!m.face_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.face_name);  // VTK complains of empty ones
   if (!m.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.group_name);
   for (const FaceNumbers& n : face_numbers(m)) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
@@ -95,6 +100,10 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   if (!m.group_role.empty()) w.write_strings("/st/group/role", m.group_role);
   write_labels(w, m.labels);
   w.write("/st/node/t", m.node_t);
+  if (!m.segment_edge.empty()) {
+    w.write("/st/segment/nodes", m.segment_nodes, 2);
+    w.write("/st/segment/edge", m.segment_edge);
+  }
   w.write("/st/triangle/corner_uv", m.corner_uv);
   write_merged(w, m.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
@@ -123,6 +132,12 @@ MeshArtifact read_mesh(const std::string& path) {
   require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.face_name.size());
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));
   require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.group_name.size());
+  if (r.has("/st/segment/edge")) {
+    m.segment_edge = r.read<std::int32_t>("/st/segment/edge");
+    m.segment_nodes = r.read_rows<std::int32_t>("/st/segment/nodes", m.segment_edge.size(), 2);
+    require_ids(r, "/st/segment/nodes", m.segment_nodes, n_nodes);
+  }
+  for (const NodeGroups& n : node_groups(m)) r.verify("/VTKHDF/PointData/" + n.name);
   m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());
   m.merged = read_merged(r, kAnyEdge, m.face_name.size());
   if (r.has("/VTKHDF/PointData/previous_id")) {

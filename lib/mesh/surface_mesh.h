@@ -16,9 +16,6 @@ struct Triangle {
   NodeId n[3];
 };
 
-/// What a node or patch node lies on.
-enum class EntityDim : std::uint8_t { kVertex = 0, kEdge = 1, kFace = 2 };
-
 /// Nodes on the CAD edges: made once, used by every face. Node i of edge e is edge_node_* [edge_offsets[e] + i]; the first and the
 /// last lie on the edge's vertices (edge_vertices[2e], [2e+1]). A degenerate edge, and an edge not meshed, has no nodes.
 struct EdgeMesh {
@@ -80,7 +77,9 @@ struct SurfaceMesh {
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
   std::vector<std::string> group_role;       ///< [n_groups], or empty: those of the names
-  FaceLabels labels;                         ///< parts and further tables of groups
+  FaceLabels labels;                         ///< parts, further tables of groups, groups of edges and vertices
+  std::vector<NodeId> segment_nodes;  ///< [2*n_segments] of the edges in groups only: by edge, along it from its t_min
+  std::vector<EdgeId> segment_edge;   ///< [n_segments]
   MergedFeatures merged;
   std::vector<NodeId> node_previous;          ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone: new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]

@@ -49,10 +49,11 @@ class Marker {
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 
-  /// Segments of kept faces stay, and those of merged strips, which share nodes.
+  /// Segments of kept faces and edges stay, and those of merged strips, which share nodes.
   std::vector<char> free_edges() const {
     const ModelTables& t = cad_.tables;
     std::vector<char> is_free(t.n_edges(), 1);
+    for (std::size_t e = 0; e < options_.keep_edge.size(); ++e) is_free[e] = !options_.keep_edge[e];
     for (const auto& strip : {mesh_.merged.strip_kept, mesh_.merged.strip_closed})
       for (EdgeId e : strip) is_free[e] = 0;
     for (FaceId f = 0; f < t.n_faces(); ++f)

@@ -15,6 +15,7 @@ struct HoleMarkOptions {
   double change = 0.1;               ///< relative: where the request changed by less, edges are good whatever their length
   int layers = 2;                    ///< triangles around a marked one that are marked with it, >= 1
   std::vector<char> keep_face = {};  ///< [n_faces] 1: nothing of it changes; empty: none
+  std::vector<char> keep_edge = {};  ///< [n_edges] 1: its segments stay; empty: none
   std::span<const Vec3> earlier_xyz =
       {};                             ///< empty, or [n_nodes] before the geometry moved: edges that it made longer or shorter count, too
   std::vector<TriangleId> redo = {};  ///< marked whatever their edges, unless kept

@@ -118,7 +118,8 @@ HoleMesh::StripNodes HoleMesh::closed_strip_nodes(const std::vector<NodeId>& fir
     nodes.t.push_back(tables.edge_range[2 * kept + 1]);
     nodes.x.resize(nodes.t.size());
     nodes.h.resize(nodes.t.size());
-    const CurveNodes mirrored = mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), merged.strip_is_opposed[s], 0);
+    const CurveNodes mirrored =
+        mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), merged.strip_is_opposed[s], {});
     NodeId own = first_on_edge[closed];
     auto& on_closed = result[closed];
     for (std::size_t k = 1; k + 1 < mirrored.t.size(); ++k) {

@@ -168,7 +168,8 @@ class Mover {
     nodes.t.push_back(t_.edge_range[2 * kept + 1]);
     nodes.x.resize(nodes.t.size());
     nodes.h.resize(nodes.t.size());
-    const CurveNodes mirrored = mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), merged.strip_is_opposed[strip], 0);
+    const CurveNodes mirrored =
+        mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), merged.strip_is_opposed[strip], {});
     std::size_t last = 0;
     for (std::size_t own = own_begin; own < own_end; ++own) {
       std::size_t partner = begin;

@@ -59,6 +59,7 @@ ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector
 /// Collective.
 void ModelMesher::find_small_features(const MergedFeatures* given) {
   const ModelTables& t = model_.tables();
+  face_tolerance_ = face_tolerances(t.group_names());
   if (given) {
     merged = *given;
   } else {
@@ -118,6 +119,7 @@ void ModelMesher::run_from(EdgeMesh old_edges, std::vector<FacePatch> old_patche
   std::vector<EdgeId> dirty;
   for (EdgeId e = 0; e < tables_.n_edges(); ++e) {
     bool all = !tables_.edge_is_degenerate[e] && offsets[e + 1] > offsets[e];
+    if (!options_.keep_edge.empty()) all = all && !options_.keep_edge[e];
     for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && redo[faces[i]];
     if (all) dirty.push_back(e);
   }
@@ -260,7 +262,9 @@ Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
 void ModelMesher::add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const {
   const std::int32_t strip = strip_of_kept_[kept];
   const EdgeId closed = merged.strip_closed[strip];
-  CurveNodes mirrored = mirror_nodes(curve, nodes, *model_.curve(closed), merged.strip_is_opposed[strip], options_.merge_below);
+  const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[merged.strip_face[strip]];
+  CurveNodes mirrored = mirror_nodes(curve, nodes, *model_.curve(closed), merged.strip_is_opposed[strip],
+                                     {options_.merge_below, tolerance});
   mirrored.x.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed]];
   mirrored.x.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed + 1]];
   pack(packer, closed, mirrored);

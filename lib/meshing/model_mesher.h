@@ -24,8 +24,9 @@ struct ModelMesherOptions {
   int max_rounds = 6;               ///< refinements of loops, folds and narrow parts
   int max_crossing_rounds = 8;      ///< refinements of crossing facets
   int max_promising_rounds = 14;    ///< likewise where few are left, or ever fewer
-  double merge_below = 0.05;        ///< of the requested length: shorter edges and narrower strips are merged for meshing; 0: none
+  double merge_below = 0.05;        ///< of the requested length, see find_merged_features(); 0: nothing is merged
   const MergedFeatures* merged = nullptr;   ///< of an earlier mesh: taken over instead of looking for them
+  std::vector<char> keep_edge = {};         ///< [n_edges] 1: run_from() leaves its nodes; empty: none
 };
 
 /// Where the time went, seconds on rank 0.
@@ -43,8 +44,8 @@ class ModelMesher {
   void run();
   /// Collective. Meshes `faces` only (ascending), on the given nodes where `fixed` has nodes of an edge (it may be empty): parts meshed apart fit.
   void run_part(const std::vector<FaceId>& faces, EdgeMesh fixed);
-  /// Collective. Keeps the given nodes of every edge and the patches of faces not in `faces_to_redo` (on rank 0); edges of which all faces are redone
-  /// get new nodes.
+  /// Collective. Keeps the given nodes of every edge and the patches of faces not in `faces_to_redo` (on rank 0); edges
+  /// of which all faces are redone get new nodes, unless `keep_edge` has them.
   void run_from(EdgeMesh edges, std::vector<FacePatch> patches, const std::vector<FaceId>& faces_to_redo);
 
   // results, complete on rank 0 only (edges on every rank)
@@ -94,6 +95,7 @@ class ModelMesher {
   const SizeField& field_;
   ModelTables tables_;                       // the model's, with merged edges
   std::vector<std::int32_t> strip_of_kept_, kept_of_closed_;   // [n_edges], kNone where none
+  std::vector<double> face_tolerance_;                         // [n_faces] of their groups, or empty
   std::optional<BoundaryNumbering> numbering_;                 // of the present edges
   std::vector<double> face_weight_;
   ModelMesherOptions options_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@
 namespace st {
 namespace {
 
+constexpr double kLargestMerge =
+    0.5;  // of the requested length: what the mesh can show is not merged, whatever the tolerance
 constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to another between the same vertices is no ring with it
 
 class VertexSets {
@@ -28,11 +31,25 @@ class VertexSets {
   std::vector<VertexId> parent_;
 };
 
+/// Limits of merging for each face, by its group's tolerance.
+std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
+  const std::vector<double> tolerances = face_tolerances(t.group_names());
+  std::vector<MergeLimit> limits(t.n_faces(), {below, 0});
+  for (std::size_t f = 0; f < tolerances.size(); ++f) limits[f].tolerance = tolerances[f];
+  return limits;
+}
+
 /// Draws short edges together, the shortest first.
 class EdgeMerger {
  public:
-  EdgeMerger(const Model& model, const SizeField& field, double below)
-      : model_(model), t_(model.tables()), field_(field), below_(below), sets_(t_.n_vertices()) {
+  EdgeMerger(const Model& model, const SizeField& field, const std::vector<MergeLimit>& face_limit, double below)
+      : model_(model),
+        t_(model.tables()),
+        field_(field),
+        face_limit_(face_limit),
+        below_(below),
+        sets_(t_.n_vertices()) {
+    t_.edge_faces(face_offsets_, faces_);
     is_merged_.assign(t_.n_edges(), 0);
     cluster_.resize(t_.n_vertices());
     for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
@@ -42,7 +59,8 @@ class EdgeMerger {
   std::vector<EdgeId> run() {
     std::vector<EdgeId> candidates;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (!t_.edge_is_degenerate[e] && t_.edge_length[e] < below_ * field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_))
+      if (!t_.edge_is_degenerate[e] &&
+          t_.edge_length[e] < limit_of(e, field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_)))
         candidates.push_back(e);
     std::stable_sort(candidates.begin(), candidates.end(), [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
     for (const EdgeId e : candidates)
@@ -54,6 +72,15 @@ class EdgeMerger {
   }
 
  private:
+  /// The smallest of its faces.
+  double limit_of(EdgeId e, double size) const {
+    if (face_offsets_[e] == face_offsets_[e + 1]) return below_ * size;
+    double limit = std::numeric_limits<double>::infinity();
+    for (std::int32_t i = face_offsets_[e]; i < face_offsets_[e + 1]; ++i)
+      limit = std::min(limit, face_limit_[faces_[i]].at(size));
+    return limit;
+  }
+
   void edge_loops() {
     loops_.resize(t_.n_edges());
     n_long_.assign(t_.n_loops(), 0);
@@ -77,7 +104,7 @@ class EdgeMerger {
     }
     Box3 both = cluster_[a];
     both.add(cluster_[b]);
-    const double limit = below_ * field_.size(both.center(), hint_);
+    const double limit = limit_of(e, field_.size(both.center(), hint_));
     const std::vector<EdgeId> edges = short_edges_between(a, b, e, 3 * limit);
     const bool are_one = std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k) || coincide(e, k); });
     if (both.diagonal() > limit || !are_one || !leave_out(edges)) return;
@@ -130,7 +157,10 @@ class EdgeMerger {
   const Model& model_;
   const ModelTables& t_;
   const SizeField& field_;
+  const std::vector<MergeLimit>& face_limit_;
   double below_;
+  std::vector<std::int32_t> face_offsets_;  // faces of each edge
+  std::vector<FaceId> faces_;
   int hint_ = 0;
   VertexSets sets_;
   std::vector<Box3> cluster_;               // of each set, at its root
@@ -194,8 +224,9 @@ void require_ids(const std::vector<std::int32_t>& ids, std::int32_t n, const cha
                   std::string("merged ") + what + " " + std::to_string(id + 1) + " is not in the geometry; mesh the model again");
 }
 
-/// Strips narrower than `below` of the size somewhere, and than the size on the mean; by face.
-std::vector<Strip> narrow_strips(const Model& model, const SizeField& field, double below) {
+/// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
+std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
+                                 const std::vector<MergeLimit>& face_limit) {
   std::vector<Strip> strips = find_strips(model);
   int hint = 0;
   std::erase_if(strips, [&](const Strip& strip) {
@@ -203,7 +234,7 @@ std::vector<Strip> narrow_strips(const Model& model, const SizeField& field, dou
     double width = 0, length = 0;  // sums over the stations
     for (const Strip::Station& s : strip.stations) {
       const double h = field.size(s.x, hint);
-      is_narrow |= s.width < below * h;
+      is_narrow |= s.width < face_limit[strip.face].at(h);
       width += s.width;
       length += h;
     }
@@ -214,13 +245,18 @@ std::vector<Strip> narrow_strips(const Model& model, const SizeField& field, dou
 
 }  // namespace
 
+double MergeLimit::at(double size) const {
+  return tolerance > 0 ? std::min(tolerance, kLargestMerge * size) : below * size;
+}
+
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
   MergedFeatures merged;
   if (!(below > 0)) return merged;
   const ModelTables& t = model.tables();
-  merged.edge = EdgeMerger(model, field, below).run();
+  const std::vector<MergeLimit> face_limit = face_limits(t, below);
+  merged.edge = EdgeMerger(model, field, face_limit, below).run();
   StripMerger merger(t, merged.edge);
-  const std::vector<Strip> strips = narrow_strips(model, field, below);
+  const std::vector<Strip> strips = narrow_strips(model, field, face_limit);
   for (const Strip& strip : strips) {
     if (!merger.may_close(strip, strips)) continue;
     merged.strip_face.push_back(strip.face);
@@ -246,7 +282,8 @@ ModelTables with_merged_edges(const ModelTables& tables, const MergedFeatures& m
   return t;
 }
 
-CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed, double below) {
+CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,
+                        const MergeLimit& limit) {
   const ArcTable a(kept), b(closed);
   const std::size_t n = nodes.t.size();
   CurveNodes result;
@@ -256,7 +293,7 @@ CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve&
     const double own = is_opposed && k > 0 && k + 1 < n ? 1 - share : share;
     result.t.push_back(k == 0 ? closed.t_min() : k + 1 == n ? closed.t_max() : b.parameter_at(own));
     const Vec3 x = closed.point(result.t.back());
-    result.x.push_back(distance(x, nodes.x[i]) < below * nodes.h[i] ? nodes.x[i] : x);
+    result.x.push_back(distance(x, nodes.x[i]) < limit.at(nodes.h[i]) ? nodes.x[i] : x);
     result.h.push_back(nodes.h[i]);
   }
   return result;

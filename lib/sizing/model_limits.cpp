@@ -41,6 +41,9 @@ class LimitsMaker {
     for (std::size_t r = 0; r < rules_.size(); ++r)
       for (const EdgeId e : targets_[r].edges)
         if (!t_.edge_is_degenerate[e]) change(rules_[r], edge_[e]);
+    vertex_.resize(t_.n_vertices());
+    for (std::size_t r = 0; r < rules_.size(); ++r)
+      for (const VertexId v : targets_[r].vertices) change(rules_[r], vertex_[v]);
     return finish();
   }
 
@@ -93,7 +96,7 @@ class LimitsMaker {
     ModelLimits limits;
     limits.far_length = wall_.max_length;
     limits.min_length = wall_.min_length;
-    for (const std::vector<Limits>* all : {&face_.surface, &edge_})
+    for (const std::vector<Limits>* all : {&face_.surface, &edge_, &vertex_})
       for (const Limits& own : *all) {
         if (!own) continue;
         limits.far_length = std::max(limits.far_length, own->max_length);
@@ -105,6 +108,7 @@ class LimitsMaker {
     limits.far.max_length = limits.far_length;
     limits.face = std::move(face_.surface);
     limits.edge = std::move(edge_);
+    limits.vertex = std::move(vertex_);
     return limits;
   }
 
@@ -114,7 +118,7 @@ class LimitsMaker {
   const std::vector<SizeRule>& rules_;
   std::vector<RuleTargets> targets_;
   FaceLimits face_;
-  std::vector<Limits> edge_;
+  std::vector<Limits> edge_, vertex_;
 };
 
 }  // namespace

@@ -21,6 +21,8 @@ namespace st {
 struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
   std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
+  std::vector<std::optional<SamplingLimits>>
+      vertex;  ///< [n_vertices] its max_length is asked for there; nullopt: no rule names it
   SamplingLimits far;                               ///< the walls' limits with max_length = far_length: for what is not sampled but traced
   double min_length = 0;                            ///< smallest min_length of all
   bool wants_gaps = false;                          ///< some face has gap_cells

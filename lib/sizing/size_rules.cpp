@@ -32,20 +32,30 @@ std::optional<std::int64_t> as_id(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(id) : std::nullopt;
 }
 
+/// What an item of a rule may name, besides numbers.
+struct Named {
+  const char* key;
+  const std::vector<std::string>& names;  ///< of each entity
+  const std::vector<EntityGroup>& groups;
+};
+
 /// Ids of entities named by number or pattern.
-std::vector<std::int32_t> select(const SizeRule& rule, const char* key, const std::vector<std::string>& wanted,
-                                 const std::vector<std::string>& names, std::int32_t n) {
+std::vector<std::int32_t> select(const SizeRule& rule, const std::vector<std::string>& wanted, const Named& all) {
+  const std::size_t n = all.names.size();
   std::vector<std::int32_t> result;
   for (const std::string& item : wanted) {
     const std::size_t n_before = result.size();
     if (const auto id = as_id(item)) {
-      if (*id < 1 || *id > n) fail(rule, text_of(key, ": ", *id, " does not exist, there are ", n));
+      if (*id < 1 || *id > static_cast<std::int64_t>(n))
+        fail(rule, text_of(all.key, ": ", *id, " does not exist, there are ", n));
       result.push_back(static_cast<std::int32_t>(*id - 1));
     } else {
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (!names[i].empty() && matches(item, names[i])) result.push_back(static_cast<std::int32_t>(i));
+      for (std::size_t i = 0; i < n; ++i)
+        if (!all.names[i].empty() && matches(item, all.names[i])) result.push_back(static_cast<std::int32_t>(i));
+      const std::vector<std::int32_t> members = find_members(item, all.groups);
+      result.insert(result.end(), members.begin(), members.end());
     }
-    if (result.size() == n_before) fail(rule, text_of(key, ": '", item, "' matches nothing"));
+    if (result.size() == n_before) fail(rule, text_of(all.key, ": '", item, "' matches nothing"));
   }
   return result;
 }
@@ -53,28 +63,31 @@ std::vector<std::int32_t> select(const SizeRule& rule, const char* key, const st
 /// [n_faces] 1 where the face's group matches.
 std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key, const std::string& pattern, const ModelTables& t) {
   std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
-  if (is_in.empty()) fail(rule, text_of(key, ": no group or part matches '", pattern, "'"));
+  if (is_in.empty())
+    fail(rule, text_of(key, ": no group of faces or part matches '", pattern, "'", say_other_kind(pattern, t.labels)));
   return is_in;
 }
 
 std::vector<EdgeId> edges_between(const SizeRule& rule, const ModelTables& t) {
   const auto a = faces_of_groups(rule, "between", rule.between[0], t), b = faces_of_groups(rule, "between", rule.between[1], t);
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
-  const auto separates = [&](FaceId f, FaceId g) {
-    return a[f] && b[g] && (t.face_group[f] != t.face_group[g] || (!b[f] && !a[g]));
-  };
-  std::vector<EdgeId> result;
-  for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    bool is_between = false;
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
-      for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-        is_between = is_between || (i != k && separates(faces[i], faces[k]));
-    if (is_between) result.push_back(e);
-  }
+  std::vector<EdgeId> result = st::edges_between(a, b, t);
   if (result.empty()) fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));
   return result;
+}
+
+/// What the groups of a name hold: faces, edges and vertices, of parts faces.
+void add_groups(const SizeRule& rule, const ModelTables& t, RuleTargets& targets) {
+  for (const std::string& pattern : rule.groups) {
+    const std::vector<EdgeId> edges = find_members(pattern, t.labels.edge_groups);
+    const std::vector<VertexId> vertices = find_members(pattern, t.labels.vertex_groups);
+    targets.edges.insert(targets.edges.end(), edges.begin(), edges.end());
+    targets.vertices.insert(targets.vertices.end(), vertices.begin(), vertices.end());
+    const std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
+    if (is_in.empty() && edges.empty() && vertices.empty())
+      fail(rule, text_of("groups: no group or part matches '", pattern, "'"));
+    for (std::size_t f = 0; f < is_in.size(); ++f)
+      if (is_in[f]) targets.faces.push_back(static_cast<FaceId>(f));
+  }
 }
 
 std::vector<EdgeId> detected_edges(const SizeRule& rule, std::span<const WingEdge> wing_edges) {
@@ -104,13 +117,9 @@ bool add_detected(const std::string& word, SizeRule& rule) {
 
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
   RuleTargets targets;
-  targets.faces = select(rule, "faces", rule.faces, t.face_name, t.n_faces());
-  for (const std::string& pattern : rule.groups) {
-    const auto is_in = faces_of_groups(rule, "groups", pattern, t);
-    for (FaceId f = 0; f < t.n_faces(); ++f)
-      if (is_in[f]) targets.faces.push_back(f);
-  }
-  targets.edges = select(rule, "edges", rule.edges, t.edge_name, t.n_edges());
+  targets.faces = select(rule, rule.faces, {"faces", t.face_name, {}});
+  targets.edges = select(rule, rule.edges, {"edges", t.edge_name, t.labels.edge_groups});
+  add_groups(rule, t, targets);
   if (!rule.between.empty()) {
     const std::vector<EdgeId> between = edges_between(rule, t);
     targets.edges.insert(targets.edges.end(), between.begin(), between.end());
@@ -121,6 +130,7 @@ RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<c
   }
   sort_unique(targets.faces);
   sort_unique(targets.edges);
+  sort_unique(targets.vertices);
   return targets;
 }
 

@@ -16,8 +16,8 @@ namespace st {
 /// One rule. A rule without selection speaks of the whole model; one with several selections of all that any of them meets.
 struct SizeRule {
   std::string where;                      ///< for messages: "sizes.toml:12"
-  std::vector<std::string> groups;        ///< glob patterns on group names
-  std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names
+  std::vector<std::string> groups;  ///< glob patterns on names of groups of faces, edges or vertices, and of parts
+  std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names; of edges also of their groups
   std::vector<std::string> between;       ///< two glob patterns: the edges between a face of a group of the first and one of the second
   std::vector<WingEdgeKind> detected;     ///< edges that detection gives these kinds
   bool for_surfaces = true;               ///< the insides of the faces selected
@@ -38,6 +38,7 @@ bool add_detected(const std::string& word, SizeRule& rule);
 struct RuleTargets {
   std::vector<FaceId> faces;
   std::vector<EdgeId> edges;  ///< named as edges, not as edges of faces
+  std::vector<VertexId> vertices;
 };
 
 /// `wing_edges`: what detection found, where any rule needs it. Throws Error(kUsage) naming the rule for a selection that meets nothing or

@@ -105,12 +105,17 @@ double cad_tolerance(const ModelTables& tables, FaceId f) {
   return tolerance;
 }
 
-/// Faces with a node off the surface by more than the CAD's own tolerances there explain.
-Check check_on_surface(const ModelTables& tables, const ChordError& chords) {
+/// Tolerance that the groups of a face give it, 0: none.
+double group_tolerance(const std::vector<double>& of_face, FaceId f) { return of_face.empty() ? 0 : of_face[f]; }
+
+/// Faces with a node off the surface by more than the CAD's own tolerances there explain; those with a tolerance of
+/// their own are judged by it instead.
+Check check_on_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
   Check c{"on-surface", "faces with nodes off the surface by more than twice the CAD's tolerance", {}, false, ""};
   const double rounding = 1e-9 * tables.box().diagonal();
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
+    if (group_tolerance(of_group, f) > 0) continue;
     if (chords.node_distance[f] > 2 * cad_tolerance(tables, f) + rounding) c.defects.add({chords.node_place[f], f, kNone});
     if (worst == kNone || chords.node_distance[f] > chords.node_distance[worst]) worst = f;
   }
@@ -119,11 +124,34 @@ Check check_on_surface(const ModelTables& tables, const ChordError& chords) {
   return c;
 }
 
+/// Likewise the faces whose groups have a tolerance: sewing and merging may each take it once.
+Check check_group_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
+  Check c{"group-tolerance",
+          "faces with nodes off the surface by more than twice the tolerance of their group",
+          {},
+          true,
+          ""};
+  const double rounding = 1e-9 * tables.box().diagonal();
+  FaceId worst = kNone;
+  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+    const double tolerance = group_tolerance(of_group, f);
+    if (!(tolerance > 0)) continue;
+    if (chords.node_distance[f] > 2 * tolerance + rounding) c.defects.add({chords.node_place[f], f, kNone});
+    if (worst == kNone || chords.node_distance[f] / tolerance > chords.node_distance[worst] / of_group[worst])
+      worst = f;
+  }
+  if (worst != kNone)
+    c.note = fmt::format("largest distance {:.3g} (tolerance of its group {:.3g})", chords.node_distance[worst],
+                         of_group[worst]);
+  return c;
+}
+
 /// Faces with a node so far off that it cannot belong there: a wrong face id, a misplaced node.
-Check check_off_surface(const ModelTables& tables, const ChordError& chords) {
+Check check_off_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
   Check c{"off-surface", fmt::format("faces with nodes off the surface by more than {} of their length", kOffSurface), {}, true, ""};
   for (FaceId f = 0; f < tables.n_faces(); ++f)
-    if (chords.off_surface[f] > 2 * cad_tolerance(tables, f)) c.defects.add({chords.off_place[f], f, kNone});
+    if (chords.off_surface[f] > 2 * std::max(cad_tolerance(tables, f), group_tolerance(of_group, f)))
+      c.defects.add({chords.off_place[f], f, kNone});
   return c;
 }
 
@@ -232,8 +260,10 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
   f.checks.push_back(check_cad_volume(mesh, f.topology, f.measure, cad.model.tables(), *f.chords));
-  f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords));
-  f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords));
+  const std::vector<double> of_group = face_tolerances(cad.model.tables().group_names());
+  f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords, of_group));
+  if (!of_group.empty()) f.checks.push_back(check_group_tolerance(cad.model.tables(), *f.chords, of_group));
+  f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, of_group));
 }
 
 // --- thresholds --------------------------------------------------------------------------------------------------------------------------
@@ -304,9 +334,18 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
   if (!asked.max_deviation.empty()) {
     const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"), tables.reference_diagonal(), tables.unit_in_m,
                                         "--max-deviation");
-    Check c{"max-deviation", fmt::format("faces with a triangle's middle off the surface by more than {:.6g}", bound), {}, true, ""};
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      if (faces[i].max_distance > bound) c.defects.add({faces[i].distance_place, static_cast<FaceId>(i), kNone});
+    const std::vector<double> of_group = face_tolerances(tables.group_names());
+    const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
+    Check c{"max-deviation",
+            fmt::format("faces with a triangle's middle off the surface by more than {:.6g}{}", bound, own),
+            {},
+            true,
+            ""};
+    for (FaceId i = 0; i < static_cast<FaceId>(faces.size()); ++i) {
+      const double tolerance = group_tolerance(of_group, i);
+      if (faces[i].max_distance > (tolerance > 0 ? tolerance : bound))
+        c.defects.add({faces[i].distance_place, i, kNone});
+    }
     f.checks.push_back(c);
   }
   if (!asked.max_normal_deviation_deg) return;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -21,6 +22,7 @@ struct Identity {
   std::vector<std::int32_t> face_group;
   FaceLabels labels;
   std::vector<std::string> face_color, face_layer, face_surface;  ///< of a geometry alone: "#rrggbb" or empty, names
+  std::vector<std::string> edge_name = {};                        ///< likewise
 };
 
 std::vector<std::string> color_texts(const std::vector<std::int32_t>& colors) {
@@ -39,8 +41,9 @@ Identity identity_of(const std::string& path) {
   const std::string schema = read_header(path).schema;
   if (schema == "geometry") {
     ModelTables t = read_geometry(path).tables;
-    return {std::move(t.face_name), std::move(t.group_name),   std::move(t.group_role), std::move(t.face_group),
-            std::move(t.labels),    color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type)};
+    return {std::move(t.face_name),  std::move(t.group_name),    std::move(t.group_role),
+            std::move(t.face_group), std::move(t.labels),        color_texts(t.face_color),
+            std::move(t.face_layer), surface_texts(t.face_type), std::move(t.edge_name)};
   }
   if (schema == "patches") {
     PatchesArtifact p = read_patches(path);
@@ -85,14 +88,33 @@ Json groups_json(const std::vector<std::string>& name, const std::vector<std::st
   return groups;
 }
 
+/// Adds the groups of edges or vertices to their tables, which are made where they have no faces.
+void add_entity_groups(const std::vector<EntityGroup>& groups, const char* kind, Json& tables) {
+  for (const EntityGroup& g : groups) {
+    const std::string name = g.table.empty() ? "main" : g.table;
+    auto it = std::find_if(tables.begin(), tables.end(), [&](const Json& t) { return t["table"] == name; });
+    if (it == tables.end()) {
+      Json table = {{"table", name}, {"groups", Json::array()}};
+      it = tables.insert(tables.end(), std::move(table));
+    }
+    std::vector<std::int32_t> ids = g.ids;
+    for (std::int32_t& id : ids) ++id;
+    (*it)["groups"].push_back(
+        {{"name", g.name}, {"attributes", Json::parse(g.attributes, nullptr, false)}, {kind, ids}});
+  }
+}
+
 Json report(const Identity& id) {
   Json json = {{"tables", Json::array()},  {"parts", Json::array()},   {"face_names", Json::object()},
-               {"layers", Json::object()}, {"colors", Json::object()}, {"surfaces", Json::object()}};
+               {"layers", Json::object()}, {"colors", Json::object()}, {"surfaces", Json::object()},
+               {"edge_names", Json::object()}};
   const FaceLabels& labels = id.labels;
   json["tables"].push_back(
       {{"table", "main"}, {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
   for (const GroupTable& t : labels.tables)
     json["tables"].push_back({{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
+  add_entity_groups(labels.edge_groups, "edges", json["tables"]);
+  add_entity_groups(labels.vertex_groups, "vertices", json["tables"]);
   for (std::size_t p = 0; p < labels.part_path.size(); ++p)
     json["parts"].push_back({{"path", labels.part_path[p]}, {"name", labels.part_name[p]}, {"faces", faces_with(labels.face_part, p)}});
   const auto add = [&](const char* key, const std::vector<std::string>& texts) {
@@ -103,30 +125,38 @@ Json report(const Identity& id) {
   add("layers", id.face_layer);
   add("colors", id.face_color);
   add("surfaces", id.face_surface);
+  add("edge_names", id.edge_name);
   return json;
 }
 
-std::string row(const std::string& name, const Json& faces, const std::string& more) {
-  const std::vector<FaceId> ids = faces.get<std::vector<FaceId>>();
-  return fmt::format("  \"{}\"{}: {} faces{}{}\n", name, more, ids.size(), ids.empty() ? "" : ": ", ranges(ids));
+std::string row(const std::string& name, const Json& entities, const std::string& more, const char* kind = "faces") {
+  const std::vector<std::int32_t> ids = entities.get<std::vector<std::int32_t>>();
+  return fmt::format("  \"{}\"{}: {} {}{}{}\n", name, more, ids.size(), kind, ids.empty() ? "" : ": ", ranges(ids));
+}
+
+/// Of faces, edges or vertices.
+std::string group_row(const Json& g) {
+  const char* const kind = g.contains("edges") ? "edges" : g.contains("vertices") ? "vertices" : "faces";
+  const std::string role = g.contains("role") ? ", " + g["role"].get<std::string>() : "",
+                    attributes = g["attributes"].empty() ? "" : ", " + g["attributes"].dump();
+  return row(g["name"], g[kind], role + attributes, kind);
 }
 
 std::string lines(const Json& json) {
   std::string text;
   for (const Json& table : json["tables"]) {
     text += fmt::format("groups, table {}: {}\n", table["table"].get<std::string>(), table["groups"].size());
-    for (const Json& g : table["groups"])
-      text += row(g["name"], g["faces"],
-                  fmt::format(", {}{}{}", g["role"].get<std::string>(), g["attributes"].empty() ? "" : ", ",
-                              g["attributes"].empty() ? "" : g["attributes"].dump()));
+    for (const Json& g : table["groups"]) text += group_row(g);
   }
   text += fmt::format("parts: {}\n", json["parts"].size());
   for (const Json& p : json["parts"]) text += row(p["path"], p["faces"], "");
-  for (const auto& [key, what] : {std::pair("face_names", "names of faces"), std::pair("layers", "layers"), std::pair("colors", "colors"),
-                                  std::pair("surfaces", "surfaces")}) {
+  const char* const edge_names = "edge_names";
+  for (const auto& [key, what] :
+       {std::pair("face_names", "names of faces"), std::pair("layers", "layers"), std::pair("colors", "colors"),
+        std::pair("surfaces", "surfaces"), std::pair(edge_names, "names of edges")}) {
     if (json[key].empty()) continue;
     text += fmt::format("{}: {}\n", what, json[key].size());
-    for (const auto& [name, faces] : json[key].items()) text += row(name, faces, "");
+    for (const auto& [name, ids] : json[key].items()) text += row(name, ids, "", key == edge_names ? "edges" : "faces");
   }
   text.pop_back();
   return text;

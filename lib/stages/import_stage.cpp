@@ -40,6 +40,20 @@ nlohmann::json tables_json(const ModelTables& t) {
   };
   add("main", t.group_name, t.group_role, t.face_group);
   for (const GroupTable& table : t.labels.tables) add(table.name, table.group_name, table.group_role, table.face_group);
+  const auto add_entities = [&](const std::vector<EntityGroup>& groups, const char* kind) {
+    for (const EntityGroup& g : groups) {
+      const std::string name = g.table.empty() ? "main" : g.table;
+      auto it = std::find_if(tables.begin(), tables.end(),
+                             [&](const nlohmann::json& table) { return table["table"] == name; });
+      if (it == tables.end()) {
+        nlohmann::json table = {{"table", name}, {"groups", nlohmann::json::array()}};
+        it = tables.insert(tables.end(), std::move(table));
+      }
+      (*it)["groups"].push_back({{"name", g.name}, {kind, g.ids.size()}});
+    }
+  };
+  add_entities(t.labels.edge_groups, "edges");
+  add_entities(t.labels.vertex_groups, "vertices");
   return tables;
 }
 

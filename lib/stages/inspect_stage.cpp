@@ -16,6 +16,7 @@
 #include "io/inspect.h"
 #include "io/octree_export.h"
 #include "io/text_file.h"
+#include "stages/mesh_export.h"
 
 namespace st {
 namespace {
@@ -130,7 +131,7 @@ void export_artifact(const std::string& artifact, const std::string& output) {
   if (schema == "mesh") {
     require_export_suffix(output);
     require_writable(output);
-    export_mesh(output, read_mesh(artifact).mesh);
+    export_and_warn(output, read_mesh(artifact).mesh);
   } else if (schema == "raster" || schema == "sizing") {
     require_writable(output);
     export_octree(artifact, output);

@@ -13,7 +13,9 @@
 #include "base/memory.h"
 #include "io/artifact.h"
 #include "mesh/checks.h"
+#include "mesh/edge_segments.h"
 #include "mesh/merge.h"
+#include "stages/mesh_export.h"
 
 namespace st {
 
@@ -152,6 +154,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.mesh.group_role = std::move(patches.group_role);
   artifact.mesh.labels = std::move(patches.labels);
   artifact.mesh.merged = std::move(patches.merged);
+  add_segments(artifact.mesh, patches.edges, patches.edge_vertices);
   return artifact;
 }
 
@@ -173,7 +176,7 @@ StageSummary run_merge(const MergeStageOptions& options) {
   const TopologyReport topology = check_topology(mesh);
   const MeshMeasure measure = measure_mesh(mesh);
   const std::string hash = write_mesh(options.output, artifact);
-  for (const std::string& path : options.exports) export_mesh(path, mesh);
+  for (const std::string& path : options.exports) export_and_warn(path, mesh);
 
   const double seconds = timer.seconds();
   const nlohmann::json json{{"output", options.output},

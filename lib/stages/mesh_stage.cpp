@@ -53,7 +53,10 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
   if (!o.group.empty()) {
     const std::vector<std::uint8_t> in_group = find_faces(o.group, t.group_names());
     if (in_group.empty())
-      throw Error(ExitCode::kUsage, fmt::format("--group '{}': the model has no such group or part; st-info {} --groups lists them", o.group, o.geometry));
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("--group '{}': the model has no such group of faces or part{}; st-info {} --groups lists them",
+                      o.group, say_other_kind(o.group, t.labels), o.geometry));
     for (FaceId f = 0; f < t.n_faces(); ++f) chosen[f] |= in_group[f];
   }
   std::vector<FaceId> faces;

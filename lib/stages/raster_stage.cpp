@@ -109,6 +109,7 @@ class RasterTasks {
       : model_(model),
         limits_(limits),
         strips_(find_strips(model)),
+        vertex_edge_(first_edges(model.tables())),
         n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
   std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
@@ -161,7 +162,27 @@ class RasterTasks {
     for (EdgeId e = batch * kEdgesPerTask; e < end; ++e) {
       const std::optional<SamplingLimits>& limits = limits_.edge[e];
       if (limits) raster_curve(*model_.curve(e), *limits, pack_cause(CauseKind::kEdge, e), boxes);
+      raster_ends(e, boxes);
     }
+  }
+
+  /// Vertices that rules name, with the first edge that ends there as their cause.
+  void raster_ends(EdgeId e, std::vector<RasterBox>& boxes) const {
+    const ModelTables& t = model_.tables();
+    const VertexId ends[2] = {t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]};
+    for (int k = 0; k < (ends[0] == ends[1] ? 1 : 2); ++k) {
+      const std::optional<SamplingLimits>& limits = limits_.vertex[ends[k]];
+      if (!limits || vertex_edge_[ends[k]] != e) continue;
+      const auto length = static_cast<float>(limits->max_length);
+      const auto half = static_cast<float>(0.5 * limits->cell_per_length * limits->max_length);
+      boxes.push_back({t.vertex_xyz[ends[k]], half, length, pack_cause(CauseKind::kEdge, e)});
+    }
+  }
+
+  static std::vector<EdgeId> first_edges(const ModelTables& t) {
+    std::vector<EdgeId> first(t.n_vertices(), kNone);
+    for (EdgeId e = t.n_edges() - 1; e >= 0; --e) first[t.edge_vertices[2 * e]] = first[t.edge_vertices[2 * e + 1]] = e;
+    return first;
   }
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
@@ -178,6 +199,7 @@ class RasterTasks {
   const Model& model_;
   const ModelLimits& limits_;
   std::vector<Strip> strips_;
+  std::vector<EdgeId> vertex_edge_;  // first edge at each vertex
   std::int32_t n_batches_;
 };
 

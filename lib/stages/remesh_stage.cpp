@@ -16,6 +16,7 @@
 #include "io/node_array.h"
 #include "io/sizing_artifact.h"
 #include "io/triangulation_reader.h"
+#include "mesh/edge_segments.h"
 #include "mesh/merge.h"
 #include "meshing/hole_reprojector.h"
 #include "meshing/mesh_gaps.h"
@@ -53,18 +54,21 @@ std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const Su
   return std::make_unique<NodeField>(mesh, std::move(lengths), slope);
 }
 
-/// Faces that stay, [n_faces]: of the group, and strips that were closed for meshing; empty when none does.
-std::vector<char> kept_faces(const RemeshStageOptions& o, const ModelTables& t, const MergedFeatures& merged) {
-  std::vector<char> strips(merged.strip_face.empty() ? 0 : t.n_faces(), 0);
-  for (const FaceId f : merged.strip_face) strips[f] = 1;
-  if (o.keep.empty()) return strips;
+/// Sets which faces and edges stay: those of the group, and strips that were closed for meshing.
+void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFeatures& merged, HoleMarkOptions& mark) {
+  if (!merged.strip_face.empty()) mark.keep_face.resize(t.n_faces(), 0);
+  for (const FaceId f : merged.strip_face) mark.keep_face[f] = 1;
+  if (o.keep.empty()) return;
   const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.group_names());
-  if (in_group.empty())
-    throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group or part; st-info {} --groups lists them", o.keep, o.geometry));
-  std::vector<char> keep = strips;
-  keep.resize(t.n_faces(), 0);
-  for (FaceId f = 0; f < t.n_faces(); ++f) keep[f] |= in_group[f];
-  return keep;
+  const std::vector<EdgeId> edges = find_members(o.keep, t.labels.edge_groups);
+  if (in_group.empty() && edges.empty())
+    throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group of faces or edges and no such "
+                                              "part{}; st-info {} --groups lists them",
+                                              o.keep, say_other_kind(o.keep, t.labels), o.geometry));
+  mark.keep_face.resize(t.n_faces(), 0);
+  for (std::size_t f = 0; f < in_group.size(); ++f) mark.keep_face[f] |= static_cast<char>(in_group[f]);
+  mark.keep_edge.resize(t.n_edges(), 0);
+  for (const EdgeId e : edges) mark.keep_edge[e] = 1;
 }
 
 nlohmann::json counts(const Remesher& r, const HoleMesh& mesh) {
@@ -265,6 +269,9 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
   artifact.mesh.group_role = in.old.mesh.group_role;
   artifact.mesh.labels = in.old.mesh.labels;
   artifact.mesh.merged = in.old.mesh.merged;
+  if (!artifact.mesh.labels.edge_groups.empty())
+    add_segments(artifact.mesh, mesher ? mesher->edges : r.edges,
+                 with_merged_edges(in.model.tables(), artifact.mesh.merged).edge_vertices);
   if (mesher && !mesher->failures.empty())
     throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
                                                    in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
@@ -338,7 +345,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   RemesherOptions options;
   options.mark.too_long = o.too_long;
   options.mark.too_short = o.too_short;
-  options.mark.keep_face = kept_faces(o, in.model.tables(), in.old.mesh.merged);
+  set_kept(o, in.model.tables(), in.old.mesh.merged, options.mark);
   options.mark.earlier_xyz = in.earlier_xyz;
   options.mark.redo = in.spoilt;
   const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
@@ -355,6 +362,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   std::optional<ModelMesher> mesher;
   ModelMesherOptions mesher_options;
   mesher_options.merged = &in.old.mesh.merged;
+  mesher_options.keep_edge = options.mark.keep_edge;
   if (!remesher.failed_faces.empty() || o.merged.empty()) mesher.emplace(in.model, field, in.sizing.face_weight, mesher_options, comm);
   if (!remesher.failed_faces.empty()) redo_failed_faces(field, remesher, *mesher);
   if (!comm.is_root()) return {};

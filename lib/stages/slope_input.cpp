@@ -36,8 +36,9 @@ std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& ra
   if (std::find(is_in.begin(), is_in.end(), 1) != is_in.end()) return is_in;
   is_in = find_faces(s.name, {raster.group_name, raster.face_group, raster.labels});
   if (is_in.empty())
-    throw Error(ExitCode::kUsage,
-                fmt::format("--slope-of '{}': no face, group or part has this name; st-info geometry.hdf --groups lists them", s.name));
+    throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face, group of faces or part has this name{}; "
+                                              "st-info geometry.hdf --groups lists them",
+                                              s.name, say_other_kind(s.name, raster.labels)));
   return is_in;
 }
 

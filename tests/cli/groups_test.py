@@ -249,6 +249,210 @@ class Options(ToolTest):
         self.assertNotEqual(said["auto"], said["inside"])
 
 
+BOX = """
+[[group]]
+name = "top"
+inside = [0, 0, 20, 60, 40, 20]
+[[group]]
+of = "edges"
+name = "outline"
+rim = "top"
+attributes = { note = "sharp" }
+[[group]]
+of = "edges"
+name = "uprights"
+table = "bc"
+inside = [0, 0, 0, 0, 40, 20]
+[[group]]
+of = "vertices"
+name = "corner"
+inside = [60, 40, 20, 60, 40, 20]
+"""
+BOX_NAMES = ["top", "outline", "corner"]
+
+
+class MshFile:
+    """Nodes, elements by type and physical names of a Gmsh 4.1 text file."""
+
+    def __init__(self, path):
+        sections = {}
+        name = None
+        for line in Path(path).read_text().split("\n"):
+            if line.startswith("$"):
+                name = None if line.startswith("$End") else line[1:]
+            elif name:
+                sections.setdefault(name, []).append(line)
+        self.names = [(int(d), int(n), text.strip('"')) for d, n, text in (line.split(" ", 2) for line in sections["PhysicalNames"][1:])]
+        self.nodes, self.elements = {}, {1: [], 2: [], 15: []}
+        rows = iter(sections["Nodes"][1:])
+        for row in rows:
+            numbers = [int(next(rows)) for _ in range(int(row.split()[3]))]
+            for n in numbers:
+                self.nodes[n] = tuple(map(float, next(rows).split()))
+        rows = iter(sections["Elements"][1:])
+        for row in rows:
+            _, entity, kind, n = map(int, row.split())
+            for _ in range(n):
+                self.elements[kind].append((entity, [self.nodes[int(x)] for x in next(rows).split()[1:]]))
+        counts = list(map(int, sections["Entities"][0].split()))
+        curves = [line.split() for line in sections["Entities"][1 + counts[0]:1 + counts[0] + counts[1]]]
+        self.curve_tags = {int(c[0]): list(map(int, c[8:8 + int(c[7])])) for c in curves}
+
+
+def length(points):
+    return sum((a - b) ** 2 for a, b in zip(*points, strict=True)) ** 0.5
+
+
+class EntityGroups(ToolTest):
+    """Groups of edges and vertices through the whole chain."""
+
+    def chain(self, n_ranks=1, **options):
+        (self.folder / "groups.toml").write_text(BOX)
+        return make_chain(MODELS / "box.step", self.folder / f"np{n_ranks}", n_ranks, import_options=["--groups", self.folder / "groups.toml"], **options)
+
+    def test_every_artifact_holds_them_whatever_the_number_of_ranks(self):
+        one, three = self.chain(**COARSE), self.chain(3, **COARSE)
+        for artifact in ("geometry.hdf", "patches.hdf", "mesh.hdf"):
+            self.assertEqual(content_hash(one / artifact), content_hash(three / artifact))
+            json = must("st-info", one / artifact, "--groups", "--json").json()
+            groups = {(t["table"], g["name"]): g for t in json["tables"] for g in t["groups"]}
+            self.assertEqual(len(groups["main", "outline"]["edges"]), 4, artifact)
+            self.assertEqual(groups["main", "outline"]["attributes"], {"note": "sharp"})
+            self.assertEqual(len(groups["bc", "uprights"]["edges"]), 4)
+            self.assertEqual(len(groups["main", "corner"]["vertices"]), 1)
+        text = must("st-info", one / "mesh.hdf", "--groups").out
+        self.assertIn('"outline", {"note":"sharp"}: 4 edges: ', text)
+        self.assertIn('"corner": 1 vertices: ', text)
+
+    def test_exports_have_their_lines_and_points_or_say_what_is_lost(self):
+        folder = self.chain(**COARSE)
+        for suffix in ("msh", "vtu", "obj", "ply"):
+            self.assertEqual(must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err, "")
+        for suffix in ("stl", "ascii.stl", "fro"):
+            self.assertIn("3 are left out", must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err)
+        self.assertIn("3 are left out", must("st-merge", folder / "patches.hdf", "-o", folder / "again.hdf", "--export", folder / "m.stl").err)
+        msh = MshFile(folder / "m.msh")
+        number = {name: (dim, n) for dim, n, name in msh.names}
+        self.assertEqual((number["outline"][0], number["group_bc:uprights"][0], number["corner"][0]), (1, 1, 0))
+        self.assertEqual(len({n for _, n in number.values()}), len(number), "a number stands for one thing")
+        on = lambda name: [points for entity, points in msh.elements[1] if number[name][1] in msh.curve_tags[entity]]  # noqa: E731
+        self.assertAlmostEqual(sum(map(length, on("outline"))), 200, places=9)
+        self.assertAlmostEqual(sum(map(length, on("group_bc:uprights"))), 120, places=9)
+        self.assertTrue(all(z == 20 for points in on("outline") for _, _, z in points))
+        self.assertEqual([points for _, points in msh.elements[15]], [[(60, 40, 20)]])
+        info = must("st-check", folder / "m.msh", "--geometry", folder / "geometry.hdf", "--json").json()
+        self.assertEqual(info["triangles"], len(msh.elements[2]), "lines and points do not disturb who reads triangles")
+
+    def test_sizes_are_asked_for_on_edges_and_at_vertices(self):
+        folder = self.chain(**COARSE)
+        shortest = {}
+        for key, name in (("edges", "outline"), ("groups", "outline"), ("groups", "bc:up*"), ("groups", "corner"), ("", "")):
+            (self.folder / "sizes.toml").write_text('[[size]]\nlmax = "10%"\n' + (f'[[size]]\n{key} = "{name}"\nlmax = 1\n' if key else ""))
+            must("st-raster", folder / "geometry.hdf", "-o", self.folder / "r.hdf", *COARSE["raster_options"], "--sizes", self.folder / "sizes.toml")
+            must("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf")
+            must("st-mesh", folder / "geometry.hdf", self.folder / "s.hdf", "-o", self.folder / "p.hdf")
+            must("st-merge", self.folder / "p.hdf", "-o", self.folder / "m.hdf", "--export", self.folder / "m.msh")
+            msh = MshFile(self.folder / "m.msh")
+            at = lambda p: min(length((p, q)) for q in msh.nodes.values() if q != p)  # noqa: E731
+            shortest[key, name] = [round(at(p), 1) for p in ((60, 40, 20), (0, 0, 20), (60, 0, 0), (0, 0, 0))]
+        plain = shortest["", ""]
+        fine = {k: [a < 0.5 * b for a, b in zip(v, plain, strict=True)] for k, v in shortest.items()}
+        self.assertEqual(fine["edges", "outline"], [True, True, False, False], shortest)
+        self.assertEqual(fine["groups", "outline"], [True, True, False, False])
+        self.assertEqual(fine["groups", "bc:up*"], [False, True, False, True])
+        self.assertEqual(fine["groups", "corner"], [True, False, False, False])
+
+    def test_remeshing_keeps_the_segments_of_a_group_of_edges(self):
+        folder = self.chain(**COARSE)
+        must("st-prolong", folder / "raster.hdf", "-o", folder / "fine.hdf", "--scale", "0.5")
+        segments = {}
+        for name, options in (("before", None), ("kept", ["--keep", "outline"]), ("free", [])):
+            mesh = folder / "mesh.hdf" if options is None else folder / f"{name}.hdf"
+            if options is not None:
+                for n_ranks in (1, 3):
+                    must("st-remesh", folder / "mesh.hdf", folder / "geometry.hdf", folder / "fine.hdf", "--merged", folder / f"{name}{n_ranks}.hdf",
+                         *options, "--np", n_ranks)
+                self.assertEqual(content_hash(folder / f"{name}1.hdf"), content_hash(folder / f"{name}3.hdf"))
+                mesh = folder / f"{name}1.hdf"
+            must("st-check", mesh, "--geometry", folder / "geometry.hdf")
+            must("st-export", mesh, "-o", folder / f"{name}.msh")
+            msh = MshFile(folder / f"{name}.msh")
+            number = {n: k for _, k, n in msh.names}
+            segments[name] = {g: sorted(p for e, p in msh.elements[1] if number[g] in msh.curve_tags[e]) for g in ("outline", "group_bc:uprights")}
+        self.assertEqual(segments["kept"]["outline"], segments["before"]["outline"])
+        self.assertGreater(len(segments["free"]["outline"]), 1.5 * len(segments["before"]["outline"]))
+        self.assertGreater(len(segments["kept"]["group_bc:uprights"]), len(segments["before"]["group_bc:uprights"]), "other edges are redone")
+        self.expect_error(USAGE, "st-remesh", folder / "mesh.hdf", folder / "geometry.hdf", folder / "fine.hdf", "--keep", "corner",
+                          says=["corner", "group of vertices"])
+        self.expect_error(USAGE, "st-mesh", folder / "geometry.hdf", folder / "fine.hdf", "--group", "outline", "-o", folder / "p.hdf",
+                          says=["outline", "group of edges"])
+
+    def test_names_of_a_table_are_one_groups(self):
+        (self.folder / "groups.toml").write_text(BOX + '[[group]]\nof = "edges"\nname = "top"\nedges = 1\n')
+        self.expect_error(USAGE, "st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "--groups", self.folder / "groups.toml",
+                          says=["groups.toml:19", "group of faces of this name"])
+
+
+def far_field(tolerance):
+    return f'[[group]]\nname = "far field"\nfaces = "7-12"\ntolerance = {tolerance}\n' if tolerance else '[[group]]\nname = "far field"\nfaces = "7-12"\n'
+
+
+class Tolerances(ToolTest):
+    """A cube in a far field of loose faces, both with a gap of 0.5: the far field has a tolerance of its own."""
+
+    def imported(self, tolerance, *options):
+        (self.folder / "groups.toml").write_text(far_field(tolerance))
+        run = must("st-import", MODELS / "gappy_boxes.brep", "-o", self.folder / "geometry.hdf", "--groups", self.folder / "groups.toml", "--json", *options)
+        return run.json()
+
+    def meshed(self, *check_options):
+        must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "raster.hdf", "--lmin", "2", "--lmax", "10")
+        must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "sizing.hdf")
+        must("st-mesh", self.folder / "geometry.hdf", self.folder / "sizing.hdf", "-o", self.folder / "patches.hdf")
+        must("st-merge", self.folder / "patches.hdf", "-o", self.folder / "mesh.hdf")
+        return Run("st-check", self.folder / "mesh.hdf", "--geometry", self.folder / "geometry.hdf", "--json", *check_options)
+
+    def test_sews_the_far_field_and_leaves_the_body_as_it_is(self):
+        self.assertEqual(self.imported(0)["free_edges"], 16)
+        self.assertEqual(self.imported(0.1)["free_edges"], 16)
+        self.assertEqual(self.imported(1)["free_edges"], 8)
+        self.assertEqual(self.imported(1, "--sew", "1")["free_edges"], 0)
+        run = self.meshed()
+        self.assertEqual(run.code, OK, run)
+
+    def test_a_mesh_off_its_surfaces_by_more_than_the_tolerance_of_their_group_fails(self):
+        self.imported(0.1, "--sew", "1")
+        run = self.meshed()
+        self.assertEqual(run.code, INCOMPLETE, run)
+        self.assertEqual(run.json()["failed"], ["group-tolerance"])
+        self.imported(0, "--sew", "1")
+        self.assertEqual(self.meshed().code, OK)
+
+    def test_takes_the_place_of_the_largest_deviation(self):
+        for tolerance, bound, code in ((None, "0.001", INCOMPLETE), (5, "0.001", OK), (None, "5", OK), (0.001, "5", INCOMPLETE)):
+            (self.folder / "g.toml").write_text('[[group]]\nname = "ball"\nfaces = 1\n' + (f"tolerance = {tolerance}\n" if tolerance else ""))
+            make_chain(MODELS / "sphere.brep", self.folder, import_options=["--groups", self.folder / "g.toml"], **COARSE)
+            run = Run("st-check", self.folder / "mesh.hdf", "--geometry", self.folder / "geometry.hdf", "--max-deviation", bound, "--json")
+            self.assertEqual(run.code, code, run)
+            self.assertEqual(run.json()["failed"], [] if code == OK else ["max-deviation"])
+
+    def test_decides_what_is_merged_for_meshing(self):
+        for tolerance, n_edges in ((None, 0), (0.3, 4)):
+            (self.folder / "g.toml").write_text('[[group]]\nname = "all"\nfaces = "1-6"\n' + (f"tolerance = {tolerance}\n" if tolerance else ""))
+            folder = make_chain(MODELS / "thin_plate.brep", self.folder, import_options=["--groups", self.folder / "g.toml"],
+                                raster_options=["--lmin", "2", "--lmax", "2"])
+            run = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "p.hdf", "--json")
+            self.assertEqual(len(run.json()["merged"]["edges"]), n_edges, run)
+
+    def test_stays_within_what_a_flow_domain_makes_anew(self):
+        (self.folder / "groups.toml").write_text('[[group]]\nname = "far field"\ngroups = "farfield"\ntolerance = 1\n[[group]]\nname = "body"\nfaces = "1-6"\ntolerance = "2mm"\n')
+        json = must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "--groups", self.folder / "groups.toml", "--farfield", "box:2", "--json").json()
+        self.assertEqual(json["free_edges"], 0)
+        self.assertEqual([f["entity"] for f in json["findings"] if f["what"].startswith("tolerance not used for sewing")], ['group "body"'])
+        _, info = groups_of(self.folder / "g.hdf")
+        self.assertEqual({g["name"]: g["attributes"]["tolerance"] for g in info["tables"][0]["groups"]}, {"body": 2, "far field": 1})
+
+
 class Names(ToolTest):
     """A STEP file is text: names in every encoding are put into that of the assembly."""
 

@@ -1,5 +1,6 @@
 // Writes the small CAD models of the tests: make_models DIR
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -191,6 +192,25 @@ TopoDS_Shape crossed_loop() {
   return shell;
 }
 
+/// A cube of 10 in one of 100 around it, each of six faces that share no edge, the last one 0.5 away from the others.
+TopoDS_Shape gappy_boxes() {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const double size : {10.0, 100.0}) {
+    gp_Trsf middle;
+    middle.SetTranslation(gp_Vec(-0.5 * size, -0.5 * size, -0.5 * size));
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(BRepBuilderAPI_Transform(box(size, size, size), middle, true).Shape(), TopAbs_FACE, faces);
+    for (int i = 1; i <= 6; ++i) {
+      gp_Trsf gap;
+      gap.SetTranslation(gp_Vec(0, 0, i == 6 ? 0.5 : 0));
+      builder.Add(all, BRepBuilderAPI_Transform(BRepBuilderAPI_Copy(faces(i)).Shape(), gap, true).Shape());
+    }
+  }
+  return all;
+}
+
 void write_all(const fs::path& dir) {
   fs::create_directories(dir);
   const gp_Ax2 z(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
@@ -212,6 +232,7 @@ void write_all(const fs::path& dir) {
   write_brep(dir / "crossed_loop.brep", crossed_loop());
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
+  write_brep(dir / "gappy_boxes.brep", gappy_boxes());
 }
 
 }  // namespace

@@ -16,9 +16,11 @@ except ImportError as error:
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.2, 1)]
 TRIANGLES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
 CELL_DATA = {"face": [1, 2, 3, 4], "group": [1, 1, 2, 2], "part": [0, 1, 2, 0], "group_table": [2, 3, 0, 1]}
-POINT_DATA = {"entity_dim": [0, 0, 1, 2], "entity_id": [1, 2, 5, 4], "size": [1, 1.5, 1, 2]}
+POINT_DATA = {"entity_dim": [0, 0, 1, 2], "entity_id": [1, 2, 5, 4], "size": [1, 1.5, 1, 2], "edge_group": [1, 1, 1, 0],
+              "edge_group_table": [0, 0, 0, 0], "vertex_group": [0, 1, 0, 0]}
 FIELD_DATA = {"face_name": ["bottom", "", "Flügel", "a b"], "group_name": ["body", "wing"],
-              "part_name": ["Träger/bolt#1", "Träger/bolt#2"], "group_table_name": ["hot", "cold", "Öl"]}
+              "part_name": ["Träger/bolt#1", "Träger/bolt#2"], "group_table_name": ["hot", "cold", "Öl"],
+              "edge_group_name": ["te"], "edge_group_table_name": ["root"], "vertex_group_name": ["tip"]}
 READERS = {"hdf": vtkHDFReader, "vtu": vtkXMLUnstructuredGridReader, "stl": vtkSTLReader, "obj": vtkOBJReader, "ply": vtkPLYReader}
 
 
@@ -39,6 +41,8 @@ def corners(mesh):
     """Coordinates of the corners of each cell: STL has no node numbers."""
     cells = []
     for c in range(mesh.GetNumberOfCells()):
+        if mesh.GetCellType(c) in (1, 3):  # points and lines of groups of vertices and edges
+            continue
         assert mesh.GetCellType(c) == 5, "no triangle"
         ids = mesh.GetCell(c).GetPointIds()
         cells.append([mesh.GetPoint(ids.GetId(k)) for k in range(3)])
@@ -77,11 +81,13 @@ def main():
             check_data(mesh.GetFieldData(), FIELD_DATA)
         if kind == "obj":
             assert sum(line.startswith("g face_") for line in open(f"{folder}/mesh.obj")) == 4
+            assert "g edge_group_1_te\nl 1 3\n" in open(f"{folder}/mesh.obj").read()
             assert "g face_4_a_b group_2_wing group_table_1_hot\n" in open(f"{folder}/mesh.obj")
             assert "g face_3_Flügel group_2_wing part_2_Träger/bolt#2\n" in open(f"{folder}/mesh.obj")
         if kind == "ply":
             header = open(f"{folder}/mesh.ply", "rb").read().split(b"end_header")[0].decode()
-            for line in ("comment group 2 wing", "comment face 3 Flügel", "comment part 1 Träger/bolt#1", "property int group_table"):
+            for line in ("comment group 2 wing", "comment face 3 Flügel", "comment part 1 Träger/bolt#1", "property int group_table", "property int edge_group",
+                         "comment edge_group 1 te"):
                 assert line in header, header
         if kind == "stl":  # in the order of groups, which is that of the triangles here
             check_geometry(read(f"{folder}/mesh.ascii.stl", kind))

@@ -79,5 +79,43 @@ TEST(FaceLabels, of_a_model_that_has_none_are_filled_up) {
   EXPECT_EQ(turned.tables[0].face_group.size(), 5u);
 }
 
+std::vector<EntityGroup> edge_groups() {
+  return {{"te", "", "{}", {2, 5}}, {"root", "", "{}", {3}}, {"te", "bc", R"({"a":1})", {0, 5}}};
+}
+
+TEST(EntityGroups, are_found_in_the_main_table_first_and_by_the_name_of_their_table) {
+  using Ids = std::vector<std::int32_t>;
+  EXPECT_EQ(find_members("te", edge_groups()), (Ids{2, 5}));
+  EXPECT_EQ(find_members("*", edge_groups()), (Ids{2, 3, 5}));
+  EXPECT_EQ(find_members("bc:t?", edge_groups()), (Ids{0, 5}));
+  EXPECT_TRUE(find_members("tip", edge_groups()).empty());
+}
+
+TEST(EntityGroups, of_a_part_have_its_numbers_and_those_without_any_go) {
+  const std::vector<std::int32_t> place = {kNone, kNone, 1, kNone, kNone, 0};
+  const std::vector<EntityGroup> part = select_groups(edge_groups(), place);
+  ASSERT_EQ(part.size(), 2u);
+  EXPECT_EQ(part[0], (EntityGroup{"te", "", "{}", {0, 1}}));
+  EXPECT_EQ(part[1], (EntityGroup{"te", "bc", R"({"a":1})", {0}}));
+}
+
+TEST(EntityGroups, of_two_models_are_one_where_name_and_table_agree) {
+  std::vector<EntityGroup> both = edge_groups();
+  append_groups(both, {{"te", "", "{}", {1}}, {"tip", "", "{}", {0}}}, 6);
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_EQ(both[0].ids, (std::vector<std::int32_t>{2, 5, 7}));
+  EXPECT_EQ(both[3], (EntityGroup{"tip", "", "{}", {6}}));
+}
+
+TEST(FaceTolerances, are_the_largest_that_any_table_gives) {
+  FaceLabels l = labels();
+  const std::vector<std::string> group = {"body", "far"};
+  const std::vector<std::int32_t> face_group = {0, 0, 1, 1};
+  EXPECT_TRUE(face_tolerances({group, face_group, l}).empty());
+  l.group_attributes = {"{}", R"({"tolerance":0.5,"x":"y"})"};
+  l.tables[0].group_attributes = {R"({"tolerance":2})", R"({"tolerance":0.25})"};
+  EXPECT_EQ(face_tolerances({group, face_group, l}), (std::vector<double>{0.25, 0, 2, 2}));
+}
+
 }  // namespace
 }  // namespace st

@@ -221,5 +221,41 @@ TEST(Append, refuses_models_of_different_units) {
   EXPECT_ERROR(append(first, second), kMismatch, "--unit");
 }
 
+/// A box whose every edge and vertex is in a group, the first three apart from the others.
+Model grouped_box() {
+  const Model box = test::make_model("box");
+  ModelTables t = box.tables();
+  t.labels.edge_groups = {{"first", "", "{}", {0, 1, 2}}, {"rest", "bc", "{}", {}}};
+  for (EdgeId e = 3; e < t.n_edges(); ++e) t.labels.edge_groups[1].ids.push_back(e);
+  t.labels.vertex_groups = {{"corner", "", "{}", {t.edge_vertices[0]}}};
+  return Model(std::move(t), box.brep());
+}
+
+/// Names of the groups that have an edge.
+std::string groups_of_edge(const ModelTables& t, EdgeId e) {
+  std::string names;
+  for (const EntityGroup& g : t.labels.edge_groups)
+    if (std::binary_search(g.ids.begin(), g.ids.end(), e)) names += g.name;
+  return names;
+}
+
+TEST(EntityGroups, follow_their_edges_and_vertices_through_every_edit) {
+  const Model box = grouped_box();
+  const std::vector<FaceId> faces = {3, 0};
+  const SubModel part = extract(box, faces);
+  for (std::size_t e = 0; e < part.edges.size(); ++e)
+    EXPECT_EQ(groups_of_edge(part.model.tables(), static_cast<EdgeId>(e)), part.edges[e] < 3 ? "first" : "rest");
+  for (const EntityGroup& g : part.model.tables().labels.vertex_groups)
+    for (const VertexId v : g.ids) EXPECT_EQ(part.vertices[v], box.tables().edge_vertices[0]);
+  AffineMap shift;
+  shift.shift = {1, 2, 3};
+  EXPECT_EQ(transform(box, shift).tables().labels, box.tables().labels);
+  const ModelTables both = append(box, part.model).tables();
+  for (EdgeId e = 0; e < both.n_edges(); ++e) {
+    const EdgeId original = e < box.tables().n_edges() ? e : part.edges[e - box.tables().n_edges()];
+    EXPECT_EQ(groups_of_edge(both, e), original < 3 ? "first" : "rest");
+  }
+}
+
 }  // namespace
 }  // namespace st

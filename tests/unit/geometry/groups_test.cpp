@@ -161,7 +161,7 @@ TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
   EXPECT_NE(message_of({r}).find("no face meets its selection"), std::string::npos);
   r.is_optional = true;
   ModelTables t = six_faces();
-  EXPECT_EQ(apply_groups({r}, t), std::vector<std::string>{"x"});
+  EXPECT_EQ(apply_groups({r}, t), (std::vector<EmptyGroup>{{"x", EntityDim::kFace}}));
   EXPECT_EQ(t.group_name, six_faces().group_name);
   r.faces = {"7"};
   EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos) << "an id is never optional";
@@ -200,6 +200,144 @@ TEST(Groups, of_the_outside_are_left_out_of_the_reference_diagonal) {
   ModelTables t = six_faces();
   apply_groups({r}, t);
   EXPECT_NEAR(t.wall_box().hi.x, 2, 1e-12);
+}
+
+// --- edges and vertices
+// ------------------------------------------------------------------------------------------------------------------
+
+/// Two unit squares side by side, faces 1 and 2 of groups "left" and "right": edges 1 to 3 around the left one, 4
+/// between them, 5 to 7 around the right one, 8 a pole; vertex 1 to 3 at y = 0, 4 to 6 at y = 1.
+ModelTables two_squares() {
+  ModelTables t;
+  t.unit_in_m = 1;
+  t.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  t.vertex_tolerance.assign(6, 0);
+  t.edge_vertices = {0, 1, 3, 0, 4, 3, 1, 4, 1, 2, 2, 5, 5, 4, 5, 5};
+  t.edge_length = {1, 1, 1, 1, 1, 1, 1, 0};
+  t.edge_tolerance.assign(8, 0);
+  t.edge_is_degenerate = {0, 0, 0, 0, 0, 0, 0, 1};
+  t.edge_name = {"", "", "TE_1", "root", "", "", "TE_2", ""};
+  t.face_loop_offsets = {0, 1, 2};
+  t.loop_coedge_offsets = {0, 4, 9};
+  t.coedge_edge = {0, 3, 2, 1, 4, 5, 7, 6, 3};
+  t.face_is_reversed = {0, 0};
+  t.face_name = {"", ""};
+  t.face_box = {{{0, 0, 0}, {1, 1, 0}}, {{1, 0, 0}, {2, 1, 0}}};
+  t.group_name = {"left", "right"};
+  t.group_role = {"wall", "wall"};
+  t.face_group = {0, 1};
+  return t;
+}
+
+std::vector<Box3> edge_boxes(const ModelTables& t) {
+  std::vector<Box3> boxes(t.n_edges());
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (int k = 0; k < 2 && !t.edge_is_degenerate[e]; ++k) boxes[e].add(t.vertex_xyz[t.edge_vertices[2 * e + k]]);
+  return boxes;
+}
+
+GroupRule entity_rule(const std::string& name, EntityDim of) {
+  GroupRule r = rule(name);
+  r.of = of;
+  return r;
+}
+
+/// Numbers (from 1) of the edges or vertices that a rule selects.
+std::vector<int> members(const GroupRule& r, const std::vector<GroupRule>& before = {}) {
+  ModelTables t = two_squares();
+  std::vector<GroupRule> rules = {r};
+  rules.insert(rules.end(), before.begin(), before.end());
+  apply_groups(rules, t, edge_boxes(t));
+  std::vector<int> ids;
+  for (const EntityGroup& g : r.of == EntityDim::kEdge ? t.labels.edge_groups : t.labels.vertex_groups)
+    for (const std::int32_t id : g.ids)
+      if (g.name == r.name) ids.push_back(id + 1);
+  return ids;
+}
+
+std::string refusal(const std::vector<GroupRule>& rules) {
+  ModelTables t = two_squares();
+  try {
+    apply_groups(rules, t, edge_boxes(t));
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    return e.what();
+  }
+  return "";
+}
+
+TEST(EdgeGroups, select_by_number_name_faces_and_place) {
+  using Ids = std::vector<int>;
+  const GroupRule empty = entity_rule("x", EntityDim::kEdge);
+  GroupRule r = empty;
+  r.edges = {"1-2", "TE_*"};
+  EXPECT_EQ(members(r), (Ids{1, 2, 3, 7}));
+  r = empty, r.between = {"left", "r*"};
+  EXPECT_EQ(members(r), Ids{4});
+  r = empty, r.on = {"right"};
+  EXPECT_EQ(members(r), (Ids{4, 5, 6, 7})) << "without the pole";
+  r = empty, r.rim = {"right"};
+  EXPECT_EQ(members(r), (Ids{4, 5, 6, 7}));
+  r = empty, r.rim = {"right", "left"};
+  EXPECT_EQ(members(r), (Ids{1, 2, 3, 5, 6, 7})) << "the edge between them is inside";
+  r = empty, r.inside = BoxSpec{{{-1, false}, {1, false}, {0, false}, {3, false}, {1, false}, {0, false}}};
+  EXPECT_EQ(members(r), (Ids{3, 7}));
+  r = empty, r.touching = BoxSpec{{{1.5, false}, {-1, false}, {0, false}, {1.6, false}, {0.5, false}, {0, false}}};
+  EXPECT_EQ(members(r), Ids{5});
+  r = empty, r.on = {"left"}, r.edges = {"3-5"};
+  EXPECT_EQ(members(r), (Ids{3, 4})) << "every key must fit";
+  r = entity_rule("root", EntityDim::kEdge);
+  EXPECT_EQ(members(r), Ids{4}) << "without selection: the edges of its name";
+}
+
+TEST(VertexGroups, select_by_number_faces_groups_of_edges_and_place) {
+  using Ids = std::vector<int>;
+  const GroupRule empty = entity_rule("x", EntityDim::kVertex);
+  GroupRule r = empty, te = entity_rule("te", EntityDim::kEdge);
+  r.vertices = {"6", "1-2"};
+  EXPECT_EQ(members(r), (Ids{1, 2, 6}));
+  r = empty, r.on = {"left"};
+  EXPECT_EQ(members(r), (Ids{1, 2, 4, 5}));
+  r = empty, r.on = {"te"}, te.edges = {"TE_2"};
+  EXPECT_EQ(members(r, {te}), (Ids{5, 6})) << "wherever the group of edges stands in the file";
+  r = empty, r.inside = BoxSpec{{{0, false}, {1, false}, {0, false}, {1, false}, {1, false}, {0, false}}};
+  EXPECT_EQ(members(r), (Ids{4, 5}));
+  EXPECT_NE(refusal({empty}).find("vertices have no names"), std::string::npos);
+  r = empty, r.vertices = {"tip"};
+  EXPECT_NE(refusal({r}).find("'tip' is no number"), std::string::npos);
+}
+
+TEST(EdgeGroups, share_the_names_of_a_table_with_faces_and_vertices) {
+  GroupRule left = entity_rule("left", EntityDim::kEdge), tip = entity_rule("tip", EntityDim::kEdge),
+            point = entity_rule("tip", EntityDim::kVertex);
+  left.edges = tip.edges = {"1"};
+  point.vertices = {"1"};
+  EXPECT_NE(refusal({left}).find("has a group of faces of this name"), std::string::npos) << refusal({left});
+  EXPECT_NE(refusal({point, tip}).find("has a group of edges of this name"), std::string::npos);
+  left.table = point.table = "other";
+  EXPECT_EQ(refusal({left, tip, point}), "");
+}
+
+TEST(EdgeGroups, hold_an_edge_once_in_a_table_and_say_who_has_it) {
+  GroupRule a = entity_rule("a", EntityDim::kEdge), b = entity_rule("bb", EntityDim::kEdge), more = a;
+  a.edges = {"1-3"};
+  more.edges = {"3-4"};
+  EXPECT_EQ(members(a, {more}), (std::vector<int>{1, 2, 3, 4})) << "entries of one name make one group";
+  b.edges = {"3"};
+  const std::string message = refusal({a, b});
+  for (const char* part : {"g.toml:2", "\"bb\"", "edge 3 \"TE_1\"", "\"a\" (g.toml:1)"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  b.table = "bc";
+  EXPECT_EQ(refusal({a, b}), "");
+  b.edges = {"9"};
+  EXPECT_NE(refusal({b}).find("edges: 9 does not exist, there are edges 1 to 8"), std::string::npos);
+  b.edges.clear();
+  b.on = {"nose"};
+  EXPECT_NE(refusal({b}).find("on: no group or part matches 'nose'"), std::string::npos);
+  b.is_optional = true;
+  ModelTables t = two_squares();
+  EXPECT_EQ(apply_groups({b}, t), (std::vector<EmptyGroup>{{"bb", EntityDim::kEdge}}));
+  EXPECT_TRUE(t.labels.edge_groups.empty());
 }
 
 }  // namespace

@@ -310,5 +310,42 @@ TEST(ImportReport, boxes_touch_the_faces_and_not_their_poles) {
   }
 }
 
+GroupRule tolerance_group(const char* faces, double tolerance) {
+  GroupRule rule;
+  rule.where = "g.toml:1";
+  rule.name = "far";
+  rule.faces = {faces};
+  rule.tolerance = LengthSpec{LengthSpec::Kind::kModelUnit, tolerance, ""};
+  return rule;
+}
+
+TEST(ImportRepair, joins_faces_of_a_group_as_far_apart_as_its_tolerance) {
+  ImportOptions options;
+  options.groups = {tolerance_group("1-6", 0.01)};
+  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 24) << "the gaps are wider";
+  options.groups = {tolerance_group("1-6", 0.15)};
+  const ImportResult r = import_broken("gappy_box", options);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_NEAR(r.volume, 48000, 0.005 * 48000);
+  const std::vector<ImportFinding> sewn = findings_of(r, "sewn by the tolerance of their group");
+  ASSERT_EQ(sewn.size(), 1u);
+  EXPECT_EQ(sewn[0].size, 0.15);
+  EXPECT_EQ(r.tables.labels.group_attributes, std::vector<std::string>{"{\"tolerance\":0.15}"});
+}
+
+TEST(ImportRepair, joins_by_a_tolerance_only_edges_of_two_faces_that_have_it) {
+  ImportOptions options;
+  options.groups = {tolerance_group("1-4", 0.15)};
+  const ImportResult some = import_broken("gappy_box", options);
+  EXPECT_EQ(some.n_free_edges, 16) << "four faces of the box have four edges in common";
+  GroupRule rest = tolerance_group("5-6", 0.01);
+  rest.name = "rest";
+  options.groups.push_back(rest);
+  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 16) << "between two groups the smaller tolerance holds";
+  options.sew = "0.15";
+  EXPECT_TRUE(import_broken("gappy_box", options).is_closed) << "a group's tolerance does not keep --sew from joining";
+}
+
 }  // namespace
 }  // namespace st

@@ -99,9 +99,12 @@ TEST(Export, writes_every_division_of_the_faces_as_physical_surfaces_of_msh) {
   TemporaryDirectory dir;
   export_mesh(dir / "m.msh", sample_mesh().mesh);
   const std::string text = read_bytes(dir / "m.msh");
-  EXPECT_NE(text.find("$PhysicalNames\n7\n2 1 \"body\"\n2 2 \"wing\"\n2 3 \"part:Träger/bolt#1\"\n2 4 \"part:Träger/bolt#2\"\n"
-                      "2 5 \"group_table:hot\"\n2 6 \"group_table:cold\"\n2 7 \"group_table:Öl\"\n$End"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "$PhysicalNames\n10\n2 1 \"body\"\n2 2 \"wing\"\n2 3 \"part:Träger/bolt#1\"\n2 4 \"part:Träger/bolt#2\"\n"
+          "2 5 \"group_table:hot\"\n2 6 \"group_table:cold\"\n2 7 \"group_table:Öl\"\n"
+          "1 8 \"te\"\n1 9 \"group_table:root\"\n0 10 \"tip\"\n$End"),
+      std::string::npos)
       << text;
   EXPECT_NE(text.find("2 0 0 0 1 0.2 1 3 1 3 7 0\n"), std::string::npos) << "face 2 is of body, the first part and Öl: " << text;
 }
@@ -111,6 +114,29 @@ TEST(Export, writes_the_cad_face_of_each_triangle_into_fro) {
   export_mesh(dir / "m.fro", sample_mesh().mesh);
   EXPECT_EQ(read_bytes(dir / "m.fro"),
             "4 4 1 0 0 4 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0.1 0.2 1\n1 1 3 2 1\n2 1 2 4 2\n3 2 3 4 3\n4 3 1 4 4\n");
+}
+
+TEST(Export, writes_edges_and_vertices_in_groups_as_lines_and_points_of_msh_and_obj) {
+  TemporaryDirectory dir;
+  const SurfaceMesh m = sample_mesh().mesh;
+  EXPECT_EQ(export_mesh(dir / "m.msh", m), 0u);
+  const std::string msh = read_bytes(dir / "m.msh");
+  EXPECT_NE(msh.find("\n1 2 1 2\n5 1 3\n6 3 2\n1 4 1 1\n7 2 1\n0 2 15 1\n8 2\n$EndElements"), std::string::npos) << msh;
+  EXPECT_NE(msh.find("\n2 0 0 0 1 1 0 1 8 0\n"), std::string::npos)
+      << "edge 2 with the box of its segments is in \"te\": " << msh;
+  EXPECT_NE(msh.find("\n2 1 0 0 1 10\n"), std::string::npos) << "vertex 2 is in \"tip\": " << msh;
+  EXPECT_EQ(export_mesh(dir / "m.obj", m), 0u);
+  const std::string obj = read_bytes(dir / "m.obj");
+  EXPECT_NE(obj.find("g edge_group_1_te\nl 1 3\nl 3 2\nl 2 1\ng edge_group_2_table:root\ng vertex_group_1_tip\np 2\n"),
+            std::string::npos)
+      << obj;
+}
+
+TEST(Export, says_how_many_groups_of_edges_and_vertices_a_format_cannot_hold) {
+  TemporaryDirectory dir;
+  const SurfaceMesh m = sample_mesh().mesh;
+  for (const char* name : {"m.stl", "m.ascii.stl", "m.fro"}) EXPECT_EQ(export_mesh(dir / name, m), 3u) << name;
+  for (const char* name : {"m.vtu", "m.ply"}) EXPECT_EQ(export_mesh(dir / name, m), 0u) << name;
 }
 
 }  // namespace

@@ -108,5 +108,45 @@ TEST(GroupsFile, has_the_hash_of_its_bytes) {
   EXPECT_NE(read_groups(dir / "a.toml").hash, read_groups(dir / "b.toml").hash);
 }
 
+TEST(GroupsFile, takes_groups_of_edges_and_vertices_with_keys_of_their_own) {
+  const std::vector<GroupRule> rules = parse(R"([[group]]
+name = "te"
+edges = [3, "5-7", "TE_*"]
+of = "edges"
+between = ["WING", "BODY"]
+rim = "WING"
+on = ["WING", "BODY"]
+[[group]]
+of = "vertices"
+name = "tips"
+vertices = [1, "2-3"]
+on = "te"
+[[group]]
+of = "faces"
+name = "f"
+)");
+  ASSERT_EQ(rules.size(), 3u);
+  EXPECT_EQ(rules[0].of, EntityDim::kEdge);
+  EXPECT_EQ(rules[0].edges, (std::vector<std::string>{"3", "5-7", "TE_*"}));
+  EXPECT_EQ(rules[0].between, (std::vector<std::string>{"WING", "BODY"}));
+  EXPECT_EQ(rules[0].rim, std::vector<std::string>{"WING"});
+  EXPECT_EQ(rules[0].on, (std::vector<std::string>{"WING", "BODY"}));
+  EXPECT_EQ(rules[1].of, EntityDim::kVertex);
+  EXPECT_EQ(rules[1].vertices, (std::vector<std::string>{"1", "2-3"}));
+  EXPECT_EQ(rules[1].on, std::vector<std::string>{"te"});
+  EXPECT_EQ(rules[2].of, EntityDim::kFace);
+}
+
+TEST(GroupsFile, refuses_keys_of_another_kind_of_group) {
+  const std::string begin = "[[group]]\nname = \"te\"\n";
+  EXPECT_ERROR(parse(begin + "edges = 1\n"), kUsage, "edges: is no key of a group of faces but of edges");
+  EXPECT_ERROR(parse(begin + "of = \"edges\"\nrole = \"wall\"\n"), kUsage,
+               "role: is no key of a group of edges but of faces");
+  EXPECT_ERROR(parse(begin + "of = \"edges\"\ntolerance = 1\n"), kUsage, "tolerance: is no key of a group of edges");
+  EXPECT_ERROR(parse(begin + "of = \"vertices\"\nbetween = [\"a\", \"b\"]\n"), kUsage, "between");
+  EXPECT_ERROR(parse(begin + "of = \"edges\"\nbetween = [\"a\"]\n"), kUsage, "between: takes two names");
+  EXPECT_ERROR(parse(begin + "of = \"lines\"\n"), kUsage, "of: 'lines' is none; takes vertices, edges, faces");
+}
+
 }  // namespace
 }  // namespace st

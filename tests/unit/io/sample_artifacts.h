@@ -18,7 +18,8 @@ inline ArtifactHeader sample_header() {
   return header;
 }
 
-/// Labels of two main groups and `n_faces` faces: two parts of one name, one further table.
+/// Labels of two main groups and `n_faces` faces: two parts of one name, one further table, two groups of edges, one of
+/// vertices.
 inline FaceLabels sample_labels(std::int32_t n_faces) {
   FaceLabels labels;
   labels.group_attributes = {R"({"tolerance":0.1})", "{}"};
@@ -29,6 +30,8 @@ inline FaceLabels sample_labels(std::int32_t n_faces) {
     labels.face_part.push_back(f % 3 - 1);
     labels.tables[0].face_group.push_back((f + 2) % 4 - 1);
   }
+  labels.edge_groups = {{"te", "", "{}", {1, 3}}, {"root", "table", R"({"a":1})", {0}}};
+  labels.vertex_groups = {{"tip", "", "{}", {1}}};
   return labels;
 }
 
@@ -138,6 +141,8 @@ inline MeshArtifact sample_mesh() {
   m.group_name = {"body", "wing"};
   m.group_role = {"wall", "symmetry"};
   m.labels = sample_labels(4);
+  m.segment_nodes = {0, 2, 2, 1, 1, 0};
+  m.segment_edge = {1, 1, 3};
   return artifact;
 }
 

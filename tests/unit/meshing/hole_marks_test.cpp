@@ -224,5 +224,17 @@ TEST_P(HoleFiller, fills_a_corner_and_keeps_the_rest_to_the_bit) {
 
 INSTANTIATE_TEST_SUITE_P(, HoleFiller, testing::ValuesIn(kSolids), [](const auto& info) { return std::string(info.param); });
 
+TEST(HoleMarks, leave_the_segments_of_kept_edges_and_redo_the_triangles_beside_them) {
+  const BoxMesh box;
+  const HoleMesh holes(box.mesh, box.model.tables());
+  HoleMarkOptions options;
+  options.keep_edge.assign(12, 0);
+  options.keep_edge[3] = 1;
+  const HoleMarks marks = mark_holes(holes, box.wanted(UniformField(0.5 * box.field.min_size())), options);
+  EXPECT_EQ(marks.n_triangles(), box.mesh.n_triangles());
+  for (const CadSegment& s : holes.segments)
+    EXPECT_EQ(marks.segment[s.index] != 0, s.edge != 3) << "edge " << s.edge + 1;
+}
+
 }  // namespace
 }  // namespace st::test

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/log.h"
 #include "mesh/checks.h"
+#include "mesh/edge_segments.h"
 #include "mesh/merge.h"
 #include "meshing/model_mesher.h"
 #include "support/shapes.h"
@@ -154,6 +156,91 @@ TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
   MergedFeatures merged;
   merged.edge = {1000};
   EXPECT_THROW(with_merged_edges(model.tables(), merged), std::exception);
+}
+
+/// stepped_box with all its faces in a group of this tolerance (0: without), the given ones left out of it.
+Model stepped_box(double tolerance, const std::vector<FaceId>& outside = {}) {
+  const Model box = test::make_model("stepped_box");
+  ModelTables t = box.tables();
+  t.group_name = {"in", "out"};
+  t.group_role = {"wall", "wall"};
+  t.face_group.assign(t.n_faces(), 0);
+  for (const FaceId f : outside) t.face_group[f] = 1;
+  if (tolerance > 0) t.labels.group_attributes = {"{\"tolerance\":" + std::to_string(tolerance) + "}", "{}"};
+  return Model(std::move(t), box.brep());
+}
+
+TEST(SmallFeatures, in_a_group_with_a_tolerance_are_merged_by_it_and_not_by_the_sizes) {
+  const auto merged = [](const Model& model, double size) {
+    return find_merged_features(model, UniformField(size), 0.05);
+  };
+  const MergedFeatures fine = merged(stepped_box(0), 0.2), coarse = merged(stepped_box(0), 1);
+  EXPECT_TRUE(fine.empty()) << "the step of 0.02 is above 5 %";
+  EXPECT_FALSE(coarse.empty());
+  EXPECT_EQ(merged(stepped_box(0.03), 0.2), coarse) << "a tolerance above the step merges it at any size";
+  EXPECT_TRUE(merged(stepped_box(0.01), 1).empty()) << "one below keeps it";
+  EXPECT_TRUE(merged(stepped_box(0.03), 0.03).empty()) << "what is longer than half of the requested length stays";
+  EXPECT_TRUE(find_merged_features(stepped_box(0.03), UniformField(0.2), 0).empty()) << "--merge-below 0: none";
+}
+
+TEST(SmallFeatures, between_a_group_with_a_tolerance_and_the_rest_have_the_smaller_limit) {
+  const Model model = stepped_box(0.03);
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  model.tables().edge_faces(offsets, faces);
+  const MergedFeatures all = find_merged_features(model, UniformField(0.2), 0.05);
+  ASSERT_FALSE(all.edge.empty());
+  const EdgeId e = all.edge[0];
+  const MergedFeatures some = find_merged_features(stepped_box(0.03, {faces[offsets[e]]}), UniformField(0.2), 0.05);
+  EXPECT_FALSE(std::binary_search(some.edge.begin(), some.edge.end(), e));
+}
+
+TEST(SmallFeatures, strips_in_a_group_with_a_tolerance_are_closed_by_it) {
+  const Model box = stepped_box(0.03);
+  const UniformField field(0.2);
+  set_verbosity(Verbosity::kQuiet);
+  ModelMesher mesher(box, field, {}, Meshed::options(0.05), one_rank());
+  mesher.run();
+  EXPECT_TRUE(mesher.failures.empty());
+  EXPECT_EQ(closed_faces(mesher.merged, mesher.edges, mesher.tables().edge_vertices).size(), 4u)
+      << "the step and the rims of the raised half";
+}
+
+/// The mesh with every edge in one group, and how many of its segments are no side of a triangle.
+std::int64_t segments_beside_the_mesh(Meshed& m) {
+  m.mesh.labels.edge_groups = {{"all", "", "{}", std::vector<std::int32_t>(m.mesher.tables().n_edges())}};
+  std::vector<std::int32_t>& ids = m.mesh.labels.edge_groups[0].ids;
+  std::iota(ids.begin(), ids.end(), 0);
+  m.mesh.merged = m.mesher.merged;
+  add_segments(m.mesh, m.mesher.edges, m.mesher.tables().edge_vertices);
+  std::vector<std::pair<NodeId, NodeId>> sides;
+  for (const Triangle& t : m.mesh.triangles)
+    for (int k = 0; k < 3; ++k) sides.push_back(std::minmax(t.n[k], t.n[(k + 1) % 3]));
+  std::sort(sides.begin(), sides.end());
+  std::int64_t n_beside = 0;
+  for (std::size_t i = 0; i < m.mesh.segment_nodes.size(); i += 2)
+    n_beside += !std::binary_search(
+        sides.begin(), sides.end(),
+        std::pair<NodeId, NodeId>(std::minmax(m.mesh.segment_nodes[i], m.mesh.segment_nodes[i + 1])));
+  return n_beside;
+}
+
+TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
+  for (const char* shape : {"stepped_box", "wedge_strip", "drilled_cylinder"}) {
+    Meshed m(shape, shape == std::string("drilled_cylinder") ? 5 : 1, 0.1);
+    EXPECT_EQ(segments_beside_the_mesh(m), 0) << shape;
+    const auto count = [&](EdgeId e) { return std::count(m.mesh.segment_edge.begin(), m.mesh.segment_edge.end(), e); };
+    for (EdgeId e = 0; e < m.mesher.tables().n_edges(); ++e) {
+      const std::int32_t n = m.mesher.edges.edge_offsets[e + 1] - m.mesher.edges.edge_offsets[e];
+      EXPECT_EQ(count(e), std::max(0, n - 1)) << shape << " edge " << e + 1 << ": also where a strip is closed";
+    }
+  }
+}
+
+TEST(EdgeSegments, are_none_without_groups_of_edges) {
+  Meshed m("stepped_box", 1, 0.05);
+  add_segments(m.mesh, m.mesher.edges, m.mesher.tables().edge_vertices);
+  EXPECT_TRUE(m.mesh.segment_nodes.empty());
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(Strip, both_edges_get_as_many_nodes_common_ones_where_it_is_narrow) {
   const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
   const UniformField field(1);
   const CurveNodes nodes = discretise_curve(*kept, field, {});
-  const CurveNodes twin = mirror_nodes(*kept, nodes, *closed, strip.is_opposed, 0.25);
+  const CurveNodes twin = mirror_nodes(*kept, nodes, *closed, strip.is_opposed, {0.25});
   const std::size_t n = nodes.t.size();
   ASSERT_EQ(twin.t.size(), n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -136,5 +136,51 @@ TEST(SizeRules, that_select_nothing_or_contradict_themselves_are_refused) {
   EXPECT_NE(message_of(rule_of(0.4, 0.3)).find("lmin 0.4 is larger than lmax 0.3"), std::string::npos);
 }
 
+ModelTables with_groups() {
+  ModelTables t = wing_body();
+  t.labels.edge_groups = {{"te", "", "{}", {0}}, {"root", "bc", "{}", {1}}};
+  t.labels.vertex_groups = {{"tip", "", "{}", {1}}};
+  t.vertex_xyz = {{0, 0, 0}, {1, 0, 0}};
+  return t;
+}
+
+TEST(SizeRules, take_groups_of_edges_by_edges_and_by_groups) {
+  const ModelTables t = with_groups();
+  SizeRule rule = rule_of({}, 0.1);
+  rule.edges = {"te"};
+  EXPECT_EQ(find_targets(rule, t).edges, std::vector<EdgeId>{0});
+  rule.edges = {"TE_*", "bc:root", "3"};
+  EXPECT_EQ(find_targets(rule, t).edges, (std::vector<EdgeId>{0, 1, 2}));
+  rule.edges.clear();
+  rule.groups = {"te", "BODY"};
+  const RuleTargets both = find_targets(rule, t);
+  EXPECT_EQ(both.edges, std::vector<EdgeId>{0});
+  EXPECT_EQ(both.faces, std::vector<FaceId>{1});
+  const ModelLimits limits = model_limits(t, face_roles(t), kWall, {rule});
+  EXPECT_EQ(limits.edge[0]->max_length, 0.1);
+  EXPECT_EQ(limits.face[0]->max_length, 0.5) << "its face keeps its own";
+}
+
+TEST(SizeRules, of_a_group_of_vertices_ask_for_lmax_there) {
+  const ModelTables t = with_groups();
+  SizeRule rule = rule_of({}, 0.1);
+  rule.groups = {"tip"};
+  const ModelLimits limits = model_limits(t, face_roles(t), kWall, {rule});
+  EXPECT_FALSE(limits.vertex[0]);
+  EXPECT_EQ(limits.vertex[1]->max_length, 0.1);
+}
+
+TEST(SizeRules, say_of_between_that_it_takes_groups_of_faces) {
+  const ModelTables t = with_groups();
+  SizeRule rule = rule_of({}, 0.1);
+  rule.between = {"te", "BODY"};
+  try {
+    find_targets(rule, t);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("it names a group of edges"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace st
