@@ -47,15 +47,11 @@ std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
   return number;
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
-  return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
-}
-
 /// Adds the faces whose number has a matching name.
 void add_matches(const std::string& pattern, const std::vector<std::string>& name, const std::vector<std::int32_t>& of_face,
                  std::vector<std::uint8_t>& is_in) {
   std::vector<std::uint8_t> is_match;
-  for (const std::string& n : name) is_match.push_back(matches(pattern, n));
+  for (const std::string& n : name) is_match.push_back(name_matches(pattern, n));
   for (std::size_t f = 0; f < std::min(is_in.size(), of_face.size()); ++f)
     if (of_face[f] >= 0 && is_match[of_face[f]]) is_in[f] = 1;
 }
@@ -115,6 +111,10 @@ std::vector<std::string> words_of(const std::string& name) {
 }
 
 }  // namespace
+
+bool name_matches(const std::string& pattern, const std::string& name) {
+  return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+}
 
 const std::string& FaceLabels::part_of(FaceId f) const { return label_of(*this, part_name, f); }
 const std::string& FaceLabels::path_of(FaceId f) const { return label_of(*this, part_path, f); }

@@ -68,6 +68,9 @@ struct GroupNames {
   const FaceLabels& labels;
 };
 
+/// Whether the name is this one or matches this glob pattern (`*`, `?`, `[abc]`); no name matches nothing.
+bool name_matches(const std::string& pattern, const std::string& name);
+
 /// Faces of the main groups whose names match a glob pattern; where none does, of the groups of further tables ("hot", or "bc:hot" with
 /// the name of the table), else of parts with such a name, else of parts with such a path. [n_faces] 1: in it; empty: nothing matches.
 std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names);

@@ -8,17 +8,17 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "base/error.h"
 #include "geometry/compound.h"
+#include "geometry/model_editor.h"
 #include "geometry/model_impl.h"
 #include "geometry/model_tables.h"
 
 namespace st {
 namespace {
-
-constexpr double kSameAngle = 1e-9;  // of a map's rows: lengths alike, right angles
 
 /// `values[ids[i]]` for each i, in rows of `n_columns`.
 template <class T>
@@ -135,19 +135,51 @@ std::vector<VertexId> vertex_ids(const TopoDS_Shape& part, const std::vector<Edg
   return ids_of(part, TopAbs_VERTEX, all);
 }
 
-gp_Trsf similarity(const AffineMap& m) {
-  const double scale = norm(m.a[0]);
-  double worst = scale > 0 ? 0 : 1;
-  for (int i = 0; i < 3 && scale > 0; ++i) {
-    worst = std::max(worst, std::abs(norm(m.a[i]) / scale - 1));
-    worst = std::max(worst, std::abs(dot(m.a[i], m.a[(i + 1) % 3])) / (scale * scale));
-  }
-  if (!(worst <= kSameAngle))
-    throw Error(ExitCode::kUsage,
-                "the matrix does not keep angles; only moving, turning, mirroring and scaling alike in x, y and z can be done");
+/// What names and groups say of the faces, which are the same in both.
+void copy_labels(const ModelTables& t, ModelTables& out) {
+  out.face_name = t.face_name;
+  out.face_color = t.face_color;
+  out.face_layer = t.face_layer;
+  out.face_group = t.face_group;
+  out.group_name = t.group_name;
+  out.group_role = t.group_role;
+  out.labels = t.labels;
+}
+
+/// 0, 1, 2 ...
+std::vector<std::int32_t> numbers(std::int32_t n) {
+  std::vector<std::int32_t> all(n);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+gp_Trsf trsf_of(const Similarity& m) {
+  const Vec3 a = m.scale * m.rotation[0], b = m.scale * m.rotation[1], c = m.scale * m.rotation[2];
   gp_Trsf t;
-  t.SetValues(m.a[0].x, m.a[0].y, m.a[0].z, m.shift.x, m.a[1].x, m.a[1].y, m.a[1].z, m.shift.y, m.a[2].x, m.a[2].y, m.a[2].z, m.shift.z);
+  t.SetValues(a.x, a.y, a.z, m.translation.x, b.x, b.y, b.z, m.translation.y, c.x, c.y, c.z, m.translation.z);
   return t;
+}
+
+/// Throws Error(kGeometry) where the faces in `moves` have edges or vertices in common with the others.
+void require_apart(const ModelTables& t, const std::vector<char>& moves) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  std::vector<FaceId> at_vertex[2];  // a face at each vertex that stays, that moves
+  at_vertex[0].assign(t.n_vertices(), kNone);
+  at_vertex[1] = at_vertex[0];
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
+      for (const int end : {0, 1}) at_vertex[moves[faces[i]] ? 1 : 0][t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = faces[i];
+  const auto fail = [&](const std::string& what, FaceId moving, FaceId staying) {
+    throw Error(ExitCode::kGeometry, "the model would tear at " + what + ": " + t.face_label(moving) + " would move, " + t.face_label(staying) +
+                                         " beside it would not; name whole bodies, or move all of it");
+  };
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (std::int32_t i = offsets[e] + 1; i < offsets[e + 1]; ++i)
+      if (const FaceId a = faces[offsets[e]], b = faces[i]; moves[a] != moves[b]) fail(t.edge_label(e), moves[a] ? a : b, moves[a] ? b : a);
+  for (VertexId v = 0; v < t.n_vertices(); ++v)
+    if (at_vertex[0][v] != kNone && at_vertex[1][v] != kNone) fail("vertex " + std::to_string(v + 1), at_vertex[1][v], at_vertex[0][v]);
 }
 
 /// Groups of `second` in the numbers of `to`, to which the new ones are added.
@@ -212,12 +244,6 @@ void append_faces(ModelTables& t, const ModelTables& s) {
 
 }  // namespace
 
-/// What of a Model only this file sees.
-class ModelEditor {
- public:
-  static const Model::Impl& brep(const Model& m) { return *m.impl_; }
-};
-
 SubModel extract(const Model& model, std::span<const FaceId> wanted) {
   const ModelTables& t = model.tables();
   const Model::Impl& whole = ModelEditor::brep(model);
@@ -251,9 +277,9 @@ SubModel remove_faces(const Model& model, std::span<const FaceId> faces) {
   return extract(model, rest);
 }
 
-Model transform(const Model& model, const AffineMap& map) {
+Model transform(const Model& model, const Similarity& motion) {
   const ModelTables& t = model.tables();
-  const gp_Trsf trsf = similarity(map);
+  const gp_Trsf trsf = trsf_of(motion);
   occt::ImportedShape moved;
   occt::ModelOfFile measured;
   try {
@@ -267,17 +293,40 @@ Model transform(const Model& model, const AffineMap& map) {
   }
   ModelTables& out = measured.tables;
   out.edge_name = t.edge_name;
-  out.face_name = t.face_name;
-  out.face_color = t.face_color;
-  out.face_layer = t.face_layer;
-  out.face_group = t.face_group;
-  out.labels = t.labels;
-  out.group_name = t.group_name;
-  out.group_role = t.group_role;
+  copy_labels(t, out);
   out.unit = t.unit;
   out.unit_in_m = t.unit_in_m;
-  if (t.volume) out.volume = *t.volume * std::pow(std::abs(trsf.ScaleFactor()), 3);
+  if (t.volume) out.volume = *t.volume * std::pow(motion.scale, 3);
   return Model(std::move(out), occt::brep_bytes(moved.shape));
+}
+
+SubModel transform_faces(const Model& model, std::span<const FaceId> wanted, const Similarity& motion) {
+  const ModelTables& t = model.tables();
+  std::vector<char> moves(t.n_faces(), 0);
+  for (const FaceId f : checked(t, wanted)) moves[f] = 1;
+  require_apart(t, moves);
+  std::vector<FaceId> order(t.n_faces()), rest_faces;  // order: of the model's faces in the rest with the part behind it
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (!moves[f]) {
+      order[f] = static_cast<FaceId>(rest_faces.size());
+      rest_faces.push_back(f);
+    }
+  for (std::size_t i = 0; i < wanted.size(); ++i) order[wanted[i]] = static_cast<FaceId>(rest_faces.size() + i);
+  if (rest_faces.empty()) return {transform(model, motion), numbers(t.n_faces()), numbers(t.n_edges()), numbers(t.n_vertices())};
+
+  SubModel rest = extract(model, rest_faces);
+  const SubModel part = extract(model, wanted);
+  const SubModel both = extract(append(rest.model, transform(part.model, motion)), order);
+  add_all(rest.edges, part.edges);
+  add_all(rest.vertices, part.vertices);
+  ModelTables out = both.model.tables();
+  copy_labels(t, out);
+  out.face_shell = t.face_shell;
+  out.face_solid = t.face_solid;
+  out.n_shells = t.n_shells;
+  out.n_solids = t.n_solids;
+  if (motion.scale == 1) out.volume = t.volume;
+  return {Model(std::move(out), both.model.brep()), numbers(t.n_faces()), gather(rest.edges, both.edges), gather(rest.vertices, both.vertices)};
 }
 
 Model append(const Model& first, const Model& second) {

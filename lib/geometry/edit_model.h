@@ -1,10 +1,10 @@
 // Parts of models and models put together: B-Rep, tables and groups stay consistent. Nothing is changed in place.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "base/similarity.h"
 #include "geometry/model.h"
 
 namespace st {
@@ -25,16 +25,12 @@ SubModel extract(const Model& model, std::span<const FaceId> faces);
 /// All faces but those named. Throws Error(kUsage) for an unknown face, and when none would stay.
 SubModel remove_faces(const Model& model, std::span<const FaceId> faces);
 
-/// x -> a x + shift; `a` by rows.
-struct AffineMap {
-  std::array<Vec3, 3> a{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  Vec3 shift;
-  Vec3 operator()(Vec3 x) const { return Vec3{dot(a[0], x), dot(a[1], x), dot(a[2], x)} + shift; }
-};
+/// The model moved; ids, names and groups stay, normals point out of the solids as before. Throws Error(kGeometry).
+Model transform(const Model& model, const Similarity& motion);
 
-/// The model moved, turned, mirrored or scaled alike in all directions; ids, names and groups stay, normals point out of the solids as
-/// before. Throws Error(kUsage) for a map that changes angles, since surfaces of revolution and offsets would not stay what they are.
-Model transform(const Model& model, const AffineMap& map);
+/// Some faces moved, the others as they are: ids, names and groups stay. Volume: that of `model` unless the motion scales.
+/// Throws Error(kUsage) for faces as extract() does, Error(kGeometry) for faces that share edges or vertices with others, which would tear.
+SubModel transform_faces(const Model& model, std::span<const FaceId> faces, const Similarity& motion);
 
 /// Both models side by side: the entities of `second` after those of `first`, groups of the same name and role become one. Nothing is sewn.
 /// Throws Error(kMismatch) when the units differ.

@@ -1,13 +1,11 @@
 #include "geometry/group_selection.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "geometry/model.h"
 
 namespace st {
@@ -15,22 +13,6 @@ namespace {
 
 constexpr double kBoxSlack = 1e-6;  // of the model's diagonal: bounding boxes are made of samples and tolerances
 constexpr const char* kWhereNamesAre = "; st-info geometry.hdf --groups lists names, or say optional = true";
-
-bool matches(const std::string& pattern, const std::string& name) {
-  return !name.empty() && (name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
-}
-
-/// "17" or "17-20"; nullopt: a name.
-std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text) {
-  const char *const begin = text.data(), *const end = begin + text.size();
-  std::int64_t first = 0, last = 0;
-  const auto a = std::from_chars(begin, end, first);
-  if (a.ec != std::errc() || first < 0) return std::nullopt;
-  if (a.ptr == end) return std::pair(first, first);
-  const auto b = std::from_chars(a.ptr + 1, end, last);
-  if (*a.ptr != '-' || b.ec != std::errc() || b.ptr != end || last < 0) return std::nullopt;
-  return std::pair(first, last);
-}
 
 double coordinate(const GroupRule& rule, const CoordinateSpec& c, const ModelTables& t) {
   if (!c.is_in_metres) return c.value;
@@ -58,7 +40,7 @@ void GroupSelection::keep(const Mask& wanted) {
 void GroupSelection::add_matches(const char* key, const std::string& item, const Name& name, Mask& wanted) const {
   bool is_used = false;
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (matches(item, name(static_cast<std::int32_t>(i)))) wanted[i] = is_used = true;
+    if (name_matches(item, name(static_cast<std::int32_t>(i)))) wanted[i] = is_used = true;
   if (!is_used && !rule_.is_optional)
     fail_group(rule_, std::string(key) + ": '" + item + "' matches nothing" + kWhereNamesAre);
 }

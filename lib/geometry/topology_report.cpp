@@ -11,6 +11,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "geometry/model_state.h"
+
 namespace st::occt {
 namespace {
 
@@ -19,16 +21,10 @@ Vec3 middle(const ModelTables& t, EdgeId e) {
 }
 
 void report_uses(ImportResult& result) {
-  const ModelTables& t = result.tables;
-  std::vector<int> uses(t.n_edges(), 0);
-  for (EdgeId e : t.coedge_edge) ++uses[e];
-  for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    if (t.edge_is_degenerate[e] || uses[e] == 2 || uses[e] == 0) continue;
-    const bool is_free = uses[e] == 1;
-    ++(is_free ? result.n_free_edges : result.n_nonmanifold_edges);
-    result.findings.push_back(
-        {is_free ? "free edge" : "non-manifold edge", t.edge_label(e), t.vertex_xyz[t.edge_vertices[2 * e]], t.edge_length[e], false});
-  }
+  const EdgeUses uses = report_edge_uses(result.tables);
+  result.n_free_edges = uses.n_free;
+  result.n_nonmanifold_edges = uses.n_nonmanifold;
+  result.findings.insert(result.findings.end(), uses.findings.begin(), uses.findings.end());
 }
 
 void report_edges(double small, ImportResult& result) {
@@ -126,7 +122,7 @@ void report_topology(const ImportedShape& model, const FaceMeasures& measures, d
   report_faces(measures, small, result);
   report_edges(small, result);
   report_gaps(model, small, result);
-  result.is_closed = result.tables.n_shells > 0 && result.n_free_edges == 0;
+  result.is_closed = is_closed(result.tables, result.n_free_edges);
   for (double a : result.tables.face_area) result.area += a;
   if (!result.is_closed) return;
   std::vector<int> n_sides(result.tables.n_faces(), 0);

@@ -42,6 +42,9 @@ struct GeometryArtifact {
   std::vector<std::byte> brep;
   std::vector<ImportFinding> findings;
   bool is_closed = false;
+  /// What each entity of an edited geometry was: its id, and the input it is of (index into header.inputs). [2*n] Empty unless st-edit
+  /// made it. Provenance, not content.
+  std::vector<std::int32_t> previous_faces, previous_edges, previous_vertices;
 };
 
 /// patches.hdf: what st-mesh and st-remesh hand to st-merge, self-contained.

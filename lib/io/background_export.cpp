@@ -51,12 +51,13 @@ class TextFile {
 
 void export_bac(const OctreeField& field, const std::string& output) {
   const OctreeTets mesh = octree_tets(field.data().octree);
+  const Similarity frame = field.frame();
   TextFile file(output);
   file << "* background mesh\n" << static_cast<std::int64_t>(mesh.node_xyz.size()) << " ";
   file << static_cast<std::int64_t>(mesh.tets.size()) << " 0 0 0\n";
   int hint = 0;
   for (std::size_t i = 0; i < mesh.node_xyz.size(); ++i) {
-    const Vec3 x = mesh.node_xyz[i];
+    const Vec3 x = frame(mesh.node_xyz[i]);
     const auto h = static_cast<float>(field.size(x, hint));
     file << static_cast<std::int64_t>(i + 1) << " " << x.x << " " << x.y << " " << x.z << "\n1 0 0 " << h << "\n0 1 0 " << h << "\n0 0 1 "
          << h << "\n";
@@ -72,6 +73,7 @@ void export_bac(const OctreeField& field, const std::string& output) {
 
 void export_pos(const OctreeField& field, const std::string& output) {
   const OctreeView& octree = field.data().octree;
+  const Similarity frame = field.frame();
   TextFile file(output);
   file << "View \"size\" {\n";
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
@@ -81,14 +83,15 @@ void export_pos(const OctreeField& field, const std::string& output) {
     file << "SH(";
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
-      file << (k ? "," : "") << c.x + half * d[0] << "," << c.y + half * d[1] << "," << c.z + half * d[2];
+      const Vec3 x = frame(c + half * Vec3{d[0], d[1], d[2]});
+      file << (k ? "," : "") << x.x << "," << x.y << "," << x.z;
     }
     file << "){";
     constexpr double kInside = 1 - 1e-9;  // just inside, so that this leaf answers
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
       int hint = leaf;
-      file << (k ? "," : "") << static_cast<float>(field.size(c + kInside * half * Vec3{d[0], d[1], d[2]}, hint));
+      file << (k ? "," : "") << static_cast<float>(field.size(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint));
     }
     file << "};\n";
   }

@@ -60,6 +60,17 @@ void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
   w.write("/st/finding/is_repair", is_repair);
 }
 
+constexpr const char *kPreviousFaces = "/st/face/previous_id", *kPreviousEdges = "/st/edge/previous_id",
+                     *kPreviousVertices = "/st/vertex/previous_id";
+
+std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& name, std::size_t n) {
+  std::vector<std::int32_t> previous = r.read_rows<std::int32_t>(name, n, 2);
+  for (std::size_t i = 0; i < n; ++i)
+    if (previous[2 * i] < 0 || previous[2 * i + 1] < 0 || static_cast<std::size_t>(previous[2 * i + 1]) >= r.header().inputs.size())
+      r.fail(name, "row " + std::to_string(i) + " is of no input");
+  return previous;
+}
+
 void read_vertices_and_edges(const Hdf5Reader& r, ModelTables& t) {
   t.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
   t.vertex_tolerance = r.read_rows<double>("/st/vertex/tolerance", t.vertex_xyz.size());
@@ -141,6 +152,11 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
   write_vertices_and_edges(w, t);
   write_faces(w, t);
   write_findings(w, geometry.findings);
+  if (!geometry.previous_faces.empty()) {
+    w.write(kPreviousFaces, geometry.previous_faces, 2);
+    w.write(kPreviousEdges, geometry.previous_edges, 2);
+    w.write(kPreviousVertices, geometry.previous_vertices, 2);
+  }
   w.write("/st/brep", geometry.brep);
   w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
   w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
@@ -159,6 +175,11 @@ GeometryArtifact read_geometry(const std::string& path) {
   geometry.tables.unit_in_m = r.header().unit_in_m;
   if (r.has("/st/volume")) geometry.tables.volume = r.read_rows<double>("/st/volume", 1)[0];
   geometry.findings = read_findings(r);
+  if (r.has(kPreviousFaces)) {
+    geometry.previous_faces = read_previous(r, kPreviousFaces, geometry.tables.face_type.size());
+    geometry.previous_edges = read_previous(r, kPreviousEdges, geometry.tables.edge_length.size());
+    geometry.previous_vertices = read_previous(r, kPreviousVertices, geometry.tables.vertex_xyz.size());
+  }
   geometry.brep = r.read<std::byte>("/st/brep");
   geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;
   return geometry;

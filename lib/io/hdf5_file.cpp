@@ -118,7 +118,7 @@ using AttributeKey = std::pair<std::string, std::string>;  // group, name
 std::string content_hash(const std::vector<DatasetInfo>& datasets_by_name, const std::map<AttributeKey, AttributeValue>& attributes) {
   Hasher hasher;
   for (const DatasetInfo& d : datasets_by_name) {
-    if (d.name.ends_with("/previous_id")) continue;  // provenance: equal meshes may come from different ones
+    if (is_provenance(d.name)) continue;
     hasher.add(std::string_view(d.name));
     hasher.add(std::string_view(element_type_name(d.type)));
     hasher.add(std::span<const std::uint64_t>(d.shape));
@@ -149,6 +149,8 @@ std::string tool_of(const std::string& schema) {
 }
 
 }  // namespace
+
+bool is_provenance(const std::string& dataset) { return dataset.ends_with("/previous_id"); }
 
 const char* element_type_name(ElementType type) {
   switch (type) {

@@ -86,6 +86,9 @@ struct Element<Triangle> {
   static constexpr std::size_t count = 3;
 };
 
+/// Whether a dataset says only what entities were before (`.../previous_id`): provenance, as equal contents may come from different ones.
+bool is_provenance(const std::string& dataset);
+
 /// A file that appears under its name only when it is complete: written beside it, synced, renamed by commit(). Without commit() nothing
 /// is left. All functions throw Error(kOutput) naming the file.
 class Hdf5Writer {

@@ -16,7 +16,7 @@
 namespace st {
 namespace {
 
-constexpr std::uint8_t kVtkVoxel = 11;
+constexpr std::uint8_t kVtkVoxel = 11, kVtkHexahedron = 12;
 constexpr int kCornerBits = 21;  // corners lie at 0 .. 2^20
 
 /// What is shown: one value per leaf.
@@ -24,6 +24,7 @@ struct CellData {
   std::vector<float> size;
   std::vector<std::int32_t> cause;
   std::vector<std::uint8_t> colour;  // empty: nothing is blanked
+  Similarity frame;                  // where the octree lies
 };
 
 std::uint64_t pack_corner(GridPoint p) {
@@ -58,7 +59,13 @@ std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays&
          (data.colour.empty() ? "" : arrays.add("colour", "UInt8", data.colour)) + "      </CellData>\n";
 }
 
-std::string points_and_cells(const OctreeView& octree, VtuArrays& arrays, std::size_t& n_points) {
+/// Places of a cell's corners among those of leaf_corners: VTK's voxels lie along the axes, hexahedra need not.
+std::array<int, 8> corner_order(const Similarity& frame) {
+  if (frame == Similarity()) return {0, 1, 2, 3, 4, 5, 6, 7};
+  return frame.is_mirrored() ? std::array{4, 5, 7, 6, 0, 1, 3, 2} : std::array{0, 1, 3, 2, 4, 5, 7, 6};
+}
+
+std::string points_and_cells(const OctreeView& octree, const Similarity& frame, VtuArrays& arrays, std::size_t& n_points) {
   const std::size_t n = octree.leaf_keys.size();
   std::vector<std::uint64_t> corners;
   corners.reserve(8 * n);
@@ -70,24 +77,27 @@ std::string points_and_cells(const OctreeView& octree, VtuArrays& arrays, std::s
   const double unit = octree.edge / kCoordinateEnd;
   for (const std::uint64_t c : corners) {
     const GridPoint p = unpack_corner(c);
-    xyz.insert(xyz.end(), {octree.lo.x + p.x * unit, octree.lo.y + p.y * unit, octree.lo.z + p.z * unit});
+    const Vec3 x = frame({octree.lo.x + p.x * unit, octree.lo.y + p.y * unit, octree.lo.z + p.z * unit});
+    xyz.insert(xyz.end(), {x.x, x.y, x.z});
   }
+  const std::array<int, 8> order = corner_order(frame);
+  const std::uint8_t type = frame == Similarity() ? kVtkVoxel : kVtkHexahedron;
   std::vector<std::int64_t> connectivity, offsets;
   connectivity.reserve(8 * n);
   for (std::size_t leaf = 0; leaf < n; ++leaf) {
-    for (const std::uint64_t c : leaf_corners(octree, leaf))
-      connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), c) - corners.begin());
+    const std::array<std::uint64_t, 8> of_leaf = leaf_corners(octree, leaf);
+    for (const int k : order) connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), of_leaf[k]) - corners.begin());
     offsets.push_back(static_cast<std::int64_t>(8 * (leaf + 1)));
   }
   return "      <Points>\n" + arrays.add("Points", "Float64", xyz, 3) + "      </Points>\n      <Cells>\n" +
          arrays.add("connectivity", "Int64", connectivity) + arrays.add("offsets", "Int64", offsets) +
-         arrays.add("types", "UInt8", std::vector<std::uint8_t>(n, kVtkVoxel)) + "      </Cells>\n";
+         arrays.add("types", "UInt8", std::vector<std::uint8_t>(n, type)) + "      </Cells>\n";
 }
 
 void write_vtu(const OctreeView& octree, const CellData& data, const std::string& output) {
   VtuArrays arrays;
   std::size_t n_points = 0;
-  const std::string cells = cell_data(octree, data, arrays), geometry = points_and_cells(octree, arrays, n_points);
+  const std::string cells = cell_data(octree, data, arrays), geometry = points_and_cells(octree, data.frame, arrays, n_points);
   TemporaryFile temporary(output);
   std::ofstream file(temporary.name(), std::ios::binary);
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -122,8 +132,9 @@ void export_octree(const std::string& artifact, const std::string& output) {
     return;
   }
   const SizingArtifact sizing = read_sizing(artifact);
-  for (const CellLength& c : sizing.lengths.cells) data.size.push_back(static_cast<float>(sizing.scale) * c.length);
+  for (const CellLength& c : sizing.lengths.cells) data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * c.length);
   data.cause = sizing.lengths.cause;
+  data.frame = sizing.frame;
   for (const CellColour c : sizing.blanking.colour) data.colour.push_back(static_cast<std::uint8_t>(c));
   write_vtu(sizing.shape.view(), data, output);
 }

@@ -8,6 +8,7 @@
 #include "io/artifact_checks.h"
 #include "io/face_labels_io.h"
 #include "io/hdf5_file.h"
+#include "sizing/moved_field.h"
 
 namespace st {
 
@@ -35,11 +36,13 @@ struct Element<CellColour> : Element<std::uint8_t> {};
 namespace {
 
 constexpr int kOpenSizingVersion = 2;   // of a sizing without a surface in it
+constexpr int kUnmovedSizingVersion = 3;  // of one whose octree lies where it was made
 constexpr int kPlainRasterVersion = 2;  // of a raster without samples
 constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
+constexpr const char* kFrame = "/st/octree/frame";
 constexpr const char* kLeafKey = "/st/octree/leaf_key";
 constexpr const char* kLeafLevel = "/st/octree/leaf_level";
 constexpr const char* kNodeChild = "/st/octree/node_child";
@@ -147,6 +150,25 @@ FaceCells read_face_cells(const Hdf5Reader& file) {
   return faces;
 }
 
+/// Rotation by rows, scale, translation.
+void write_frame(Hdf5Writer& file, const Similarity& frame) {
+  std::vector<double> numbers;
+  for (const Vec3& row : frame.rotation) numbers.insert(numbers.end(), {row.x, row.y, row.z});
+  numbers.insert(numbers.end(), {frame.scale, frame.translation.x, frame.translation.y, frame.translation.z});
+  file.write<double>(kFrame, numbers);
+}
+
+Similarity read_frame(const Hdf5Reader& file) {
+  Similarity frame;
+  if (!file.has(kFrame)) return frame;
+  const std::vector<double> n = file.read_rows<double>(kFrame, 13);
+  for (std::size_t i = 0; i < 3; ++i) frame.rotation[i] = {n[3 * i], n[3 * i + 1], n[3 * i + 2]};
+  frame.scale = n[9];
+  frame.translation = {n[10], n[11], n[12]};
+  if (!(frame.scale > 0)) file.fail(kFrame, "its scale is not positive");
+  return frame;
+}
+
 /// What a mapped field keeps alive.
 struct MappedArrays {
   MappedArray<std::uint64_t> leaf_key;
@@ -193,7 +215,7 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   data.second_cause = arrays->second_cause.values();
   data.slope = file.double_attribute(kSizing, "slope");
   data.scale = file.double_attribute(kSizing, "scale");
-  return std::make_unique<OctreeField>(data, arrays, min_length);
+  return make_octree_field(data, arrays, min_length, read_frame(file));
 }
 
 CauseNames read_names(const Hdf5Reader& file) {
@@ -272,7 +294,8 @@ RasterArtifact read_raster(const std::string& path) {
 std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
   ArtifactHeader header = sizing.header;
   const bool is_blanked = !sizing.blanking.colour.empty();
-  header.schema_version = is_blanked ? kSizingVersion : kOpenSizingVersion;
+  const bool is_moved = sizing.frame != Similarity();
+  header.schema_version = is_moved ? kSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
@@ -281,6 +304,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);
   write_shape(file, sizing.shape);
+  if (is_moved) write_frame(file, sizing.frame);
   file.write<CellLength>(kCell, sizing.lengths.cells);
   file.write<std::int32_t>(kCause, sizing.lengths.cause);
   if (is_blanked) {
@@ -306,6 +330,7 @@ SizingArtifact read_sizing(const std::string& path) {
   sizing.slope = file.double_attribute(kSizing, "slope");
   sizing.scale = file.double_attribute(kSizing, "scale");
   sizing.shape = read_shape(file);
+  sizing.frame = read_frame(file);
   const std::size_t n = sizing.shape.leaf_keys.size();
   sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
   sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);

@@ -15,7 +15,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 4, kSizingVersion = 3;
+inline constexpr int kRasterVersion = 4, kSizingVersion = 4;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -58,13 +58,14 @@ struct SizingArtifact {
   SizingNumbers numbers;
   double slope = 0;  ///< largest change of length per distance, before `scale`
   double scale = 1;  ///< multiplies every length of a query
+  Similarity frame;  ///< the octree's point x lies at frame(x) of the model: it moved with its geometry. Lengths below are as before
   OctreeShape shape;
   ProlongedLengths lengths;
   Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
 
-  /// Views of the arrays above.
+  /// Views of the arrays above, in the octree's own frame.
   OctreeFieldData field_data() const {
     return {shape.view(),   lengths.cells,        lengths.cause,       slope, scale, blanking.split_leaf,
             blanking.split, lengths.second_cells, lengths.second_cause};

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/text.h"
 #include "io/text_file.h"
 #include "io/toml_entry.h"
 
@@ -101,11 +102,6 @@ void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets,
     mesh.node_length.push_back(least);
   }
   for (std::int64_t i = 0; i < n_tets; ++i) mesh.tets.push_back(tet_of(file, index, file.numbers("a tetrahedron", 5).data() + 1));
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
 void read_bac_sources(LineReader& file, SourceKind kind, std::int64_t n, std::vector<SourceSpec>& sources) {
@@ -396,34 +392,6 @@ SourceFile read_background_file(const std::string& path) {
   SourceFile file = is_flite(path) ? read_bac(path) : read_msh(path);
   if (file.background.tets.empty()) throw Error(ExitCode::kInput, path + ": has no tetrahedra; give a background mesh");
   return file;
-}
-
-Similarity parse_similarity(const std::string& text, const std::string& option) {
-  const auto fail = [&](const std::string& step) {
-    throw Error(ExitCode::kUsage, option + ": '" + step + "' is no step; write 'rotate X Y Z DEGREES; scale F; translate X Y Z'");
-  };
-  Similarity all;
-  std::istringstream steps(text);
-  for (std::string step; std::getline(steps, step, ';');) {
-    std::istringstream words(step);
-    std::string verb, rest;
-    if (!(words >> verb)) continue;
-    std::vector<double> v;
-    for (double x; words >> x;) v.push_back(x);
-    words.clear();
-    if (words >> rest) fail(trimmed(step));
-    Similarity one;
-    if (verb == "rotate" && v.size() == 4 && norm(Vec3{v[0], v[1], v[2]}) > 0)
-      one = rotation_about({v[0], v[1], v[2]}, radians(v[3]));
-    else if (verb == "scale" && v.size() == 1 && v[0] > 0)
-      one.scale = v[0];
-    else if (verb == "translate" && v.size() == 3)
-      one.translation = {v[0], v[1], v[2]};
-    else
-      fail(trimmed(step));
-    all = all.then(one);
-  }
-  return all;
 }
 
 }  // namespace st

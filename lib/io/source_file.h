@@ -39,8 +39,4 @@ SourceFile read_source_file(const std::string& path, const ModelScale& scale);
 /// Throws Error(kInput) with file and line.
 SourceFile read_background_file(const std::string& path);
 
-/// "rotate 0 0 1 30; scale 0.001; translate 1 2 3": steps in order; rotation about an axis through the origin, degrees. Throws
-/// Error(kUsage) naming `option`.
-Similarity parse_similarity(const std::string& text, const std::string& option);
-
 }  // namespace st

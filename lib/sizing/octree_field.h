@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/similarity.h"
 #include "sizing/blanking.h"
 #include "sizing/octree.h"
 #include "sizing/size_field.h"
@@ -49,8 +50,10 @@ class OctreeField : public SizeField {
   double min_size() const override { return min_size_; }
   double slope() const override { return data_.slope * data_.scale; }
   const OctreeFieldData& data() const { return data_; }
-  SizeExplanation explain(Vec3 xyz) const;
-  /// Likewise size(), and its gradient.
+  /// Where the octree lies: its point x (leaves, split planes) at frame()(x) of the model, in which all questions are asked.
+  virtual Similarity frame() const { return {}; }
+  virtual SizeExplanation explain(Vec3 xyz) const;
+  /// Likewise size() in the octree's own frame, and its gradient.
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const;
 
  private:

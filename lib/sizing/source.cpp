@@ -214,28 +214,6 @@ class TetSource final : public SizeSource {
 
 int n_spacings(SourceKind kind) { return kind == SourceKind::kLine ? 2 : kind == SourceKind::kTriangle ? 3 : 1; }
 
-Similarity Similarity::then(const Similarity& next) const {
-  Similarity both;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 r = next.rotation[i];
-    both.rotation[i] = r.x * rotation[0] + r.y * rotation[1] + r.z * rotation[2];
-  }
-  both.scale = scale * next.scale;
-  both.translation = next(translation);
-  return both;
-}
-
-Similarity rotation_about(Vec3 axis, double angle) {
-  const Vec3 n = normalized(axis);
-  const double c = std::cos(angle), s = std::sin(angle);
-  Similarity r;
-  const double n_[3] = {n.x, n.y, n.z};
-  const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Vec3 skew[3] = {{0, -n.z, n.y}, {n.z, 0, -n.x}, {-n.y, n.x, 0}};
-  for (std::size_t i = 0; i < 3; ++i) r.rotation[i] = c * unit[i] + s * skew[i] + ((1 - c) * n_[i]) * n;
-  return r;
-}
-
 void transform(const Similarity& motion, SourceSpec& source) {
   for (Vec3& p : source.point) p = motion(p);
   for (Vec3& a : source.half_axis) a = motion.scale * motion.rotated(a);

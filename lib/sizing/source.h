@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/similarity.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -50,21 +51,6 @@ struct SourceSpec {
 
 /// Points of a line or triangle, 1 for the rest.
 int n_spacings(SourceKind kind);
-
-/// Rotation, then scaling in common, then translation.
-struct Similarity {
-  std::array<Vec3, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows
-  double scale = 1;
-  Vec3 translation{};
-
-  Vec3 rotated(Vec3 v) const { return {dot(rotation[0], v), dot(rotation[1], v), dot(rotation[2], v)}; }
-  Vec3 operator()(Vec3 x) const { return scale * rotated(x) + translation; }
-  /// This one first, then `next`.
-  Similarity then(const Similarity& next) const;
-};
-
-/// Rotation by `angle` (radians, right-handed) about the axis through the origin.
-Similarity rotation_about(Vec3 axis, double angle);
 
 /// Positions are moved; lengths, radii and extents are scaled.
 void transform(const Similarity& motion, SourceSpec& source);

@@ -81,4 +81,10 @@ BlankInput read_blank(const std::string& path, const std::string& side) {
   return input;
 }
 
+void transform(const Similarity& motion, SurfaceMesh& mesh) {
+  for (Vec3& x : mesh.node_xyz) x = motion(x);
+  if (motion.is_mirrored())
+    for (Triangle& t : mesh.triangles) std::swap(t.n[1], t.n[2]);
+}
+
 }  // namespace st

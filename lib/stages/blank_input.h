@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/similarity.h"
 #include "io/artifact.h"
 #include "sizing/blanking.h"
 
@@ -23,5 +24,8 @@ void require_blank_side(const std::string& side);
 /// Reads, orients and checks. `side`: as above; "auto": outside when the name of a group says far field. Throws
 /// Error(kUsage), Error(kInput), Error(kGeometry) naming places when the mesh is open or cannot be oriented.
 BlankInput read_blank(const std::string& path, const std::string& side);
+
+/// The nodes moved; a mirrored mesh keeps its normals out of its inside.
+void transform(const Similarity& motion, SurfaceMesh& mesh);
 
 }  // namespace st

@@ -85,7 +85,16 @@ Json parse_or_text(const std::string& text) {
   return parsed.is_discarded() ? Json(text) : parsed;
 }
 
-Json info_json(const std::string& path, const ArtifactDescription& artifact) {
+/// Faces of an edited geometry that come from each of its inputs; empty for all else.
+std::vector<std::int64_t> faces_of_inputs(const std::string& path, const ArtifactDescription& artifact) {
+  if (artifact.header.schema != "geometry" || artifact.rows("/st/face/previous_id") == 0) return {};
+  std::vector<std::int64_t> count(artifact.header.inputs.size(), 0);
+  const std::vector<std::int32_t> previous = read_geometry(path).previous_faces;
+  for (std::size_t i = 1; i < previous.size(); i += 2) ++count[previous[i]];
+  return count;
+}
+
+Json info_json(const std::string& path, const ArtifactDescription& artifact, const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
   Json json = {{"tool", "st-info"},    {"artifact", path},         {"schema", h.schema}, {"schema_version", h.schema_version},
                {"written_by", h.tool}, {"version", h.tool_version}};
@@ -97,13 +106,14 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact) {
   for (const AttributeSummary& p : properties_of(artifact)) json["properties"][p.name] = to_json(p);
   json["inputs"] = Json::array();
   for (const InputRef& input : h.inputs) json["inputs"].push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
+  for (std::size_t i = 0; i < n_faces.size(); ++i) json["inputs"][i]["faces"] = n_faces[i];
   json["options"] = parse_or_text(h.options_json.empty() ? "{}" : h.options_json);
   json["geometry_hash"] = h.schema == "geometry" ? h.content_hash : h.geometry_hash;
   json["hash"] = h.content_hash;
   return json;
 }
 
-std::string info_lines(const std::string& path, const ArtifactDescription& artifact) {
+std::string info_lines(const std::string& path, const ArtifactDescription& artifact, const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
   std::string text =
       fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
@@ -111,7 +121,9 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
-  for (const InputRef& input : h.inputs) row("from " + input.role, fmt::format("{} {}", input.name, input.hash));
+  for (std::size_t i = 0; i < h.inputs.size(); ++i)
+    row("from " + h.inputs[i].role,
+        fmt::format("{} {}{}", h.inputs[i].name, h.inputs[i].hash, n_faces.empty() ? "" : fmt::format(" ({} faces)", n_faces[i])));
   if (!h.options_json.empty()) row("options", h.options_json);
   if (h.schema != "geometry") row("geometry", h.geometry_hash);
   row("hash", h.content_hash);
@@ -185,7 +197,8 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
 
 StageSummary run_info(const std::string& artifact) {
   const ArtifactDescription description = describe_artifact(artifact);
-  return {info_lines(artifact, description), dump(info_json(artifact, description))};
+  const std::vector<std::int64_t> n_faces = faces_of_inputs(artifact, description);
+  return {info_lines(artifact, description, n_faces), dump(info_json(artifact, description, n_faces))};
 }
 
 StageSummary run_hash(const std::string& artifact) {

@@ -12,7 +12,9 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "io/sizing_artifact.h"
+#include "sizing/moved_field.h"
 #include "stages/blank_input.h"
+#include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"
 #include "stages/size_report.h"
 #include "stages/slope_input.h"
@@ -81,9 +83,29 @@ void require_complete(const ProlongStageOptions& o, const RasterArtifact& raster
   log_warning(what + ": their sizes come from their neighbours");
 }
 
+/// The geometry that the sizing is for, and its motion since the raster.
+struct MovedGeometry {
+  Similarity motion;
+  std::string hash;
+  std::vector<InputRef> file;  ///< none unless --geometry is given
+};
+
+MovedGeometry read_moved(const ProlongStageOptions& o, const ArtifactHeader& raster) {
+  if (o.geometry.empty()) return {{}, raster.geometry_hash, {}};
+  const ArtifactHeader geometry = read_header(o.geometry);
+  if (geometry.schema != "geometry")
+    throw Error(ExitCode::kInput, fmt::format("{}: is a {} artifact; give a geometry", o.geometry, geometry.schema));
+  const InputRef file{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash};
+  return {whole_motion(o.geometry, geometry, raster.geometry_hash), geometry.content_hash, {file}};
+}
+
 SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
-  SourceInput input = read_sources(o.sources, o.background, o.transform, o.slope, {raster.numbers.diagonal, raster.header.unit_in_m});
+  const MovedGeometry moved = read_moved(o, raster.header);
+  const Similarity to_octree = moved.motion.inverse();
+  SourceInput input = read_sources(o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
+                                   {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m});
   SizingArtifact sizing;
+  sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
   sizing.slope = o.slope;
   const OctreeShape raster_shape = raster.octree.shape;
@@ -93,7 +115,8 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   const OctreeView octree = raster.octree.shape.view();
   seed_lengths(raster.samples, o.slope, raster.octree);
   if (!o.blank.empty()) {
-    const BlankInput blank = read_blank(o.blank, o.blank_side);
+    BlankInput blank = read_blank(o.blank, o.blank_side);
+    if (moved.motion != Similarity()) transform(to_octree, blank.mesh);
     sizing.blanking = blank_cells(octree, Neighbours(octree), blank.view(), blank.side);
     input.files.push_back(blank.file);
   }
@@ -115,14 +138,17 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   const std::vector<FaceWeight> weights = face_weights(raster.faces, raster_shape.view(), field);
   sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
+  input.files.insert(input.files.begin(), moved.file.begin(), moved.file.end());
   sizing.header = sizing_header(o, raster.header, sizing.scale, input.files);
+  sizing.header.geometry_hash = moved.hash;
   return sizing;
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
   const auto [smallest, largest] = std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                                                        [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
-  const double lo = sizing.scale * smallest->length, hi = sizing.scale * largest->length, n = expected_triangles(sizing.face_weight);
+  const double scale = sizing.scale * sizing.frame.scale;
+  const double lo = scale * smallest->length, hi = scale * largest->length, n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
   const std::string sources = sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
   const std::vector<CellColour>& colour = sizing.blanking.colour;
@@ -167,7 +193,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   require_complete(o, raster);
   SizingArtifact sizing = prolong_raster(o, std::move(raster));
   if (!o.sample.empty()) {
-    sample_sizes(OctreeField(sizing.field_data(), nullptr), sizing.names, o.sample, o.sample_output);
+    sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample, o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   return summarize(o, sizing, timer.seconds());

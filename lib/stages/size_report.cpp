@@ -51,9 +51,12 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   const CauseNames names = read_cause_names(artifact);
   const OctreeField& field = *sizing.field;
   const SizeExplanation why = field.explain(x);
-  const SizeOrigin origin = find_origin(field.data(), Neighbours(field.data().octree), why.leaf);
+  const Similarity frame = field.frame();
+  SizeOrigin origin = find_origin(field.data(), Neighbours(field.data().octree), why.leaf);
+  origin.xyz = frame(origin.xyz);
+  origin.length *= frame.scale;
   const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit, cause = cause_text(names, why.cause);
-  const bool inside = is_inside(field.data().octree, x);
+  const bool inside = is_inside(field.data().octree, frame.inverse()(x));
   StageSummary summary;
   summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
   if (!inside) summary.line += "  outside the box of the model: the length at its border holds\n";

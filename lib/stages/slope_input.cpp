@@ -6,14 +6,10 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace st {
 namespace {
-
-std::string trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
-  return from == std::string_view::npos ? "" : std::string(text.substr(from, to - from + 1));
-}
 
 NamedSlope parse_slope(const std::string& item) {
   const std::size_t equals = item.rfind('=');

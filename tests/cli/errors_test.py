@@ -12,6 +12,7 @@ from chain import *  # noqa: E402,F403
 ARTIFACTS = ["geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf"]
 # The artifacts that each tool reads, by position.
 READS = {
+    "st-edit": ["geometry.hdf", "geometry.hdf"],
     "st-raster": ["geometry.hdf"],
     "st-prolong": ["raster.hdf"],
     "st-mesh": ["geometry.hdf", "sizing.hdf"],
@@ -22,7 +23,7 @@ READS = {
     "st-diff": ["mesh.hdf", "mesh.hdf"],
     "st-export": ["mesh.hdf"],
 }
-WRITES = {"st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-export"}
+WRITES = {"st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-export"}
 
 
 def output(tool, folder):

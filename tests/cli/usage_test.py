@@ -6,12 +6,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import *  # noqa: E402,F403
 
-N_INPUTS = {"st-import": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
+N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
 # Every option with the default that --help shows; "" for none.
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
+    "st-edit": {"--output": "edited.hdf", "--as": "", "--join": "", "--extract": "", "--remove": "", "--transform": "", "--of": "", "--require-valid": ""},
     "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--cell-per-length": "2", "--np": "1"},
-    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "",
+    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv"},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
@@ -28,6 +29,7 @@ OPTIONS = {
 # Values that each option with a bounded value refuses.
 REFUSED = {
     "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
+    "st-edit": {"--transform": ["shear 2", "rotate 1 2 3", "hinge 0 0 0 0 0 0 5", "mirror 1 2", "scale 0", "translate 1 2 3 at 0 0 0"], "--of": ["wing"]},
     "st-raster": {
         "--lmin": ["0", "-3", "x", "3pt", "nan"],
         "--lmax": ["0", "1e999"],
@@ -117,7 +119,7 @@ class Usage(ToolTest):
         self.expect_error(USAGE, "st-export", "mesh.hdf", says="--output")
 
     def test_surplus_argument_is_2(self):
-        for tool in set(TOOLS) - {"st-merge"}:
+        for tool in set(TOOLS) - {"st-merge", "st-edit"}:
             self.expect_error(USAGE, tool, *inputs(tool), "surplus", says="'surplus'", cwd=self.folder)
 
     def test_unknown_option_is_2(self):
@@ -140,7 +142,7 @@ class Usage(ToolTest):
 
     def test_output_over_an_input_is_2_and_the_input_stays(self):
         (self.folder / "a.hdf").write_text("precious")
-        for tool in ("st-raster", "st-prolong", "st-merge", "st-export", "st-import"):
+        for tool in ("st-edit", "st-raster", "st-prolong", "st-merge", "st-export", "st-import"):
             self.expect_error(USAGE, tool, "a.hdf", "-o", "./a.hdf", says="overwritten", cwd=self.folder)
         self.expect_error(USAGE, "st-mesh", "g.hdf", "a.hdf", "-o", self.folder / "a.hdf", says="overwritten", cwd=self.folder)
         self.assertEqual((self.folder / "a.hdf").read_text(), "precious")
@@ -220,6 +222,7 @@ class Summary(ToolTest):
         a = artifacts_of("box")
         return {
             "st-import": [MODELS / "box.step"],
+            "st-edit": [a / "geometry.hdf", "--transform", "translate 1 0 0"],
             "st-raster": [a / "geometry.hdf"],
             "st-prolong": [a / "raster.hdf"],
             "st-mesh": [a / "geometry.hdf", a / "sizing.hdf"],

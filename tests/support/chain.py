@@ -13,7 +13,7 @@ from pathlib import Path
 BIN = Path(os.environ["ST_BIN"])
 MODELS = Path(os.environ["ST_MODELS"])
 WORK = Path(os.environ["ST_WORK"])
-TOOLS = ["st-import", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info", "st-diff", "st-export"]
+TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info", "st-diff", "st-export"]
 PARALLEL = {"st-raster", "st-mesh", "st-remesh"}
 OK, USAGE, INPUT, GEOMETRY, INCOMPLETE, OUTPUT, MISMATCH, INTERNAL = 0, 2, 3, 4, 5, 6, 7, 70
 

@@ -9,11 +9,13 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 #include <Geom_Plane.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
@@ -134,6 +136,31 @@ TopoDS_Shape dome() {
 
 void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
 
+/// A wing element along y: a round nose of this radius at x, and straight sides to a blunt trailing edge.
+TopoDS_Shape wing_element(double x, double radius, double chord, double y, double span) {
+  constexpr double kHalfEdge = 0.25;
+  const gp_Pnt top(x + radius, y, radius), nose(x, y, 0), bottom(x + radius, y, -radius), upper(x + chord, y, kHalfEdge), lower(x + chord, y, -kHalfEdge);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(top, nose, bottom).Value()).Edge(),
+                               BRepBuilderAPI_MakeEdge(bottom, lower).Edge(), BRepBuilderAPI_MakeEdge(lower, upper).Edge(),
+                               BRepBuilderAPI_MakeEdge(upper, top).Edge());
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, span, 0)).Shape();
+}
+
+/// Two parts of those names: a wing of chord 60, and behind it a flap whose nose is round about the line x = 63.5, z = 0.
+void write_wing_with_flap(const fs::path& path) {
+  STEPCAFControl_Controller::Init();
+  Handle(TDocStd_Document) document;
+  const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
+  application->NewDocument("MDTV-XCAF", document);
+  const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  name(shapes->AddShape(wing_element(0, 4, 60, 0, 100), false), "wing");
+  name(shapes->AddShape(wing_element(62, 1.5, 18, 10, 80), false), "flap");
+  STEPCAFControl_Writer writer;
+  writer.SetNameMode(true);
+  require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone, path);
+  application->Close(document);
+}
+
 /// An assembly: a named block, and two instances of a pin of which one face has a name and a colour.
 void write_assembly(const fs::path& path) {
   STEPCAFControl_Controller::Init();
@@ -229,6 +256,7 @@ void write_all(const fs::path& dir) {
   write_brep(dir / "plate_with_rod.brep", with_rod(box(100, 60, 0.2), gp_Pnt(47, 30, 1.2), gp_Dir(1, 0, 0), 6));
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
+  write_wing_with_flap(dir / "wing_with_flap.step");
   write_brep(dir / "crossed_loop.brep", crossed_loop());
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());

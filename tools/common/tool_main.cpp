@@ -162,6 +162,10 @@ void ToolMain::text(const std::string& flag, std::string& value, const std::stri
   file_options_.push_back(app_.add_option(flag, value, help)->type_name(type));
 }
 
+void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, const std::string& type, const std::string& help) {
+  file_options_.push_back(app_.add_option(flag, values, help)->type_name(type)->allow_extra_args(false));
+}
+
 void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
 }

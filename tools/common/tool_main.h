@@ -50,6 +50,8 @@ class ToolMain {
   void unit(const std::string& flag, std::string& value, const std::string& help);
   /// Free text, shown as `type` in --help.
   void text(const std::string& flag, std::string& value, const std::string& type, const std::string& help);
+  /// The same, repeatable.
+  void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type, const std::string& help);
   /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
   void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
   void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);

@@ -131,29 +131,24 @@ TEST(RemoveFaces, leaves_the_others_and_opens_the_shell) {
   EXPECT_ERROR(remove_faces(open.model, std::vector<FaceId>{0, 1, 2, 3}), kUsage, "no face");
 }
 
-AffineMap turned(double scale, bool is_mirrored) {
-  const double c = 0.8, s = 0.6;
-  AffineMap m;
-  m.a = {scale * Vec3{c, -s, 0}, scale * Vec3{s, c, 0}, scale * Vec3{0, 0, is_mirrored ? -1.0 : 1.0}};
-  m.shift = {10, -20, 5};
-  return m;
+Similarity turned(double scale, bool is_mirrored) {
+  const Similarity turn = rotation_about({0, 0, 1}, std::atan2(0.6, 0.8));
+  return (is_mirrored ? reflection_at({0, 0, 1}).then(turn) : turn).then({.scale = scale, .translation = {10, -20, 5}});
 }
 
 TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
   for (const char* shape : kShapes)
-    for (const AffineMap& map : {turned(1, false), turned(1, true), turned(0.001, false), turned(2.5, true)}) {
+    for (const Similarity& map : {turned(1, false), turned(1, true), turned(0.001, false), turned(2.5, true)}) {
       Model before = test::make_model(shape);
       const Model after = transform(before, map);
       const ModelTables &a = after.tables(), &b = before.tables();
-      const double scale = norm(map.a[0]), size = scale * b.box().diagonal() + 23;
+      const double scale = map.scale, size = scale * b.box().diagonal() + 23;
       ASSERT_EQ(a.n_faces(), b.n_faces());
       ASSERT_EQ(a.n_edges(), b.n_edges());
       expect_consistent(after);
       EXPECT_EQ(a.face_group, b.face_group);
       for (VertexId v = 0; v < b.n_vertices(); ++v) EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
       for (EdgeId e = 0; e < b.n_edges(); ++e) EXPECT_NEAR(a.edge_length[e], scale * b.edge_length[e], 1e-6 * size);
-      AffineMap turn = map;
-      turn.shift = {};
       for (FaceId f = 0; f < b.n_faces(); ++f) {
         EXPECT_EQ(a.face_type[f], b.face_type[f]);
         EXPECT_NEAR(a.face_area[f], scale * scale * b.face_area[f], 1e-6 * size * size) << shape;
@@ -162,22 +157,54 @@ TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
         const auto old = before.surface(f);
         const Vec3 y = map(old->point({0.5 * (old->u_min() + old->u_max()), 0.5 * (old->v_min() + old->v_max())}));
         EXPECT_LE(distance(x, y), 1e-10 * size) << shape << " face " << f;
-        EXPECT_LE(distance(outward(after, f), turn(outward(before, f)) / scale), 1e-9) << shape << " face " << f;
+        EXPECT_LE(distance(outward(after, f), map.rotated(outward(before, f))), 1e-9) << shape << " face " << f;
       }
     }
 }
 
-TEST(Transform, refuses_maps_that_change_angles) {
+TEST(TransformFaces, moves_one_body_and_keeps_every_number_and_all_of_the_other) {
+  const Model before = test::make_model("two_boxes");
+  const ModelTables& b = before.tables();
+  std::vector<FaceId> faces;
+  for (FaceId f = b.n_faces() - 1; f >= 0; --f)
+    if (b.face_solid[f] == b.face_solid[0]) faces.push_back(f);
+  ASSERT_EQ(faces.size(), 6u);
+  for (const Similarity& motion : {turned(1, false), turned(2, true)}) {
+    const SubModel result = transform_faces(before, faces, motion);
+    const ModelTables& a = result.model.tables();
+    expect_consistent(result.model);
+    ASSERT_EQ(a.n_faces(), b.n_faces());
+    EXPECT_EQ(a.face_solid, b.face_solid);
+    EXPECT_EQ(a.face_shell, b.face_shell);
+    EXPECT_EQ(a.n_solids, 2);
+    EXPECT_EQ(a.group_name, b.group_name);
+    EXPECT_TRUE(a.labels == b.labels);
+    EXPECT_EQ(a.volume.has_value(), motion.scale == 1);
+    std::vector<char> moves(b.n_faces(), 0);
+    for (const FaceId f : faces) moves[f] = 1;
+    for (FaceId f = 0; f < b.n_faces(); ++f) {
+      EXPECT_EQ(result.faces[f], f);
+      if (!moves[f]) {
+        expect_same_face(result.model, f, before, f);
+        continue;
+      }
+      EXPECT_NEAR(a.face_area[f], motion.scale * motion.scale * b.face_area[f], 1e-9 * b.face_area[f]);
+      EXPECT_LE(distance(outward(result.model, f), motion.rotated(outward(before, f))), 1e-12);
+    }
+    for (EdgeId e = 0; e < b.n_edges(); ++e) EXPECT_EQ(result.edges[e], e);
+    for (VertexId v = 0; v < b.n_vertices(); ++v) {
+      EXPECT_EQ(result.vertices[v], v);
+      const bool is_moved = a.vertex_xyz[v] != b.vertex_xyz[v];
+      EXPECT_LE(distance(a.vertex_xyz[v], is_moved ? motion(b.vertex_xyz[v]) : b.vertex_xyz[v]), 1e-12 * a.box().diagonal());
+    }
+  }
+}
+
+TEST(TransformFaces, refuses_to_tear_a_body) {
   const Model box = test::make_model("box");
-  AffineMap stretched;
-  stretched.a[1] = {0, 2, 0};
-  EXPECT_ERROR(transform(box, stretched), kUsage, "angles");
-  AffineMap sheared;
-  sheared.a[0] = {std::sqrt(0.5), std::sqrt(0.5), 0};
-  EXPECT_ERROR(transform(box, sheared), kUsage, "angles");
-  AffineMap flat;
-  flat.a = {};
-  EXPECT_ERROR(transform(box, flat), kUsage, "angles");
+  EXPECT_ERROR(transform_faces(box, std::vector<FaceId>{0, 1}, turned(1, false)), kGeometry, "tear");
+  EXPECT_ERROR(transform_faces(box, std::vector<FaceId>{9}, turned(1, false)), kUsage, "face 10");
+  EXPECT_EQ(transform_faces(box, std::vector<FaceId>{0, 1, 2, 3, 4, 5}, turned(1, false)).model.tables().n_faces(), 6);
 }
 
 TEST(Append, puts_the_second_behind_the_first) {
@@ -198,9 +225,7 @@ TEST(Append, of_a_model_to_itself_or_to_its_image_doubles_it) {
   const Model box = test::make_model("box");
   expect_consistent(append(box, box));
   EXPECT_EQ(append(box, box).tables().n_edges(), 24);
-  AffineMap mirror;
-  mirror.a[1] = {0, -1, 0};
-  const Model pair = append(box, transform(box, mirror));
+  const Model pair = append(box, transform(box, reflection_at({0, 1, 0})));
   expect_consistent(pair);
   EXPECT_EQ(pair.tables().n_faces(), 12);
 }

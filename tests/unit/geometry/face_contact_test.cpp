@@ -14,7 +14,7 @@ namespace {
 /// The side of a cylinder of radius 10 about z (0 to 30), and the square [0,10] x {y} x [0,10].
 Model cylinder_and_square(double y, FaceId& side, FaceId& square) {
   const Model cylinder = test::make_model("cylinder");
-  const AffineMap upright{{Vec3{1, 0, 0}, Vec3{0, 0, -1}, Vec3{0, 1, 0}}, {0, y, 0}};
+  const Similarity upright = rotation_about({1, 0, 0}, radians(90)).then({.translation = {0, y, 0}});
   Model both = append(cylinder, transform(test::make_model("square"), upright));
   const auto& type = both.tables().face_type;
   side = static_cast<FaceId>(std::find(type.begin(), type.end(), SurfaceType::kCylinder) - type.begin());

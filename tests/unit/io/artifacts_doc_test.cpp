@@ -99,6 +99,7 @@ SizingArtifact sample_sizing() {
   s.header.schema = "sizing";
   s.numbers = sample_raster().numbers;
   s.slope = 0.2;
+  s.frame.scale = 2;
   s.shape = sample_raster().octree.shape;
   s.lengths.cells.resize(15);
   s.lengths.cause.resize(15);

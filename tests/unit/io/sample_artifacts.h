@@ -76,6 +76,9 @@ inline GeometryArtifact sample_geometry() {
   for (int i = 0; i < 3000; ++i) g.brep.push_back(static_cast<std::byte>(i * 7));
   g.findings = {{"short edge", "edge 3 \"TE\"", {1, 2, 3}, 1e-4, false}, {"sewn", "", {}, 0, true}};
   g.is_closed = true;
+  g.previous_faces = {4, 0, 0, 0};
+  g.previous_edges = {5, 0, 6, 0, 7, 0, 9, 0};
+  g.previous_vertices = {2, 0, 1, 0, 0, 0};
   return g;
 }
 

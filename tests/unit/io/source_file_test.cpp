@@ -212,13 +212,5 @@ TEST_F(SourceFiles, missing_empty_and_directory_are_refused) {
   }
 }
 
-TEST(Similarity, is_read_in_steps) {
-  const Similarity s = parse_similarity("rotate 0 0 1 90; scale 2; translate 1 2 3", "--transform");
-  EXPECT_NEAR(distance(s({1, 0, 0}), {1, 4, 3}), 0, 1e-12);
-  EXPECT_EQ(parse_similarity("", "--transform")({1, 2, 3}), (Vec3{1, 2, 3}));
-  for (const char* bad : {"rotate 1 2 3", "scale -1", "shear 1", "translate 1 2 3 4", "rotate 0 0 0 3", "scale 1x"})
-    EXPECT_THROW(parse_similarity(bad, "--transform"), Error) << bad;
-}
-
 }  // namespace
 }  // namespace st

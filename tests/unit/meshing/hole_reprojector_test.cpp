@@ -25,7 +25,7 @@ TEST_P(MovedSolid, stays_as_it_was_where_nothing_moved) {
 
 TEST_P(MovedSolid, takes_all_its_nodes_along) {
   const ShapeMesh solid(GetParam());
-  const AffineMap map{{2, 0, 0, 0, 0, -2, 0, 2, 0}, {5, 6, 7}};  // a quarter turn about x, twice as large
+  const Similarity map = rotation_about({1, 0, 0}, radians(90)).then({.scale = 2, .translation = {5, 6, 7}});
   const auto at = [&](Vec3 x) { return Vec3{2 * x.x + 5, -2 * x.z + 6, 2 * x.y + 7}; };
   const Model there = transform(solid.model, map);
   const MovedMesh moved = move_mesh(solid.mesh, there);

@@ -14,8 +14,8 @@ struct TwoSquares {
   SurfaceMesh mesh;
 
   explicit TwoSquares(double height, double reach)
-      : model(append(transform(test::make_model("square"), {{Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{1, 0, 0}}, {}}),
-                     transform(test::make_model("square"), {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, {-5, 0, height}}))) {
+      : model(append(transform(test::make_model("square"), reflection_at({1, 0, -1})),
+                     transform(test::make_model("square"), {.translation = {-5, 0, height}}))) {
     mesh.node_xyz = {{0, 5, 0}, {0, 5 + reach, 0}, {0, 5, reach}, {-reach, 5, 0.1}, {reach, 5.1, 0.1}, {0, 5 + reach, 0.1}};
     mesh.triangles = {{{0, 1, 2}}, {{3, 4, 5}}};
     mesh.triangle_face = {0, 1};

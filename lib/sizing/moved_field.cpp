@@ -1,0 +1,21 @@
+#include "sizing/moved_field.h"
+
+#include <utility>
+
+namespace st {
+
+SizeExplanation MovedOctreeField::explain(Vec3 xyz) const {
+  SizeExplanation e = OctreeField::explain(to_octree_(xyz));
+  e.cell_edge *= frame_.scale;
+  e.length *= frame_.scale;
+  e.gradient = frame_.rotated(e.gradient);  // lengths and distances are scaled alike
+  return e;
+}
+
+std::unique_ptr<OctreeField> make_octree_field(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length,
+                                               const Similarity& frame) {
+  if (frame == Similarity()) return std::make_unique<OctreeField>(data, std::move(owner), min_length);
+  return std::make_unique<MovedOctreeField>(data, std::move(owner), min_length, frame);
+}
+
+}  // namespace st

@@ -1,0 +1,301 @@
+#include "stages/edit_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/log.h"
+#include "base/similarity.h"
+#include "geometry/edit_model.h"
+#include "geometry/model_state.h"
+#include "geometry/unused_labels.h"
+#include "io/artifact.h"
+#include "stages/edit_names.h"
+#include "stages/edit_provenance.h"
+#include "stages/edit_trace.h"
+#include "stages/part_crossings.h"
+
+namespace st {
+namespace {
+
+/// What is remembered of the inputs once their models are put together.
+struct EditInputs {
+  std::vector<std::string> names;
+  std::vector<InputRef> files;
+  std::vector<std::vector<ImportFinding>> findings;
+  bool are_closed = true;
+};
+
+/// A model on its way through the edits.
+struct Edited {
+  Model model;
+  EditTrace trace;
+  std::vector<Similarity> motion;           ///< [n_faces] so far
+  std::vector<std::vector<int>> placement;  ///< [n_faces] input, then the transforms that moved it
+
+  const ModelTables& tables() const { return model.tables(); }
+};
+
+/// One --transform and the faces that it moves.
+struct Move {
+  Similarity motion;
+  std::vector<FaceId> faces;
+};
+
+/// The result's tables, and what is to be said of it.
+struct EditResult {
+  ModelTables tables;
+  EdgeUses uses;
+  bool is_closed = false;
+  PartCrossings crossings;
+  std::vector<std::string> faults;  ///< in words
+};
+
+std::vector<FaceId> all_faces(std::int32_t n) {
+  std::vector<FaceId> faces(n);
+  std::iota(faces.begin(), faces.end(), 0);
+  return faces;
+}
+
+std::vector<Similarity> parse_transforms(const EditStageOptions& o) {
+  if (!o.of.empty() && o.of.size() != o.transforms.size())
+    throw Error(ExitCode::kUsage, fmt::format("--of is given {} times, --transform {} times; give one for each, or none to move everything",
+                                              o.of.size(), o.transforms.size()));
+  std::vector<Similarity> motions;
+  for (const std::string& steps : o.transforms) motions.push_back(parse_similarity(steps, "--transform"));
+  return motions;
+}
+
+void require_same_unit(const std::string& path_a, const ModelTables& a, const std::string& path_b, const ModelTables& b) {
+  if (a.unit == b.unit && a.unit_in_m == b.unit_in_m) return;
+  const auto unit = [](const ModelTables& t) { return t.unit.empty() ? std::string("has no unit") : "is in " + t.unit; };
+  throw Error(ExitCode::kMismatch, fmt::format("{} {}, {} {}; import both with the same --unit", path_a, unit(a), path_b, unit(b)));
+}
+
+/// All inputs side by side.
+Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
+  std::vector<GeometryArtifact> artifacts;
+  for (const std::string& path : o.geometries) artifacts.push_back(read_geometry(path));
+  inputs.names = input_names(o.as, o.geometries, artifacts);
+  const std::vector<std::string> join = split_names(o.join);
+  EditTrace trace;
+  std::optional<Model> all;
+  std::vector<std::vector<int>> placement;
+  for (std::size_t i = 0; i < artifacts.size(); ++i) {
+    GeometryArtifact& a = artifacts[i];
+    inputs.files.push_back({"geometry", std::filesystem::path(o.geometries[i]).filename().string(), a.header.content_hash});
+    inputs.findings.push_back(std::move(a.findings));
+    inputs.are_closed = inputs.are_closed && a.is_closed;
+    if (artifacts.size() > 1) label_input(inputs.names[i], a.tables);
+    if (all) require_same_unit(o.geometries[0], all->tables(), o.geometries[i], a.tables);
+    if (all) keep_names_apart(all->tables(), inputs.names[i], join, a.tables);
+    trace.append(a.tables, static_cast<std::int32_t>(i));
+    placement.resize(trace.faces.size(), {static_cast<int>(i)});
+    Model model(std::move(a.tables), std::move(a.brep));
+    all = all ? append(*all, model) : std::move(model);
+  }
+  return {std::move(*all), std::move(trace), std::vector<Similarity>(placement.size()), std::move(placement)};
+}
+
+/// What --extract and --remove leave.
+std::vector<FaceId> faces_to_keep(const EditStageOptions& o, const ModelTables& t) {
+  std::vector<FaceId> faces = o.extract.empty() ? all_faces(t.n_faces()) : select_faces(o.extract, t, "--extract");
+  if (o.remove.empty()) return faces;
+  const std::vector<FaceId> gone = select_faces(o.remove, t, "--remove");
+  std::erase_if(faces, [&](FaceId f) { return std::binary_search(gone.begin(), gone.end(), f); });
+  if (faces.empty()) throw Error(ExitCode::kUsage, fmt::format("--remove '{}': nothing would be left", o.remove));
+  return faces;
+}
+
+/// Faces by their numbers among those that are kept. Transforms that move everything become one.
+std::vector<Move> resolve_moves(const EditStageOptions& o, const ModelTables& t, const std::vector<FaceId>& kept) {
+  std::vector<Move> moves;
+  const std::vector<Similarity> motions = parse_transforms(o);
+  if (o.of.empty()) {
+    Similarity all;
+    for (const Similarity& motion : motions) all = all.then(motion);
+    moves.push_back({all, all_faces(static_cast<std::int32_t>(kept.size()))});
+  }
+  for (std::size_t k = 0; k < o.of.size(); ++k) {
+    const std::vector<FaceId> wanted = select_faces(o.of[k], t, "--of");
+    std::vector<FaceId> faces;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (std::binary_search(wanted.begin(), wanted.end(), kept[i])) faces.push_back(static_cast<FaceId>(i));
+    if (faces.empty()) throw Error(ExitCode::kUsage, fmt::format("--of '{}': nothing of it is left to move", o.of[k]));
+    moves.push_back({motions[k], std::move(faces)});
+  }
+  std::erase_if(moves, [](const Move& m) { return m.motion == Similarity(); });
+  return moves;
+}
+
+void take_out(const std::vector<FaceId>& kept, Edited& e) {
+  if (kept.size() == static_cast<std::size_t>(e.tables().n_faces())) return;
+  SubModel part = extract(e.model, kept);
+  e.model = std::move(part.model);
+  e.trace.select(part.faces, part.edges, part.vertices);
+  std::vector<std::vector<int>> placement;
+  for (const FaceId f : kept) placement.push_back(std::move(e.placement[f]));
+  e.placement = std::move(placement);
+  e.motion.resize(kept.size());
+}
+
+void apply(const Move& move, int number, Edited& e) {
+  if (move.faces.size() == static_cast<std::size_t>(e.tables().n_faces())) {
+    e.model = transform(e.model, move.motion);
+  } else {
+    SubModel moved = transform_faces(e.model, move.faces, move.motion);
+    e.model = std::move(moved.model);
+    e.trace.select(moved.faces, moved.edges, moved.vertices);
+  }
+  for (const FaceId f : move.faces) {
+    e.motion[f] = e.motion[f].then(move.motion);
+    e.placement[f].push_back(number);
+  }
+}
+
+/// [n_faces] equal for faces that came and moved together.
+std::vector<std::int32_t> placement_numbers(const std::vector<std::vector<int>>& placement) {
+  std::map<std::vector<int>, std::int32_t> number;
+  for (const std::vector<int>& p : placement) number.emplace(p, static_cast<std::int32_t>(number.size()));
+  std::vector<std::int32_t> numbers;
+  for (const std::vector<int>& p : placement) numbers.push_back(number.at(p));
+  return numbers;
+}
+
+std::string describe(const ModelTables& t, const PartCrossings& crossings) {
+  const PartCrossing& c = crossings.found.front();
+  return fmt::format("parts cross: {} passes through {} at ({:.6g}, {:.6g}, {:.6g}){}", t.face_label(c.first), t.face_label(c.second), c.xyz.x,
+                     c.xyz.y, c.xyz.z, crossings.found.size() > 1 ? fmt::format(", and {} more pairs of faces", crossings.found.size() - 1) : "");
+}
+
+EditResult judge(const Edited& e, const EditInputs& inputs) {
+  EditResult r;
+  r.tables = e.tables();
+  drop_unused(r.tables);
+  r.uses = report_edge_uses(r.tables);
+  r.is_closed = is_closed(r.tables, r.uses.n_free);
+  if (!r.is_closed) r.tables.volume.reset();
+  else if (!r.tables.volume && r.uses.n_nonmanifold == 0) r.tables.volume = enclosed_volume(e.model);
+  if (!r.is_closed && inputs.are_closed) r.faults.push_back(fmt::format("open where it was closed: {} free edges", r.uses.n_free));
+  r.crossings = find_part_crossings(e.model, placement_numbers(e.placement));
+  if (!r.crossings.found.empty()) r.faults.push_back(describe(r.tables, r.crossings));
+  return r;
+}
+
+/// Warnings; with --require-valid an error.
+void say(const EditStageOptions& o, const EditResult& r) {
+  if (o.require_valid && !r.is_closed && r.faults.empty())
+    throw Error(ExitCode::kGeometry, fmt::format("{}: open: {} free edges; close it, or leave out --require-valid", o.output, r.uses.n_free));
+  if (o.require_valid && !r.faults.empty())
+    throw Error(ExitCode::kGeometry, fmt::format("{}: {}; nothing written", o.output, fmt::join(r.faults, "; ")));
+  for (const std::string& fault : r.faults) log_warning(fmt::format("{}: {}", o.output, fault));
+  const PartCrossings& c = r.crossings;
+  if (c.n_compared < c.n_near && c.found.size() < kMaxCrossings)
+    log_warning(fmt::format("{}: {} of {} pairs of faces near each other were not looked at for crossings; st-check finds them in the mesh",
+                            o.output, c.n_near - c.n_compared, c.n_near));
+}
+
+std::vector<ImportFinding> findings_of(const Edited& e, const EditInputs& inputs, const EditResult& r) {
+  std::vector<ImportFinding> findings = carry_findings(inputs.findings, e.trace, r.tables, e.motion);
+  findings.insert(findings.end(), r.uses.findings.begin(), r.uses.findings.end());
+  for (const PartCrossing& c : r.crossings.found)
+    for (const FaceId f : {c.first, c.second}) findings.push_back({kCrossesPart, r.tables.face_label(f), c.xyz, c.size, false});
+  return findings;
+}
+
+std::string write(const EditStageOptions& o, const EditInputs& inputs, const Edited& e, const EditResult& r) {
+  GeometryArtifact g;
+  g.header.tool = "st-edit";
+  g.header.tool_version = ST_VERSION;
+  g.header.options_json = edit_options_json(o);
+  g.header.inputs = inputs.files;
+  g.tables = r.tables;
+  g.brep = e.model.brep();
+  g.findings = findings_of(e, inputs, r);
+  g.is_closed = r.is_closed;
+  g.previous_faces = previous_ids(e.trace.faces);
+  g.previous_edges = previous_ids(e.trace.edges);
+  g.previous_vertices = previous_ids(e.trace.vertices);
+  return write_geometry(o.output, g);
+}
+
+nlohmann::ordered_json inputs_json(const EditInputs& inputs, const EditTrace& trace) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < inputs.files.size(); ++i) {
+    const auto is_of = [&](const Origin& o) { return o.input == static_cast<std::int32_t>(i); };
+    list.push_back({{"name", inputs.names[i]},
+                    {"file", inputs.files[i].name},
+                    {"hash", inputs.files[i].hash},
+                    {"faces", std::count_if(trace.faces.begin(), trace.faces.end(), is_of)}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json crossings_json(const EditResult& r) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const PartCrossing& c : r.crossings.found)
+    list.push_back({{"faces", {c.first + 1, c.second + 1}}, {"xyz", {c.xyz.x, c.xyz.y, c.xyz.z}}, {"size", c.size}});
+  return list;
+}
+
+StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, const Edited& e, const EditResult& r) {
+  const ModelTables& t = r.tables;
+  const double area = std::accumulate(t.face_area.begin(), t.face_area.end(), 0.0);
+  const auto n_moved = std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
+  StageSummary s;
+  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}", o.output, t.n_faces(), inputs.files.size(),
+                       inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
+                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area,
+                       t.volume ? fmt::format(", volume {:.6g}", *t.volume) : "");
+  const nlohmann::ordered_json json = {{"tool", "st-edit"},
+                                       {"output", o.output},
+                                       {"inputs", inputs_json(inputs, e.trace)},
+                                       {"faces", t.n_faces()},
+                                       {"edges", t.n_edges()},
+                                       {"vertices", t.n_vertices()},
+                                       {"groups", t.group_name.size()},
+                                       {"parts", t.labels.part_path.size()},
+                                       {"solids", t.n_solids},
+                                       {"moved_faces", n_moved},
+                                       {"closed", r.is_closed},
+                                       {"free_edges", r.uses.n_free},
+                                       {"nonmanifold_edges", r.uses.n_nonmanifold},
+                                       {"crossings", crossings_json(r)},
+                                       {"pairs_not_compared", r.crossings.n_near - r.crossings.n_compared},
+                                       {"area", area},
+                                       {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
+  s.json = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return s;
+}
+
+}  // namespace
+
+StageSummary run_edit(const EditStageOptions& o) {
+  const Timer timer;
+  parse_transforms(o);  // before hours of reading
+  require_writable(o.output);
+  EditInputs inputs;
+  Edited edited = put_together(o, inputs);
+  const std::vector<FaceId> kept = faces_to_keep(o, edited.tables());
+  const std::vector<Move> moves = resolve_moves(o, edited.tables(), kept);
+  take_out(kept, edited);
+  for (std::size_t k = 0; k < moves.size(); ++k) apply(moves[k], static_cast<int>(k), edited);
+  const EditResult result = judge(edited, inputs);
+  say(o, result);
+  const std::string hash = write(o, inputs, edited, result);
+  StageSummary summary = summarize(o, inputs, edited, result);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary.json);
+  json["hash"] = hash;
+  json["seconds"] = timer.seconds();
+  summary.json = json.dump();
+  summary.line += fmt::format(", {:.2f} s", timer.seconds());
+  return summary;
+}
+
+}  // namespace st
