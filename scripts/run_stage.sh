@@ -1,13 +1,17 @@
 #!/bin/bash
-# Runs one stage of the workflow: says what it says, keeps its wall time in OUT/log/<stage>.seconds and its last lines in OUT/log/<stage>.log.
-# usage: scripts/run_stage.sh OUT TOOL ARGUMENTS... -o ARTIFACT ...       exits as the tool does
-# A stage that ends with 5 (incomplete) keeps its artifact as <name>.incomplete.hdf, which no rule trusts, unless ALLOW_INCOMPLETE is 1.
+# Runs one stage of the workflow: says what it says, keeps its wall time in OUT/log/<stage>.seconds and its last lines
+# in OUT/log/<stage>.log.
+# usage: scripts/run_stage.sh OUT STAGE COMMAND... -o|--merged ARTIFACT ...   exits as the command, which may be a launcher's
+# A stage that ends with 5 (incomplete) keeps its artifact as <name>.incomplete.hdf, which no rule trusts, unless
+# ALLOW_INCOMPLETE is 1.
 set -u -o pipefail
-out=$1 tool=$2
-shift
-stage=${tool##*/}
+out=$1 stage=$2
+shift 2
 artifact=
-for ((i = 1; i < $#; ++i)); do [ "${!i}" != -o ] || { next=$((i + 1)); artifact=${!next}; }; done
+for ((i = 1; i < $#; ++i)); do
+  next=$((i + 1))
+  case ${!i} in -o | --merged) artifact=${!next} ;; esac
+done
 log=$out/log/$stage
 mkdir -p "$out/log"
 for leftover in "$(dirname "$artifact")/.$(basename "$artifact").tmp."*; do  # of a run that was killed

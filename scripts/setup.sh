@@ -13,6 +13,7 @@ build_packages=(
 check_packages=(
   libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
   libcgal-dev  # the independent judge of meshes, tests only
+  iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh
   xvfb xauth   # pictures without a screen: scripts/render_images.sh
 )
 

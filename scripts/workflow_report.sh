@@ -1,28 +1,29 @@
 #!/bin/bash
-# The end of the workflow: the verdict on the mesh, time per stage, where the files are.
-# usage: scripts/workflow_report.sh check OUT BIN_DIR                  writes OUT/check.txt: exit code of st-check, then what it says
-#        scripts/workflow_report.sh write OUT BIN_DIR [EXPORTED...]    writes OUT/report.txt
-#        scripts/workflow_report.sh show OUT                           prints it; exit 5 when the mesh did not pass
+# The end of the workflow: the verdict on the mesh, time per stage, where the files are. RESULTS is OUT or OUT/remesh.
+# usage: workflow_report.sh check RESULTS OUT BIN_DIR                 RESULTS/check.txt: exit code of st-check, its text
+#        workflow_report.sh write RESULTS OUT BIN_DIR [EXPORTED...]   RESULTS/report.txt
+#        workflow_report.sh show RESULTS                              prints it; exit 5 when the mesh did not pass
 set -eu -o pipefail
-action=$1 out=$2
+action=$1 results=$2
 
 check() {
-  local bin=$1 status=0
-  "$bin/st-check" "$out/mesh.hdf" --geometry "$out/geometry.hdf" --sizing "$out/sizing.hdf" > "$out/check.tmp.$$" || status=$?
+  local out=$1 bin=$2 status=0 said=$results/check.tmp.$$
+  "$bin/st-check" "$results/mesh.hdf" --options "$out/st-check.toml" \
+    --geometry "$out/geometry.hdf" --sizing "$results/sizing.hdf" > "$said" || status=$?
   if [ $status -ne 0 ] && [ $status -ne 5 ]; then
-    rm -f "$out/check.tmp.$$"
+    rm -f "$said"
     exit $status
   fi
-  { echo $status; cat "$out/check.tmp.$$"; } > "$out/check.txt"
-  rm -f "$out/check.tmp.$$"
-  touch "$out/log/fresh"
+  { echo $status; cat "$said"; } > "$results/check.txt"
+  rm -f "$said"
+  touch "$results/log/fresh"
 }
 
 times() {
   local total=0 stage seconds
-  for stage in st-import st-raster st-prolong st-mesh st-merge st-export; do
-    [ -f "$out/log/$stage.seconds" ] || continue
-    seconds=$(< "$out/log/$stage.seconds")
+  for stage in st-import st-raster st-prolong st-mesh st-merge st-remesh st-export; do
+    [ -f "$results/log/$stage.seconds" ] || continue
+    seconds=$(< "$results/log/$stage.seconds")
     printf '  %-10s %8.2f s\n' "$stage" "$seconds"
     total=$(awk "BEGIN { print $total + $seconds }")
   done
@@ -30,26 +31,28 @@ times() {
 }
 
 write() {
-  local bin=$1
-  shift
+  local out=$1 bin=$2 again=make
+  [ "$results" = "$out" ] || again="make remesh"
+  shift 2
   {
     echo "model   $(sed -n 2p "$out/model.ref")"
-    "$bin/st-info" "$out/mesh.hdf"
-    sed 1d "$out/check.txt"
+    "$bin/st-info" "$results/mesh.hdf"
+    sed 1d "$results/check.txt"
     echo "time per stage (of the run that made each artifact)"
     times
     echo "files"
-    printf '  %s\n' "$out/mesh.hdf" "$@" "$out/geometry.hdf" "$out/raster.hdf" "$out/sizing.hdf" "$out/patches.hdf"
-    echo "options: edit $out/st-<stage>.toml and run make again"
-  } > "$out/report.tmp.$$"
-  mv "$out/report.tmp.$$" "$out/report.txt"
+    printf '  %s\n' "$results/mesh.hdf" "$@" "$out/geometry.hdf" "$out/raster.hdf" "$results/sizing.hdf"
+    [ ! -f "$results/patches.hdf" ] || echo "  $results/patches.hdf"
+    echo "options: edit $out/st-<stage>.toml and run $again again"
+  } > "$results/report.tmp.$$"
+  mv "$results/report.tmp.$$" "$results/report.txt"
 }
 
 show() {
-  [ -f "$out/log/fresh" ] || echo "$out is up to date"
-  rm -f "$out/log/fresh"
-  cat "$out/report.txt"
-  if [ "$(head -n 1 "$out/check.txt")" != 0 ]; then
+  [ -f "$results/log/fresh" ] || echo "$results is up to date"
+  rm -f "$results/log/fresh"
+  cat "$results/report.txt"
+  if [ "$(head -n 1 "$results/check.txt")" != 0 ]; then
     echo "workflow: error: the mesh did not pass st-check, see above" >&2
     exit 5
   fi

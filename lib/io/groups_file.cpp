@@ -208,13 +208,8 @@ GroupsFile read_groups(const std::string& path) {
   GroupsFile file;
   file.hash = hash_hex(text.data(), text.size());
   const toml::table table = parse_toml(path, text, ExitCode::kUsage);
-  const TomlEntry top(path, table);
-  for (const auto& [key, node] : table) {
-    const toml::array* list = node.as_array();
-    if (key.str() != "group") top.fail(node, "unknown key '" + std::string(key.str()) + "'; a groups file has tables [[group]] only");
-    if (!list || !list->is_array_of_tables()) top.fail(node, "groups are tables [[group]]");
-    for (const toml::node& item : *list) file.rules.push_back(EntryReader(path, *item.as_table()).run());
-  }
+  for (const toml::table* entry : toml_list(path, table, {"group", "st-import", ExitCode::kUsage}))
+    file.rules.push_back(EntryReader(path, *entry).run());
   if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": no table [[group]] in it; see docs/groups.md");
   return file;
 }

@@ -90,14 +90,6 @@ class RuleReader : TomlEntry {
   SizeRule rule_;
 };
 
-void read_list(const std::string& path, const toml::node* node, std::vector<SizeRule>& rules) {
-  if (!node) return;
-  const toml::array* list = node->as_array();
-  if (!list || !list->is_array_of_tables())
-    throw Error(ExitCode::kUsage, toml_place(path, node->source()) + ": rules of sizes are tables [[size]]");
-  for (const toml::node& item : *list) rules.push_back(RuleReader(path, *item.as_table()).run());
-}
-
 }  // namespace
 
 SizeRuleFile read_size_rules(const std::string& path) {
@@ -105,8 +97,8 @@ SizeRuleFile read_size_rules(const std::string& path) {
   SizeRuleFile file;
   file.hash = hash_hex(text.data(), text.size());
   const toml::table table = parse_toml(path, text, ExitCode::kUsage);
-  read_list(path, table.get("size"), file.rules);
-  if (const toml::table* own = table["st-raster"].as_table()) read_list(path, own->get("size"), file.rules);
+  for (const toml::table* rule : toml_list(path, table, {"size", "st-raster", ExitCode::kUsage}))
+    file.rules.push_back(RuleReader(path, *rule).run());
   if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": no table [[size]] in it; see docs/st-raster.md");
   return file;
 }

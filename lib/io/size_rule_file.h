@@ -14,8 +14,8 @@ struct SizeRuleFile {
   std::string hash;  ///< of the file's bytes
 };
 
-/// Reads the tables [[size]] (or [[st-raster.size]]) of a file; what else an option file may hold is passed over. Throws Error(kInput) for
-/// a file that cannot be read, Error(kUsage) with file and line for what is no rule.
+/// Reads the tables [[size]] and [[st-raster.size]] of a file; what else an option file may hold is passed over. Throws
+/// Error(kInput) for a file that cannot be read, Error(kUsage) with file and line for what is no rule.
 SizeRuleFile read_size_rules(const std::string& path);
 
 }  // namespace st

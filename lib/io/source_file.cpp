@@ -363,19 +363,16 @@ SourceSpec read_source(const SourceTable& table) {
 SourceFile read_toml(const std::string& path, const ModelScale& scale) {
   const toml::table file = parse_toml(path, read_text(path), ExitCode::kInput);
   SourceFile result;
-  for (const auto& [key, node] : file) {
-    const toml::array* list = node.as_array();
-    if (key.str() != "source" || !list || !list->is_array_of_tables())
-      throw Error(ExitCode::kInput,
-                  toml_place(path, node.source()) + ": '" + std::string(key.str()) + "' is unknown; sources are tables [[source]]");
-    for (const toml::node& item : *list) {
-      const SourceTable table(path, *item.as_table(), scale);
-      const toml::node* deleted = item.as_table()->get("delete");
-      if (deleted && deleted->value<bool>().value_or(false))
-        result.deleted.push_back(table.text("name"));
-      else
-        result.sources.push_back(read_source(table));
-    }
+  const std::vector<const toml::table*> entries = toml_list(path, file, {"source", "st-prolong", ExitCode::kInput});
+  if (entries.empty() && !file.empty())
+    throw Error(ExitCode::kInput, path + ": no table [[source]] in it; see docs/st-prolong.md");
+  for (const toml::table* entry : entries) {
+    const SourceTable table(path, *entry, scale);
+    const toml::node* deleted = entry->get("delete");
+    if (deleted && deleted->value<bool>().value_or(false))
+      result.deleted.push_back(table.text("name"));
+    else
+      result.sources.push_back(read_source(table));
   }
   return result;
 }

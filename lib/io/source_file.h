@@ -32,7 +32,8 @@ struct SourceFile {
 ///   radius = 0.2               # constant up to this distance; default 0
 ///   doubling = 0.6             # twice the length at this distance; default: as the slope allows
 ///
-/// Coordinates and plain numbers are in the model unit. Throws Error(kInput) with file and line.
+/// [[st-prolong.source]] counts, too; what else an option file may hold is passed over. Coordinates and plain numbers
+/// are in the model unit. Throws Error(kInput) with file and line.
 SourceFile read_source_file(const std::string& path, const ModelScale& scale);
 
 /// Reads a background mesh: .bac/.ba3 (its sources, too), or .msh of version 2.2 in text form with tetrahedra and one scalar node data set.

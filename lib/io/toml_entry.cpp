@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "io/option_file_lists.h"
+
 namespace st {
 
 std::string toml_place(const std::string& path, const toml::source_region& region) {
@@ -15,6 +17,29 @@ toml::table parse_toml(const std::string& path, const std::string& text, ExitCod
   } catch (const toml::parse_error& e) {
     throw Error(code, toml_place(path, e.source()) + ": " + std::string(e.description()));
   }
+}
+
+std::vector<const toml::table*> toml_list(const std::string& path, const toml::table& file, const TomlList& list) {
+  const auto fail = [&](const toml::node& node, const std::string& what) {
+    throw Error(list.code, toml_place(path, node.source()) + ": " + what + " tables [[" + list.key + "]]");
+  };
+  std::vector<const toml::table*> tables;
+  const auto take = [&](const toml::table& parent) {
+    const toml::node* node = parent.get(list.key);
+    if (!node) return;
+    if (!node->is_array_of_tables()) fail(*node, "'" + list.key + "' must be");
+    for (const toml::node& item : *node->as_array()) tables.push_back(item.as_table());
+  };
+  take(file);
+  for (const auto& [name, node] : file) {
+    const std::string key(name.str());
+    const bool is_tool = node.is_table() && key.starts_with("st-");
+    const bool is_list = node.is_array_of_tables() && option_file_lists().contains(key);
+    if ((node.is_table() && !is_tool) || (node.is_array_of_tables() && !is_list))
+      fail(node, "unknown table '" + key + "'; expected are");
+    if (is_tool && key == list.tool) take(*node.as_table());
+  }
+  return tables;
 }
 
 void TomlEntry::fail(const toml::node& node, const std::string& what) const {

@@ -18,6 +18,18 @@ std::string toml_place(const std::string& path, const toml::source_region& regio
 /// The table that `text`, the content of `path`, is. Throws Error(code) with file and line for what is no TOML.
 toml::table parse_toml(const std::string& path, const std::string& text, ExitCode code);
 
+/// The lists of tables that one key of an option file may give a tool.
+struct TomlList {
+  std::string key;   ///< of the tables: "size" for [[size]]
+  std::string tool;  ///< that takes them: [[<tool>.<key>]] counts, too
+  ExitCode code;     ///< of the errors
+};
+
+/// The tables [[key]] at the top of a file, then those in the table of the tool. The file may be an option file:
+/// plain values, tables of tools and the other lists of option files are passed over. Throws Error(list.code) with
+/// file and line for any other table, so that no misspelt one is dropped, and for a `key` that is no list of tables.
+std::vector<const toml::table*> toml_list(const std::string& path, const toml::table& file, const TomlList& list);
+
 /// One table of a list. All that fails throws Error(kUsage) with file, line and key.
 class TomlEntry {
  public:

@@ -171,6 +171,17 @@ class Import(ToolTest):
         self.assertEqual(info["inputs"][1]["name"], "g.toml")
         self.assertEqual(info["options"]["groups"], "g.toml")
 
+    def test_groups_may_stand_in_the_option_file(self):
+        text = 'small = "0.02%"\n[[group]]\nname = "a"\nfaces = 1\n[[st-import.group]]\nname = "b"\nfaces = 2\n'
+        (self.folder / "o.toml").write_text(text)
+        arguments = ["-o", self.folder / "g.hdf", "--options", self.folder / "o.toml"]
+        must("st-import", MODELS / "box.step", *arguments)
+        groups = must("st-info", self.folder / "g.hdf", "--groups").out
+        self.assertRegex(groups, r"\ba\b")
+        self.assertRegex(groups, r"\bb\b")
+        (self.folder / "o.toml").write_text(text + "[[gruop]]\n")
+        self.expect_error(USAGE, "st-import", MODELS / "box.step", *arguments, says=["o.toml:8", "gruop"])
+
     def test_errors_name_file_line_and_groups_and_leave_nothing(self):
         self.expect_refusal('[[group]]\nname = "a"\nfaces = "1-2"\n[[group]]\nname = "b"\nfaces = 2\n', ["g.toml:4", '"a"', '"b"', "face 2"])
         self.expect_refusal('[[group]]\nname = "a"\nfaces = "zz*"\n', ["g.toml:1", "zz*", "optional"])

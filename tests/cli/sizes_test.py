@@ -28,6 +28,22 @@ class Sizes(ToolTest):
         self.assertAlmostEqual(at["origin"]["length"], at["length"], delta=0.1)  # the source itself asks for it, in this cell
         self.assertEqual(must("st-info", artifacts_of("box") / "sizing.hdf", "--at", "27,20,5", "--json").json()["cause"], "the largest length")
 
+    def test_sources_may_stand_in_the_option_file_beside_files_that_it_names(self):
+        (self.folder / "wake.toml").write_text(SOURCE)
+        far = SOURCE.replace("25, 20, 5", "1, 1, 1").replace("[[source]]", "[[st-prolong.source]]")
+        far = far.replace("wake", "far")
+        near = SOURCE.replace("wake", "near").replace("25, 20, 5", "25, 2, 5")
+        (self.folder / "o.toml").write_text(f'slope = 0.3\nsources = "{self.folder / "wake.toml"}"\n{near}{far}')
+        for more in ([], ["--sources", self.folder / "wake.toml"]):
+            sizing = self.folder / f"{len(more)}.hdf"
+            raster = artifacts_of("box") / "raster.hdf"
+            must("st-prolong", raster, "-o", sizing, "--options", self.folder / "o.toml", *more)
+            points = ("25,20,5", "25,2,5", "1,1,1")
+            causes = {at: must("st-info", sizing, "--at", at, "--json").json()["cause"] for at in points}
+            self.assertEqual(causes["25,20,5"], 'source 1 "wake"')
+            for at, source in (("25,2,5", 'source 2 "near"'), ("1,1,1", 'source 3 "far"')):
+                (self.assertNotEqual if more else self.assertEqual)(causes[at], source)
+
     def test_points_of_a_csv_have_the_lengths_of_single_queries(self):
         (self.folder / "p.csv").write_text("x,y,z\n26,20,5\n# far\n1 2 3\n")
         (self.folder / "wake.toml").write_text(SOURCE)

@@ -82,7 +82,8 @@ class Help(ToolTest):
                     self.assertIn("=" + default, lines[0], f"{tool} {option}")
 
     def test_help_shows_no_option_that_is_not_tested_here(self):
-        known = {"--help", "--version", "--options", "--print-options", "--quiet", "--verbose", "--json"}
+        known = {"--help", "--version", "--options", "--print-options", "--print-inputs"}
+        known |= {"--quiet", "--verbose", "--json"}
         for tool in TOOLS:
             names = {w for line in must(tool, "--help").out.split("\n") if line.startswith("  -") for w in line.split()[0].split(",")}
             shown = {n for n in names if n.startswith("--")}
@@ -202,8 +203,46 @@ class OptionFile(ToolTest):
         self.raster("alpha = 5\n", USAGE, arguments=["--alpha", "500"])
 
     def test_options_help_and_version_are_no_keys(self):
-        for key in ("options", "help", "version"):
+        for key in ("options", "help", "version", "print-options", "print-inputs"):
             self.raster(f'{key} = "x"\n', USAGE, says=f"'{key}'")
+
+    def inputs_of(self, tool, text):
+        (self.folder / "o.toml").write_text(text)
+        return must(tool, "--options", "o.toml", "--print-inputs", cwd=self.folder).out.split("\n")[:-1]
+
+    def test_print_inputs_lists_every_file_that_options_name(self):
+        many = 'sources = ["s.toml", "t.bac"]\nsample = "p.csv"\n[st-prolong]\nbackground = "b.msh"\nblank = "m.hdf"\n'
+        other = 'sizes = "a b.toml"\nnp = 3\n[st-prolong]\nsources = "no.toml"\n'
+        array = 'sizes-on-nodes = "n:1.vtu:size"\nmade-for = "s.hdf"\n'
+        self.assertEqual(self.inputs_of("st-import", 'unit = "m"\ngroups = "g.toml"\n'), ["g.toml"])
+        self.assertEqual(self.inputs_of("st-raster", other), ["a b.toml"])
+        self.assertEqual(self.inputs_of("st-prolong", many), ["s.toml", "t.bac", "b.msh", "m.hdf", "p.csv"])
+        self.assertEqual(self.inputs_of("st-mesh", 'edges = "e.hdf"\n'), ["e.hdf"])
+        self.assertEqual(self.inputs_of("st-remesh", array), ["n:1.vtu", "s.hdf"])
+        for tool in TOOLS:
+            self.assertEqual(self.inputs_of(tool, ""), [], tool)
+
+    def test_print_inputs_of_a_bad_file_is_2(self):
+        (self.folder / "o.toml").write_text("slop = 1\n")
+        arguments = ["--options", "o.toml", "--print-inputs"]
+        self.expect_error(USAGE, "st-prolong", *arguments, says="o.toml:1", cwd=self.folder)
+
+    def test_tables_in_the_file_make_it_an_input_after_the_files_it_names(self):
+        tables = {"st-import": "group", "st-raster": "size", "st-prolong": "source"}
+        for tool, table in tables.items():
+            for text in (f"[[{table}]]\n", f"[[{tool}.{table}]]\n"):
+                self.assertEqual(self.inputs_of(tool, text), ["o.toml"])
+            for other in set(TOOLS) - {tool}:
+                self.assertEqual(self.inputs_of(other, f"[[{table}]]\n"), [], other)
+        self.assertEqual(self.inputs_of("st-prolong", 'sources = "s.toml"\n[[source]]\n'), ["s.toml", "o.toml"])
+
+    def test_tables_and_a_single_file_of_them_exclude_each_other(self):
+        self.raster('sizes = "s.toml"\n[[size]]\nlmax = 1\n', USAGE, says=["o.toml:2", "sizes"])
+
+    def test_a_file_named_on_the_command_line_takes_the_place_of_tables(self):
+        (self.folder / "o.toml").write_text("[[source]]\n")
+        run = must("st-prolong", "--options", "o.toml", "--sources", "s.toml", "--print-inputs", cwd=self.folder)
+        self.assertEqual(run.out, "s.toml\n")
 
     def test_missing_file_and_directory_are_2(self):
         self.expect_error(USAGE, "st-raster", "g.hdf", "--options", "none.toml", says="none.toml", cwd=self.folder)

@@ -3,19 +3,23 @@
 # FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
 tool=$(basename "$0")
-if [ "${1-}" = --print-options ]; then echo "# options of $tool"; exit 0; fi
-echo "$tool" >> "${FAKE_LOG:?}"
 inputs=() output= allowed=
 while [ $# -gt 0 ]; do
   case $1 in
-    -o) output=$2; shift 2 ;;
-    --np) shift 2 ;;
+    --print-options) echo "# options of $tool"; exit 0 ;;
+    --print-inputs)  # the quoted names in lines such as sources = ["a.toml", "b.bac"], also in the table of the tool
+      keys='sizes|groups|sources|background|blank|sample|edges|made-for'
+      grep -E "^($keys) =" "${inputs[0]}" | grep -o '"[^"]*"' | tr -d '"' || true
+      exit 0 ;;
+    -o | --merged) output=$2; shift 2 ;;
+    --np) echo "$tool $2" >> "${FAKE_LOG:?}.np"; shift 2 ;;
     --options | --geometry | --sizing) inputs+=("$2"); shift 2 ;;
     --allow-incomplete) allowed=1; shift ;;
     --*) shift ;;
     *) inputs+=("$1"); shift ;;
   esac
 done
+echo "$tool" >> "${FAKE_LOG:?}"
 if [ -z "$output" ]; then
   echo "$tool says fine"
   [ "$tool" != st-check ] || exit "${FAKE_CHECK:-0}"

@@ -6,30 +6,9 @@ source=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-unset MAKEFLAGS MAKELEVEL MFLAGS MODEL OUT NP EXPORT BLANK ALLOW_INCOMPLETE TOOLS BUILD
-export FAKE_LOG=$work/ran
-mkdir bin
-for tool in st-import st-raster st-prolong st-mesh st-merge st-check st-info st-export; do
-  cp "$source/tests/workflow/fake_tool.sh" "bin/$tool"
-  chmod +x "bin/$tool"
-done
+. "$source/tests/workflow/common.sh"
+use_fake_tools
 echo model-a > a.step
-
-failures=0
-# run ARGUMENTS...: make's exit code in $status, what ran in $ran, what it said in $said
-run() {
-  : > "$FAKE_LOG"
-  status=0
-  said=$(make -f "$source/Makefile.workflow" TOOLS="$work/bin" "$@" 2>&1) || status=$?
-  ran=$(tr '\n' ' ' < "$FAKE_LOG")
-}
-expect() {  # expect WHAT ACTUAL EXPECTED
-  if [ "$2" != "$3" ]; then
-    printf 'FAILED %s:%s: %s\n  expected: %s\n  actual:   %s\n  said: %s\n' "$0" "${BASH_LINENO[0]}" "$1" "$3" "$2" "$said"
-    failures=$((failures + 1))
-  fi
-}
-later() { sleep 0.02; "$@"; }  # a time stamp that is certainly newer
 
 all="st-import st-raster st-prolong st-mesh st-merge st-check st-export st-info "
 run MODEL=a.step
@@ -45,15 +24,46 @@ later touch a.step
 run MODEL=a.step
 expect "a touched model of the same content runs nothing" "$ran" ""
 
-echo 'slope = 0.1' > out/a/st-prolong.toml
+echo 'alpha = 5' > out/a/st-raster.toml
 run MODEL=a.step
-expect "an edited option file runs its stage and what follows" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
-echo '# nothing' >> out/a/st-merge.toml
-run MODEL=a.step
-expect "the last stage's option file runs the last stage alone" "$ran" "st-merge st-check st-export st-info "
 rm out/a/st-raster.toml
 run MODEL=a.step
 expect "a removed option file comes back with the defaults and counts as an edit" "$ran" "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+echo 'sources = ["wake.toml"]' > out/a/st-prolong.toml
+run MODEL=a.step
+expect "a file that an option names and that is missing stops make before anything runs" "$status $ran" "2 "
+missing="out/a/st-prolong.toml names 'wake.toml', which is no file"
+expect "and the message names both files" "$(grep -c "$missing" <<< "$said")" 1
+echo '[[source]]' > wake.toml
+run MODEL=a.step
+expect "once it is there its stage runs" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
+rm wake.toml
+run MODEL=a.step
+expect "a file that disappears stops make" "$status $ran" "2 "
+rm out/a/st-prolong.toml
+run MODEL=a.step
+
+run MODL=a.step
+expect "a misspelt variable is refused" "$status $ran" "2 "
+expect "and the nearest name said" "$(grep -c 'unknown variable MODL.*did you mean MODEL?' <<< "$said")" 1
+run MODEL=a.step XYZZY=1
+expect "a variable like no other is refused without a guess" "$status $ran $(grep -c 'did you mean' <<< "$said")" "2  0"
+run MODEL=a.step CXX=c++ CXXFLAGS=-O2 VERBOSE=1 STEPS=3 OMPI_MCA_btl=tcp ST_CORPUS=/nowhere
+expect "variables of compilers, examples and MPI are passed on" "$status $ran" "0 "
+run MODEL=new.step EXPORT="stl vtk"
+expect "a format that is none is refused before anything runs" "$status $ran $(ls out)" "2  a"
+formats="'vtk' is no format; the formats are stl ascii.stl vtu obj ply msh fro; did you mean vtu?"
+expect "and the formats are named" "$(grep -c "$formats" <<< "$said")" 1
+run MODEL=a.step BLANK=yes
+expect "a switch that is neither 0 nor 1 is refused" "$status $ran" "2 "
+run MODEL=a.step BLANK=0 ALLOW_INCOMPLETE=0
+expect "0 turns a switch off" "$status $ran" "0 "
+run MODEL=a.step LAUNCH=env NP=3
+expect "a launcher and a number of ranks exclude each other" "$status $ran" "2 "
+said=$(cd "$source" && make help)
+commands=$(sed -n '3,7s/^ *make MODEL=wing.step *\([a-zA-Z]*\).*/\1/p' <<< "$said" | tr '\n' ' ')
+expect "help starts with the five commands of a user" "$commands" "mesh again remesh EXPORT LAUNCH "
+expect "plain make at the top knows the same rules" "$said" "$(make -f "$source/Makefile.workflow" help)"
 
 run MODEL=a.step OUT=b BLANK=1
 expect "blanking takes two passes and one raster" "$ran" "st-import st-raster st-prolong st-mesh st-merge st-prolong st-mesh st-merge st-check st-export st-info "
@@ -64,6 +74,9 @@ expect "without blanking the second pass is made again" "$ran" "st-prolong st-me
 run MODEL=a.step OUT=b BLANK=1
 expect "and with it again, from the mesh of the first" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
 expect "the mesh of the first pass blanks" "$(grep -cx st-merge b/sizing.hdf)" 1
+rm -r b "$FAKE_LOG.np"
+run MODEL=a.step OUT=b NP=7
+expect "the parallel stages take the number of ranks" "$(tr '\n' ' ' < "$FAKE_LOG.np")" "st-raster 7 st-mesh 7 "
 rm -r b
 
 run MODEL=a.step NP=7
@@ -74,6 +87,34 @@ run MODEL=a.step "$PWD/nothing" || true
 expect "an unknown target fails" "$status" 2
 run MODEL=a.step out/a/mesh.obj
 expect "an export is a target" "$ran" "st-export "
+
+cat > launch <<'END'
+#!/bin/bash
+echo "$0 $1" >> "$FAKE_LOG"
+case " $* " in *" --np "*) exit 9 ;; esac
+shift
+exec "$@"
+END
+chmod +x launch
+run MODEL=a.step OUT=c LAUNCH="./launch 'two words'"
+expect "a launcher starts the parallel stages, without --np" "$status $ran" \
+  "0 st-import ./launch two words st-raster st-prolong ./launch two words st-mesh st-merge st-check st-export st-info "
+echo 'slope = 0.1' > c/st-prolong.toml
+run MODEL=a.step OUT=c LAUNCH="./launch 'two words'" remesh
+expect "and remeshing" "$status $ran" "0 st-prolong ./launch two words st-remesh st-check st-export st-info "
+expect "of the mesh at hand" "$(grep -cx st-merge c/remesh/mesh.hdf) $(grep -c slope c/mesh.hdf || true)" "1 0"
+expect "with the new sizes" "$(grep -cx 'slope = 0.1' c/remesh/mesh.hdf)" 1
+FAKE_FAIL="st-remesh 5"
+export FAKE_FAIL
+echo 'too-long = 2' > c/st-remesh.toml
+run MODEL=a.step OUT=c remesh
+expect "an incomplete mesh is kept apart" "$status $(cd c/remesh && echo mesh*hdf)" "2 mesh.incomplete.hdf"
+unset FAKE_FAIL
+rm -r c
+run MODEL=a.step OUT=c remesh
+expect "remeshing what is not meshed yet meshes it first" "$status $ran" \
+  "0 st-import st-raster st-prolong st-mesh st-merge st-prolong st-remesh st-check st-export st-info "
+rm -r c
 
 later touch bin/*
 run MODEL=a.step
@@ -109,12 +150,12 @@ echo model-e > e.step
 export FAKE_FAIL="st-prolong 3"
 run MODEL=e.step
 expect "a failed stage stops make" "$status $ran" "2 st-import st-raster st-prolong "
-expect "and leaves no artifact" "$(ls out/e/*.hdf | tr '\n' ' ')" "out/e/geometry.hdf out/e/raster.hdf "
+expect "and leaves no artifact" "$(echo out/e/*.hdf)" "out/e/geometry.hdf out/e/raster.hdf"
 unset FAKE_FAIL
 run MODEL=e.step
 expect "afterwards make goes on where it stopped" "$ran" "st-prolong st-mesh st-merge st-check st-export st-info "
 
-later touch out/e/st-raster.toml
+echo '# edited' >> out/e/st-raster.toml
 export FAKE_FAIL="st-raster 5"
 run MODEL=e.step
 expect "a raster of which parts are missing stops make" "$status $ran" "2 st-raster "
@@ -123,7 +164,7 @@ run MODEL=e.step ALLOW_INCOMPLETE=1
 expect "raster and sizing are allowed to be incomplete when asked" "$status $ran" "0 st-raster st-prolong st-mesh st-merge st-check st-export st-info "
 unset FAKE_FAIL
 
-later touch out/e/st-mesh.toml
+echo '# edited' >> out/e/st-mesh.toml
 export FAKE_FAIL="st-mesh 5"
 run MODEL=e.step
 expect "an incomplete stage stops make" "$status $ran" "2 st-mesh "
@@ -132,7 +173,7 @@ run MODEL=e.step ALLOW_INCOMPLETE=1
 expect "make goes on with it when asked" "$status $ran" "0 st-mesh st-merge st-check st-export st-info "
 unset FAKE_FAIL
 
-later touch out/e/st-raster.toml
+echo '# edited' >> out/e/st-raster.toml
 FAKE_KILL=st-raster setsid make -f "$source/Makefile.workflow" TOOLS="$work/bin" MODEL=e.step > killed.log 2>&1 &
 make_id=$!
 for _ in $(seq 200); do [ -s "$FAKE_LOG.pid" ] && break; sleep 0.05; done
@@ -144,12 +185,11 @@ expect "and leaves no temporary" "$(find out/e -name '.*.tmp.*' | wc -l)" 0
 
 FAKE_CHECK=5
 export FAKE_CHECK
-later touch out/e/st-merge.toml
+echo '# edited' >> out/e/st-merge.toml
 run MODEL=e.step
 expect "a mesh that does not pass ends make with an error, after the report" "$status $(grep -c 'did not pass' <<< "$said")" "2 1"
 unset FAKE_CHECK
 run MODEL=e.step
 expect "and the verdict stays" "$status $ran" "2 "
 
-[ $failures -eq 0 ] && echo "all workflow rules hold"
-exit $((failures > 0))
+finish "all workflow rules hold"

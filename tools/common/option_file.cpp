@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "io/option_file_lists.h"
 
 namespace st {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 const std::set<std::string> kTools = {"st-import", "st-edit",  "st-raster", "st-prolong", "st-mesh",  "st-remesh",
                                       "st-merge",  "st-check", "st-info",   "st-diff",    "st-export"};
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
-const std::set<std::string> kCommandLineOnly = {"help", "version", "options"};
+const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(ExitCode::kUsage, where + ": " + what); }
 
@@ -98,15 +99,49 @@ std::string toml_default(const CLI::Option& option) {
   return is_bare ? text : '"' + text + '"';
 }
 
-/// Rules [[size]] stand in the option file itself: the file is then what --sizes names. Tools without that option pass them over.
-bool take_size_rules(const std::string& key, const toml::node& node, const std::string& path, CLI::App& app) {
-  if (key != "size" || !node.is_array_of_tables()) return false;
-  CLI::Option* option = app.get_option_no_throw("--sizes");
-  if (option && option->count() == 0) {
-    option->add_result(path);
-    option->run_callback();
+/// What a file says to one tool, by key.
+struct Settings {
+  std::map<std::string, const toml::node*> values;
+  std::map<std::string, const toml::node*> lists;  ///< tables such as [[size]]
+};
+
+void collect(const toml::table& table, Settings& settings) {
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    const bool is_list = option_file_lists().contains(name) && node.is_array_of_tables();
+    if (is_list || !node.is_table()) (is_list ? settings.lists : settings.values)[name] = &node;
   }
-  return true;
+}
+
+/// The keys at the top, then those in the tool's own table, which win.
+Settings settings_for(const std::string& tool, const toml::table& file, const std::string& path) {
+  Settings settings;
+  collect(file, settings);
+  for (const auto& [key, node] : file)
+    if (node.is_table() && !kTools.contains(std::string(key.str())))
+      fail(position(path, node.source()),
+           "unknown table [" + std::string(key.str()) + "]; a table is named after a tool, such as [" + tool + "]");
+  if (const toml::table* own = file[tool].as_table()) {
+    collect(*own, settings);
+    for (const auto& [key, node] : *own)
+      if (node.is_table()) settings.values[std::string(key.str())] = &node;
+  }
+  return settings;
+}
+
+/// The option that reads a list from a file; null for tools that have none, and where the command line has set it.
+CLI::Option* open_list_option(const std::string& key, CLI::App& app) {
+  CLI::Option* option = app.get_option_no_throw(option_file_lists().at(key));
+  return option && option->get_type_name() == "FILE" && option->count() == 0 ? option : nullptr;
+}
+
+/// Tables such as [[size]] stand in the option file itself: it is then one more file that the option names.
+void apply_list(const toml::node& node, const std::string& path, CLI::Option& option) {
+  if (option.count() > 0 && option.get_expected_max() == 1)
+    fail(position(path, node.source()),
+         "tables stand here and '" + option.get_lnames().front() + "' names a file of them; keep one of both");
+  option.add_result(path);
+  option.run_callback();
 }
 
 }  // namespace
@@ -122,19 +157,12 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
 
 void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app) {
   const toml::table file = parse_file(path);
-  std::map<std::string, const toml::node*> settings;
-  for (const auto& [key, node] : file) {
-    const std::string name(key.str());
-    if (take_size_rules(name, node, path, app)) continue;
-    if (!node.is_table())
-      settings[name] = &node;
-    else if (!kTools.contains(name))
-      fail(position(path, node.source()), "unknown table [" + name + "]; a table is named after a tool, such as [" + tool + "]");
-  }
-  if (const toml::table* own = file[tool].as_table())
-    for (const auto& [key, node] : *own)
-      if (!take_size_rules(std::string(key.str()), node, path, app)) settings[std::string(key.str())] = &node;
-  for (const auto& [key, node] : settings) apply(key, *node, path, tool, app);
+  const Settings settings = settings_for(tool, file, path);
+  std::vector<std::pair<const toml::node*, CLI::Option*>> lists;
+  for (const auto& [key, node] : settings.lists)
+    if (CLI::Option* option = open_list_option(key, app)) lists.emplace_back(node, option);
+  for (const auto& [key, node] : settings.values) apply(key, *node, path, tool, app);
+  for (const auto& [node, option] : lists) apply_list(*node, path, *option);
 }
 
 }  // namespace st

@@ -28,6 +28,9 @@ extern "C" void end_on_signal(int signal) {
   _exit(128 + signal);
 }
 
+/// Type of an option that names an array in a file.
+constexpr const char* kArrayType = "FILE:ARRAY";
+
 /// Temporaries go when the user or the batch system ends the run; a signal ignored by the parent (nohup) stays ignored.
 void install_signal_handlers() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -104,6 +107,8 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
       ->type_name("FILE");
   app_.add_flag_function(
       "--print-options", [](std::int64_t) {}, "print an option file with every option at its default, commented out, and exit");
+  app_.add_flag_function(
+      "--print-inputs", [](std::int64_t) {}, "print the input files that the options name, one per line, and exit");
   auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
   app_.add_flag("-v,--verbose", verbose_, "say more")->excludes(quiet);
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
@@ -124,6 +129,11 @@ void ToolMain::optional_input(const std::string& flag, std::string& path, const 
 
 void ToolMain::optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
   input_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
+  file_options_.push_back(input_options_.back());
+}
+
+void ToolMain::optional_array(const std::string& flag, std::string& value, const std::string& help) {
+  input_options_.push_back(app_.add_option(flag, value, help)->type_name(kArrayType));
   file_options_.push_back(input_options_.back());
 }
 
@@ -193,6 +203,9 @@ void ToolMain::begin(int argc, char** argv) {
 
 std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   if (has_argument(argc, argv, "--print-options")) return option_file_template(name_, file_options_);
+  const bool lists_inputs = has_argument(argc, argv, "--print-inputs");
+  if (lists_inputs)
+    for (CLI::Option* option : app_.get_options()) option->required(false);
   try {
     app_.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -208,7 +221,18 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose exclude each other");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
   require_distinct_files();
-  return std::nullopt;
+  if (!lists_inputs) return std::nullopt;
+  std::string lines;
+  for (const std::string& path : input_files()) lines += path + "\n";
+  return lines;
+}
+
+std::vector<std::string> ToolMain::input_files() const {
+  std::vector<std::string> files;
+  for (const CLI::Option* option : input_options_)
+    for (const std::string& value : option->results())
+      files.push_back(option->get_type_name() == kArrayType ? value.substr(0, value.rfind(':')) : value);
+  return files;
 }
 
 std::vector<std::string> ToolMain::output_paths() const {
@@ -236,10 +260,9 @@ void ToolMain::require_distinct_files() const {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
       if (same(outputs[i], outputs[j])) throw Error(ExitCode::kUsage, outputs[i] + ": named twice as an output");
-    for (const CLI::Option* option : input_options_)
-      for (const std::string& path : option->results())
-        if (same(outputs[i], path))
-          throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; name another output");
+    for (const std::string& path : input_files())
+      if (same(outputs[i], path))
+        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; name another output");
   }
 }
 

@@ -36,6 +36,8 @@ class ToolMain {
   void optional_input(const std::string& flag, std::string& path, const std::string& help);
   /// The same, repeatable.
   void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
+  /// An optional array in an input file: "FILE:ARRAY".
+  void optional_array(const std::string& flag, std::string& value, const std::string& help);
   /// -o,--output with the struct's default; required when that is empty.
   void output(std::string& path, const std::string& help = "artifact to write");
   /// A further file to write, with the struct's default.
@@ -70,12 +72,15 @@ class ToolMain {
  private:
   /// Signal handlers, and --json ahead of parsing: a usage error is reported as JSON, too.
   void begin(int argc, char** argv);
-  /// Command line, then option file. Returns the text of --help or --version when asked for. Throws Error(kUsage).
+  /// Command line, then option file. Returns the text of --help, --version or --print-... when asked for. Throws
+  /// Error(kUsage).
   std::optional<std::string> parse(int argc, char** argv);
   /// What this run writes: what is given, else the defaults.
   std::vector<std::string> output_paths() const;
   /// See run_under_mpirun; what a killed rank leaves half-written is removed.
   std::optional<int> start_ranks(const std::vector<std::string>& arguments) const;
+  /// The files that options and arguments name as inputs.
+  std::vector<std::string> input_files() const;
   /// Throws Error(kUsage) when an output would overwrite an input or another output.
   void require_distinct_files() const;
   /// Prints the summary to stdout. Throws Error(kOutput) when stdout takes nothing.

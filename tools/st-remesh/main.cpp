@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
               "an edge longer than this times the requested length is redone where the sizes changed");
   tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
   tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
-  tool.text("--sizes-on-nodes", o.sizes_on_nodes, "FILE:ARRAY", "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
+  tool.optional_array("--sizes-on-nodes", o.sizes_on_nodes,
+                      "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
   tool.length("--tolerance", o.tolerance, "", "how far nodes of another program's mesh may lie from the CAD");
   tool.optional_input("--made-for", o.made_for, "sizing artifact that another program's mesh was made for");
   tool.flag("--moved", o.moved, "the geometry is another one of the same topology: put the mesh onto it");

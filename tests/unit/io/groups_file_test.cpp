@@ -92,12 +92,22 @@ TEST(GroupsFile, without_groups_or_with_other_tables_is_refused) {
   TemporaryDirectory dir;
   write_bytes(dir / "empty.toml", "");
   EXPECT_ERROR(read_groups(dir / "empty.toml"), kUsage, "no table [[group]]");
-  write_bytes(dir / "other.toml", "[[group]]\nname = \"x\"\n[[size]]\n");
-  EXPECT_ERROR(read_groups(dir / "other.toml"), kUsage, "unknown key 'size'");
+  write_bytes(dir / "other.toml", "[[group]]\nname = \"x\"\n[[gruop]]\n");
+  EXPECT_ERROR(read_groups(dir / "other.toml"), kUsage, "other.toml:3: unknown table 'gruop'");
   write_bytes(dir / "single.toml", "[group]\nname = \"x\"\n");
-  EXPECT_ERROR(read_groups(dir / "single.toml"), kUsage, "groups are tables [[group]]");
+  EXPECT_ERROR(read_groups(dir / "single.toml"), kUsage, "'group' must be tables [[group]]");
   EXPECT_ERROR(read_groups(dir / "none.toml"), kInput, "none.toml: cannot be read");
   EXPECT_ERROR(read_groups(dir / "."), kInput, "is a directory");
+}
+
+TEST(GroupsFile, may_be_an_option_file) {
+  TemporaryDirectory dir;
+  write_bytes(dir / "o.toml",
+              "small = \"1%\"\n[[size]]\nlmax = 1\n[[group]]\nname = \"a\"\n"
+              "[st-raster]\nalpha = 5\n[[st-import.group]]\nname = \"b\"\n");
+  const GroupsFile file = read_groups(dir / "o.toml");
+  ASSERT_EQ(file.rules.size(), 2u);
+  EXPECT_EQ(file.rules[0].name + file.rules[1].name, "ab");
 }
 
 TEST(GroupsFile, has_the_hash_of_its_bytes) {

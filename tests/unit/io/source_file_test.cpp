@@ -87,6 +87,28 @@ TEST_F(SourceFiles, toml_deletes_by_name) {
   EXPECT_EQ(toml("[[source]]\nname = \"wake\"\ndelete = true").deleted, std::vector<std::string>{"wake"});
 }
 
+TEST_F(SourceFiles, toml_may_be_an_option_file) {
+  const SourceFile f = toml(R"(
+slope = 0.1
+[[size]]
+lmax = 1
+[[source]]
+type = "point"
+at = [1, 0, 0]
+length = 1
+[st-mesh]
+max-turning = 20
+[[st-prolong.source]]
+type = "point"
+at = [2, 0, 0]
+length = 1
+)");
+  ASSERT_EQ(f.sources.size(), 2u);
+  EXPECT_EQ(f.sources[0].point[0].x, 1);
+  EXPECT_EQ(f.sources[1].point[0].x, 2);
+  EXPECT_TRUE(toml("# all sources commented out").sources.empty());
+}
+
 TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
   expect_error("[[source]]\ntype = \"blob\"\nlength = 1", "blob");
   expect_error("[[source]]\ntype = \"point\"\nlength = 1", "at = [x, y, z]");
@@ -98,7 +120,9 @@ TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nradius = 2\ndoubling = 1", "larger than radius");
   expect_error("[[source]]\ntype = \"line\"\npoints = [[0, 0, 0]]\nlength = 1", "2 points");
   expect_error("[[source]]\ntype = \"box\"\nlo = [0, 0, 0]\nhi = [1, 0, 1]\nlength = 1", "lo must be below hi");
-  expect_error("slope = 3", "unknown");
+  expect_error("slope = 3", "no table [[source]]");
+  expect_error("[source]\ntype = \"point\"", "s.toml:1: 'source' must be tables [[source]]");
+  expect_error("[[sorce]]\ntype = \"point\"", "s.toml:1: unknown table 'sorce'");
   expect_error("[[source]\n", "s.toml:1");
 }
 
