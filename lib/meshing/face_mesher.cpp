@@ -11,7 +11,7 @@
 namespace st {
 namespace {
 
-constexpr double kSnap = 1e-3;             // of the requested length: same-id nodes nearer than this are one (KERNEL.md)
+constexpr double kSnap = 1e-3;             // of the length: nearer nodes of one id are one (docs/design/kernel.md)
 constexpr double kSnapPlane = 0.05;        // likewise in the scaled plane, where the surface is singular and all steps are short
 constexpr double kSmallStep = 2e-3;        // of the range of (u,v): far less than the steps between the nodes of a pole
 constexpr double kSingular = 0.02;         // of its mean: a derivative shorter than this makes no reliable normal

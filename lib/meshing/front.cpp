@@ -12,7 +12,7 @@ namespace {
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 
-// KERNEL.md: found on 16,000 real faces.
+// Rules: docs/design/kernel.md; where each number comes from: docs/design/heuristics.md.
 constexpr double kFinishedRadius = 0.68;  // circumradius over requested length; equilateral: 0.577
 constexpr double kNearNode = 0.65;        // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;     // of the side: nor nearer than this to a boundary segment
