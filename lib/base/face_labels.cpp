@@ -163,10 +163,10 @@ void append_groups(std::vector<EntityGroup>& to, const std::vector<EntityGroup>&
 }
 
 std::vector<std::int32_t> find_members(const std::string& pattern, const std::vector<EntityGroup>& groups) {
-  const auto main = members(groups, [&](const EntityGroup& g) { return g.table.empty() && matches(pattern, g.name); });
+  const auto main = members(groups, [&](const EntityGroup& g) { return g.table.empty() && name_matches(pattern, g.name); });
   if (!main.empty()) return main;
   return members(groups, [&](const EntityGroup& g) {
-    return !g.table.empty() && (matches(pattern, g.name) || matches(pattern, g.table + ":" + g.name));
+    return !g.table.empty() && (name_matches(pattern, g.name) || name_matches(pattern, g.table + ":" + g.name));
   });
 }
 

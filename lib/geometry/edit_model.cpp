@@ -97,8 +97,8 @@ void select_loops(const ModelTables& t, const std::vector<FaceId>& faces, const 
   out.coedge_edge.clear();
   out.coedge_is_reversed.clear();
   for (const FaceId f : faces) {
-    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l) {
-      for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) {
+    for (const LoopId l : t.loops(f)) {
+      for (const CoedgeId c : t.loop_coedges(l)) {
         out.coedge_edge.push_back(edge_place[t.coedge_edge[c]]);
         out.coedge_is_reversed.push_back(t.coedge_is_reversed[c]);
       }

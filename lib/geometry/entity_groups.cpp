@@ -41,17 +41,15 @@ std::vector<std::uint8_t> faces_of(const GroupRule& rule, const char* key, const
 Mask edges_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
   Mask wanted(t.n_edges(), 0);
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]];
-         faces[f] && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
-      wanted[t.coedge_edge[c]] = !t.edge_is_degenerate[t.coedge_edge[c]];
+    if (faces[f])
+      for (const EdgeId e : t.edges_of(f)) wanted[e] = !t.edge_is_degenerate[e];
   return wanted;
 }
 
 Mask outline_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
   std::vector<int> n_uses(t.n_edges(), 0), n_inside(t.n_edges(), 0);
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]];
-         c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c) {
+    for (const CoedgeId c : t.coedges(f)) {
       ++n_uses[t.coedge_edge[c]];
       n_inside[t.coedge_edge[c]] += faces[f];
     }

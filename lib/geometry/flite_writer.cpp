@@ -57,8 +57,8 @@ class Exporter {
     note(grid.deviation, divided_.origin[f] == kNone ? t_.face_label(f) : whole_.face_label(divided_.origin[f]));
     result_.file.surfaces.push_back({f + 1, 0, grid.n_u, grid.n_v, grid.points});
     FliteRegion region{f + 1, 0, f, {}};
-    for (LoopId l = t_.face_loop_offsets[f]; l < t_.face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) {
+    for (const LoopId l : t_.loops(f))
+      for (const CoedgeId c : t_.loop_coedges(l)) {
         const std::vector<int>& segments = segments_of_edge_[t_.coedge_edge[c]];
         region.segments.insert(region.segments.end(), segments.begin(), segments.end());
       }

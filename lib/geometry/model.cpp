@@ -69,8 +69,8 @@ void ModelTables::edge_faces(std::vector<std::int32_t>& offsets, std::vector<Fac
   faces.resize(coedge_edge.size());
   std::vector<std::int32_t> next(offsets.begin(), offsets.end() - 1);
   for (FaceId f = 0; f < n_faces(); ++f)
-    for (LoopId l = face_loop_offsets[f]; l < face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = loop_coedge_offsets[l]; c < loop_coedge_offsets[l + 1]; ++c) faces[next[coedge_edge[c]]++] = f;
+    for (const LoopId l : loops(f))
+      for (const CoedgeId c : loop_coedges(l)) faces[next[coedge_edge[c]]++] = f;
 }
 
 std::vector<std::byte> occt::brep_bytes(const TopoDS_Shape& shape) {

@@ -64,6 +64,12 @@ struct ModelTables {
   std::int32_t n_faces() const { return static_cast<std::int32_t>(face_is_reversed.size()); }
   std::int32_t n_loops() const { return static_cast<std::int32_t>(loop_coedge_offsets.size()) - 1; }
   std::int32_t n_coedges() const { return static_cast<std::int32_t>(coedge_edge.size()); }
+  IdRange loops(FaceId f) const { return {face_loop_offsets[f], face_loop_offsets[f + 1]}; }
+  IdRange loop_coedges(LoopId l) const { return {loop_coedge_offsets[l], loop_coedge_offsets[l + 1]}; }
+  /// Of all its loops.
+  IdRange coedges(FaceId f) const { return {loop_coedge_offsets[face_loop_offsets[f]], loop_coedge_offsets[face_loop_offsets[f + 1]]}; }
+  /// Of its coedges, in their order; an edge that the face uses twice appears twice.
+  std::span<const EdgeId> edges_of(FaceId f) const { return std::span(coedge_edge).subspan(coedges(f).first(), coedges(f).size()); }
 
   /// Bounding box of all faces, and of the faces whose group's role is no outer one (all faces when there is none): the reference diagonal.
   Box3 box() const;

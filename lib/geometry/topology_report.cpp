@@ -62,8 +62,7 @@ void report_gaps(const ImportedShape& model, double small, ImportResult& result)
 
 double edge_tolerance(const ModelTables& t, FaceId f) {
   double tolerance = t.face_tolerance[f];
-  for (std::int32_t k = t.loop_coedge_offsets[t.face_loop_offsets[f]]; k < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++k)
-    tolerance = std::max(tolerance, t.edge_tolerance[t.coedge_edge[k]]);
+  for (const EdgeId e : t.edges_of(f)) tolerance = std::max(tolerance, t.edge_tolerance[e]);
   return tolerance;
 }
 

@@ -12,13 +12,13 @@ class NodeFinder {
   NodeFinder(const SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const VertexId> edge_vertices)
       : mesh_(mesh), edges_(edges), edge_vertices_(edge_vertices) {}
 
-  std::int32_t n_nodes(EdgeId e) const { return edges_.edge_offsets[e + 1] - edges_.edge_offsets[e]; }
+  std::int32_t n_nodes(EdgeId e) const { return edges_.n_nodes(e); }
 
   /// Node `i` of an edge; where a strip is closed the one of its kept edge. kNone: the mesh has none.
   NodeId edge_node(EdgeId e, std::int32_t i) const {
     const std::int32_t n = n_nodes(e);
     if (i == 0 || i + 1 == n) return find(EntityDim::kVertex, edge_vertices_[2 * e + (i == 0 ? 0 : 1)], 0);
-    const NodeId own = find(EntityDim::kEdge, e, edges_.node_t[edges_.edge_offsets[e] + i]);
+    const NodeId own = find(EntityDim::kEdge, e, edges_.node_t[edges_.first_node(e) + i]);
     const auto closed = std::find(mesh_.merged.strip_closed.begin(), mesh_.merged.strip_closed.end(), e);
     if (own != kNone || closed == mesh_.merged.strip_closed.end()) return own;
     const auto strip = closed - mesh_.merged.strip_closed.begin();
@@ -99,7 +99,7 @@ void add_segments(SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const Vert
   in_groups.erase(std::unique(in_groups.begin(), in_groups.end()), in_groups.end());
   const NodeFinder nodes(mesh, edges, edge_vertices);
   for (const EdgeId e : in_groups) {
-    if (static_cast<std::size_t>(e) + 1 >= edges.edge_offsets.size()) break;
+    if (e >= edges.n_edges()) break;
     for (std::int32_t i = 1; i < nodes.n_nodes(e); ++i) {
       const NodeId a = nodes.edge_node(e, i - 1), b = nodes.edge_node(e, i);
       if (a == kNone || b == kNone || a == b) continue;

@@ -41,7 +41,7 @@ void require_valid(const MergeInput& in, const FacePatch& p) {
       p.corner_uv.size() != 3 * p.triangles.size() || (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
       (!p.triangle_previous.empty() && p.triangle_previous.size() != p.triangles.size()))
     throw_bad_patch(p.face, "has arrays that do not fit each other");
-  const auto n_edges = static_cast<std::int64_t>(in.edges.edge_offsets.size()) - 1;
+  const EdgeId n_edges = in.edges.n_edges();
   for (std::size_t i = 0; i < n_boundary; ++i) {
     const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     const bool on_vertex = p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex);
@@ -49,7 +49,7 @@ void require_valid(const MergeInput& in, const FacePatch& p) {
       throw_bad_patch(p.face,
                       std::string("names ") + (on_vertex ? "vertex " : "edge ") + std::to_string(entity + 1) + ", which does not exist");
     if (!on_vertex && (p.boundary_dim[i] != static_cast<std::uint8_t>(EntityDim::kEdge) || index < 1 ||
-                       index + 1 >= in.edges.edge_offsets[entity + 1] - in.edges.edge_offsets[entity]))
+                       index + 1 >= in.edges.n_nodes(entity)))
       throw_bad_patch(p.face,
                       "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) + ", which is no inner node of it");
   }
@@ -63,7 +63,7 @@ void require_valid(const MergeInput& in, const FacePatch& p) {
 NodeId& boundary_number(NodeNumbers& numbers, const MergeInput& in, const FacePatch& p, std::int32_t i) {
   const std::int32_t entity = p.boundary_entity[i];
   if (p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)) return numbers.vertex[entity];
-  return numbers.edge_node[in.edges.edge_offsets[entity] + p.boundary_index[i]];
+  return numbers.edge_node[in.edges.first_node(entity) + p.boundary_index[i]];
 }
 
 std::vector<std::uint8_t> used_nodes(const FacePatch& p) {
@@ -90,16 +90,14 @@ NodeNumbers mark_used(const MergeInput& in, std::span<const FacePatch* const> pa
   return numbers;
 }
 
-const std::vector<double>& requests(const EdgeMesh& e) { return e.node_request.empty() ? e.node_size : e.node_request; }
-
 /// Requested length at each vertex: from the edge of lowest id that ends there.
 std::vector<double> vertex_sizes(const MergeInput& in) {
   std::vector<double> size(in.vertex_xyz.size(), 0);
-  for (std::size_t e = 0; e + 1 < in.edges.edge_offsets.size(); ++e) {
-    const std::int32_t begin = in.edges.edge_offsets[e], end = in.edges.edge_offsets[e + 1];
-    if (begin == end) continue;
+  for (EdgeId e = 0; e < in.edges.n_edges(); ++e) {
+    const IdRange nodes = in.edges.nodes(e);
+    if (nodes.empty()) continue;
     for (int k = 0; k < 2; ++k)
-      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0) s = requests(in.edges)[k ? end - 1 : begin];
+      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0) s = in.edges.requests()[k ? nodes.first() + nodes.size() - 1 : nodes.first()];
   }
   return size;
 }
@@ -122,10 +120,10 @@ void append_boundary_nodes(const MergeInput& in, NodeNumbers& numbers, SurfaceMe
   };
   for (std::size_t v = 0; v < numbers.vertex.size(); ++v)
     if (number(numbers.vertex[v])) append_node(mesh, in.vertex_xyz[v], EntityDim::kVertex, static_cast<std::int32_t>(v), 0, size[v]);
-  for (std::size_t e = 0; e + 1 < in.edges.edge_offsets.size(); ++e)
-    for (std::int32_t i = in.edges.edge_offsets[e]; i < in.edges.edge_offsets[e + 1]; ++i)
+  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
+    for (const std::int32_t i : in.edges.nodes(e))
       if (number(numbers.edge_node[i]))
-        append_node(mesh, in.edges.node_xyz[i], EntityDim::kEdge, static_cast<std::int32_t>(e), in.edges.node_t[i], requests(in.edges)[i]);
+        append_node(mesh, in.edges.node_xyz[i], EntityDim::kEdge, e, in.edges.node_t[i], in.edges.requests()[i]);
 }
 
 /// Appends the inner nodes and the triangles of one face.
@@ -149,9 +147,9 @@ void append_patch(const MergeInput& in, const FacePatch& p, NodeNumbers& numbers
 void append_previous(const MergeInput& in, std::span<const FacePatch* const> patches, const NodeNumbers& numbers, SurfaceMesh& mesh) {
   if (in.edges.node_previous.empty()) return;
   mesh.node_previous.assign(mesh.node_xyz.size(), kNone);
-  for (std::size_t e = 0; e + 1 < in.edges.edge_offsets.size(); ++e)
-    for (std::int32_t i = in.edges.edge_offsets[e], end = in.edges.edge_offsets[e + 1]; i < end; ++i) {
-      const bool is_first = i == in.edges.edge_offsets[e], is_last = i + 1 == end;
+  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
+    for (const std::int32_t i : in.edges.nodes(e)) {
+      const bool is_first = i == in.edges.first_node(e), is_last = i + 1 == in.edges.first_node(e) + in.edges.n_nodes(e);
       const NodeId n = is_first || is_last ? numbers.vertex[in.edge_vertices[2 * e + (is_first ? 0 : 1)]] : numbers.edge_node[i];
       if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
     }

@@ -8,8 +8,8 @@ bool is_closed(const MergedFeatures& m, std::size_t strip, const EdgeMesh& edges
   const bool opposed = m.strip_is_opposed[strip];
   for (int k = 0; k < 2; ++k)
     if (edge_vertices[2 * kept + k] != edge_vertices[2 * closed + (opposed ? 1 - k : k)]) return false;
-  const std::int32_t a = edges.edge_offsets[kept], b = edges.edge_offsets[closed], n = edges.edge_offsets[kept + 1] - a;
-  if (n < 2 || edges.edge_offsets[closed + 1] - b != n) return false;
+  const std::int32_t a = edges.first_node(kept), b = edges.first_node(closed), n = edges.n_nodes(kept);
+  if (n < 2 || edges.n_nodes(closed) != n) return false;
   for (std::int32_t i = 1; i + 1 < n; ++i)
     if (!(edges.node_xyz[a + i] == edges.node_xyz[b + (opposed ? n - 1 - i : i)])) return false;
   return true;

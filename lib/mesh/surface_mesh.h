@@ -8,23 +8,13 @@
 #include "base/face_labels.h"
 #include "base/ids.h"
 #include "base/vec.h"
+#include "mesh/edge_mesh.h"
 
 namespace st {
 
 /// Three node ids, counter-clockwise seen from outside the solid.
 struct Triangle {
   NodeId n[3];
-};
-
-/// Nodes on the CAD edges: made once, used by every face. Node i of edge e is edge_node_* [edge_offsets[e] + i]; the first and the
-/// last lie on the edge's vertices (edge_vertices[2e], [2e+1]). A degenerate edge, and an edge not meshed, has no nodes.
-struct EdgeMesh {
-  std::vector<std::int32_t> edge_offsets;  ///< [n_edges+1]
-  std::vector<double> node_t;              ///< parameter on the edge, strictly increasing within an edge
-  std::vector<Vec3> node_xyz;              ///< model unit; end nodes are the vertices' own coordinates
-  std::vector<double> node_size;           ///< length it was made for at the node: the request, or less where that had to be refined
-  std::vector<double> node_request;        ///< requested length; empty: node_size
-  std::vector<NodeId> node_previous;       ///< empty, or the node's number in the mesh that st-remesh started from, kNone: new
 };
 
 /// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the rest are inside.

@@ -5,6 +5,7 @@
 
 #include "base/ids.h"
 #include "geometry/curve.h"
+#include "mesh/edge_mesh.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -12,13 +13,6 @@ namespace st {
 struct CurveMeshOptions {
   double max_turning_deg = 30;  ///< largest turning of the tangent along one segment
   int min_segments = 1;         ///< 3 for a closed edge that is a loop of its own, 2 for one of two edges of a loop
-};
-
-/// Nodes on one edge, its ends included.
-struct CurveNodes {
-  std::vector<double> t;  ///< strictly increasing from t_min to t_max
-  std::vector<Vec3> x;    ///< points of the curve
-  std::vector<double> h;  ///< requested length
 };
 
 /// Spaces nodes by the integral of 1/size along the curve: as many segments as the integral says (rounded, at least min_segments), each

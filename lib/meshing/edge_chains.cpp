@@ -13,7 +13,7 @@
 #include "meshing/nearest_node.h"
 #include "meshing/part_matching.h"
 #include "meshing/places.h"
-#include "meshing/small_features.h"
+#include "meshing/mesh_topology.h"
 
 namespace st {
 namespace {
@@ -39,7 +39,7 @@ class VertexFinder {
   void run(EdgeChains& result) {
     find_nearest();
     merge_short_edges(result.merged);
-    result.tables = with_merged_edges(t_, result.merged);
+    result.tables = MeshTopology(t_, result.merged).tables();
     result.vertex_node.assign(t_.n_vertices(), kNone);
     result.node_vertex.assign(mesh_.node_xyz.size(), kNone);
     take_best(result);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace st {
 namespace {
@@ -21,30 +20,30 @@ class BoundaryMaker {
       : model_(model), t_(numbering.tables), surface_(surface), face_(face), numbering_(numbering) {}
 
   FaceBoundary run() {
-    if (const std::int32_t strip = numbering_.strip_of(face_); strip != kNone && add_strip(strip)) return std::move(result_);
-    for (LoopId l = t_.face_loop_offsets[face_]; l < t_.face_loop_offsets[face_ + 1]; ++l) add_loop(l);
+    if (const auto* strip = numbering_.topology.strip_of(face_); strip && add_strip(*strip)) return std::move(result_);
+    for (const LoopId l : t_.loops(face_)) add_loop(l);
     return std::move(result_);
   }
 
  private:
   void add_loop(LoopId l) {
     const std::int32_t first = static_cast<std::int32_t>(result_.nodes.size());
-    for (CoedgeId c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) {
+    for (const CoedgeId c : t_.loop_coedges(l)) {
       add_whole(c, static_cast<std::int32_t>(result_.nodes.size()) == first);
     }
     close_loop(first);
   }
 
   /// A loop for each part of a strip that is not closed; false when no node of it is.
-  bool add_strip(std::int32_t strip) {
-    const EdgeId kept = numbering_.merged.strip_kept[strip];
-    const LoopId l = t_.face_loop_offsets[face_];
-    std::vector<CoedgeId> coedges(t_.loop_coedge_offsets[l + 1] - t_.loop_coedge_offsets[l]);
-    std::iota(coedges.begin(), coedges.end(), t_.loop_coedge_offsets[l]);
-    std::rotate(coedges.begin(), std::find_if(coedges.begin(), coedges.end(), [&](CoedgeId c) { return t_.coedge_edge[c] == kept; }), coedges.end());
-    const auto other = std::find_if(coedges.begin(), coedges.end(),
-                                    [&](CoedgeId c) { return t_.coedge_edge[c] == numbering_.merged.strip_closed[strip]; });
-    const std::int32_t n = numbering_.edges.edge_offsets[kept + 1] - numbering_.edges.edge_offsets[kept];
+  bool add_strip(const MeshTopology::Strip& strip) {
+    std::vector<CoedgeId> coedges;
+    for (const CoedgeId c : t_.loop_coedges(t_.loops(face_).first())) coedges.push_back(c);
+    const auto coedge_on = [&](EdgeId e) {
+      return std::find_if(coedges.begin(), coedges.end(), [&](CoedgeId c) { return t_.coedge_edge[c] == e; });
+    };
+    std::rotate(coedges.begin(), coedge_on(strip.kept), coedges.end());
+    const auto other = coedge_on(strip.closed);
+    const std::int32_t n = numbering_.edges.n_nodes(strip.kept);
     std::vector<char> is_closed(n);  // in the direction of the loop
     for (std::int32_t i = 0; i < n; ++i) is_closed[t_.coedge_is_reversed[coedges[0]] ? n - 1 - i : i] = numbering_.is_closed(strip, i);
     if (std::count(is_closed.begin(), is_closed.end(), 1) == 0) return false;
@@ -94,7 +93,7 @@ class BoundaryMaker {
 
   void add_coedge(CoedgeId c, bool is_first) {
     const EdgeId e = t_.coedge_edge[c];
-    const std::int32_t n = numbering_.edges.edge_offsets[e + 1] - numbering_.edges.edge_offsets[e];
+    const std::int32_t n = numbering_.edges.n_nodes(e);
     if (n >= 2) add_nodes(c, 0, n - 1, !is_first);
   }
 
@@ -102,7 +101,7 @@ class BoundaryMaker {
   void add_nodes(CoedgeId c, std::int32_t from, std::int32_t to, bool joins_previous) {
     const EdgeId e = t_.coedge_edge[c];
     const EdgeMesh& m = numbering_.edges;
-    const std::int32_t begin = m.edge_offsets[e], n = m.edge_offsets[e + 1] - begin;
+    const std::int32_t begin = m.first_node(e), n = m.n_nodes(e);
     const auto pcurve = model_.pcurve(face_, c);
     for (std::int32_t i = from; i <= to; ++i) {
       const std::int32_t k = t_.coedge_is_reversed[c] ? n - 1 - i : i;
@@ -202,42 +201,28 @@ class BoundaryMaker {
 
 }  // namespace
 
-const MergedFeatures& BoundaryNumbering::no_merged_features() {
-  static const MergedFeatures none;
-  return none;
-}
-
-BoundaryNumbering::BoundaryNumbering(const ModelTables& t, const EdgeMesh& e, const MergedFeatures& m) : tables(t), edges(e), merged(m) {
-  first_inner.push_back(t.n_vertices());
-  for (EdgeId i = 0; i < t.n_edges(); ++i) first_inner.push_back(first_inner.back() + std::max(0, e.edge_offsets[i + 1] - e.edge_offsets[i] - 2));
-  strip_of_closed_.assign(merged.strip_closed.empty() ? 0 : t.n_edges(), kNone);
-  for (std::size_t s = 0; s < merged.strip_closed.size(); ++s) strip_of_closed_[merged.strip_closed[s]] = static_cast<std::int32_t>(s);
+BoundaryNumbering::BoundaryNumbering(const MeshTopology& m, const EdgeMesh& e) : topology(m), tables(m.tables()), edges(e) {
+  first_inner.push_back(tables.n_vertices());
+  for (EdgeId i = 0; i < tables.n_edges(); ++i) first_inner.push_back(first_inner.back() + std::max(0, e.n_nodes(i) - 2));
 }
 
 std::int32_t BoundaryNumbering::edge_node(EdgeId e, std::int32_t index) const {
-  const std::int32_t n = edges.edge_offsets[e + 1] - edges.edge_offsets[e];
+  const std::int32_t n = edges.n_nodes(e);
   if (index == 0) return tables.edge_vertices[2 * e];
   if (index == n - 1) return tables.edge_vertices[2 * e + 1];
-  if (const std::int32_t s = strip_of_closed_.empty() ? kNone : strip_of_closed_[e]; s != kNone) {
-    const std::int32_t twin = merged.strip_is_opposed[s] ? n - 1 - index : index;
-    if (is_closed(s, twin)) return edge_node(merged.strip_kept[s], twin);
+  if (const auto* strip = topology.strip_closed_at(e)) {
+    const std::int32_t twin = strip->mirrored(index, n);
+    if (is_closed(*strip, twin)) return edge_node(strip->kept, twin);
   }
   return first_inner[e] + index - 1;
 }
 
-std::int32_t BoundaryNumbering::strip_of(FaceId f) const {
-  const auto it = std::lower_bound(merged.strip_face.begin(), merged.strip_face.end(), f);
-  return it != merged.strip_face.end() && *it == f ? static_cast<std::int32_t>(it - merged.strip_face.begin()) : kNone;
-}
-
-bool BoundaryNumbering::is_closed(std::int32_t strip, std::int32_t index) const {
-  const EdgeId kept = merged.strip_kept[strip], closed = merged.strip_closed[strip];
-  const std::int32_t n = edges.edge_offsets[kept + 1] - edges.edge_offsets[kept];
-  if (edges.edge_offsets[closed + 1] - edges.edge_offsets[closed] != n) return false;
-  const bool opposed = merged.strip_is_opposed[strip];
+bool BoundaryNumbering::is_closed(const MeshTopology::Strip& strip, std::int32_t index) const {
+  const std::int32_t n = edges.n_nodes(strip.kept);
+  if (edges.n_nodes(strip.closed) != n) return false;
   if (index == 0 || index == n - 1)
-    return tables.edge_vertices[2 * kept + (index != 0)] == tables.edge_vertices[2 * closed + ((index != 0) != opposed)];
-  return edges.node_xyz[edges.edge_offsets[kept] + index] == edges.node_xyz[edges.edge_offsets[closed] + (opposed ? n - 1 - index : index)];
+    return tables.edge_vertices[2 * strip.kept + (index != 0)] == tables.edge_vertices[2 * strip.closed + ((index != 0) != strip.is_opposed)];
+  return edges.node_xyz[edges.first_node(strip.kept) + index] == edges.node_xyz[edges.first_node(strip.closed) + strip.mirrored(index, n)];
 }
 
 BoundaryNumbering::Entity BoundaryNumbering::entity(std::int32_t id) const {
@@ -257,7 +242,7 @@ std::vector<int> min_segments_per_edge(const ModelTables& t) {
     if (t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1]) result[e] = 3;
   for (LoopId l = 0; l < t.n_loops(); ++l) {
     std::vector<EdgeId> edges;
-    for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c)
+    for (const CoedgeId c : t.loop_coedges(l))
       if (!t.edge_is_degenerate[t.coedge_edge[c]]) edges.push_back(t.coedge_edge[c]);
     if (edges.size() == 2)
       for (EdgeId e : edges) result[e] = std::max(result[e], 2);

@@ -6,34 +6,29 @@
 #include "geometry/model.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face_mesher.h"
+#include "meshing/mesh_topology.h"
 
 namespace st {
 
 /// Numbers of boundary nodes over the whole model: vertices first, then the inner nodes of edge 0, 1, ...
 struct BoundaryNumbering {
-  /// `merged`: its edges are degenerate in `tables` already (with_merged_edges). All references outlive the object.
-  explicit BoundaryNumbering(const ModelTables& tables, const EdgeMesh& edges, const MergedFeatures& merged = no_merged_features());
-  static const MergedFeatures& no_merged_features();
+  /// All references outlive the object.
+  BoundaryNumbering(const MeshTopology& topology, const EdgeMesh& edges);
   std::int32_t vertex(VertexId v) const { return v; }
   /// Node `index` of an edge (0 and the last are its vertices); where a strip is closed, the node of its other edge at the same place.
   std::int32_t edge_node(EdgeId e, std::int32_t index) const;
-  /// Strip of `merged` with this face, kNone when none.
-  std::int32_t strip_of(FaceId f) const;
-  /// Is node `index` of a strip's kept edge also one of its closed edge?
-  bool is_closed(std::int32_t strip, std::int32_t index) const;
+  /// Is node `index` of the strip's kept edge also one of its closed edge?
+  bool is_closed(const MeshTopology::Strip& strip, std::int32_t index) const;
   struct Entity {
     EntityDim dim;
     std::int32_t entity, index;   ///< vertex, 0 - or edge, node index on it
   };
   Entity entity(std::int32_t id) const;
 
-  const ModelTables& tables;
+  const MeshTopology& topology;
+  const ModelTables& tables;  ///< of `topology`
   const EdgeMesh& edges;
-  const MergedFeatures& merged;
   std::vector<std::int32_t> first_inner;   ///< [n_edges+1] number of an edge's node 1
-
- private:
-  std::vector<std::int32_t> strip_of_closed_;  // by edge; empty when there is none
 };
 
 /// Boundary of a face: junctions snapped to one (u,v), poles cut into nodes, seams twice; without nodes for a strip that is closed all along. Throws Error(kGeometry) when a trimming curve is missing.

@@ -47,8 +47,7 @@ class FaceParameters {
   };
 
   void list_coedges() {
-    for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[face_]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[face_ + 1]];
-         ++c) {
+    for (const CoedgeId c : t_.coedges(face_)) {
       const EdgeId e = t_.coedge_edge[c];
       coedges_[e].push_back(c);
       if (t_.edge_is_degenerate[e]) poles_[v_.chains.vertex_node[t_.edge_vertices[2 * e]]].push_back(c);

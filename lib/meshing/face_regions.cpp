@@ -91,7 +91,7 @@ class RegionFinder {
     edge_faces_.resize(t_.n_edges());
     for (FaceId f = 0; f < t_.n_faces(); ++f) {
       bool has_edge = false;
-      for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[f]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[f + 1]]; ++c) {
+      for (const CoedgeId c : t_.coedges(f)) {
         if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
         has_edge = true;
         edge_faces_[t_.coedge_edge[c]].insert(f);

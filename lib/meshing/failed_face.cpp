@@ -16,9 +16,8 @@ struct LoopEdge {
 
 std::vector<LoopEdge> loop_edges(const ModelTables& t, FaceId face) {
   std::vector<LoopEdge> list;
-  for (LoopId l = t.face_loop_offsets[face]; l < t.face_loop_offsets[face + 1]; ++l)
-    for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c)
-      list.push_back({t.coedge_edge[c], l - t.face_loop_offsets[face]});
+  for (const LoopId l : t.loops(face))
+    for (const CoedgeId c : t.loop_coedges(l)) list.push_back({t.coedge_edge[c], l - t.loops(face).first()});
   return list;
 }
 
@@ -56,11 +55,11 @@ void add_edges(const BoundaryNumbering& numbering, FailedFace& f) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const EdgeMesh& m = numbering.edges;
   for (const LoopEdge& e : loop_edges(numbering.tables, f.face))
-    for (std::int32_t i = m.edge_offsets[e.edge]; i < m.edge_offsets[e.edge + 1]; ++i) {
+    for (const std::int32_t i : m.nodes(e.edge)) {
       f.xyz.push_back(m.node_xyz[i]);
       f.uv.push_back({kUnknown, kUnknown});
       f.size.push_back(m.node_size[i]);
-      if (i == m.edge_offsets[e.edge]) continue;
+      if (i == m.first_node(e.edge)) continue;
       const std::int32_t last = static_cast<std::int32_t>(f.xyz.size()) - 1;
       f.segment_nodes.insert(f.segment_nodes.end(), {last - 1, last});
       f.segment_loop.push_back(e.loop);

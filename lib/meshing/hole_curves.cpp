@@ -25,9 +25,9 @@ class CurvePart : public Curve {
 
 std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks) {
   std::vector<SegmentRun> runs;
-  const auto& offsets = mesh.edges.edge_offsets;
-  for (EdgeId e = 0; e + 1 < static_cast<EdgeId>(offsets.size()); ++e)
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) {
+  const EdgeMesh& m = mesh.edges;
+  for (EdgeId e = 0; e < m.n_edges(); ++e)
+    for (std::int32_t i = m.first_node(e); i < m.first_node(e) + m.n_nodes(e); ++i) {
       if (!marks.segment[i]) continue;
       const std::int32_t first = i;
       while (marks.segment[i]) ++i;
@@ -39,7 +39,7 @@ std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks
 CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
                           const CurveMeshOptions& options) {
   const EdgeMesh& m = mesh.edges;
-  const int n_kept = m.edge_offsets[run.edge + 1] - m.edge_offsets[run.edge] - 1 - (run.last - run.first);
+  const int n_kept = m.n_nodes(run.edge) - 1 - (run.last - run.first);
   CurveMeshOptions part = options;
   part.min_segments = std::max(1, options.min_segments - n_kept);
   CurveNodes nodes = discretise_curve(CurvePart(curve, m.node_t[run.first], m.node_t[run.last]), field, part);
@@ -63,9 +63,9 @@ EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& run
     u.edges.node_previous.push_back(previous);
   };
   std::size_t r = 0;
-  for (EdgeId e = 0; e + 1 < static_cast<EdgeId>(old.edge_offsets.size()); ++e) {
+  for (EdgeId e = 0; e < old.n_edges(); ++e) {
     double end_size = 0;  // at the end of a run that was just replaced
-    for (std::int32_t i = old.edge_offsets[e]; i < old.edge_offsets[e + 1]; ++i) {
+    for (std::int32_t i = old.first_node(e); i < old.first_node(e) + old.n_nodes(e); ++i) {
       u.old_to_new[i] = static_cast<std::int32_t>(u.edges.node_t.size());
       add(old.node_t[i], old.node_xyz[i], end_size > 0 ? end_size : old.node_size[i], old.node_size[i], mesh.edge_node[i]);
       end_size = 0;

@@ -54,7 +54,7 @@ class HoleBoundaryMaker {
   Vec2 uv_of(std::int32_t local) const { return rim_.nodes[local].uv; }
 
   void find_coedges() {
-    for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[face_]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[face_ + 1]]; ++c)
+    for (const CoedgeId c : t_.coedges(face_))
       coedges_[t_.coedge_edge[c]].push_back(c);
   }
 
@@ -168,7 +168,7 @@ class HoleBoundaryMaker {
 
   void replace_run(const ChainLink& first, const ChainLink& last) {
     const EdgeId e = t_.coedge_edge[first.coedge];
-    const std::int32_t begin = numbering_.update.edges.edge_offsets[e];
+    const std::int32_t begin = numbering_.update.edges.first_node(e);
     const std::int32_t from = numbering_.update.old_to_new[first.segment], to = numbering_.update.old_to_new[last.segment + 1];
     if (from == kNone || to == kNone) fail("a run of segments is not complete");
     const EdgeMesh& m = numbering_.update.edges;
@@ -290,14 +290,14 @@ void add_fill(const HoleFill& fill, const PatchNodes& nodes, FacePatch& p) {
 }  // namespace
 
 HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
-    : mesh(m), update(u), boundary(m.tables, u.edges, m.mesh.merged), first_inner(boundary.first_inner.back()) {
+    : mesh(m), update(u), boundary(m.topology, u.edges), first_inner(boundary.first_inner.back()) {
   of_node.assign(m.inner_begin[0], kNone);
   for (VertexId v = 0; v < m.tables.n_vertices(); ++v)
     if (m.vertex_node[v] != kNone) of_node[m.vertex_node[v]] = boundary.vertex(v);
   for (NodeId n = 0; n < m.inner_begin[0]; ++n) {
     if (m.node_on_edge[n] == kNone || u.old_to_new[m.node_on_edge[n]] == kNone) continue;
     const EdgeId e = m.mesh.node_entity[n];
-    of_node[n] = boundary.edge_node(e, u.old_to_new[m.node_on_edge[n]] - u.edges.edge_offsets[e]);
+    of_node[n] = boundary.edge_node(e, u.old_to_new[m.node_on_edge[n]] - u.edges.first_node(e));
   }
 }
 

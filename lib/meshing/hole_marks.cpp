@@ -54,12 +54,10 @@ class Marker {
     const ModelTables& t = cad_.tables;
     std::vector<char> is_free(t.n_edges(), 1);
     for (std::size_t e = 0; e < options_.keep_edge.size(); ++e) is_free[e] = !options_.keep_edge[e];
-    for (const auto& strip : {mesh_.merged.strip_kept, mesh_.merged.strip_closed})
-      for (EdgeId e : strip) is_free[e] = 0;
+    for (const MeshTopology::Strip& strip : cad_.topology.strips()) is_free[strip.kept] = is_free[strip.closed] = 0;
     for (FaceId f = 0; f < t.n_faces(); ++f)
-      for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; keeps(f) && c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
-           ++c)
-        is_free[t.coedge_edge[c]] = 0;
+      if (keeps(f))
+        for (const EdgeId e : t.edges_of(f)) is_free[e] = 0;
     return is_free;
   }
 
@@ -70,9 +68,9 @@ class Marker {
 
   /// A segment between two marked ones goes with them.
   void join_segments() {
-    const auto& offsets = cad_.edges.edge_offsets;
-    for (std::size_t e = 0; e + 1 < offsets.size(); ++e)
-      for (std::int32_t i = offsets[e] + 1; i + 2 < offsets[e + 1]; ++i)
+    const EdgeMesh& m = cad_.edges;
+    for (EdgeId e = 0; e < m.n_edges(); ++e)
+      for (std::int32_t i = m.first_node(e) + 1; i + 2 < m.first_node(e) + m.n_nodes(e); ++i)
         if (marks_.segment[i - 1] && marks_.segment[i + 1]) marks_.segment[i] = 1;
     for (std::size_t i = 0; i < marks_.segment.size(); ++i)
       if (marks_.segment[i]) on_run_[cad_.edge_node[i]] = on_run_[cad_.edge_node[i + 1]] = 1;

@@ -84,9 +84,9 @@ class Inserter {
     const ModelTables& t = cad_.tables;
     std::vector<std::int32_t> end(t.n_vertices(), kNone);  // into edges_.node_*
     for (EdgeId e = t.n_edges() - 1; e >= 0; --e) {
-      if (edges_.edge_offsets[e] == edges_.edge_offsets[e + 1]) continue;
-      end[t.edge_vertices[2 * e + 1]] = edges_.edge_offsets[e + 1] - 1;
-      end[t.edge_vertices[2 * e]] = edges_.edge_offsets[e];
+      if (edges_.n_nodes(e) == 0) continue;
+      end[t.edge_vertices[2 * e + 1]] = edges_.first_node(e) + edges_.n_nodes(e) - 1;
+      end[t.edge_vertices[2 * e]] = edges_.first_node(e);
     }
     for (VertexId v = 0; v < t.n_vertices(); ++v)
       if (NodeId& place = place_[numbering_.boundary.vertex(v)]; place != kNone)
@@ -96,7 +96,7 @@ class Inserter {
 
   void add_edges() {
     for (EdgeId e = 0; e < cad_.tables.n_edges(); ++e)
-      for (std::int32_t begin = edges_.edge_offsets[e], i = begin + 1; i + 1 < edges_.edge_offsets[e + 1]; ++i)
+      for (std::int32_t begin = edges_.first_node(e), i = begin + 1; i + 1 < begin + edges_.n_nodes(e); ++i)
         if (NodeId& place = place_[numbering_.boundary.edge_node(e, i - begin)]; place != kNone)
           place = add(edges_.node_xyz[i], EntityDim::kEdge, e, edges_.node_t[i], edges_.node_request[i], edges_.node_previous[i]);
   }

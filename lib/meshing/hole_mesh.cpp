@@ -49,7 +49,9 @@ double uv_area(const SurfaceMesh& m, TriangleId begin, TriangleId end) {
 
 }  // namespace
 
-HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t, const Model* model) : mesh(m), tables(t) {
+HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& of_cad, const Model* model)
+    : mesh(m), topology(of_cad, m.merged), tables(topology.tables()) {
+  const ModelTables& t = tables;
   require_valid(m, t);
   const auto n_nodes = static_cast<NodeId>(m.node_xyz.size());
   vertex_node.assign(t.n_vertices(), kNone);
@@ -109,9 +111,9 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& t, const Model* mode
 /// Nodes inside the closed edges of strips as st-mesh made them: where a strip is closed, those of its kept edge.
 HoleMesh::StripNodes HoleMesh::closed_strip_nodes(const std::vector<NodeId>& first_on_edge, const Model* model) const {
   StripNodes result;
-  const MergedFeatures& merged = mesh.merged;
-  for (std::size_t s = 0; model && s < merged.strip_face.size(); ++s) {
-    const EdgeId kept = merged.strip_kept[s], closed = merged.strip_closed[s];
+  if (!model) return result;
+  for (const MeshTopology::Strip& strip : topology.strips()) {
+    const EdgeId kept = strip.kept, closed = strip.closed;
     const NodeId begin = first_on_edge[kept], end = first_on_edge[kept + 1];
     CurveNodes nodes{{tables.edge_range[2 * kept]}, {{}}, {0}};
     for (NodeId n = begin; n < end; ++n) nodes.t.push_back(mesh.node_t[n]);
@@ -119,11 +121,11 @@ HoleMesh::StripNodes HoleMesh::closed_strip_nodes(const std::vector<NodeId>& fir
     nodes.x.resize(nodes.t.size());
     nodes.h.resize(nodes.t.size());
     const CurveNodes mirrored =
-        mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), merged.strip_is_opposed[s], {});
+        mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), strip.is_opposed, {});
     NodeId own = first_on_edge[closed];
     auto& on_closed = result[closed];
     for (std::size_t k = 1; k + 1 < mirrored.t.size(); ++k) {
-      const auto i = static_cast<NodeId>(merged.strip_is_opposed[s] ? mirrored.t.size() - 1 - k : k);
+      const NodeId i = strip.mirrored(static_cast<std::int32_t>(k), static_cast<std::int32_t>(mirrored.t.size()));
       const bool is_open = own < first_on_edge[closed + 1] && mesh.node_t[own] == mirrored.t[k];
       on_closed.push_back({is_open ? own++ : begin + i - 1, mirrored.t[k]});
     }

@@ -19,14 +19,17 @@ struct CadSegment {
   std::int32_t index = kNone;  ///< into EdgeMesh::node_*; also the segment's number
 };
 
-/// The mesh with its relation to the model's entities. The mesh and the tables outlive it.
+/// The mesh with its relation to the model's entities. The mesh outlives it.
 struct HoleMesh {
   /// Linear. Throws Error(kInput) when the mesh is not finite, not in canonical order or names entities that the model does not have.
-  /// `tables`: with the mesh's merged edges (with_merged_edges); `model` is needed when the mesh has merged strips.
+  /// `tables`: the model's, as the CAD has it; `model` is needed when the mesh has merged strips.
   HoleMesh(const SurfaceMesh& mesh, const ModelTables& tables, const Model* model = nullptr);
 
+  HoleMesh(const HoleMesh&) = delete;
+
   const SurfaceMesh& mesh;
-  const ModelTables& tables;
+  const MeshTopology topology;             ///< with what the mesh merged
+  const ModelTables& tables;               ///< of `topology`
   EdgeMesh edges;                          ///< as st-mesh made it; edges of which a vertex has no node have none
   std::vector<NodeId> edge_node;           ///< [edges.node_t] mesh node of each
   std::vector<CadSegment> segments;        ///< sorted by (low, high, index)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "meshing/mesh_topology.h"
 #include "meshing/small_features.h"
 
 namespace st {
@@ -47,7 +48,7 @@ class Mover {
     require_same_topology();
     move_vertices();
     move_edges();
-    for (std::size_t strip = 0; strip < old_.merged.strip_face.size(); ++strip) move_strip(strip);
+    for (const MeshTopology::Strip& strip : MeshTopology(t_, old_.merged).strips()) move_strip(strip);
     for (std::size_t begin = 0, end; begin < old_.triangles.size(); begin = end) {
       for (end = begin; end < old_.triangles.size() && old_.triangle_face[end] == old_.triangle_face[begin];) ++end;
       move_face(old_.triangle_face[begin], begin, end);
@@ -62,8 +63,7 @@ class Mover {
 
   std::vector<EdgeId> edges_of(FaceId f) const {
     std::vector<EdgeId> edges;
-    for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[f]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[f + 1]]; ++c)
-      edges.push_back(t_.coedge_edge[c]);
+    for (const EdgeId e : t_.edges_of(f)) edges.push_back(e);
     std::sort(edges.begin(), edges.end());
     return edges;
   }
@@ -155,10 +155,8 @@ class Mover {
 
   /// Where a strip is not closed both its edges have nodes, at the same shares of their lengths (mirror_nodes): so they do on the moved
   /// edges.
-  void move_strip(std::size_t strip) {
-    const MergedFeatures& merged = old_.merged;
-    const EdgeId kept = merged.strip_kept[strip], closed = merged.strip_closed[strip];
-    if (std::max(kept, closed) >= t_.n_edges()) fail("it lacks the edges of strip " + std::to_string(strip));
+  void move_strip(const MeshTopology::Strip& strip) {
+    const EdgeId kept = strip.kept, closed = strip.closed;
     const auto [begin, end] = nodes_on(kept);
     const auto [own_begin, own_end] = nodes_on(closed);
     if (own_begin == own_end) return;
@@ -169,15 +167,15 @@ class Mover {
     nodes.x.resize(nodes.t.size());
     nodes.h.resize(nodes.t.size());
     const CurveNodes mirrored =
-        mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), merged.strip_is_opposed[strip], {});
+        mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), strip.is_opposed, {});
     std::size_t last = 0;
     for (std::size_t own = own_begin; own < own_end; ++own) {
       std::size_t partner = begin;
       for (std::size_t n = begin; n < end; ++n)
         if (distance(old_.node_xyz[n], old_.node_xyz[own]) < distance(old_.node_xyz[partner], old_.node_xyz[own])) partner = n;
-      const std::size_t i = partner - begin + 1, k = merged.strip_is_opposed[strip] ? mirrored.t.size() - 1 - i : i;
+      const std::size_t i = partner - begin + 1, k = strip.is_opposed ? mirrored.t.size() - 1 - i : i;
       if (k <= last || k + 1 >= mirrored.t.size())
-        fail("the nodes on the narrow strip of " + t_.face_label(merged.strip_face[strip]) + " cannot be followed");
+        fail("the nodes on the narrow strip of " + t_.face_label(strip.face) + " cannot be followed");
       last = k;
       m.node_t[own] = mirrored.t[k];
       m.node_xyz[own] = mirrored.x[k];
@@ -206,7 +204,7 @@ class Mover {
     for (std::size_t i = begin; i < end; ++i)
       for (int k = 0; k < 3; ++k)
         if (old_.node_entity_dim[old_.triangles[i].n[k]] != kInFace) before.add(old_.corner_uv[3 * i + k]);
-    for (CoedgeId c = t_.loop_coedge_offsets[t_.face_loop_offsets[f]]; c < t_.loop_coedge_offsets[t_.face_loop_offsets[f + 1]]; ++c) {
+    for (const CoedgeId c : t_.coedges(f)) {
       const EdgeId e = t_.coedge_edge[c];
       const auto pcurve = model_.pcurve(f, c);
       if (!pcurve) continue;

@@ -105,9 +105,7 @@ class RimFinder {
 
   void collect_face_edges() {
     const ModelTables& t = cad_.tables;
-    const auto first = t.coedge_edge.begin();
-    face_edges_.assign(first + t.loop_coedge_offsets[t.face_loop_offsets[face_]],
-                       first + t.loop_coedge_offsets[t.face_loop_offsets[face_ + 1]]);
+    face_edges_.assign(t.edges_of(face_).begin(), t.edges_of(face_).end());
     std::sort(face_edges_.begin(), face_edges_.end());
   }
 

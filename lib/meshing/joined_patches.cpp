@@ -34,8 +34,7 @@ JoinedPatches join_patches(const BoundaryNumbering& numbering, const std::vector
   m.points.assign(t.vertex_xyz.begin(), t.vertex_xyz.end());
   m.points.resize(numbering.first_inner.back());
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    for (std::int32_t i = edges.edge_offsets[e] + 1; i + 1 < edges.edge_offsets[e + 1]; ++i)
-      m.points[numbering.first_inner[e] + i - edges.edge_offsets[e] - 1] = edges.node_xyz[i];
+    for (std::int32_t i = 1; i + 1 < edges.n_nodes(e); ++i) m.points[numbering.first_inner[e] + i - 1] = edges.node_xyz[edges.first_node(e) + i];
   m.face_begin.push_back(0);
   std::vector<std::int32_t> number;
   for (const FacePatch& p : patches) {
@@ -76,7 +75,7 @@ std::vector<std::pair<NodeId, NodeId>> boundary_segments(const BoundaryNumbering
   std::vector<std::pair<NodeId, NodeId>> segments;
   const EdgeMesh& edges = numbering.edges;
   for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e)
-    for (std::int32_t i = 1; i < edges.edge_offsets[e + 1] - edges.edge_offsets[e]; ++i)
+    for (std::int32_t i = 1; i < edges.n_nodes(e); ++i)
       segments.push_back(std::minmax({numbering.edge_node(e, i - 1), numbering.edge_node(e, i)}));
   std::sort(segments.begin(), segments.end());
   return segments;

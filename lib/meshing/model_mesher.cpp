@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/limits.h"
 #include "base/log.h"
 #include "base/share.h"
 #include "mesh/patch_crossing.h"
@@ -43,36 +42,33 @@ void pack(Packer& p, EdgeId e, const CurveNodes& nodes) {
 
 ModelMesher::ModelMesher(const Model& model, const SizeField& field, std::vector<double> face_weight, const ModelMesherOptions& options,
                          const Executor& executor)
-    : model_(model), field_(field), face_weight_(std::move(face_weight)), options_(options), executor_(executor), refinements_(field) {
-  find_small_features(options.merged);
+    : model_(model),
+      field_(field),
+      options_(options),
+      executor_(executor),
+      topology_(model.tables(), find_small_features()),
+      tables_(topology_.tables()),
+      face_tolerance_(face_tolerances(tables_.group_names())),
+      face_weight_(std::move(face_weight)),
+      refinements_(field) {
   const ModelTables& t = tables_;
   min_segments_ = min_segments_per_edge(t);
   if (static_cast<std::int32_t>(face_weight_.size()) != t.n_faces()) face_weight_ = t.face_area;
   patches.resize(t.n_faces());
   outcomes_.resize(t.n_faces());
   face_is_fresh_.assign(t.n_faces(), 1);
-  edges.edge_offsets.assign(t.n_edges() + 1, 0);
+  edges = EdgeMesh::of_edges(t.n_edges());
   edge_in_scope_.assign(t.n_edges(), 1);
   face_in_scope_.assign(t.n_faces(), 1);
 }
 
-/// Collective.
-void ModelMesher::find_small_features(const MergedFeatures* given) {
-  const ModelTables& t = model_.tables();
-  face_tolerance_ = face_tolerances(t.group_names());
-  if (given) {
-    merged = *given;
-  } else {
-    if (executor_.is_root()) merged = find_merged_features(model_, field_, options_.merge_below);
-    share(executor_, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
-  }
-  tables_ = with_merged_edges(t, merged);
-  strip_of_kept_.assign(t.n_edges(), kNone);
-  kept_of_closed_.assign(t.n_edges(), kNone);
-  for (std::size_t s = 0; s < merged.strip_face.size(); ++s) {
-    strip_of_kept_[merged.strip_kept[s]] = static_cast<std::int32_t>(s);
-    kept_of_closed_[merged.strip_closed[s]] = merged.strip_kept[s];
-  }
+/// Collective. Rank 0 decides.
+MergedFeatures ModelMesher::find_small_features() const {
+  if (options_.merged) return *options_.merged;
+  MergedFeatures merged;
+  if (executor_.is_root()) merged = find_merged_features(model_, field_, options_.merge_below);
+  share(executor_, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
+  return merged;
 }
 
 void ModelMesher::limit_scope(const std::vector<EdgeId>& edges_in, const std::vector<FaceId>& faces_in) {
@@ -96,13 +92,12 @@ void ModelMesher::run_part(const std::vector<FaceId>& faces, EdgeMesh fixed) {
   if (!fixed.edge_offsets.empty()) edges = std::move(fixed);
   std::vector<char> used(t.n_edges(), 0);
   for (FaceId f : faces)
-    for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
-      used[t.coedge_edge[c]] = 1;
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (used[e] && kept_of_closed_[e] != kNone) used[kept_of_closed_[e]] = 1;
+    for (const EdgeId e : t.edges_of(f)) used[e] = 1;
+  for (const MeshTopology::Strip& strip : topology_.strips())
+    if (used[strip.closed]) used[strip.kept] = 1;
   std::vector<EdgeId> dirty;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (used[e] && !t.edge_is_degenerate[e] && edges.edge_offsets[e] == edges.edge_offsets[e + 1]) dirty.push_back(e);
+    if (used[e] && !t.edge_is_degenerate[e] && edges.n_nodes(e) == 0) dirty.push_back(e);
   limit_scope(dirty, faces);
   rounds(std::move(dirty), faces);
 }
@@ -186,7 +181,7 @@ bool ModelMesher::restore_whole() {
     failed_faces_.clear();
   }
   broadcast_edges();
-  numbering_.emplace(tables_, edges, merged);
+  numbering_.emplace(topology_, edges);
   return true;
 }
 
@@ -221,15 +216,14 @@ void ModelMesher::find_dirty(std::size_t first_refinement, std::vector<EdgeId>& 
   const std::vector<Refinement>& all = refinements_.all();
   for (std::size_t r = first_refinement; r < all.size(); ++r) {
     for (EdgeId e = 0; e < t.n_edges(); ++e)
-      for (std::int32_t i = edges.edge_offsets[e]; !edge_dirty[e] && i < edges.edge_offsets[e + 1]; ++i)
+      for (std::int32_t i = edges.first_node(e); !edge_dirty[e] && i < edges.first_node(e) + edges.n_nodes(e); ++i)
         edge_dirty[e] = distance(edges.node_xyz[i], all[r].x) < all[r].reach + edges.node_size[i];
     for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], all[r].x) < all[r].reach;
   }
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (kept_of_closed_[e] != kNone) edge_dirty[e] = edge_dirty[kept_of_closed_[e]] |= edge_dirty[e];
+  for (const MeshTopology::Strip& strip : topology_.strips()) edge_dirty[strip.closed] = edge_dirty[strip.kept] |= edge_dirty[strip.closed];
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
+    for (const LoopId l : t.loops(f))
+      for (const CoedgeId c : t.loop_coedges(l)) face_dirty[f] |= edge_dirty[t.coedge_edge[c]];
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (edge_dirty[e] && edge_in_scope_[e]) dirty_edges.push_back(e);
   for (FaceId f = 0; f < t.n_faces(); ++f)
@@ -240,7 +234,7 @@ Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
   const ModelTables& t = tables_;
   Packer packer;
   for (EdgeId e : batch) {
-    if (kept_of_closed_[e] != kNone) continue;
+    if (topology_.strip_closed_at(e)) continue;
     const auto curve = model_.curve(e);
     Box3 box;
     const int n_samples = 32;
@@ -253,18 +247,17 @@ Bytes ModelMesher::compute_edges(const std::vector<EdgeId>& batch) const {
     nodes.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
     nodes.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
     pack(packer, e, nodes);
-    if (strip_of_kept_[e] != kNone) add_mirrored(e, *curve, nodes, packer);
+    if (const auto* strip = topology_.strip_kept_at(e)) add_mirrored(*strip, *curve, nodes, packer);
   }
   return packer.take();
 }
 
 /// The nodes of a strip's other edge follow those of the kept one.
-void ModelMesher::add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const {
-  const std::int32_t strip = strip_of_kept_[kept];
-  const EdgeId closed = merged.strip_closed[strip];
-  const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[merged.strip_face[strip]];
-  CurveNodes mirrored = mirror_nodes(curve, nodes, *model_.curve(closed), merged.strip_is_opposed[strip],
-                                     {options_.merge_below, tolerance});
+void ModelMesher::add_mirrored(const MeshTopology::Strip& strip, const Curve& curve, const CurveNodes& nodes, Packer& packer) const {
+  const EdgeId closed = strip.closed;
+  const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
+  CurveNodes mirrored =
+      mirror_nodes(curve, nodes, *model_.curve(closed), strip.is_opposed, {options_.merge_below, tolerance});
   mirrored.x.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed]];
   mirrored.x.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * closed + 1]];
   pack(packer, closed, mirrored);
@@ -295,24 +288,11 @@ void ModelMesher::mesh_edges(const std::vector<EdgeId>& dirty) {
       });
   if (executor_.is_root()) {
     EdgeMesh next;
-    next.edge_offsets.push_back(0);
-    for (EdgeId e = 0; e < n_edges; ++e) {
-      if (!fresh[e].t.empty()) {
-        next.node_t.insert(next.node_t.end(), fresh[e].t.begin(), fresh[e].t.end());
-        next.node_xyz.insert(next.node_xyz.end(), fresh[e].x.begin(), fresh[e].x.end());
-        next.node_size.insert(next.node_size.end(), fresh[e].h.begin(), fresh[e].h.end());
-      } else {
-        const std::int32_t a = edges.edge_offsets[e], b = edges.edge_offsets[e + 1];
-        next.node_t.insert(next.node_t.end(), edges.node_t.begin() + a, edges.node_t.begin() + b);
-        next.node_xyz.insert(next.node_xyz.end(), edges.node_xyz.begin() + a, edges.node_xyz.begin() + b);
-        next.node_size.insert(next.node_size.end(), edges.node_size.begin() + a, edges.node_size.begin() + b);
-      }
-      next.edge_offsets.push_back(checked_id(next.node_t.size(), "nodes on CAD edges"));
-    }
+    for (EdgeId e = 0; e < n_edges; ++e) fresh[e].t.empty() ? next.append(edges, e) : next.append(fresh[e]);
     edges = std::move(next);
   }
   broadcast_edges();
-  numbering_.emplace(tables_, edges, merged);
+  numbering_.emplace(topology_, edges);
 }
 
 void ModelMesher::broadcast_edges() { share(executor_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size); }
@@ -325,7 +305,7 @@ Bytes ModelMesher::compute_face(FaceId f) const {
   try {
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
-    const bool is_closed_strip = boundary.nodes.empty() && numbering_->strip_of(f) != kNone;
+    const bool is_closed_strip = boundary.nodes.empty() && topology_.strip_of(f);
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
     const std::vector<Refinement> near = refinements_.near(tables_.face_box[f]);

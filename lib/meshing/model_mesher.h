@@ -53,9 +53,10 @@ class ModelMesher {
   std::vector<FacePatch> patches;           ///< by face; without triangles where the face failed
   std::vector<FaceFailure> failures;        ///< by face
   std::vector<FailedFace> failed_faces;     ///< likewise: boundary and partial state of each
-  MergedFeatures merged;                    ///< on every rank
-  /// The model's tables with merged edges, on every rank.
-  const ModelTables& tables() const { return tables_; }
+  /// What was merged, and the model's tables with that; on every rank.
+  const MeshTopology& topology() const { return topology_; }
+  const MergedFeatures& merged() const { return topology_.merged(); }
+  const ModelTables& tables() const { return topology_.tables(); }
   std::vector<RefinementPoint> folds;       ///< places where a triangle is still turned against the surface
   int n_rounds = 0, n_crossing_pairs = 0, n_refinements = 0;
   ModelMesherTimes times;
@@ -76,8 +77,8 @@ class ModelMesher {
     EdgeMesh edges;
     std::map<FaceId, std::pair<FacePatch, FaceOutcome>> faces;
   };
-  void find_small_features(const MergedFeatures* given);
-  void add_mirrored(EdgeId kept, const Curve& curve, const CurveNodes& nodes, Packer& packer) const;
+  MergedFeatures find_small_features() const;
+  void add_mirrored(const MeshTopology::Strip& strip, const Curve& curve, const CurveNodes& nodes, Packer& packer) const;
   void rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> dirty_faces);
   void keep_whole(const std::vector<FaceId>& dirty);
   bool restore_whole();
@@ -93,13 +94,13 @@ class ModelMesher {
 
   const Model& model_;
   const SizeField& field_;
-  ModelTables tables_;                       // the model's, with merged edges
-  std::vector<std::int32_t> strip_of_kept_, kept_of_closed_;   // [n_edges], kNone where none
-  std::vector<double> face_tolerance_;                         // [n_faces] of their groups, or empty
-  std::optional<BoundaryNumbering> numbering_;                 // of the present edges
-  std::vector<double> face_weight_;
   ModelMesherOptions options_;
   const Executor& executor_;
+  MeshTopology topology_;
+  const ModelTables& tables_;                      // of topology_
+  std::vector<double> face_tolerance_;             // [n_faces] of their groups, or empty
+  std::optional<BoundaryNumbering> numbering_;     // of the present edges
+  std::vector<double> face_weight_;
   std::vector<int> min_segments_;
   std::vector<char> edge_in_scope_, face_in_scope_;   // what may be meshed (again)
   Refinements refinements_;

@@ -21,7 +21,7 @@ std::vector<std::int32_t> vertex_components(const ModelTables& t, std::int32_t& 
   DisjointSets sets(t.n_vertices());
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     VertexId first = kNone;
-    for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c)
+    for (const CoedgeId c : t.coedges(f))
       for (const VertexId v : {t.edge_vertices[2 * t.coedge_edge[c]], t.edge_vertices[2 * t.coedge_edge[c] + 1]})
         first == kNone ? void(first = v) : sets.join(first, v);
   }
@@ -44,9 +44,8 @@ std::vector<Extent> extents_of(const SurfaceMesh& mesh, const std::vector<std::i
 std::vector<Extent> extents_of(const ModelTables& t, const std::vector<std::int32_t>& component, std::int32_t n) {
   std::vector<Extent> extents(n);
   for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]];
-    if (c == t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]) continue;
-    Extent& e = extents[component[t.edge_vertices[2 * t.coedge_edge[c]]]];
+    if (t.coedges(f).empty()) continue;
+    Extent& e = extents[component[t.edge_vertices[2 * t.edges_of(f).front()]]];
     e.box.add(t.face_box[f]);
     e.area += t.face_area[f];
   }

@@ -7,29 +7,15 @@
 #include <string>
 #include <utility>
 
-#include "base/error.h"
+#include "meshing/vertex_sets.h"
 #include "sizing/arc_table.h"
 #include "sizing/strip.h"
 
 namespace st {
 namespace {
 
-constexpr double kLargestMerge =
-    0.5;  // of the requested length: what the mesh can show is not merged, whatever the tolerance
+constexpr double kLargestMerge = 0.5;  // of the requested length: what the mesh can show stays, whatever the tolerance
 constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to another between the same vertices is no ring with it
-
-class VertexSets {
- public:
-  explicit VertexSets(std::int32_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  VertexId root(VertexId v) const {
-    while (parent_[v] != v) v = parent_[v];
-    return v;
-  }
-  void unite(VertexId a, VertexId b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<VertexId> parent_;
-};
 
 /// Limits of merging for each face, by its group's tolerance.
 std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
@@ -86,7 +72,7 @@ class EdgeMerger {
     n_long_.assign(t_.n_loops(), 0);
     at_vertex_.resize(t_.n_vertices());
     for (LoopId l = 0; l < t_.n_loops(); ++l)
-      for (CoedgeId c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) {
+      for (const CoedgeId c : t_.loop_coedges(l)) {
         if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
         ++n_long_[l];
         loops_[t_.coedge_edge[c]].push_back(l);
@@ -217,13 +203,6 @@ class StripMerger {
   std::vector<Contact> contacts_;
 };
 
-void require_ids(const std::vector<std::int32_t>& ids, std::int32_t n, const char* what) {
-  for (const std::int32_t id : ids)
-    if (id < 0 || id >= n)
-      throw Error(ExitCode::kMismatch,
-                  std::string("merged ") + what + " " + std::to_string(id + 1) + " is not in the geometry; mesh the model again");
-}
-
 /// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
 std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
                                  const std::vector<MergeLimit>& face_limit) {
@@ -265,21 +244,6 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
     merged.strip_is_opposed.push_back(strip.is_opposed);
   }
   return merged;
-}
-
-ModelTables with_merged_edges(const ModelTables& tables, const MergedFeatures& merged) {
-  require_ids(merged.edge, tables.n_edges(), "edge");
-  require_ids(merged.strip_kept, tables.n_edges(), "edge");
-  require_ids(merged.strip_closed, tables.n_edges(), "edge");
-  require_ids(merged.strip_face, tables.n_faces(), "face");
-  ModelTables t = tables;
-  VertexSets sets(t.n_vertices());
-  for (const EdgeId e : merged.edge) {
-    sets.unite(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
-    t.edge_is_degenerate[e] = 1;
-  }
-  for (VertexId& v : t.edge_vertices) v = sets.root(v);
-  return t;
 }
 
 CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,

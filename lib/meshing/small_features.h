@@ -26,10 +26,6 @@ struct MergeLimit {
 /// Deterministic, local.
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
 
-/// The tables for meshing: merged edges are degenerate ones, their vertices one (the one of the lowest id).
-/// Throws Error(kMismatch) when `merged` names edges or faces that the tables do not have.
-ModelTables with_merged_edges(const ModelTables& tables, const MergedFeatures& merged);
-
 /// Nodes on the other long edge of a strip for those on the kept one: as many, at the same shares of the length, in the
 /// other edge's own direction. Where the strip is narrower than the limit they are the kept edge's own points.
 CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,

@@ -29,10 +29,10 @@ class LoopTracer {
 
   std::vector<LoopSide> run() {
     const ModelTables& t = model_.tables();
-    for (std::int32_t loop = t.face_loop_offsets[face_]; loop < t.face_loop_offsets[static_cast<std::size_t>(face_) + 1]; ++loop) {
+    for (const LoopId loop : t.loops(face_)) {
       points_.clear();
       const std::size_t l = static_cast<std::size_t>(loop), first = sides_.size();
-      for (std::int32_t c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) trace(c);
+      for (const CoedgeId c : t.loop_coedges(l)) trace(c);
       if (!points_.empty()) join(points_.back(), points_.front().uv);
       for (std::size_t i = 0; i < points_.size(); ++i) sides_.push_back({points_[i], points_[(i + 1) % points_.size()]});
       if (sides_.size() > first) sides_.back().b.coedge = kNone;  // closes the loop, on no trimming curve

@@ -32,9 +32,8 @@ std::vector<int> count_uses(const ModelTables& t) {
 
 /// The two long edges of a face with one loop; false when there are no such two.
 bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, Strip& strip) {
-  const LoopId l = t.face_loop_offsets[f];
-  if (t.face_loop_offsets[f + 1] != l + 1) return false;
-  std::vector<EdgeId> edges(t.coedge_edge.begin() + t.loop_coedge_offsets[l], t.coedge_edge.begin() + t.loop_coedge_offsets[l + 1]);
+  if (t.loops(f).size() != 1) return false;
+  std::vector<EdgeId> edges(t.edges_of(f).begin(), t.edges_of(f).end());
   if (edges.size() < 2) return false;
   std::stable_sort(edges.begin(), edges.end(), [&](EdgeId a, EdgeId b) { return t.edge_length[a] > t.edge_length[b]; });
   double rest = 0;

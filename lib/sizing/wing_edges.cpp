@@ -48,8 +48,8 @@ class WingEdgeFinder {
     is_turned_ = (is_domain && has_walls) || (t_.volume && *t_.volume < 0);
     uses_.resize(static_cast<std::size_t>(t_.n_edges()));
     for (FaceId f = 0; f < t_.n_faces(); ++f)
-      for (std::int32_t l = t_.face_loop_offsets[f]; l < t_.face_loop_offsets[f + 1]; ++l)
-        for (std::int32_t c = t_.loop_coedge_offsets[l]; c < t_.loop_coedge_offsets[l + 1]; ++c) uses_[t_.coedge_edge[c]].push_back({f, c});
+      for (const LoopId l : t_.loops(f))
+        for (const CoedgeId c : t_.loop_coedges(l)) uses_[t_.coedge_edge[c]].push_back({f, c});
   }
 
   std::vector<WingEdge> run() {

@@ -58,9 +58,9 @@ double CadCorners::angle_deg(FaceId, const Side& arriving, const Side& leaving) 
 void CadCorners::measure_face(FaceId face) {
   const ModelTables& t = model_.tables();
   is_known_[face] = 1;
-  for (LoopId l = t.face_loop_offsets[face]; l < t.face_loop_offsets[face + 1]; ++l) {
+  for (const LoopId l : t.loops(face)) {
     std::vector<CoedgeId> coedges;  // those that the mesh has
-    for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c)
+    for (const CoedgeId c : t.loop_coedges(l))
       if (!t.edge_is_degenerate[t.coedge_edge[c]] && !is_merged_[t.coedge_edge[c]]) coedges.push_back(c);
     for (std::size_t i = 0; i < coedges.size(); ++i) {
       const Side arriving = side_of(face, coedges[i], true), leaving = side_of(face, coedges[(i + 1) % coedges.size()], false);

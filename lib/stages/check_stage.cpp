@@ -96,8 +96,8 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
 /// Largest tolerance of a face, its edges and its vertices, model unit.
 double cad_tolerance(const ModelTables& tables, FaceId f) {
   double tolerance = tables.face_tolerance[f];
-  for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
-    for (std::int32_t k = tables.loop_coedge_offsets[l]; k < tables.loop_coedge_offsets[l + 1]; ++k) {
+  for (const LoopId l : tables.loops(f))
+    for (const CoedgeId k : tables.loop_coedges(l)) {
       const EdgeId e = tables.coedge_edge[k];
       const VertexId a = tables.edge_vertices[2 * e], b = tables.edge_vertices[2 * e + 1];
       tolerance = std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[a], tables.vertex_tolerance[b]});

@@ -53,8 +53,8 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
   const std::vector<std::vector<double>> t = edge_parameters(tables, mesh);
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     const std::unique_ptr<Surface> surface = model.surface(f);
-    for (std::int32_t l = tables.face_loop_offsets[f]; l < tables.face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = tables.loop_coedge_offsets[l]; c < tables.loop_coedge_offsets[l + 1]; ++c)
+    for (const LoopId l : tables.loops(f))
+      for (const CoedgeId c : tables.loop_coedges(l))
         error.area[f] += area_beside_chords(*surface, *model.pcurve(f, c), t[tables.coedge_edge[c]]) +
                          area_beside_merged(tables, mesh, tables.coedge_edge[c], face_size, f);
   }

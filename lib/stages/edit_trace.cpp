@@ -24,7 +24,7 @@ class Finder {
     vertex_face_.assign(t.n_vertices(), kNone);
     edge_face_.assign(t.n_edges(), kNone);
     for (FaceId f = 0; f < t.n_faces(); ++f)
-      for (CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c) {
+      for (const CoedgeId c : t.coedges(f)) {
         const EdgeId e = t.coedge_edge[c];
         edge_face_[e] = f;
         for (const int end : {0, 1}) vertex_face_[t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = f;

@@ -40,36 +40,21 @@ std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
   return missing;
 }
 
-/// Adds edge e of `from` to `to`. Precondition: edges are added in ascending order.
-void append_edge(const EdgeMesh& from, std::size_t e, EdgeMesh& to) {
-  const std::int32_t begin = from.edge_offsets[e], end = from.edge_offsets[e + 1];
-  to.node_t.insert(to.node_t.end(), from.node_t.begin() + begin, from.node_t.begin() + end);
-  to.node_xyz.insert(to.node_xyz.end(), from.node_xyz.begin() + begin, from.node_xyz.begin() + end);
-  to.node_size.insert(to.node_size.end(), from.node_size.begin() + begin, from.node_size.begin() + end);
-  const std::vector<double>& request = from.node_request.empty() ? from.node_size : from.node_request;
-  to.node_request.insert(to.node_request.end(), request.begin() + begin, request.begin() + end);
-  to.edge_offsets.push_back(checked_id(to.node_t.size(), "nodes on CAD edges"));
-}
-
-bool has_same_nodes(const EdgeMesh& a, const EdgeMesh& b, std::size_t e) {
-  const std::int32_t a0 = a.edge_offsets[e], a1 = a.edge_offsets[e + 1], b0 = b.edge_offsets[e], b1 = b.edge_offsets[e + 1];
-  return std::equal(a.node_xyz.begin() + a0, a.node_xyz.begin() + a1, b.node_xyz.begin() + b0, b.node_xyz.begin() + b1);
-}
-
 /// The nodes of edges of two parts; an edge that both have must have the same nodes in both.
 EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& path_a, const std::string& path_b) {
-  if (a.edge_offsets.size() != b.edge_offsets.size())
+  if (a.n_edges() != b.n_edges())
     throw Error(ExitCode::kMismatch,
                 fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
   EdgeMesh both;
-  both.edge_offsets = {0};
-  for (std::size_t e = 0; e + 1 < a.edge_offsets.size(); ++e) {
-    const bool in_a = a.edge_offsets[e] < a.edge_offsets[e + 1], in_b = b.edge_offsets[e] < b.edge_offsets[e + 1];
+  for (EdgeId e = 0; e < a.n_edges(); ++e) {
+    const bool in_a = a.n_nodes(e) > 0, in_b = b.n_nodes(e) > 0;
     if (in_a && in_b && !has_same_nodes(a, b, e))
       throw Error(
           ExitCode::kMismatch,
           fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first", e + 1, path_b, path_a));
-    append_edge(in_a ? a : b, e, both);
+    const EdgeMesh& from = in_a ? a : b;
+    both.append(from, e);
+    for (const std::int32_t i : from.nodes(e)) both.node_request.push_back(from.requests()[i]);
   }
   return both;
 }

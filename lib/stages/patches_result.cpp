@@ -79,7 +79,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.edges = std::move(m.edges);
   out.vertex_xyz = t.vertex_xyz;
   out.edge_vertices = m.tables().edge_vertices;
-  out.merged = m.merged;
+  out.merged = m.merged();
   out.patches = std::move(m.patches);
   out.failures = m.failures;
   out.face_name = t.face_name;
@@ -112,9 +112,9 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   if (!m.folds.empty()) log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})", m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
   if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
 
-  if (!m.merged.empty())
-    log_info(fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole faces{} (--merge-below 0: none)", m.merged.edge.size(),
-                         m.merged.strip_face.size(), closed.size(), first_of(t, m.merged)));
+  if (!m.merged().empty())
+    log_info(fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole faces{} (--merge-below 0: none)", m.merged().edge.size(),
+                         m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
 
   StageSummary s;
   s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
@@ -132,7 +132,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
                           {"failures_file", failures_file},
                           {"folds", folds},
                           {"crossing_pairs", m.n_crossing_pairs},
-                          {"merged", merged_json(t, m.merged, closed)},
+                          {"merged", merged_json(t, m.merged(), closed)},
                           {"rounds", m.n_rounds},
                           {"refinements", m.n_refinements},
                           {"ranks", facts.n_ranks},

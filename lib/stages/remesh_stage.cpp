@@ -20,7 +20,7 @@
 #include "mesh/merge.h"
 #include "meshing/hole_reprojector.h"
 #include "meshing/mesh_gaps.h"
-#include "meshing/small_features.h"
+#include "meshing/mesh_topology.h"
 #include "sizing/node_field.h"
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
@@ -102,9 +102,8 @@ StageSummary dry_run_summary(const Remesher& r, const HoleMesh& mesh) {
 /// Nodes of edges that were done again keep no number but those at the ends.
 void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
   after.node_previous.assign(after.node_t.size(), kNone);
-  for (std::size_t e = 0; e + 1 < after.edge_offsets.size(); ++e) {
-    const std::int32_t a = before.edge_offsets[e], n = before.edge_offsets[e + 1] - a, b = after.edge_offsets[e],
-                       m = after.edge_offsets[e + 1] - b;
+  for (EdgeId e = 0; e < after.n_edges(); ++e) {
+    const std::int32_t a = before.first_node(e), n = before.n_nodes(e), b = after.first_node(e), m = after.n_nodes(e);
     if (n == 0 || m == 0) continue;
     const bool is_same = n == m && std::equal(before.node_t.begin() + a, before.node_t.begin() + a + n, after.node_t.begin() + b);
     for (std::int32_t i = 0; is_same && i < n; ++i) after.node_previous[b + i] = before.node_previous[a + i];
@@ -271,7 +270,7 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
   artifact.mesh.merged = in.old.mesh.merged;
   if (!artifact.mesh.labels.edge_groups.empty())
     add_segments(artifact.mesh, mesher ? mesher->edges : r.edges,
-                 with_merged_edges(in.model.tables(), artifact.mesh.merged).edge_vertices);
+                 MeshTopology(in.model.tables(), artifact.mesh.merged).tables().edge_vertices);
   if (mesher && !mesher->failures.empty())
     throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
                                                    in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
@@ -339,8 +338,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
   if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
   const RemeshInput in = read_input(o, comm);
-  const ModelTables tables = with_merged_edges(in.model.tables(), in.old.mesh.merged);
-  const HoleMesh mesh(in.old.mesh, tables, &in.model);
+  const HoleMesh mesh(in.old.mesh, in.model.tables(), &in.model);
   if (comm.is_root()) require_no_gaps(o, mesh);
   RemesherOptions options;
   options.mark.too_long = o.too_long;

@@ -25,7 +25,7 @@ SurfaceMesh merged_mesh(const ModelMesher& mesher) {
   const ModelTables& t = mesher.tables();
   OrientationReport report;
   SurfaceMesh mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, report);
-  mesh.merged = mesher.merged;
+  mesh.merged = mesher.merged();
   return mesh;
 }
 
@@ -44,7 +44,7 @@ void shares_merged_features(const Communicator& comm) {
   ModelMesherOptions options;
   options.merge_below = comm.is_root() ? 0 : 0.2;
   ModelMesher mesher(model, field, {}, options, comm);
-  check(mesher.merged.empty(), "a rank merged edges on its own");
+  check(mesher.merged().empty(), "a rank merged edges on its own");
   mesher.run();
   if (comm.is_root()) check_whole(mesher);
 }

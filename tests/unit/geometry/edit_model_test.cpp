@@ -40,7 +40,7 @@ void expect_consistent(const Model& model) {
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     const auto s = model.surface(f);
     EXPECT_LT(t.face_group[f], static_cast<std::int32_t>(t.group_name.size()));
-    for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l) {
+    for (const LoopId l : t.loops(f)) {
       const CoedgeId first = t.loop_coedge_offsets[l], end = t.loop_coedge_offsets[l + 1];
       for (CoedgeId c = first; c < end; ++c) {
         const EdgeId e = t.coedge_edge[c];
@@ -95,7 +95,7 @@ TEST(Extract, gives_faces_with_their_edges_and_vertices_only) {
       expect_same_face(part.model, static_cast<FaceId>(i), whole, faces[i]);
       EXPECT_LE(distance(outward(part.model, static_cast<FaceId>(i)), outward(whole, faces[i])), 1e-12) << shape;
       for (LoopId l = t.face_loop_offsets[faces[i]]; l < t.face_loop_offsets[faces[i] + 1]; ++l)
-        for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) is_used[t.coedge_edge[c]] = 1;
+        for (const CoedgeId c : t.loop_coedges(l)) is_used[t.coedge_edge[c]] = 1;
     }
     EXPECT_EQ(std::count(is_used.begin(), is_used.end(), 1), part.model.tables().n_edges()) << shape;
     for (EdgeId e = 0; e < part.model.tables().n_edges(); ++e) {

@@ -30,7 +30,7 @@ double largest_gap(const Model& model, FaceId f) {
   const ModelTables& t = model.tables();
   const auto surface = model.surface(f);
   double gap = 0;
-  for (std::int32_t c = t.loop_coedge_offsets[t.face_loop_offsets[f]]; c < t.loop_coedge_offsets[t.face_loop_offsets[f + 1]]; ++c) {
+  for (const CoedgeId c : t.coedges(f)) {
     const EdgeId e = t.coedge_edge[c];
     if (t.edge_is_degenerate[e]) continue;
     const auto curve = model.curve(e);

@@ -288,7 +288,7 @@ class Loops : public testing::TestWithParam<std::string> {
   }
   double loop_area(FaceId f, LoopId l) const {
     std::vector<Vec2> polygon;
-    for (CoedgeId c = t().loop_coedge_offsets[l]; c < t().loop_coedge_offsets[l + 1]; ++c)
+    for (const CoedgeId c : t().loop_coedges(l))
       for (int k = 0; k < 64; ++k) polygon.push_back(at(f, c, k / 64.0));
     double area = 0;
     for (std::size_t k = 0; k < polygon.size(); ++k)
@@ -301,7 +301,7 @@ class Loops : public testing::TestWithParam<std::string> {
 TEST_P(Loops, are_closed_polygons_in_the_parameter_plane) {
   for (FaceId f = 0; f < t().n_faces(); ++f) {
     const double* b = &t().face_uv_bounds[4 * f];
-    for (LoopId l = t().face_loop_offsets[f]; l < t().face_loop_offsets[f + 1]; ++l) {
+    for (const LoopId l : t().loops(f)) {
       const CoedgeId first = t().loop_coedge_offsets[l], last = t().loop_coedge_offsets[l + 1];
       ASSERT_GT(last, first);
       for (CoedgeId c = first; c < last; ++c) {
@@ -333,8 +333,8 @@ TEST_P(Loops, run_with_the_interior_on_the_left_outer_loop_first) {
 TEST_P(Loops, lie_on_their_edges) {
   for (FaceId f = 0; f < t().n_faces(); ++f) {
     const auto surface = model_->surface(f);
-    for (LoopId l = t().face_loop_offsets[f]; l < t().face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = t().loop_coedge_offsets[l]; c < t().loop_coedge_offsets[l + 1]; ++c) {
+    for (const LoopId l : t().loops(f))
+      for (const CoedgeId c : t().loop_coedges(l)) {
         const EdgeId e = t().coedge_edge[c];
         const auto pcurve = model_->pcurve(f, c);
         const auto curve = t().edge_is_degenerate[e] ? nullptr : model_->curve(e);
@@ -355,8 +355,8 @@ TEST_P(Loops, stay_within_the_bounds_of_the_face) {
     const double* b = &t().face_uv_bounds[4 * f];
     const double mu = 0.01 * (b[1] - b[0]), mv = 0.01 * (b[3] - b[2]);
     Box3 box = t().face_box[f];
-    for (LoopId l = t().face_loop_offsets[f]; l < t().face_loop_offsets[f + 1]; ++l)
-      for (CoedgeId c = t().loop_coedge_offsets[l]; c < t().loop_coedge_offsets[l + 1]; ++c)
+    for (const LoopId l : t().loops(f))
+      for (const CoedgeId c : t().loop_coedges(l))
         for (double s : {0.0, 0.3, 0.6, 1.0}) {
           const Vec2 p = at(f, c, s);
           EXPECT_TRUE(p.x >= b[0] - mu && p.x <= b[1] + mu && p.y >= b[2] - mv && p.y <= b[3] + mv) << "face " << f;

@@ -204,7 +204,7 @@ std::vector<FaceId> faces_of_every_type(const ModelTables& t, int n_each) {
 TEST(Evaluators, agree_with_opencascade_on_every_type_of_surface_of_real_files) {
   namespace fs = std::filesystem;
   const char* given = std::getenv("ST_CORPUS");
-  const fs::path folder = given && *given ? fs::path(given) : fs::path(__FILE__).parent_path() / "../../../../shared/corpus";
+  const fs::path folder = given && *given ? fs::path(given) : fs::path(ST_SOURCE_DIR) / "../shared/corpus";
   if (!fs::is_directory(folder)) {
     std::cout << "SKIPPED: Evaluators.agree_with_opencascade_on_every_type_of_surface_of_real_files: corpus not found at " << folder
               << "; set ST_CORPUS" << std::endl;

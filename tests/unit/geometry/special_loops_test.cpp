@@ -57,9 +57,9 @@ std::vector<Vec2> coedge_points(const Model& model, FaceId f, CoedgeId c) {
 std::vector<Polygon> loops_of(const Model& model, FaceId f) {
   const ModelTables& t = model.tables();
   std::vector<Polygon> loops;
-  for (LoopId l = t.face_loop_offsets[f]; l < t.face_loop_offsets[f + 1]; ++l) {
+  for (const LoopId l : t.loops(f)) {
     Polygon loop;
-    for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) {
+    for (const CoedgeId c : t.loop_coedges(l)) {
       const std::vector<Vec2> points = coedge_points(model, f, c);
       if (!loop.points.empty()) loop.gap = std::max(loop.gap, norm(points.front() - loop.points.back()));
       loop.points.insert(loop.points.end(), points.begin(), points.end());

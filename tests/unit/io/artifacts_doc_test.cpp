@@ -43,7 +43,7 @@ std::vector<std::string> shape_of(const std::string& text) {
 
 /// By the title of the section.
 std::map<std::string, Section> read_document() {
-  const auto path = std::filesystem::path(__FILE__).parent_path() / "../../../docs/artifacts.md";
+  const auto path = std::filesystem::path(ST_SOURCE_DIR) / "docs/artifacts.md";
   std::istringstream text(read_bytes(path.string()));
   std::map<std::string, Section> sections;
   std::string title;

@@ -40,14 +40,15 @@ TEST_P(Boundary, lies_on_the_surface) {
 TEST_P(Boundary, uses_every_node_of_an_edge_as_often_as_the_loops_use_the_edge) {
   const FaceCase c(GetParam(), UniformField(1.5));
   const ModelTables& t = c.model.tables();
-  const BoundaryNumbering numbering(t, c.edges);
+  const MeshTopology topology(t);
+  const BoundaryNumbering numbering(topology, c.edges);
   std::map<std::int32_t, int> uses;
   for (const auto& n : c.boundary.nodes) ++uses[n.id];
   std::vector<int> edge_uses(t.n_edges(), 0);
-  for (LoopId l = t.face_loop_offsets[0]; l < t.face_loop_offsets[1]; ++l)
-    for (CoedgeId k = t.loop_coedge_offsets[l]; k < t.loop_coedge_offsets[l + 1]; ++k) ++edge_uses[t.coedge_edge[k]];
+  for (const LoopId l : t.loops(0))
+    for (const CoedgeId k : t.loop_coedges(l)) ++edge_uses[t.coedge_edge[k]];
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    for (std::int32_t i = 1; i + 1 < c.edges.edge_offsets[e + 1] - c.edges.edge_offsets[e]; ++i)
+    for (std::int32_t i = 1; i + 1 < c.edges.n_nodes(e); ++i)
       EXPECT_EQ(uses[numbering.edge_node(e, i)], edge_uses[e]) << "edge " << e << " node " << i;
 }
 
@@ -149,10 +150,11 @@ TEST(BoundaryNumbering, names_every_node_once) {
   const Model model = test::make_model("drilled_cylinder");
   const ModelTables& t = model.tables();
   const EdgeMesh edges = test::discretise_edges(model, UniformField(2));
-  const BoundaryNumbering numbering(t, edges);
+  const MeshTopology topology(t);
+  const BoundaryNumbering numbering(topology, edges);
   std::set<std::int32_t> inner;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    const std::int32_t n = edges.edge_offsets[e + 1] - edges.edge_offsets[e];
+    const std::int32_t n = edges.n_nodes(e);
     if (n == 0) continue;
     EXPECT_EQ(numbering.edge_node(e, 0), t.edge_vertices[2 * e]);
     EXPECT_EQ(numbering.edge_node(e, n - 1), t.edge_vertices[2 * e + 1]);

@@ -49,17 +49,14 @@ inline EdgeMesh discretise_edges(const Model& model, const SizeField& field) {
   const ModelTables& t = model.tables();
   const std::vector<int> least = min_segments_per_edge(t);
   EdgeMesh m;
-  m.edge_offsets.push_back(0);
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    CurveNodes n;
     if (!t.edge_is_degenerate[e]) {
-      CurveNodes n = discretise_curve(*model.curve(e), field, {30, least[e]});
+      n = discretise_curve(*model.curve(e), field, {30, least[e]});
       n.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
       n.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
-      m.node_t.insert(m.node_t.end(), n.t.begin(), n.t.end());
-      m.node_xyz.insert(m.node_xyz.end(), n.x.begin(), n.x.end());
-      m.node_size.insert(m.node_size.end(), n.h.begin(), n.h.end());
     }
-    m.edge_offsets.push_back(static_cast<std::int32_t>(m.node_t.size()));
+    m.append(n);
   }
   return m;
 }
@@ -74,7 +71,7 @@ struct FaceCase {
 
   FaceCase(const std::string& shape, const SizeField& field, FaceId face = 0)
       : model(make_model(shape)), id(face), edges(discretise_edges(model, field)), surface(model.surface(face)) {
-    boundary = make_face_boundary(model, *surface, face, BoundaryNumbering(model.tables(), edges));
+    boundary = make_face_boundary(model, *surface, face, BoundaryNumbering(MeshTopology(model.tables()), edges));
   }
   double area() const { return model.tables().face_area[id]; }
   FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options = {}) const { return mesh_face(*surface, boundary, field, options); }

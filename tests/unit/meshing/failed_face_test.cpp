@@ -26,7 +26,7 @@ struct Edges {
   BoundaryNumbering run() {
     set_verbosity(Verbosity::kQuiet);
     mesher.run();
-    return BoundaryNumbering(mesher.tables(), mesher.edges);
+    return BoundaryNumbering(mesher.topology(), mesher.edges);
   }
 };
 

@@ -44,7 +44,7 @@ struct Meshed {
       for (int k = 0; k < 3; ++k) shortest = std::min(shortest, distance(mesh.node_xyz[t.n[k]], mesh.node_xyz[t.n[(k + 1) % 3]]));
     return shortest;
   }
-  std::size_t n_closed() const { return closed_faces(mesher.merged, mesher.edges, mesher.tables().edge_vertices).size(); }
+  std::size_t n_closed() const { return closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size(); }
 };
 
 void expect_sound(const Meshed& m, std::int64_t euler) {
@@ -59,7 +59,7 @@ void expect_sound(const Meshed& m, std::int64_t euler) {
 TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_triangles) {
   const Meshed m("stepped_box", 1, 0.05);
   expect_sound(m, 2);
-  EXPECT_EQ(m.mesher.merged.edge.size(), 4u);
+  EXPECT_EQ(m.mesher.merged().edge.size(), 4u);
   EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
   EXPECT_GT(m.shortest_side(), 0.4);
   EXPECT_NEAR(measure_mesh(m.mesh).volume, 501, 1);
@@ -68,22 +68,22 @@ TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_tri
 TEST(SmallFeatures, a_step_is_meshed_when_nothing_is_to_be_merged) {
   const Meshed m("stepped_box", 1, 0);
   expect_sound(m, 2);
-  EXPECT_TRUE(m.mesher.merged.empty());
+  EXPECT_TRUE(m.mesher.merged().empty());
   EXPECT_NEAR(m.shortest_side(), 0.02, 1e-9);
 }
 
 TEST(SmallFeatures, a_step_above_the_bound_is_kept) {
   const Meshed m("stepped_box", 0.2, 0.05);
   expect_sound(m, 2);
-  EXPECT_TRUE(m.mesher.merged.empty());
+  EXPECT_TRUE(m.mesher.merged().empty());
 }
 
 TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
   const Meshed m("wedge_strip", 1, 0.1);
   expect_sound(m, 2);
-  ASSERT_EQ(m.mesher.merged.strip_face.size(), 1u);
+  ASSERT_EQ(m.mesher.merged().strip_face.size(), 1u);
   EXPECT_EQ(m.n_closed(), 0u);
-  const FaceId strip = m.mesher.merged.strip_face[0];
+  const FaceId strip = m.mesher.merged().strip_face[0];
   double from = 1e300;
   for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t)
     if (m.mesh.triangle_face[t] == strip)
@@ -155,7 +155,7 @@ TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
   const Model model = test::make_model("box");
   MergedFeatures merged;
   merged.edge = {1000};
-  EXPECT_THROW(with_merged_edges(model.tables(), merged), std::exception);
+  EXPECT_THROW(MeshTopology(model.tables(), merged), Error);
 }
 
 /// stepped_box with all its faces in a group of this tolerance (0: without), the given ones left out of it.
@@ -202,7 +202,7 @@ TEST(SmallFeatures, strips_in_a_group_with_a_tolerance_are_closed_by_it) {
   ModelMesher mesher(box, field, {}, Meshed::options(0.05), one_rank());
   mesher.run();
   EXPECT_TRUE(mesher.failures.empty());
-  EXPECT_EQ(closed_faces(mesher.merged, mesher.edges, mesher.tables().edge_vertices).size(), 4u)
+  EXPECT_EQ(closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size(), 4u)
       << "the step and the rims of the raised half";
 }
 
@@ -211,7 +211,7 @@ std::int64_t segments_beside_the_mesh(Meshed& m) {
   m.mesh.labels.edge_groups = {{"all", "", "{}", std::vector<std::int32_t>(m.mesher.tables().n_edges())}};
   std::vector<std::int32_t>& ids = m.mesh.labels.edge_groups[0].ids;
   std::iota(ids.begin(), ids.end(), 0);
-  m.mesh.merged = m.mesher.merged;
+  m.mesh.merged = m.mesher.merged();
   add_segments(m.mesh, m.mesher.edges, m.mesher.tables().edge_vertices);
   std::vector<std::pair<NodeId, NodeId>> sides;
   for (const Triangle& t : m.mesh.triangles)
@@ -231,7 +231,7 @@ TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
     EXPECT_EQ(segments_beside_the_mesh(m), 0) << shape;
     const auto count = [&](EdgeId e) { return std::count(m.mesh.segment_edge.begin(), m.mesh.segment_edge.end(), e); };
     for (EdgeId e = 0; e < m.mesher.tables().n_edges(); ++e) {
-      const std::int32_t n = m.mesher.edges.edge_offsets[e + 1] - m.mesher.edges.edge_offsets[e];
+      const std::int32_t n = m.mesher.edges.n_nodes(e);
       EXPECT_EQ(count(e), std::max(0, n - 1)) << shape << " edge " << e + 1 << ": also where a strip is closed";
     }
   }

@@ -32,7 +32,7 @@ struct Meshed {
   void merge() {
     const ModelTables& t = mesher.tables();
     mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
-    mesh.merged = mesher.merged;
+    mesh.merged = mesher.merged();
   }
 };
 

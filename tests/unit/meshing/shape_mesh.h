@@ -19,7 +19,8 @@ struct ShapeMesh {
       : model(make_model(shape)), field(share * model.tables().reference_diagonal()) {
     const ModelTables& t = model.tables();
     const EdgeMesh edges = discretise_edges(model, field);
-    const BoundaryNumbering numbering(t, edges);
+    const MeshTopology topology(t);
+    const BoundaryNumbering numbering(topology, edges);
     std::vector<FacePatch> patches;
     for (FaceId f = 0; f < t.n_faces(); ++f) patches.push_back(patch(f, numbering));
     OrientationReport report;

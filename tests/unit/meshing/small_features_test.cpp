@@ -15,7 +15,7 @@ TEST_P(MergedSolid, keeps_two_edges_in_every_loop_whatever_the_sizes) {
     const MergedFeatures merged = find_merged_features(model, UniformField(share * t.reference_diagonal()), 0.2);
     for (LoopId l = 0; l < t.n_loops(); ++l) {
       int n_before = 0, n_left = 0;
-      for (CoedgeId c = t.loop_coedge_offsets[l]; c < t.loop_coedge_offsets[l + 1]; ++c) {
+      for (const CoedgeId c : t.loop_coedges(l)) {
         if (t.edge_is_degenerate[t.coedge_edge[c]]) continue;
         ++n_before;
         n_left += !std::binary_search(merged.edge.begin(), merged.edge.end(), t.coedge_edge[c]);
@@ -29,7 +29,7 @@ TEST_P(MergedSolid, moves_no_vertex_further_than_the_bound) {
   const Model model = make_model(GetParam());
   const ModelTables& t = model.tables();
   for (double size = t.reference_diagonal(); size < 20 * t.reference_diagonal(); size *= 1.3) {
-    const ModelTables meshed = with_merged_edges(t, find_merged_features(model, UniformField(size), 0.2));
+    const ModelTables meshed = MeshTopology(t, find_merged_features(model, UniformField(size), 0.2)).tables();
     std::map<VertexId, Box3> cluster;
     for (std::size_t i = 0; i < t.edge_vertices.size(); ++i) cluster[meshed.edge_vertices[i]].add(t.vertex_xyz[t.edge_vertices[i]]);
     for (const auto& [v, box] : cluster) EXPECT_LE(box.diagonal(), 0.2 * size) << "vertex " << v << " at " << size;

@@ -34,7 +34,7 @@ SurfaceMesh good_mesh(const Model& model) {
   SurfaceMesh m = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, t.face_group}, orientation);
   m.face_name = t.face_name;
   m.group_name = t.group_name;
-  m.merged = mesher.merged;
+  m.merged = mesher.merged();
   return m;
 }
 
