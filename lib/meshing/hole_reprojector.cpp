@@ -48,7 +48,8 @@ class Mover {
     require_same_topology();
     move_vertices();
     move_edges();
-    for (const MeshTopology::Strip& strip : MeshTopology(t_, old_.merged).strips()) move_strip(strip);
+    const MeshTopology topology(t_, old_.merged);
+    for (const MeshTopology::Strip& strip : topology.strips()) move_strip(strip);
     for (std::size_t begin = 0, end; begin < old_.triangles.size(); begin = end) {
       for (end = begin; end < old_.triangles.size() && old_.triangle_face[end] == old_.triangle_face[begin];) ++end;
       move_face(old_.triangle_face[begin], begin, end);

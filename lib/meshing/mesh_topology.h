@@ -27,7 +27,8 @@ class MeshTopology {
   const ModelTables& tables() const { return tables_; }
   const MergedFeatures& merged() const { return merged_; }
 
-  const std::vector<Strip>& strips() const { return strips_; }
+  const std::vector<Strip>& strips() const& { return strips_; }
+  const std::vector<Strip>& strips() const&& = delete;  ///< would end with the object
   /// Null when there is none.
   const Strip* strip_of(FaceId f) const { return find(strip_of_face_, f); }
   const Strip* strip_kept_at(EdgeId e) const { return find(strip_of_kept_, e); }

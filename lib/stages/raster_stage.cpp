@@ -408,7 +408,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     wing_edges = detect_edges(model, roles, rules);
     limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
   }
-  share(comm, limits.face, limits.edge, limits.far, limits.min_length, limits.wants_gaps, limits.far_length);
+  share(comm, limits.face, limits.edge, limits.vertex, limits.far, limits.min_length, limits.wants_gaps, limits.far_length);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);
   limit_samples(budget.max_samples, limits);

@@ -272,8 +272,8 @@ TEST(EntityGroups, follow_their_edges_and_vertices_through_every_edit) {
     EXPECT_EQ(groups_of_edge(part.model.tables(), static_cast<EdgeId>(e)), part.edges[e] < 3 ? "first" : "rest");
   for (const EntityGroup& g : part.model.tables().labels.vertex_groups)
     for (const VertexId v : g.ids) EXPECT_EQ(part.vertices[v], box.tables().edge_vertices[0]);
-  AffineMap shift;
-  shift.shift = {1, 2, 3};
+  Similarity shift;
+  shift.translation = {1, 2, 3};
   EXPECT_EQ(transform(box, shift).tables().labels, box.tables().labels);
   const ModelTables both = append(box, part.model).tables();
   for (EdgeId e = 0; e < both.n_edges(); ++e) {

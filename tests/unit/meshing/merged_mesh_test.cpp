@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/error.h"
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "mesh/edge_segments.h"
@@ -199,7 +200,7 @@ TEST(SmallFeatures, strips_in_a_group_with_a_tolerance_are_closed_by_it) {
   const Model box = stepped_box(0.03);
   const UniformField field(0.2);
   set_verbosity(Verbosity::kQuiet);
-  ModelMesher mesher(box, field, {}, Meshed::options(0.05), one_rank());
+  ModelMesher mesher(box, field, {}, Meshed::options(0.05), one_rank);
   mesher.run();
   EXPECT_TRUE(mesher.failures.empty());
   EXPECT_EQ(closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size(), 4u)

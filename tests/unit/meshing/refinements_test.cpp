@@ -67,8 +67,8 @@ TEST(Refinements, are_near_a_box_when_they_reach_into_it) {
   Refinements r(base);
   r.add({{0, 0, 0}, 2}, 0.1);  // reaches 20
   Box3 box;
-  box.add({19, 0, 0});
-  box.add({30, 1, 1});
+  box.add(Vec3{19, 0, 0});
+  box.add(Vec3{30, 1, 1});
   EXPECT_EQ(r.near(box).size(), 1u);
   box.lo.x = 21;
   EXPECT_TRUE(r.near(box).empty());

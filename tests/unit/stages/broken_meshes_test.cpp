@@ -26,7 +26,7 @@ using Names = std::set<std::string>;
 /// A model meshed with length 4; the box is 60 x 40 x 20.
 SurfaceMesh good_mesh(const Model& model) {
   const UniformField field(4);
-  const Communicator one_rank;
+  const SerialExecutor one_rank;
   ModelMesher mesher(model, field, {}, {}, one_rank);
   mesher.run();
   OrientationReport orientation;
@@ -107,7 +107,9 @@ void cut_t_junction(SurfaceMesh& m) {
   const TriangleId t = inner_triangle(m);
   const Triangle old = m.triangles[t];
   const NodeId middle = copy_node(m, old.n[0]);
-  m.node_xyz[middle] = 0.5 * (m.node_xyz[old.n[0]] + m.node_xyz[old.n[1]]);
+  constexpr double kInside = 1e-6;  // of the triangle: beside the neighbour, whatever the rounding
+  const Vec3 on_side = 0.5 * (m.node_xyz[old.n[0]] + m.node_xyz[old.n[1]]);
+  m.node_xyz[middle] = on_side + kInside * (m.node_xyz[old.n[2]] - on_side);
   const Vec2 uv = 0.5 * (m.corner_uv[3 * t] + m.corner_uv[3 * t + 1]);
   add_triangle(m, {{middle, old.n[1], old.n[2]}}, t);
   m.corner_uv[m.corner_uv.size() - 3] = uv;

@@ -23,7 +23,7 @@ struct Meshed {
   Meshed(const std::string& shape, double length) : model(test::make_model(shape)) {
     set_verbosity(Verbosity::kQuiet);
     const UniformField field(length);
-    const Communicator one_rank;
+    const SerialExecutor one_rank;
     ModelMesherOptions options;
     options.merge_below = 0;
     ModelMesher mesher(model, field, {}, options, one_rank);
