@@ -17,12 +17,13 @@ seconds() { # label command...: processor time, which other work on the machine 
 }
 value() { sed -n "s/.*\"$2\":\([-0-9.e+]*\).*/\1/p" "$out/$1.log" | tail -1; }
 
+read -r -a sizes <<< "${ST_SIZES:-}"
 case $model in # gmsh reads STEP and IGES in millimetres
-  *.[bB][rR][eE][pP]) unit="" ;;
-  *) unit="--unit mm" ;;
+  *.[bB][rR][eE][pP]) unit=() ;;
+  *) unit=(--unit mm) ;;
 esac
-t_import=$(seconds import "$bin/st-import" "$model" -o "$out/geometry.hdf" $unit --json)
-t_raster=$(seconds raster "$bin/st-raster" "$out/geometry.hdf" -o "$out/raster.hdf" --json ${ST_SIZES:-})
+t_import=$(seconds import "$bin/st-import" "$model" -o "$out/geometry.hdf" "${unit[@]}" --json)
+t_raster=$(seconds raster "$bin/st-raster" "$out/geometry.hdf" -o "$out/raster.hdf" --json "${sizes[@]}")
 t_prolong=$(seconds prolong "$bin/st-prolong" "$out/raster.hdf" -o "$out/sizing.hdf")
 t_mesh=$(seconds mesh "$bin/st-mesh" "$out/geometry.hdf" "$out/sizing.hdf" -o "$out/patches.hdf" --json)
 t_merge=$(seconds merge "$bin/st-merge" "$out/patches.hdf" -o "$out/mesh.hdf")

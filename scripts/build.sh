@@ -1,16 +1,22 @@
 #!/bin/bash
 # Configures once and builds; says nothing when there is nothing to do.
-# usage: scripts/build.sh BUILD_DIR [cmake options]
+# usage: scripts/build.sh BUILD_DIR [cmake options] [-- targets]     targets: what to build, default all
 set -eu -o pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$1
 shift
+options=() targets=()
+for argument in "$@"; do
+  if [ "$argument" = -- ] || [ ${#targets[@]} -gt 0 ]; then targets+=("$argument"); else options+=("$argument"); fi
+done
 log=$build/build.log
 mkdir -p "$build"
 
 say() { if [ -t 1 ]; then printf '\r\033[K%s' "$1"; fi; }
 fail() {
-  { grep -qm1 "^FAILED" "$log" && sed -n "/^FAILED/,\$p" "$log" || tail -n 40 "$log"; } | cut -c1-400 | head -n 60 >&2
+  local show=(tail -n 40)
+  if grep -qm1 "^FAILED" "$log"; then show=(sed -n "/^FAILED/,\$p"); fi
+  "${show[@]}" "$log" | cut -c1-400 | head -n 60 >&2
   echo "build: error: $1; the whole log is $log" >&2
   exit 1
 }
@@ -18,7 +24,7 @@ fail() {
 if [ ! -f "$build/build.ninja" ]; then
   echo "build: configuring $build"
   rm -f "$build/CMakeCache.txt"
-  cmake -S "$root" -B "$build" -G Ninja "$@" > "$log" 2>&1 || fail "cmake failed"
+  cmake -S "$root" -B "$build" -G Ninja "${options[@]}" > "$log" 2>&1 || fail "cmake failed"
 fi
 # Shows the progress of ninja's output on a terminal; silent when nothing is compiled.
 progress() {
@@ -31,4 +37,4 @@ progress() {
   done
   say ""
 }
-ninja -C "$build" 2>&1 | tee "$log" | progress || fail "compiling failed"
+ninja -C "$build" "${targets[@]:1}" 2>&1 | tee "$log" | progress || fail "compiling failed"

@@ -36,5 +36,6 @@ if [ $status -eq 5 ]; then
     echo "workflow: error: $incomplete is incomplete; look at it, or go on with ALLOW_INCOMPLETE=1" >&2
   fi
 fi
-[ $status -ne 0 ] || printf '%d.%03d\n' $(((stop - start) / 1000000)) $((((stop - start) / 1000) % 1000)) > "$log.seconds"
+milliseconds=$(((stop - start) / 1000))
+[ $status -ne 0 ] || printf '%d.%03d\n' $((milliseconds / 1000)) $((milliseconds % 1000)) > "$log.seconds"
 exit $status

@@ -5,13 +5,15 @@ set -eu -o pipefail
 
 build_packages=(
   g++ cmake ninja-build
-  libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-ocaf-dev libocct-data-exchange-dev
+  libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev
+  libocct-ocaf-dev libocct-data-exchange-dev
   libtbb-dev libfontconfig-dev  # OpenCASCADE's CMake targets name them, its packages do not
   libhdf5-dev zlib1g-dev libopenmpi-dev openmpi-bin
   libcli11-dev libeigen3-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
 )
 check_packages=(
   libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
+  clang-format clang-tidy universal-ctags pyflakes3 shellcheck gcovr  # lints, coverage
   libcgal-dev  # the independent judge of meshes, tests only
   iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh
   xvfb xauth   # pictures without a screen: scripts/render_images.sh
@@ -47,7 +49,8 @@ echo "setup: installing ${missing[*]}"
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo > /dev/null; then
-    echo "setup: error: packages are missing and this is neither root nor a machine with sudo; as root: apt-get install ${missing[*]}" >&2
+    echo "setup: error: packages are missing and this is neither root nor a machine with sudo;" \
+      "as root: apt-get install ${missing[*]}" >&2
     exit 1
   fi
   as_root=(sudo)

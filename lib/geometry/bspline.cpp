@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
+
 namespace st {
 namespace {
 
@@ -41,6 +43,8 @@ void basis_polynomials(const std::vector<double>& knots, int k, int degree, doub
 }  // namespace
 
 KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double period) : degree_(degree), period_(period) {
+  ST_ASSERT(degree >= 1 && flat_knots.size() >= 2 * static_cast<std::size_t>(degree + 1));
+  ST_ASSERT(std::is_sorted(flat_knots.begin(), flat_knots.end()) && flat_knots[degree] < flat_knots[flat_knots.size() - degree - 1]);
   const int order = degree + 1, n_poles = static_cast<int>(flat_knots.size()) - order;
   lo_ = flat_knots[degree];
   hi_ = flat_knots[n_poles];
@@ -98,6 +102,7 @@ BsplineCurve::BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool
   t_max_ = t_max;
   period_ = knots_.period();
   const int order = knots_.degree() + 1;
+  ST_ASSERT(poles.size() >= static_cast<std::size_t>(knots_.first_pole(knots_.n_spans() - 1) + order));
   coefficients_.assign(static_cast<std::size_t>(knots_.n_spans()) * order, Pole{});
   for (int k = 0; k < knots_.n_spans(); ++k)
     for (int j = 0; j < order; ++j)
@@ -132,6 +137,8 @@ BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles
       is_rational_(is_rational),
       stride_(is_rational ? 4 : 3),
       kernels_(patch_kernels(v_.degree() + 1, stride_)) {
+  ST_ASSERT(n_v_ >= v_.first_pole(v_.n_spans() - 1) + v_.degree() + 1);
+  ST_ASSERT(poles_.size() >= static_cast<std::size_t>(n_v_) * (u_.first_pole(u_.n_spans() - 1) + u_.degree() + 1));
   type_ = SurfaceType::kBspline;
   u_min_ = bounds.u_min;
   u_max_ = bounds.u_max;
@@ -205,6 +212,7 @@ SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
 }
 
 void BsplineSurface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const {
+  ST_ASSERT(uv.size() == out.size());
   for (std::size_t i = 0; i < uv.size(); ++i) out[i] = BsplineSurface::evaluate(uv[i]);
 }
 

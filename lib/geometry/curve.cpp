@@ -2,11 +2,13 @@
 
 #include <cmath>
 
+#include "base/assert.h"
 #include "geometry/samples.h"
 
 namespace st {
 
 double arc_length(const Curve& curve, double t0, double t1, int n_intervals) {
+  ST_ASSERT(n_intervals >= 1);
   // 5-point Gauss-Legendre
   static constexpr double kX[5] = {0.0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640, 0.9061798459386640};
   static constexpr double kW[5] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};

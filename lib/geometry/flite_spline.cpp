@@ -1,5 +1,7 @@
 #include "geometry/flite_spline.h"
 
+#include "base/assert.h"
+
 namespace st {
 namespace {
 
@@ -34,6 +36,7 @@ Pole pole(Vec3 p) { return {{p.x, p.y, p.z, 1}}; }
 }  // namespace
 
 std::vector<Vec3> natural_spline_poles(std::span<const Vec3> p) {
+  ST_ASSERT(p.size() >= 2);
   const int n = static_cast<int>(p.size());
   if (n == 2) return {p.begin(), p.end()};
   const std::vector<Vec3> t = natural_tangents(p);
@@ -50,6 +53,7 @@ std::vector<Vec3> natural_spline_poles(std::span<const Vec3> p) {
 }
 
 std::vector<Vec3> natural_surface_poles(int n_u, int n_v, std::span<const Vec3> points) {
+  ST_ASSERT(n_u >= 2 && n_v >= 2 && points.size() == static_cast<std::size_t>(n_u) * n_v);
   const int m_u = natural_spline_n_poles(n_u), m_v = natural_spline_n_poles(n_v);
   std::vector<Vec3> rows, result(static_cast<std::size_t>(m_u) * m_v), column(n_v);
   for (int j = 0; j < n_v; ++j) {

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <streambuf>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "geometry/model_impl.h"
 #include "geometry/occt_evaluators.h"
@@ -104,6 +105,7 @@ Model::Model(Model&&) noexcept = default;
 Model& Model::operator=(Model&&) noexcept = default;
 
 std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
+  ST_ASSERT(edge >= 0 && edge < tables_.n_edges() && !tables_.edge_is_degenerate[edge]);
   double t0, t1;
   const TopoDS_Edge e = TopoDS::Edge(impl_->edges(edge + 1));
   const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
@@ -112,11 +114,13 @@ std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
 }
 
 std::unique_ptr<Surface> Model::surface(FaceId face) const {
+  ST_ASSERT(face >= 0 && face < tables_.n_faces());
   const double* b = &tables_.face_uv_bounds[4 * static_cast<std::size_t>(face)];
   return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
 }
 
 std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {
+  ST_ASSERT(face >= 0 && face < tables_.n_faces() && coedge >= 0 && coedge < tables_.n_coedges());
   const TopoDS_Face f = TopoDS::Face(impl_->faces(face + 1).Oriented(TopAbs_FORWARD));
   const TopoDS_Shape e = impl_->edges(tables_.coedge_edge[coedge] + 1);
   const auto orientation = tables_.coedge_is_reversed[coedge] ? TopAbs_REVERSED : TopAbs_FORWARD;

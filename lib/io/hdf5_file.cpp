@@ -336,7 +336,7 @@ void Hdf5Writer::write_vtk_strings(const std::string& name, const std::vector<st
 }
 
 void Hdf5Writer::set_attribute(const std::string& group, const std::string& name, const std::string& value) {
-  impl_->set(group, name, {'s', value.c_str()});
+  impl_->set(group, name, {'s', value.c_str()});  // NOLINT(readability-redundant-string-cstr): to the first NUL, as HDF5 reads it
 }
 void Hdf5Writer::set_attribute(const std::string& group, const std::string& name, std::int64_t value) {
   impl_->set(group, name, {'i', std::string(reinterpret_cast<const char*>(&value), sizeof value)});
@@ -350,7 +350,7 @@ void Hdf5Writer::set_attribute(const std::string& group, const std::string& name
 
 std::string Hdf5Writer::commit() {
   std::sort(impl_->datasets.begin(), impl_->datasets.end(), [](const DatasetInfo& a, const DatasetInfo& b) { return a.name < b.name; });
-  const std::string hash = content_hash(impl_->datasets, impl_->attributes);
+  std::string hash = content_hash(impl_->datasets, impl_->attributes);
   errno = 0;
   set_attribute(kRoot, "content_hash", hash);
   impl_->groups.clear();

@@ -1,15 +1,24 @@
 #include "mesh/adjacency.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/limits.h"
 
 namespace st {
 
 namespace {
+
+[[maybe_unused]] bool are_nodes_below(std::span<const Triangle> triangles, std::int64_t n_nodes) {
+  return std::all_of(triangles.begin(), triangles.end(), [n_nodes](const Triangle& t) {
+    return std::all_of(std::begin(t.n), std::end(t.n), [n_nodes](NodeId n) { return n >= 0 && n < n_nodes; });
+  });
+}
 
 bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
 
@@ -27,6 +36,8 @@ void for_each_side(std::span<const Triangle> triangles, const Visit& visit) {
 }  // namespace
 
 EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes) : offsets_(n_nodes + 1, 0) {
+  ST_ASSERT(triangles.size() <= std::numeric_limits<SideId>::max() / 3);
+  ST_ASSERT(are_nodes_below(triangles, n_nodes));
   require_countable(triangles.size(), "triangles of one mesh, with their sides,", kMaxTriangles);
   for_each_side(triangles, [&](NodeId low, NodeId, SideId) { ++offsets_[low + 1]; });
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
@@ -64,6 +75,7 @@ void DisjointSets::join(std::int32_t a, std::int32_t b) {
 }
 
 std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes, std::int32_t& n_components) {
+  ST_ASSERT(are_nodes_below(triangles, n_nodes));
   DisjointSets sets(n_nodes);
   std::vector<std::int32_t> component(n_nodes, kNone);
   for (const Triangle& t : triangles) {

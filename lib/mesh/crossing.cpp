@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -268,6 +269,7 @@ bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
 }
 
 bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared) {
+  ST_ASSERT(!is_degenerate(points, a) && !is_degenerate(points, b));
   int corner_a[3], corner_b[3];
   n_shared = 0;
   for (int i = 0; i < 3; ++i)

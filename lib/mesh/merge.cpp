@@ -4,6 +4,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "base/limits.h"
 
@@ -180,6 +181,8 @@ void reserve(SurfaceMesh& mesh, std::size_t n_nodes, std::size_t n_triangles) {
 }  // namespace
 
 SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report) {
+  ST_ASSERT(2 * input.edges.edge_offsets.size() == input.edge_vertices.size() + 2);
+  ST_ASSERT(std::is_sorted(input.edges.edge_offsets.begin(), input.edges.edge_offsets.end()));
   const std::vector<const FacePatch*> patches = patches_by_face(input.patches);
   std::size_t n_inner = 0, n_triangles = 0;
   NodeNumbers numbers = mark_used(input, patches, n_inner, n_triangles);

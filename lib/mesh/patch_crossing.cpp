@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/assert.h"
+
 namespace st {
 
 namespace {
@@ -197,6 +199,10 @@ void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit
 }  // namespace
 
 std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
+  ST_ASSERT(mesh.face_begin.size() == mesh.face_shell.size() + 1 && mesh.face_begin.front() == 0);
+  ST_ASSERT(std::is_sorted(mesh.face_begin.begin(), mesh.face_begin.end()));
+  ST_ASSERT(static_cast<std::size_t>(mesh.face_begin.back()) == mesh.triangles.size());
+  ST_ASSERT(mesh.face_is_dirty.empty() || mesh.face_is_dirty.size() == mesh.face_shell.size());
   const auto n_faces = static_cast<FaceId>(mesh.face_shell.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
   Forest forest(mesh);

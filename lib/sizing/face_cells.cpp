@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/assert.h"
 #include "sizing/patch_walk.h"
 
 namespace st {
@@ -129,6 +130,7 @@ int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeVie
 }  // namespace
 
 void FaceCells::append_face(std::span<const CellArea> cells) {
+  ST_ASSERT(std::is_sorted(cells.begin(), cells.end(), [](const CellArea& a, const CellArea& b) { return a.leaf < b.leaf; }));
   for (const CellArea& c : cells) {
     leaf.push_back(c.leaf);
     area.push_back(c.area);

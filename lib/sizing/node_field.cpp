@@ -1,8 +1,11 @@
 #include "sizing/node_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <queue>
+
+#include "base/assert.h"
 
 namespace st {
 namespace {
@@ -28,6 +31,8 @@ Weights weights_at(Vec3 x, Vec3 a, Vec3 b, Vec3 c) {
 }  // namespace
 
 NodeField::NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope) : mesh_(mesh), size_(std::move(size)), slope_(slope) {
+  ST_ASSERT(size_.size() == mesh_.node_xyz.size() && slope_ > 0);
+  ST_ASSERT(std::all_of(size_.begin(), size_.end(), [](double h) { return h > 0 && std::isfinite(h); }));
   find_triangles();
   limit_growth();
   min_size_ = size_.empty() ? 0 : *std::min_element(size_.begin(), size_.end());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/limits.h"
 #include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
@@ -314,6 +315,7 @@ OctreeShape make_shape(const Box3& root, const NodeLevels& nodes) {
 }
 
 PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> boxes) {
+  ST_ASSERT(std::all_of(boxes.begin(), boxes.end(), [](const RasterBox& b) { return b.half > 0 && b.length > 0; }));
   require_countable(boxes.size(), "samples on one rank");
   const std::vector<std::uint8_t> levels = required_levels(shape.edge, boxes);
   std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
@@ -328,6 +330,7 @@ PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> b
 }
 
 RasterOctree unpack_octree(OctreeShape shape, const PackedLengths& packed) {
+  ST_ASSERT(packed.size() == shape.leaf_keys.size());
   RasterOctree octree{std::move(shape), std::vector<float>(packed.size(), std::numeric_limits<float>::infinity()),
                       std::vector<std::int32_t>(packed.size(), kNone)};
   for (std::size_t leaf = 0; leaf < packed.size(); ++leaf) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/assert.h"
+
 namespace st {
 namespace {
 
@@ -106,6 +108,7 @@ std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
 }
 
 void PatchTree::find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const {
+  ST_ASSERT(patch < patches_.size() && reach >= 0);
   found.clear();
   const Prism prism(patches_[patch], boxes_[patch], reach);
   const Cone& own = cones_[patch];

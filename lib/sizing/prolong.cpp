@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/eigen.h"
 #include "sizing/neighbours.h"
 
@@ -187,6 +188,9 @@ void add_second_parts(const Blanking& blanking, CellLengths& cells) {
 
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
                          const ProlongOptions& options, const Blanking* blanking) {
+  ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && stored_cause.size() == octree.leaf_keys.size());
+  ST_ASSERT(options.cell_slope.empty() || options.cell_slope.size() == octree.leaf_keys.size());
+  ST_ASSERT(options.slope > 0 && options.max_length > 0);
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
   if (blanking) add_second_parts(*blanking, lengths);
   const Neighbours neighbours(octree);
@@ -209,6 +213,7 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
 // The label that goes with the lengths is the slope of their origin instead of their cause.
 std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length, std::span<const float> seed_slope,
                                  const ProlongOptions& options, const Blanking* blanking) {
+  ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && seed_slope.size() == octree.leaf_keys.size());
   std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
   for (float& slope : kinds)
     if (!(slope > 0)) slope = static_cast<float>(options.slope);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "sizing/cell_limit.h"
 
 namespace st {
@@ -160,7 +161,11 @@ class PieceWalker {
 
 }  // namespace
 
-CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits) { return CurveMeasurer(curve, limits).run(); }
+CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits) {
+  ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
+  ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
+  return CurveMeasurer(curve, limits).run();
+}
 
 void raster_curve(const Curve& curve, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
   const CurveTable table = measure_curve(curve, limits);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "sizing/cell_limit.h"
 #include "sizing/patch_walk.h"
 
@@ -232,6 +233,8 @@ class FaceRaster {
 
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
                              std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches) {
+  ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
+  ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
   return FaceRaster(surface, loops, limits, cause, boxes, patches).run();
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "sizing/octree_nodes.h"
 
@@ -191,6 +192,7 @@ class SourceStore {
 }  // namespace
 
 RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSource> sources, const RefineOptions& options) {
+  ST_ASSERT(options.max_length > 0 && options.cell_per_length > 0);
   Refinement refinement(raster, sources, options);
   NodeLevels nodes = refinement.split();
   close_nodes(nodes);

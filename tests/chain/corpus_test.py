@@ -1,12 +1,13 @@
 """The chain with no option but the file name, on real CAD files (ST_CORPUS, by default ../shared/corpus beside the repository): a mesh that
 passes st-check and, where it is there, the independent judge ../tools/meshcheck.sh beside the corpus."""
-import json
+import os
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import ToolTest, make_chain, must  # noqa: E402
 
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 FAST = [

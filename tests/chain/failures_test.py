@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
 
 
 VTK_LINE = 3

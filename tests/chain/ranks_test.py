@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import MODELS, ToolTest, content_hash, make_chain, must  # noqa: E402
 
 ARTIFACTS = ["geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf"]
 

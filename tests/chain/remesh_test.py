@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import BIN, INPUT, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, content_hash, make_chain, must  # noqa: E402
 
 SOURCE = '[[source]]\nname = "p"\ntype = "point"\nat = [{}, {}, {}]\nlength = "{}"\nradius = "{}"\n'
 

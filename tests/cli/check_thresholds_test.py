@@ -1,10 +1,11 @@
 """st-check's thresholds and report on the command line and in option files: each option reaches its check."""
+import json
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import INCOMPLETE, OK, OUTPUT, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 # Option, a value that any good mesh of a cylinder meets, one that none meets.
 DECIDING = [

@@ -1,13 +1,17 @@
 """Every error a user can cause: its exit code, one clear message, and nothing left behind."""
 import os
+import shutil
 import signal
+import subprocess
 import sys
 import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import (  # noqa: E402
+    BIN, GEOMETRY, INCOMPLETE, INPUT, MISMATCH, MODELS, OK, OUTPUT, USAGE, Run, ToolTest, artifacts_of, must,
+)
 
 ARTIFACTS = ["geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf"]
 # The artifacts that each tool reads, by position.

@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import INPUT, MODELS, ToolTest, make_chain, must  # noqa: E402
 
 CORPUS = Path(os.environ.get("ST_CORPUS", ""))
 CYLINDERS = CORPUS / "flite_zju_cylinders.fli"

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import INPUT, MODELS, USAGE, ToolTest, make_chain, must  # noqa: E402
 
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 COARSE = {"raster_options": ["--lmin", "2%", "--lmax", "10%", "--alpha", "30"]}
@@ -94,10 +94,12 @@ class Chain(ToolTest):
             name = line[6:] if line.startswith("solid ") else name
             solids[name] += line.startswith("facet ")
         self.assertEqual(list(solids), [n.replace(" ", "_") for n in names])
-        of_group = Counter()
+        of_group, group = Counter(), 0
         for line in (self.folder / "mesh.obj").read_text().split("\n"):
-            group = int(re.search(r" group_(\d+)", line)[1]) if line.startswith("g ") else 0 if not line.startswith("f ") else group
-            of_group[group] += line.startswith("f ")
+            if line.startswith("g "):
+                group = int(re.search(r" group_(\d+)", line)[1])
+            elif line.startswith("f "):
+                of_group[group] += 1
         self.assertEqual([of_group[i + 1] for i in range(len(names))], list(solids.values()))
         msh = (self.folder / "mesh.msh").read_text()
         for i, n in enumerate(names):

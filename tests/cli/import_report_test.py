@@ -5,7 +5,7 @@ import zipfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import MODELS, ToolTest, must  # noqa: E402
 
 KEYS = ["closed", "unit", "solids", "shells", "faces", "edges", "free_edges", "nonmanifold_edges", "repairs", "findings", "area", "volume", "box"]
 

@@ -15,7 +15,9 @@ except ImportError as error:
     sys.exit(77)
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import (  # noqa: E402
+    INCOMPLETE, INPUT, MISMATCH, MODELS, USAGE, WORK, Run, ToolTest, artifacts_of, make_chain, must,
+)
 from mesh_formats import Mesh  # noqa: E402
 
 CORPUS = os.environ.get("ST_CORPUS", "")

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import GEOMETRY, INPUT, USAGE, ToolTest, artifacts_of, must  # noqa: E402
 
 SOURCE = '[[source]]\nname = "wake"\ntype = "point"\nat = [25, 20, 5]\nlength = 0.1\nradius = 0.5\n'
 

@@ -1,10 +1,12 @@
 """The command lines of the tools: help, versions, options, option files, summaries."""
+import shutil
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
 # Every option with the default that --help shows; "" for none.

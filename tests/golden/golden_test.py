@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import MODELS, OK, Run, ToolTest, must  # noqa: E402
 
 GOLDEN = Path(__file__).resolve().parent
 TOLERANCE = "1e-9"  # other processors round sines and cosines differently in the last bit
