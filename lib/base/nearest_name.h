@@ -6,7 +6,8 @@
 
 namespace st {
 
-/// The first of the names that the fewest changes of a letter (any case) turn `name` into; empty when that takes more than a third of its letters.
+/// The first of the names that the fewest changes of a letter (any case) turn `name` into; empty when that takes more
+/// than a third of its letters.
 std::string nearest_name(const std::string& name, std::span<const std::string> names);
 
 }  // namespace st

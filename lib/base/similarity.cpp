@@ -14,9 +14,9 @@ namespace {
 /// One step as it is written.
 struct Step {
   std::string verb;
-  std::vector<double> numbers;     ///< behind the verb
-  std::optional<Vec3> at;          ///< behind the word "at"
-  bool is_readable = true;         ///< nothing is left over
+  std::vector<double> numbers;  ///< behind the verb
+  std::optional<Vec3> at;       ///< behind the word "at"
+  bool is_readable = true;      ///< nothing is left over
 };
 
 std::vector<double> read_numbers(std::istringstream& words) {
@@ -45,7 +45,8 @@ std::optional<Similarity> motion_of(const Step& step) {
   const auto vector_at = [&](std::size_t i) { return Vec3{v[i], v[i + 1], v[i + 2]}; };
   if (!step.is_readable) return std::nullopt;
   const auto placed = [&](const Similarity& motion) { return step.at ? motion.about(*step.at) : motion; };
-  if (step.verb == "rotate" && v.size() == 4 && norm(vector_at(0)) > 0) return placed(rotation_about(vector_at(0), radians(v[3])));
+  if (step.verb == "rotate" && v.size() == 4 && norm(vector_at(0)) > 0)
+    return placed(rotation_about(vector_at(0), radians(v[3])));
   if (step.verb == "mirror" && v.size() == 3 && norm(vector_at(0)) > 0) return placed(reflection_at(vector_at(0)));
   if (step.verb == "scale" && v.size() == 1 && v[0] > 0) return placed({.scale = v[0]});
   if (step.at) return std::nullopt;
@@ -109,9 +110,10 @@ Similarity parse_similarity(const std::string& text, const std::string& option) 
     if (trimmed(step).empty()) continue;
     const std::optional<Similarity> one = motion_of(read_step(step));
     if (!one)
-      throw Error(ExitCode::kUsage, option + ": '" + trimmed(step) +
-                                        "' is no step; write 'rotate X Y Z DEGREES [at X Y Z]', 'hinge X Y Z X Y Z DEGREES', "
-                                        "'mirror X Y Z [at X Y Z]', 'scale F [at X Y Z]' or 'translate X Y Z', with ';' between steps");
+      throw Error(ExitCode::kUsage,
+                  option + ": '" + trimmed(step) +
+                      "' is no step; write 'rotate X Y Z DEGREES [at X Y Z]', 'hinge X Y Z X Y Z DEGREES', "
+                      "'mirror X Y Z [at X Y Z]', 'scale F [at X Y Z]' or 'translate X Y Z', with ';' between steps");
     all = all.then(*one);
   }
   return all;

@@ -135,7 +135,7 @@ std::vector<VertexId> vertex_ids(const TopoDS_Shape& part, const std::vector<Edg
   return ids_of(part, TopAbs_VERTEX, all);
 }
 
-/// What names and groups say of the faces, which are the same in both.
+/// What is known of the faces, which are the same in both, beyond their shapes. The B-Rep of a part has no shells any more.
 void copy_labels(const ModelTables& t, ModelTables& out) {
   out.face_name = t.face_name;
   out.face_color = t.face_color;
@@ -144,6 +144,10 @@ void copy_labels(const ModelTables& t, ModelTables& out) {
   out.group_name = t.group_name;
   out.group_role = t.group_role;
   out.labels = t.labels;
+  out.face_shell = t.face_shell;
+  out.face_solid = t.face_solid;
+  out.n_shells = t.n_shells;
+  out.n_solids = t.n_solids;
 }
 
 /// 0, 1, 2 ...
@@ -170,16 +174,20 @@ void require_apart(const ModelTables& t, const std::vector<char>& moves) {
   at_vertex[1] = at_vertex[0];
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
-      for (const int end : {0, 1}) at_vertex[moves[faces[i]] ? 1 : 0][t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = faces[i];
+      for (const int end : {0, 1})
+        at_vertex[moves[faces[i]] ? 1 : 0][t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = faces[i];
   const auto fail = [&](const std::string& what, FaceId moving, FaceId staying) {
-    throw Error(ExitCode::kGeometry, "the model would tear at " + what + ": " + t.face_label(moving) + " would move, " + t.face_label(staying) +
+    throw Error(ExitCode::kGeometry, "the model would tear at " + what + ": " + t.face_label(moving) + " would move, " +
+                                         t.face_label(staying) +
                                          " beside it would not; name whole bodies, or move all of it");
   };
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     for (std::int32_t i = offsets[e] + 1; i < offsets[e + 1]; ++i)
-      if (const FaceId a = faces[offsets[e]], b = faces[i]; moves[a] != moves[b]) fail(t.edge_label(e), moves[a] ? a : b, moves[a] ? b : a);
+      if (const FaceId a = faces[offsets[e]], b = faces[i]; moves[a] != moves[b])
+        fail(t.edge_label(e), moves[a] ? a : b, moves[a] ? b : a);
   for (VertexId v = 0; v < t.n_vertices(); ++v)
-    if (at_vertex[0][v] != kNone && at_vertex[1][v] != kNone) fail("vertex " + std::to_string(v + 1), at_vertex[1][v], at_vertex[0][v]);
+    if (at_vertex[0][v] != kNone && at_vertex[1][v] != kNone)
+      fail("vertex " + std::to_string(v + 1), at_vertex[1][v], at_vertex[0][v]);
 }
 
 /// Groups of `second` in the numbers of `to`, to which the new ones are added.
@@ -305,28 +313,29 @@ SubModel transform_faces(const Model& model, std::span<const FaceId> wanted, con
   std::vector<char> moves(t.n_faces(), 0);
   for (const FaceId f : checked(t, wanted)) moves[f] = 1;
   require_apart(t, moves);
-  std::vector<FaceId> order(t.n_faces()), rest_faces;  // order: of the model's faces in the rest with the part behind it
+  std::vector<FaceId> rest_faces, order(t.n_faces());  // order: of the model's faces in the rest with the part behind it
   for (FaceId f = 0; f < t.n_faces(); ++f)
     if (!moves[f]) {
       order[f] = static_cast<FaceId>(rest_faces.size());
       rest_faces.push_back(f);
     }
   for (std::size_t i = 0; i < wanted.size(); ++i) order[wanted[i]] = static_cast<FaceId>(rest_faces.size() + i);
-  if (rest_faces.empty()) return {transform(model, motion), numbers(t.n_faces()), numbers(t.n_edges()), numbers(t.n_vertices())};
+  if (rest_faces.empty())
+    return {transform(model, motion), numbers(t.n_faces()), numbers(t.n_edges()), numbers(t.n_vertices())};
 
   SubModel rest = extract(model, rest_faces);
   const SubModel part = extract(model, wanted);
   const SubModel both = extract(append(rest.model, transform(part.model, motion)), order);
   add_all(rest.edges, part.edges);
   add_all(rest.vertices, part.vertices);
+  const std::vector<EdgeId> edges = gather(rest.edges, both.edges);
+  const std::vector<VertexId> vertices = gather(rest.vertices, both.vertices);
   ModelTables out = both.model.tables();
   copy_labels(t, out);
-  out.face_shell = t.face_shell;
-  out.face_solid = t.face_solid;
-  out.n_shells = t.n_shells;
-  out.n_solids = t.n_solids;
+  out.labels.edge_groups = select_groups(t.labels.edge_groups, places(edges, t.n_edges()));
+  out.labels.vertex_groups = select_groups(t.labels.vertex_groups, places(vertices, t.n_vertices()));
   if (motion.scale == 1) out.volume = t.volume;
-  return {Model(std::move(out), both.model.brep()), numbers(t.n_faces()), gather(rest.edges, both.edges), gather(rest.vertices, both.vertices)};
+  return {Model(std::move(out), both.model.brep()), numbers(t.n_faces()), edges, vertices};
 }
 
 Model append(const Model& first, const Model& second) {

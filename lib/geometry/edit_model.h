@@ -28,8 +28,9 @@ SubModel remove_faces(const Model& model, std::span<const FaceId> faces);
 /// The model moved; ids, names and groups stay, normals point out of the solids as before. Throws Error(kGeometry).
 Model transform(const Model& model, const Similarity& motion);
 
-/// Some faces moved, the others as they are: ids, names and groups stay. Volume: that of `model` unless the motion scales.
-/// Throws Error(kUsage) for faces as extract() does, Error(kGeometry) for faces that share edges or vertices with others, which would tear.
+/// Some faces moved, the others as they are: ids, names and groups stay. Volume: that of `model` unless the motion
+/// scales. Throws Error(kUsage) for faces as extract() does, Error(kGeometry) for faces that share edges or vertices
+/// with others, which would tear.
 SubModel transform_faces(const Model& model, std::span<const FaceId> faces, const Similarity& motion);
 
 /// Both models side by side: the entities of `second` after those of `first`, groups of the same name and role become one. Nothing is sewn.

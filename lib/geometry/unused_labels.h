@@ -5,7 +5,8 @@
 
 namespace st {
 
-/// Takes away groups (of all tables) and parts without faces; shells and solids that are left are numbered anew without gaps.
+/// Takes away groups (of all tables) and parts without faces; shells and solids that are left are numbered anew without
+/// gaps.
 void drop_unused(ModelTables& tables);
 
 }  // namespace st

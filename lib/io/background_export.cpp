@@ -91,7 +91,8 @@ void export_pos(const OctreeField& field, const std::string& output) {
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
       int hint = leaf;
-      file << (k ? "," : "") << static_cast<float>(field.size(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint));
+      file << (k ? "," : "")
+           << static_cast<float>(field.size(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint));
     }
     file << "};\n";
   }

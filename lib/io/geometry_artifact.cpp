@@ -66,7 +66,8 @@ constexpr const char *kPreviousFaces = "/st/face/previous_id", *kPreviousEdges =
 std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& name, std::size_t n) {
   std::vector<std::int32_t> previous = r.read_rows<std::int32_t>(name, n, 2);
   for (std::size_t i = 0; i < n; ++i)
-    if (previous[2 * i] < 0 || previous[2 * i + 1] < 0 || static_cast<std::size_t>(previous[2 * i + 1]) >= r.header().inputs.size())
+    if (previous[2 * i] < 0 || previous[2 * i + 1] < 0 ||
+        static_cast<std::size_t>(previous[2 * i + 1]) >= r.header().inputs.size())
       r.fail(name, "row " + std::to_string(i) + " is of no input");
   return previous;
 }

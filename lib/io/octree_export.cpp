@@ -65,7 +65,8 @@ std::array<int, 8> corner_order(const Similarity& frame) {
   return frame.is_mirrored() ? std::array{4, 5, 7, 6, 0, 1, 3, 2} : std::array{0, 1, 3, 2, 4, 5, 7, 6};
 }
 
-std::string points_and_cells(const OctreeView& octree, const Similarity& frame, VtuArrays& arrays, std::size_t& n_points) {
+std::string points_and_cells(const OctreeView& octree, const Similarity& frame, VtuArrays& arrays,
+                             std::size_t& n_points) {
   const std::size_t n = octree.leaf_keys.size();
   std::vector<std::uint64_t> corners;
   corners.reserve(8 * n);
@@ -86,7 +87,8 @@ std::string points_and_cells(const OctreeView& octree, const Similarity& frame, 
   connectivity.reserve(8 * n);
   for (std::size_t leaf = 0; leaf < n; ++leaf) {
     const std::array<std::uint64_t, 8> of_leaf = leaf_corners(octree, leaf);
-    for (const int k : order) connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), of_leaf[k]) - corners.begin());
+    for (const int k : order)
+      connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), of_leaf[k]) - corners.begin());
     offsets.push_back(static_cast<std::int64_t>(8 * (leaf + 1)));
   }
   return "      <Points>\n" + arrays.add("Points", "Float64", xyz, 3) + "      </Points>\n      <Cells>\n" +
@@ -97,7 +99,8 @@ std::string points_and_cells(const OctreeView& octree, const Similarity& frame, 
 void write_vtu(const OctreeView& octree, const CellData& data, const std::string& output) {
   VtuArrays arrays;
   std::size_t n_points = 0;
-  const std::string cells = cell_data(octree, data, arrays), geometry = points_and_cells(octree, data.frame, arrays, n_points);
+  const std::string cells = cell_data(octree, data, arrays),
+                    geometry = points_and_cells(octree, data.frame, arrays, n_points);
   TemporaryFile temporary(output);
   std::ofstream file(temporary.name(), std::ios::binary);
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -132,7 +135,8 @@ void export_octree(const std::string& artifact, const std::string& output) {
     return;
   }
   const SizingArtifact sizing = read_sizing(artifact);
-  for (const CellLength& c : sizing.lengths.cells) data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * c.length);
+  for (const CellLength& c : sizing.lengths.cells)
+    data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * c.length);
   data.cause = sizing.lengths.cause;
   data.frame = sizing.frame;
   for (const CellColour c : sizing.blanking.colour) data.colour.push_back(static_cast<std::uint8_t>(c));

@@ -12,8 +12,8 @@ SizeExplanation MovedOctreeField::explain(Vec3 xyz) const {
   return e;
 }
 
-std::unique_ptr<OctreeField> make_octree_field(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length,
-                                               const Similarity& frame) {
+std::unique_ptr<OctreeField> make_octree_field(const OctreeFieldData& data, std::shared_ptr<const void> owner,
+                                               double min_length, const Similarity& frame) {
   if (frame == Similarity()) return std::make_unique<OctreeField>(data, std::move(owner), min_length);
   return std::make_unique<MovedOctreeField>(data, std::move(owner), min_length, frame);
 }

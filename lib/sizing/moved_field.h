@@ -7,11 +7,12 @@
 
 namespace st {
 
-/// As OctreeField, of an octree of which the point x lies at frame(x) in the model; lengths grow with the frame's scale, the slope stays.
-/// A query costs a matrix product more.
+/// As OctreeField, of an octree of which the point x lies at frame(x) in the model; lengths grow with the frame's
+/// scale, the slope stays. A query costs a matrix product more.
 class MovedOctreeField : public OctreeField {
  public:
-  MovedOctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length, const Similarity& frame)
+  MovedOctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length,
+                   const Similarity& frame)
       : OctreeField(data, std::move(owner), min_length), frame_(frame), to_octree_(frame.inverse()) {}
 
   using OctreeField::size;
@@ -25,7 +26,7 @@ class MovedOctreeField : public OctreeField {
 };
 
 /// An OctreeField, or a MovedOctreeField where `frame` moves anything.
-std::unique_ptr<OctreeField> make_octree_field(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length,
-                                               const Similarity& frame);
+std::unique_ptr<OctreeField> make_octree_field(const OctreeFieldData& data, std::shared_ptr<const void> owner,
+                                               double min_length, const Similarity& frame);
 
 }  // namespace st

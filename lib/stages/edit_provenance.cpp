@@ -10,7 +10,8 @@ namespace st {
 
 std::string edit_options_json(const EditStageOptions& o) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : {std::pair("as", &o.as), std::pair("join", &o.join), std::pair("extract", &o.extract), std::pair("remove", &o.remove)})
+  for (const auto& [name, value] : {std::pair("as", &o.as), std::pair("join", &o.join),
+                                    std::pair("extract", &o.extract), std::pair("remove", &o.remove)})
     if (!value->empty()) json[name] = *value;
   if (!o.transforms.empty()) json["transform"] = o.transforms;
   if (!o.of.empty()) json["of"] = o.of;
@@ -19,12 +20,16 @@ std::string edit_options_json(const EditStageOptions& o) {
 
 Similarity whole_motion(const std::string& path, const ArtifactHeader& moved, const std::string& geometry_hash) {
   const auto fail = [&](const std::string& what) {
-    throw Error(ExitCode::kMismatch, fmt::format("{}: {}; give the geometry that st-edit --transform made of the raster's as a whole", path, what));
+    throw Error(
+        ExitCode::kMismatch,
+        fmt::format("{}: {}; give the geometry that st-edit --transform made of the raster's as a whole", path, what));
   };
   if (moved.content_hash == geometry_hash) return {};
-  if (moved.tool != "st-edit") fail(fmt::format("was made by {}, not moved by st-edit, and is another geometry than the raster's", moved.tool));
+  if (moved.tool != "st-edit")
+    fail(fmt::format("was made by {}, not moved by st-edit, and is another geometry than the raster's", moved.tool));
   if (moved.inputs.size() != 1) fail(fmt::format("was put together of {} geometries", moved.inputs.size()));
-  if (moved.inputs[0].hash != geometry_hash) fail(fmt::format("was made of {}, another geometry than the raster's", moved.inputs[0].name));
+  if (moved.inputs[0].hash != geometry_hash)
+    fail(fmt::format("was made of {}, another geometry than the raster's", moved.inputs[0].name));
   const nlohmann::json options = nlohmann::json::parse(moved.options_json, nullptr, false);
   if (!options.is_object()) fail("does not say how it was made");
   for (const char* partial : {"extract", "remove", "of"})

@@ -65,17 +65,23 @@ std::vector<FaceId> all_faces(std::int32_t n) {
 
 std::vector<Similarity> parse_transforms(const EditStageOptions& o) {
   if (!o.of.empty() && o.of.size() != o.transforms.size())
-    throw Error(ExitCode::kUsage, fmt::format("--of is given {} times, --transform {} times; give one for each, or none to move everything",
-                                              o.of.size(), o.transforms.size()));
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--of is given {} times, --transform {} times; give one for each, or none to move everything",
+                    o.of.size(), o.transforms.size()));
   std::vector<Similarity> motions;
   for (const std::string& steps : o.transforms) motions.push_back(parse_similarity(steps, "--transform"));
   return motions;
 }
 
-void require_same_unit(const std::string& path_a, const ModelTables& a, const std::string& path_b, const ModelTables& b) {
+void require_same_unit(const std::string& path_a, const ModelTables& a, const std::string& path_b,
+                       const ModelTables& b) {
   if (a.unit == b.unit && a.unit_in_m == b.unit_in_m) return;
-  const auto unit = [](const ModelTables& t) { return t.unit.empty() ? std::string("has no unit") : "is in " + t.unit; };
-  throw Error(ExitCode::kMismatch, fmt::format("{} {}, {} {}; import both with the same --unit", path_a, unit(a), path_b, unit(b)));
+  const auto unit = [](const ModelTables& t) {
+    return t.unit.empty() ? std::string("has no unit") : "is in " + t.unit;
+  };
+  throw Error(ExitCode::kMismatch,
+              fmt::format("{} {}, {} {}; import both with the same --unit", path_a, unit(a), path_b, unit(b)));
 }
 
 /// All inputs side by side.
@@ -89,7 +95,8 @@ Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
   std::vector<std::vector<int>> placement;
   for (std::size_t i = 0; i < artifacts.size(); ++i) {
     GeometryArtifact& a = artifacts[i];
-    inputs.files.push_back({"geometry", std::filesystem::path(o.geometries[i]).filename().string(), a.header.content_hash});
+    inputs.files.push_back(
+        {"geometry", std::filesystem::path(o.geometries[i]).filename().string(), a.header.content_hash});
     inputs.findings.push_back(std::move(a.findings));
     inputs.are_closed = inputs.are_closed && a.is_closed;
     if (artifacts.size() > 1) label_input(inputs.names[i], a.tables);
@@ -170,19 +177,28 @@ std::vector<std::int32_t> placement_numbers(const std::vector<std::vector<int>>&
 
 std::string describe(const ModelTables& t, const PartCrossings& crossings) {
   const PartCrossing& c = crossings.found.front();
-  return fmt::format("parts cross: {} passes through {} at ({:.6g}, {:.6g}, {:.6g}){}", t.face_label(c.first), t.face_label(c.second), c.xyz.x,
-                     c.xyz.y, c.xyz.z, crossings.found.size() > 1 ? fmt::format(", and {} more pairs of faces", crossings.found.size() - 1) : "");
+  return fmt::format(
+      "parts cross: {} passes through {} at ({:.6g}, {:.6g}, {:.6g}){}", t.face_label(c.first), t.face_label(c.second),
+      c.xyz.x, c.xyz.y, c.xyz.z,
+      crossings.found.size() > 1 ? fmt::format(", and {} more pairs of faces", crossings.found.size() - 1) : "");
 }
 
 EditResult judge(const Edited& e, const EditInputs& inputs) {
   EditResult r;
   r.tables = e.tables();
   drop_unused(r.tables);
+  const double scale = e.motion.front().scale;
+  const bool scaled_as_one =
+      std::all_of(e.motion.begin(), e.motion.end(), [&](const Similarity& m) { return m.scale == scale; });
+  if (scaled_as_one && scale != 1) scale_tolerances(scale, r.tables.labels);
   r.uses = report_edge_uses(r.tables);
   r.is_closed = is_closed(r.tables, r.uses.n_free);
-  if (!r.is_closed) r.tables.volume.reset();
-  else if (!r.tables.volume && r.uses.n_nonmanifold == 0) r.tables.volume = enclosed_volume(e.model);
-  if (!r.is_closed && inputs.are_closed) r.faults.push_back(fmt::format("open where it was closed: {} free edges", r.uses.n_free));
+  if (!r.is_closed)
+    r.tables.volume.reset();
+  else if (!r.tables.volume && r.uses.n_nonmanifold == 0)
+    r.tables.volume = enclosed_volume(e.model);
+  if (!r.is_closed && inputs.are_closed)
+    r.faults.push_back(fmt::format("open where it was closed: {} free edges", r.uses.n_free));
   r.crossings = find_part_crossings(e.model, placement_numbers(e.placement));
   if (!r.crossings.found.empty()) r.faults.push_back(describe(r.tables, r.crossings));
   return r;
@@ -191,21 +207,24 @@ EditResult judge(const Edited& e, const EditInputs& inputs) {
 /// Warnings; with --require-valid an error.
 void say(const EditStageOptions& o, const EditResult& r) {
   if (o.require_valid && !r.is_closed && r.faults.empty())
-    throw Error(ExitCode::kGeometry, fmt::format("{}: open: {} free edges; close it, or leave out --require-valid", o.output, r.uses.n_free));
+    throw Error(ExitCode::kGeometry, fmt::format("{}: open: {} free edges; close it, or leave out --require-valid",
+                                                 o.output, r.uses.n_free));
   if (o.require_valid && !r.faults.empty())
     throw Error(ExitCode::kGeometry, fmt::format("{}: {}; nothing written", o.output, fmt::join(r.faults, "; ")));
   for (const std::string& fault : r.faults) log_warning(fmt::format("{}: {}", o.output, fault));
   const PartCrossings& c = r.crossings;
   if (c.n_compared < c.n_near && c.found.size() < kMaxCrossings)
-    log_warning(fmt::format("{}: {} of {} pairs of faces near each other were not looked at for crossings; st-check finds them in the mesh",
-                            o.output, c.n_near - c.n_compared, c.n_near));
+    log_warning(fmt::format(
+        "{}: {} of {} pairs of faces near each other were not looked at for crossings; st-check finds them in the mesh",
+        o.output, c.n_near - c.n_compared, c.n_near));
 }
 
 std::vector<ImportFinding> findings_of(const Edited& e, const EditInputs& inputs, const EditResult& r) {
   std::vector<ImportFinding> findings = carry_findings(inputs.findings, e.trace, r.tables, e.motion);
   findings.insert(findings.end(), r.uses.findings.begin(), r.uses.findings.end());
   for (const PartCrossing& c : r.crossings.found)
-    for (const FaceId f : {c.first, c.second}) findings.push_back({kCrossesPart, r.tables.face_label(f), c.xyz, c.size, false});
+    for (const FaceId f : {c.first, c.second})
+      findings.push_back({kCrossesPart, r.tables.face_label(f), c.xyz, c.size, false});
   return findings;
 }
 
@@ -247,29 +266,31 @@ nlohmann::ordered_json crossings_json(const EditResult& r) {
 StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, const Edited& e, const EditResult& r) {
   const ModelTables& t = r.tables;
   const double area = std::accumulate(t.face_area.begin(), t.face_area.end(), 0.0);
-  const auto n_moved = std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
+  const auto n_moved =
+      std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
   StageSummary s;
-  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}", o.output, t.n_faces(), inputs.files.size(),
-                       inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
+  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}", o.output, t.n_faces(),
+                       inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
                        r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area,
                        t.volume ? fmt::format(", volume {:.6g}", *t.volume) : "");
-  const nlohmann::ordered_json json = {{"tool", "st-edit"},
-                                       {"output", o.output},
-                                       {"inputs", inputs_json(inputs, e.trace)},
-                                       {"faces", t.n_faces()},
-                                       {"edges", t.n_edges()},
-                                       {"vertices", t.n_vertices()},
-                                       {"groups", t.group_name.size()},
-                                       {"parts", t.labels.part_path.size()},
-                                       {"solids", t.n_solids},
-                                       {"moved_faces", n_moved},
-                                       {"closed", r.is_closed},
-                                       {"free_edges", r.uses.n_free},
-                                       {"nonmanifold_edges", r.uses.n_nonmanifold},
-                                       {"crossings", crossings_json(r)},
-                                       {"pairs_not_compared", r.crossings.n_near - r.crossings.n_compared},
-                                       {"area", area},
-                                       {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
+  const nlohmann::ordered_json json = {
+      {"tool", "st-edit"},
+      {"output", o.output},
+      {"inputs", inputs_json(inputs, e.trace)},
+      {"faces", t.n_faces()},
+      {"edges", t.n_edges()},
+      {"vertices", t.n_vertices()},
+      {"groups", t.group_name.size()},
+      {"parts", t.labels.part_path.size()},
+      {"solids", t.n_solids},
+      {"moved_faces", n_moved},
+      {"closed", r.is_closed},
+      {"free_edges", r.uses.n_free},
+      {"nonmanifold_edges", r.uses.n_nonmanifold},
+      {"crossings", crossings_json(r)},
+      {"pairs_not_compared", r.crossings.n_near - r.crossings.n_compared},
+      {"area", area},
+      {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
   s.json = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return s;
 }

@@ -16,12 +16,13 @@ struct EditStageOptions {
   std::string extract;  ///< names: only these faces stay; empty: all
   std::string remove;   ///< names: these faces go; empty: none
   std::vector<std::string> transforms;  ///< see parse_similarity; done in this order, after faces are taken out
-  std::vector<std::string> of;          ///< names of what each of `transforms` moves; empty: all of them move everything
-  bool require_valid = false;           ///< an open result, or one whose parts cross, is an error (exit 4)
+  std::vector<std::string> of;  ///< names of what each of `transforms` moves; empty: all of them move everything
+  bool require_valid = false;   ///< an open result, or one whose parts cross, is an error (exit 4)
 };
 
-/// Local. Names and numbers are those of all inputs put together. Throws Error: kUsage for names that match nothing and when nothing is left,
-/// kMismatch for inputs of different units or joined groups of different roles, kGeometry where a motion would tear a body.
+/// Local. Names and numbers are those of all inputs put together. Throws Error: kUsage for names that match nothing and
+/// when nothing is left, kMismatch for inputs of different units or joined groups of different roles, kGeometry where a
+/// motion would tear a body.
 StageSummary run_edit(const EditStageOptions& options);
 
 }  // namespace st

@@ -20,7 +20,8 @@ void select_ids(std::span<const std::int32_t> ids, std::vector<Origin>& origins)
 /// Finds where the entities of one input are now.
 class Finder {
  public:
-  Finder(const EditTrace& trace, const ModelTables& t, std::int32_t input) : faces_(of(trace.faces, input)), edges_(of(trace.edges, input)), vertices_(of(trace.vertices, input)) {
+  Finder(const EditTrace& trace, const ModelTables& t, std::int32_t input)
+      : faces_(of(trace.faces, input)), edges_(of(trace.edges, input)), vertices_(of(trace.vertices, input)) {
     vertex_face_.assign(t.n_vertices(), kNone);
     edge_face_.assign(t.n_edges(), kNone);
     for (FaceId f = 0; f < t.n_faces(); ++f)
@@ -31,7 +32,8 @@ class Finder {
       }
   }
 
-  /// "edge 12 "TE"", "edge 3 in face 4" ... with the new numbers, and a face of the result at it; nullopt: gone, or no entity of this kind.
+  /// "edge 12 "TE"", "edge 3 in face 4" ... with the new numbers, and a face of the result at it; nullopt: gone, or no
+  /// entity of this kind.
   std::optional<std::pair<std::string, FaceId>> find(const std::string& entity) const {
     static const std::regex kNumbered("^(face|edge|vertex) ([0-9]+)(?: in face ([0-9]+))?((?: \".*\")?)$");
     std::smatch m;
@@ -41,7 +43,9 @@ class Finder {
     const std::int32_t in_face = m[3].matched ? place(faces_, m[3]) : kNone;
     if (id == kNone || (m[3].matched && in_face == kNone)) return std::nullopt;
     const FaceId at = kind == "face" ? id : kind == "edge" ? edge_face_[id] : vertex_face_[id];
-    return std::pair(kind + " " + std::to_string(id + 1) + (m[3].matched ? " in face " + std::to_string(in_face + 1) : "") + m[4].str(), at);
+    return std::pair(kind + " " + std::to_string(id + 1) +
+                         (m[3].matched ? " in face " + std::to_string(in_face + 1) : "") + m[4].str(),
+                     at);
   }
 
  private:
@@ -81,7 +85,8 @@ void EditTrace::append(const ModelTables& t, std::int32_t input) {
   append_numbers(t.n_vertices(), input, vertices);
 }
 
-void EditTrace::select(std::span<const FaceId> new_faces, std::span<const EdgeId> new_edges, std::span<const VertexId> new_vertices) {
+void EditTrace::select(std::span<const FaceId> new_faces, std::span<const EdgeId> new_edges,
+                       std::span<const VertexId> new_vertices) {
   select_ids(new_faces, faces);
   select_ids(new_edges, edges);
   select_ids(new_vertices, vertices);
@@ -93,9 +98,11 @@ std::vector<std::int32_t> previous_ids(const std::vector<Origin>& origins) {
   return ids;
 }
 
-std::vector<ImportFinding> carry_findings(const std::vector<std::vector<ImportFinding>>& of_input, const EditTrace& trace,
-                                          const ModelTables& t, std::span<const Similarity> motion) {
-  const bool moved_as_one = std::all_of(motion.begin(), motion.end(), [&](const Similarity& m) { return m == motion.front(); });
+std::vector<ImportFinding> carry_findings(const std::vector<std::vector<ImportFinding>>& of_input,
+                                          const EditTrace& trace, const ModelTables& t,
+                                          std::span<const Similarity> motion) {
+  const bool moved_as_one =
+      std::all_of(motion.begin(), motion.end(), [&](const Similarity& m) { return m == motion.front(); });
   std::vector<ImportFinding> carried;
   for (std::size_t i = 0; i < of_input.size(); ++i) {
     const Finder finder(trace, t, static_cast<std::int32_t>(i));

@@ -113,7 +113,8 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
   return json;
 }
 
-std::string info_lines(const std::string& path, const ArtifactDescription& artifact, const std::vector<std::int64_t>& n_faces) {
+std::string info_lines(const std::string& path, const ArtifactDescription& artifact,
+                       const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
   std::string text =
       fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
@@ -122,8 +123,8 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
   for (std::size_t i = 0; i < h.inputs.size(); ++i)
-    row("from " + h.inputs[i].role,
-        fmt::format("{} {}{}", h.inputs[i].name, h.inputs[i].hash, n_faces.empty() ? "" : fmt::format(" ({} faces)", n_faces[i])));
+    row("from " + h.inputs[i].role, fmt::format("{} {}{}", h.inputs[i].name, h.inputs[i].hash,
+                                                n_faces.empty() ? "" : fmt::format(" ({} faces)", n_faces[i])));
   if (!h.options_json.empty()) row("options", h.options_json);
   if (h.schema != "geometry") row("geometry", h.geometry_hash);
   row("hash", h.content_hash);

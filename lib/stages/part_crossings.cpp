@@ -8,7 +8,8 @@ namespace st {
 namespace {
 
 bool overlap(const Box3& a, const Box3& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+         b.lo.z <= a.hi.z;
 }
 
 std::vector<std::pair<FaceId, FaceId>> near_pairs(const ModelTables& t, std::span<const std::int32_t> placement) {

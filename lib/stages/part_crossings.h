@@ -11,8 +11,8 @@ namespace st {
 
 struct PartCrossing {
   FaceId first = kNone, second = kNone;
-  Vec3 xyz;          ///< on both, model unit
-  double size = 0;   ///< extent of where they meet, model unit
+  Vec3 xyz;         ///< on both, model unit
+  double size = 0;  ///< extent of where they meet, model unit
 };
 
 struct PartCrossings {
@@ -23,8 +23,9 @@ struct PartCrossings {
 
 inline constexpr std::size_t kMaxCrossings = 10, kMaxComparedPairs = 300;  // milliseconds to a second each
 
-/// Faces of different placement that pass through each other (not: touch, or end on each other). `placement`, [n_faces]: faces of equal
-/// numbers came and moved together. Pairs are compared in the order of their ids until one of the limits above.
+/// Faces of different placement that pass through each other (not: touch, or end on each other). `placement`,
+/// [n_faces]: faces of equal numbers came and moved together. Pairs are compared in the order of their ids until one of
+/// the limits above.
 PartCrossings find_part_crossings(const Model& model, std::span<const std::int32_t> placement);
 
 }  // namespace st

@@ -102,8 +102,9 @@ MovedGeometry read_moved(const ProlongStageOptions& o, const ArtifactHeader& ras
 SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
   const MovedGeometry moved = read_moved(o, raster.header);
   const Similarity to_octree = moved.motion.inverse();
-  SourceInput input = read_sources(o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
-                                   {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m});
+  SourceInput input =
+      read_sources(o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
+                   {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m});
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
@@ -193,7 +194,8 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   require_complete(o, raster);
   SizingArtifact sizing = prolong_raster(o, std::move(raster));
   if (!o.sample.empty()) {
-    sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample, o.sample_output);
+    sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,
+                 o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   return summarize(o, sizing, timer.seconds());

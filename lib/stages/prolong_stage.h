@@ -18,7 +18,8 @@ struct ProlongStageOptions {
   std::vector<std::string> sources;     ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same name
   std::string background;               ///< background mesh (.bac, .ba3, .msh); empty: none
   std::string transform;                ///< moves sources and background into the model's frame; see parse_similarity; empty: as they are
-  std::string geometry;                 ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty: that one
+  std::string
+      geometry;  ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty: that one
   std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
   std::string blank;                    ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty: none
   std::string blank_side = "auto";      ///< "inside", "outside", or "auto": outside when a group of the mesh is the far field

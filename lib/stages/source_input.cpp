@@ -52,8 +52,8 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, SourceInput
 
 }  // namespace
 
-SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion, double slope,
-                         const ModelScale& scale) {
+SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
+                         double slope, const ModelScale& scale) {
   SourceInput input;
   std::vector<SourceSpec> specs;
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {

@@ -23,7 +23,7 @@ struct SourceInput {
 /// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up. Warns where an
 /// anisotropic background is taken by its smallest spacings. `motion` brings everything into
 /// the octree's frame. Throws Error(kInput), Error(kUsage).
-SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion, double slope,
-                         const ModelScale& scale);
+SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
+                         double slope, const ModelScale& scale);
 
 }  // namespace st

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import INPUT, MODELS, USAGE, ToolTest, make_chain, must  # noqa: E402
+from chain import INCOMPLETE, INPUT, MODELS, OK, USAGE, Run, ToolTest, content_hash, make_chain, must  # noqa: E402
 
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 COARSE = {"raster_options": ["--lmin", "2%", "--lmax", "10%", "--alpha", "30"]}

@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import USAGE, ToolTest, artifacts_of, must  # noqa: E402
 
 RANKS = ([], ["--np", 3])
 

@@ -7,7 +7,6 @@ usage: layers.py SOURCE_DIR              exit 1 and one line per violation
 import re
 import sys
 import tempfile
-from pathlib import Path
 
 import house
 from house import House, folder_of, includes, lies_in, sources

@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import *  # noqa: E402,F403
+from chain import BIN, ToolTest, artifacts_of  # noqa: E402
 
 SLOW = ["--lmin", "0.05%", "--lmax", "0.1%"]  # seconds of sampling, then tens of megabytes to write
 

@@ -139,14 +139,17 @@ void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, 
 /// A wing element along y: a round nose of this radius at x, and straight sides to a blunt trailing edge.
 TopoDS_Shape wing_element(double x, double radius, double chord, double y, double span) {
   constexpr double kHalfEdge = 0.25;
-  const gp_Pnt top(x + radius, y, radius), nose(x, y, 0), bottom(x + radius, y, -radius), upper(x + chord, y, kHalfEdge), lower(x + chord, y, -kHalfEdge);
+  const gp_Pnt top(x + radius, y, radius), nose(x, y, 0), bottom(x + radius, y, -radius),
+      upper(x + chord, y, kHalfEdge), lower(x + chord, y, -kHalfEdge);
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(top, nose, bottom).Value()).Edge(),
-                               BRepBuilderAPI_MakeEdge(bottom, lower).Edge(), BRepBuilderAPI_MakeEdge(lower, upper).Edge(),
+                               BRepBuilderAPI_MakeEdge(bottom, lower).Edge(),
+                               BRepBuilderAPI_MakeEdge(lower, upper).Edge(),
                                BRepBuilderAPI_MakeEdge(upper, top).Edge());
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, span, 0)).Shape();
 }
 
-/// Two parts of those names: a wing of chord 60, and behind it a flap whose nose is round about the line x = 63.5, z = 0.
+/// Two parts of those names: a wing of chord 60, and behind it a flap whose nose is round about the line x = 63.5, z =
+/// 0.
 void write_wing_with_flap(const fs::path& path) {
   STEPCAFControl_Controller::Init();
   Handle(TDocStd_Document) document;

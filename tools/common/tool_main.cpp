@@ -172,7 +172,8 @@ void ToolMain::text(const std::string& flag, std::string& value, const std::stri
   file_options_.push_back(app_.add_option(flag, value, help)->type_name(type));
 }
 
-void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, const std::string& type, const std::string& help) {
+void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
+                     const std::string& help) {
   file_options_.push_back(app_.add_option(flag, values, help)->type_name(type)->allow_extra_args(false));
 }
 

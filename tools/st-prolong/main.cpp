@@ -13,8 +13,10 @@ int main(int argc, char** argv) {
   tool.number("--target-triangles", o.target_triangles, "[4, 2e9]", "scale all lengths to about this many triangles");
   tool.optional_inputs("--sources", o.sources, "sources: TOML, .bac or .ba3; repeatable");
   tool.optional_input("--background", o.background, "background mesh: .bac, .ba3 or .msh (2.2)");
-  tool.text("--transform", o.transform, "STEPS", "moves sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
-  tool.optional_input("--geometry", o.geometry, "the raster's geometry as st-edit --transform moved it: the octree moves with it");
+  tool.text("--transform", o.transform, "STEPS",
+            "moves sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
+  tool.optional_input("--geometry", o.geometry,
+                      "the raster's geometry as st-edit --transform moved it: the octree moves with it");
   tool.optional_input("--blank", o.blank, "closed mesh: what lies inside it passes no lengths to the flow");
   tool.text("--blank-side", o.blank_side, "SIDE", "what is blanked: inside, outside (of a meshed fluid domain) or auto");
   tool.optional_input("--sample", o.sample, "CSV of points at which to write the lengths");

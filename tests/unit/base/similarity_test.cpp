@@ -28,7 +28,8 @@ TEST(Similarity, of_a_step_with_a_point_leaves_that_point) {
 }
 
 TEST(Similarity, comes_back_by_its_inverse) {
-  const Similarity motion = parse_similarity("hinge 1 2 3 4 5 7 31; scale 2.5; mirror 1 1 0 at 3 0 0; translate 4 5 6", "--transform");
+  const Similarity motion =
+      parse_similarity("hinge 1 2 3 4 5 7 31; scale 2.5; mirror 1 1 0 at 3 0 0; translate 4 5 6", "--transform");
   EXPECT_TRUE(motion.is_mirrored());
   EXPECT_FALSE(motion.then(motion).is_mirrored());
   const Vec3 x{0.3, -7, 11};
@@ -37,9 +38,10 @@ TEST(Similarity, comes_back_by_its_inverse) {
 }
 
 TEST(Similarity, refuses_what_is_no_step) {
-  for (const char* bad : {"rotate 1 2 3", "scale -1", "scale 0", "shear 1", "translate 1 2 3 4", "rotate 0 0 0 3", "scale 1x", "rotate 0 0 1 5 at 1 2",
-                          "rotate 0 0 1 5 at 1 2 3 4", "rotate 0 0 1 5 by 1 2 3", "translate 1 2 3 at 0 0 0", "hinge 0 0 0 0 0 0 5",
-                          "hinge 0 0 0 1 0 0", "mirror 0 0 0", "mirror x"})
+  for (const char* bad :
+       {"rotate 1 2 3", "scale -1", "scale 0", "shear 1", "translate 1 2 3 4", "rotate 0 0 0 3", "scale 1x",
+        "rotate 0 0 1 5 at 1 2", "rotate 0 0 1 5 at 1 2 3 4", "rotate 0 0 1 5 by 1 2 3", "translate 1 2 3 at 0 0 0",
+        "hinge 0 0 0 0 0 0 5", "hinge 0 0 0 1 0 0", "mirror 0 0 0", "mirror x"})
     try {
       parse_similarity(bad, "--transform");
       ADD_FAILURE() << bad;

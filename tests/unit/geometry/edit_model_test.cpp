@@ -162,6 +162,15 @@ TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
     }
 }
 
+TEST(Transform, of_a_part_keeps_its_shells_and_solids) {
+  const Model whole = test::make_model("two_boxes");
+  const SubModel part = extract(whole, std::vector<FaceId>{6, 7, 8, 9, 10, 11});
+  const Model moved = transform(part.model, turned(2, false));
+  EXPECT_EQ(moved.tables().face_shell, part.model.tables().face_shell);
+  EXPECT_EQ(moved.tables().face_solid, std::vector<std::int32_t>(6, 1));
+  EXPECT_EQ(moved.tables().n_solids, 2);
+}
+
 TEST(TransformFaces, moves_one_body_and_keeps_every_number_and_all_of_the_other) {
   const Model before = test::make_model("two_boxes");
   const ModelTables& b = before.tables();
@@ -195,7 +204,8 @@ TEST(TransformFaces, moves_one_body_and_keeps_every_number_and_all_of_the_other)
     for (VertexId v = 0; v < b.n_vertices(); ++v) {
       EXPECT_EQ(result.vertices[v], v);
       const bool is_moved = a.vertex_xyz[v] != b.vertex_xyz[v];
-      EXPECT_LE(distance(a.vertex_xyz[v], is_moved ? motion(b.vertex_xyz[v]) : b.vertex_xyz[v]), 1e-12 * a.box().diagonal());
+      EXPECT_LE(distance(a.vertex_xyz[v], is_moved ? motion(b.vertex_xyz[v]) : b.vertex_xyz[v]),
+                1e-12 * a.box().diagonal());
     }
   }
 }

@@ -27,7 +27,8 @@ struct EightLeaves {
 TEST(MovedField, asks_the_octree_where_the_point_was_and_scales_its_length) {
   const EightLeaves octree;
   const OctreeField still(octree.data(), nullptr);
-  const Similarity motion = rotation_about({1, 2, 3}, 0.7).then(reflection_at({0, 1, 0})).then({.scale = 3, .translation = {5, -6, 7}});
+  const Similarity motion =
+      rotation_about({1, 2, 3}, 0.7).then(reflection_at({0, 1, 0})).then({.scale = 3, .translation = {5, -6, 7}});
   const std::unique_ptr<OctreeField> moved = make_octree_field(octree.data(), nullptr, 0, motion);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 9);

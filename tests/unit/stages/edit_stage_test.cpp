@@ -53,7 +53,9 @@ EditStageOptions of_inputs(std::vector<std::string> geometries) {
 }
 
 /// previous_id of entity i: number and input.
-std::pair<int, int> previous(const std::vector<std::int32_t>& ids, std::size_t i) { return {ids[2 * i], ids[2 * i + 1]}; }
+std::pair<int, int> previous(const std::vector<std::int32_t>& ids, std::size_t i) {
+  return {ids[2 * i], ids[2 * i + 1]};
+}
 
 TEST_F(EditStage, that_does_nothing_keeps_the_content_hash) {
   const std::string box = write("drilled_cylinder", "box.hdf");
@@ -82,7 +84,8 @@ TEST_F(EditStage, puts_inputs_together_and_says_where_everything_is_from) {
     EXPECT_EQ(find_faces("ball", t.group_names())[f], is_second);
     EXPECT_EQ(find_faces("input:box", t.group_names())[f], !is_second);
   }
-  for (EdgeId e = 0; e < t.n_edges(); ++e) EXPECT_EQ(previous(g.previous_edges, e).second, e >= a.tables.n_edges() ? 1 : 0);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    EXPECT_EQ(previous(g.previous_edges, e).second, e >= a.tables.n_edges() ? 1 : 0);
   EXPECT_EQ(previous(g.previous_vertices, t.n_vertices() - 1), std::pair(b.tables.n_vertices() - 1, 1));
   ASSERT_EQ(g.header.inputs.size(), 2u);
   EXPECT_EQ(g.header.inputs[1].name, "ball.hdf");
@@ -97,7 +100,8 @@ TEST_F(EditStage, joins_groups_where_told_and_refuses_to_join_roles) {
       r.tables.group_role = {role};
     };
   };
-  const std::string a = write("box", "a.hdf", named("tunnel", "farfield")), b = write("sphere", "b.hdf", named("tunnel", "farfield")),
+  const std::string a = write("box", "a.hdf", named("tunnel", "farfield")),
+                    b = write("sphere", "b.hdf", named("tunnel", "farfield")),
                     c = write("sphere", "c.hdf", named("tunnel", "wall"));
   EditStageOptions o = of_inputs({a, b});
   o.join = "sym*, tun*";
@@ -108,7 +112,35 @@ TEST_F(EditStage, joins_groups_where_told_and_refuses_to_join_roles) {
   EXPECT_EQ(apart.tables.group_role, (std::vector<std::string>{"farfield", "farfield"}));
   o.geometries = {a, c};
   o.join = "*";
-  EXPECT_ERROR(edit(o), kMismatch, "'tunnel' has the role farfield");
+  EXPECT_ERROR(edit(o), kMismatch, "'tunnel' is of faces with the role farfield");
+}
+
+TEST_F(EditStage, keeps_groups_of_edges_and_vertices_apart_and_with_their_entities) {
+  const std::string box = write("box", "box.hdf", [](ImportResult& r) {
+    r.tables.labels.edge_groups = {{"rim", "", "{}", {0, 2}}};
+    r.tables.labels.vertex_groups = {{"tip", "", "{}", {7}}};
+  });
+  EditStageOptions o = of_inputs({box, box});
+  o.transforms = {"translate 0 0 100"};
+  o.of = {"box#2"};
+  const FaceLabels apart = edit(o).tables.labels;
+  ASSERT_EQ(apart.edge_groups.size(), 2u);
+  EXPECT_EQ(apart.edge_groups[1], (EntityGroup{"box#2/rim", "", "{}", {12, 14}}));
+  EXPECT_EQ(apart.vertex_groups[1], (EntityGroup{"box#2/tip", "", "{}", {15}}));
+  o.join = "r*";
+  const FaceLabels joined = edit(o).tables.labels;
+  ASSERT_EQ(joined.edge_groups.size(), 1u);
+  EXPECT_EQ(joined.edge_groups[0].ids, (std::vector<std::int32_t>{0, 2, 12, 14}));
+  o.extract = "rim";
+  EXPECT_ERROR(edit(o), kUsage, "group of edges");
+}
+
+TEST_F(EditStage, scales_tolerances_of_groups_with_the_whole) {
+  const std::string box = write(
+      "box", "box.hdf", [](ImportResult& r) { r.tables.labels.group_attributes = {R"({"tolerance":0.25,"a":3})"}; });
+  EditStageOptions o = of_inputs({box});
+  o.transforms = {"scale 2"};
+  EXPECT_EQ(edit(o).tables.labels.group_attributes[0], R"({"tolerance":0.5,"a":3})");
 }
 
 TEST_F(EditStage, tells_inputs_of_one_name_and_those_of_earlier_edits_apart) {
@@ -128,10 +160,10 @@ TEST_F(EditStage, tells_inputs_of_one_name_and_those_of_earlier_edits_apart) {
 }
 
 TEST_F(EditStage, refuses_inputs_of_different_units) {
-  const std::string a = write("box", "a.hdf"), b = write("box", "b.hdf", [](ImportResult& r) {
-                      r.tables.unit = "m";
-                      r.tables.unit_in_m = 1;
-                    });
+  const std::string a = write("box", "a.hdf"), b = write("box", "b.hdf", [](ImportResult&r) {
+                                                 r.tables.unit = "m";
+                                                 r.tables.unit_in_m = 1;
+                                               });
   EXPECT_ERROR(edit(of_inputs({a, b})), kMismatch, "b.hdf is in m");
 }
 
@@ -157,7 +189,8 @@ TEST_F(EditStage, extracts_by_number_range_group_and_name_of_face) {
   EXPECT_EQ(faces("floor,l?d", ""), (std::vector<int>{5, 6}));
   EXPECT_EQ(faces("", "floor"), (std::vector<int>{1, 2, 3, 4, 6}));
   EXPECT_EQ(faces("1-3", "2"), (std::vector<int>{1, 3}));
-  EXPECT_EQ(read_geometry(path("out.hdf")).tables.group_name, (std::vector<std::string>{"default"}));  // the floor is gone
+  EXPECT_EQ(read_geometry(path("out.hdf")).tables.group_name,
+            (std::vector<std::string>{"default"}));  // the floor is gone
   EXPECT_ERROR(faces("flor", ""), kUsage, "did you mean 'floor'");
   EXPECT_ERROR(faces("7", ""), kUsage, "faces 1 to 6");
   EXPECT_ERROR(faces("0-2", ""), kUsage, "faces 1 to 6");
@@ -191,7 +224,9 @@ TEST_F(EditStage, says_where_the_result_is_open) {
   EXPECT_FALSE(g.is_closed);
   EXPECT_FALSE(g.tables.volume);
   EXPECT_EQ(summary_["free_edges"], 4);
-  EXPECT_EQ(std::count_if(g.findings.begin(), g.findings.end(), [](const ImportFinding& f) { return f.what == "free edge"; }), 4);
+  EXPECT_EQ(
+      std::count_if(g.findings.begin(), g.findings.end(), [](const ImportFinding& f) { return f.what == "free edge"; }),
+      4);
   o.require_valid = true;
   std::filesystem::remove(path("out.hdf"));
   EXPECT_ERROR(edit(o), kGeometry, "open where it was closed: 4 free edges");
@@ -204,12 +239,14 @@ TEST_F(EditStage, says_where_parts_cross_and_only_then) {
   EditStageOptions o = of_inputs({box, box});
   o.of = {"box#2"};
   o.require_valid = true;
-  o.transforms = {"translate " + std::to_string(0.5 * size.x) + " " + std::to_string(0.4 * size.y) + " " + std::to_string(0.3 * size.z)};
+  o.transforms = {"translate " + std::to_string(0.5 * size.x) + " " + std::to_string(0.4 * size.y) + " " +
+                  std::to_string(0.3 * size.z)};
   EXPECT_ERROR(edit(o), kGeometry, "parts cross");
   o.require_valid = false;
   const GeometryArtifact g = edit(o);
   EXPECT_GT(summary_["crossings"].size(), 0u);
-  EXPECT_TRUE(std::any_of(g.findings.begin(), g.findings.end(), [](const ImportFinding& f) { return f.what == "face passes through another part"; }));
+  EXPECT_TRUE(std::any_of(g.findings.begin(), g.findings.end(),
+                          [](const ImportFinding& f) { return f.what == "face passes through another part"; }));
   o.require_valid = true;
   o.transforms = {"translate 0 0 " + std::to_string(3 * size.z)};
   EXPECT_NO_THROW(edit(o));
@@ -250,8 +287,10 @@ TEST_F(EditStage, there_and_back_is_where_it_was) {
 
 TEST_F(EditStage, takes_findings_along_with_their_entities) {
   const std::string boxes = write("two_boxes", "boxes.hdf", [](ImportResult& r) {
-    r.findings = {{"short edge", "edge 13 \"a \\\"b\"", {1, 0, 0}, 0.5, false}, {"sliver face", "face 1", {0, 1, 0}, 0.25, false},
-                  {"made up", "edge 14 in face 7", {0, 0, 1}, 1, true}, {"sewn", "", {0, 0, 0}, 0, true}};
+    r.findings = {{"short edge", "edge 13 \"a \\\"b\"", {1, 0, 0}, 0.5, false},
+                  {"sliver face", "face 1", {0, 1, 0}, 0.25, false},
+                  {"made up", "edge 14 in face 7", {0, 0, 1}, 1, true},
+                  {"sewn", "", {0, 0, 0}, 0, true}};
   });
   EditStageOptions o = of_inputs({boxes});
   o.remove = "1-6";

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -38,17 +39,17 @@ class RasterStage : public testing::Test {
     a.brep = std::move(import.brep);
     write_geometry(options_.geometry, a);
   }
-  /// A block the hole of which has an edge of the block in its loop: its side in (u,v) is nowhere.
+  /// A block with a hole, in whose loop an edge of the block stands: it has no trimming curve there.
   void write_block_with_a_broken_face() {
     ImportResult import = test::import_shape("drilled_block");
     ModelTables& t = import.tables;
     for (FaceId f = 0; f < t.n_faces(); ++f) {
       if (t.face_type[f] != SurfaceType::kCylinder) continue;
-      const CoedgeId c = t.loop_coedge_offsets[t.face_loop_offsets[f]];
-      for (EdgeId e = 0; e < t.n_edges(); ++e)
-        if (std::count(t.coedge_edge.begin(), t.coedge_edge.end(), e) == 2 &&
-            distance(t.vertex_xyz[t.edge_vertices[2 * e]], t.vertex_xyz[t.edge_vertices[2 * e + 1]]) > 1)
-          t.coedge_edge[c] = e;
+      const CoedgeId first = t.loop_coedge_offsets[t.face_loop_offsets[f]], last = t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
+      const auto begin = t.coedge_edge.begin() + first, end = t.coedge_edge.begin() + last;
+      EdgeId elsewhere = 0;
+      while (std::find(begin, end, elsewhere) != end) ++elsewhere;
+      *begin = elsewhere;
     }
     write(std::move(import));
   }
@@ -140,11 +141,12 @@ TEST_F(RasterStage, tells_of_samples_that_the_octree_is_not_deep_enough_for) {
   };
   for (EdgeId e = 0; e < tables.n_edges(); ++e)
     if (length(e) < length(shortest)) shortest = e;
+  options_.cell_per_length = 1;
   options_.sizes = dir_ / "sizes.toml";
-  std::ofstream(options_.sizes) << "[[size]]\nedges = " << shortest + 1 << "\nlmin = 2e-6\nlmax = 2e-6\n";
+  std::ofstream(options_.sizes) << "[[size]]\nedges = " << shortest + 1 << "\nlmin = 9e-6\nlmax = 9e-6\n";
   const nlohmann::json depth = run()["beyond_depth"];
-  EXPECT_GT(depth["samples"], 5000);
-  EXPECT_NEAR(depth["smallest_length"], 2e-6, 1e-9);
+  EXPECT_GT(depth["samples"], 1000);
+  EXPECT_NEAR(depth["smallest_length"], 9e-6, 1e-9);
   EXPECT_NEAR(depth["smallest_cell"], 10.2 / (1 << 20), 1e-8);
   EXPECT_EQ(depth["deepest_level"], 20);
 }
