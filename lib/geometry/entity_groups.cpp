@@ -37,7 +37,7 @@ std::vector<std::uint8_t> faces_of(const GroupRule& rule, const char* key, const
   return faces_of(rule, key, items, t, [](const std::string&) { return false; });
 }
 
-/// Edges of these faces, poles left out; of their outline only those with a face outside, or none beyond.
+/// Edges of these faces, poles left out.
 Mask edges_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
   Mask wanted(t.n_edges(), 0);
   for (FaceId f = 0; f < t.n_faces(); ++f)
@@ -46,7 +46,9 @@ Mask edges_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
   return wanted;
 }
 
-Mask outline_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
+/// Of the edges of the faces of `rim` those with a face outside, or none beyond.
+Mask outline(const GroupRule& rule, const ModelTables& t) {
+  const std::vector<std::uint8_t> faces = faces_of(rule, "rim", rule.rim, t);
   std::vector<int> n_uses(t.n_edges(), 0), n_inside(t.n_edges(), 0);
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (const CoedgeId c : t.coedges(f)) {
@@ -55,6 +57,8 @@ Mask outline_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
     }
   Mask wanted = edges_of(faces, t);
   for (EdgeId e = 0; e < t.n_edges(); ++e) wanted[e] = wanted[e] && (n_uses[e] > n_inside[e] || n_uses[e] == 1);
+  if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end() && !rule.is_optional)
+    fail_group(rule, "rim: these faces have no outline, they are closed; name fewer of them, or take 'on'");
   return wanted;
 }
 
@@ -62,7 +66,11 @@ Mask mask_between(const GroupRule& rule, const ModelTables& t) {
   Mask wanted(t.n_edges(), 0);
   const std::vector<std::uint8_t> a = faces_of(rule, "between", {rule.between[0]}, t),
                                   b = faces_of(rule, "between", {rule.between[1]}, t);
-  for (const EdgeId e : edges_between(a, b, t)) wanted[e] = 1;
+  const std::vector<EdgeId> edges = edges_between(a, b, t);
+  if (edges.empty() && !rule.is_optional)
+    fail_group(rule, "between: '" + rule.between[0] + "' and '" + rule.between[1] +
+                         "' have no edge in common; faces that only touch, as those of two parts, have none");
+  for (const EdgeId e : edges) wanted[e] = 1;
   return wanted;
 }
 
@@ -70,7 +78,7 @@ Mask select_edges(const GroupRule& rule, const ModelTables& t, std::span<const B
   GroupSelection s(rule, t, t.n_edges());
   s.select_items("edges", rule.edges, t.edge_name);
   if (!rule.between.empty()) s.keep(mask_between(rule, t));
-  if (!rule.rim.empty()) s.keep(outline_of(faces_of(rule, "rim", rule.rim, t), t));
+  if (!rule.rim.empty()) s.keep(outline(rule, t));
   if (!rule.on.empty()) s.keep(edges_of(faces_of(rule, "on", rule.on, t), t));
   s.select_boxes(edge_box, t.edge_tolerance);
   if (s.has_selection()) return s.take("no edge meets its selection");

@@ -67,7 +67,8 @@ void GroupSelection::select_items(const char* key, const std::vector<std::string
       continue;
     }
     if (range->first < 1 || range->second > n || range->first > range->second)
-      fail_group(rule_, plural + ": " + item + " does not exist, there are " + plural + " 1 to " + std::to_string(n));
+      fail_group(rule_, plural + ": " + item + " does not exist, there are " + plural + " 1 to " + std::to_string(n) +
+                            "; options such as --symmetry change numbers: take those of an import with the same ones");
     std::fill(wanted.begin() + (range->first - 1), wanted.begin() + range->second, 1);
   }
   keep(wanted);

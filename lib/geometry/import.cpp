@@ -123,10 +123,11 @@ std::vector<GroupRule> rules_before_sewing(const ImportOptions& options) {
   return rules;
 }
 
-/// Tolerances of the faces' groups, unit of the shape; empty when no group has one.
+/// Tolerances of the faces' groups, unit of the shape; empty when no group has one, or nothing is to be sewn.
 std::vector<double> group_tolerances(const ImportedShape& model, const ModelUnit& unit, const ImportOptions& options) {
   const auto has_tolerance = [](const GroupRule& rule) { return rule.tolerance.has_value(); };
   if (std::none_of(options.groups.begin(), options.groups.end(), has_tolerance)) return {};
+  if (occt::count_free_edges(model.shape) == 0) return {};
   ModelTables t = occt::make_face_tables(model, 1.0 / unit.shape_units);
   t.unit_in_m = unit.in_m;
   apply_groups(rules_before_sewing(options), t);
@@ -154,6 +155,19 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
   const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
   limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), diagonal, unit.in_m, "--sew");
   return limits;
+}
+
+/// Sewing and voids may put the faces in another order: a group that names them by number must not end with others than
+/// those that were sewn for it. With a flow domain such groups are not sewn.
+void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
+  if (!options.symmetry.empty() || !options.farfield.empty()) return;
+  const std::vector<double> tolerances = face_tolerances(tables.group_names());
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
+      throw Error(ExitCode::kUsage,
+                  tables.face_label(f) +
+                      " was sewn by the tolerance of a group that no longer holds it: repairs gave the faces other "
+                      "numbers; for groups with a tolerance select by place, part, layer or name");
 }
 
 std::string without_members(const EmptyGroup& group) {
@@ -186,6 +200,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.tables.unit_in_m = unit.in_m;
   for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
     result.findings.push_back({without_members(group), "group \"" + group.name + "\"", {}, 0, false});
+  require_sewn_faces(model, result.tables, options);
   const double small = resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);

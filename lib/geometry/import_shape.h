@@ -28,6 +28,7 @@ struct FaceAttributes {
   std::string name, layer, part;  ///< UTF-8, empty when the file has none
   std::int32_t color = kNone;     ///< 0xRRGGBB
   std::int32_t part_index = kNone;  ///< of ImportedShape::parts; kNone: a face that the import made
+  bool is_sewn_by_group = false;    ///< its group's tolerance was used
 };
 
 /// One shape, its faces in the order of their ids, and what the file said of faces and edges.

@@ -1,8 +1,6 @@
 #include "geometry/model_tables.h"
 
-#include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -39,7 +37,7 @@ class TableWriter {
     ModelTables& t = tables_;
     for (int i = 0; i < model_.faces.Extent(); ++i) {
       const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1));
-      const Box3 box = exact_box(f);
+      const Box3 box = early_box(TopoDS::Face(f.Oriented(TopAbs_FORWARD)));
       t.face_box.push_back({scale * box.lo, scale * box.hi});
       t.face_tolerance.push_back(scale * BRep_Tool::Tolerance(f));
       t.face_is_reversed.push_back(0);
@@ -124,15 +122,23 @@ class TableWriter {
     tables_.face_color.push_back(model_.attributes[i].color);
   }
 
-  /// Of surface and trimming, where OpenCASCADE can say; else the rough one.
-  static Box3 exact_box(const TopoDS_Face& face) {
+  /// As measure() has it, of one face alone; of a face whose loops need repair the rough one.
+  static Box3 early_box(const TopoDS_Face& face) {
+    const Box3 rough = rough_box(face);
     try {
-      Bnd_Box box;
-      BRepBndLib::AddOptimal(face, box, false, false);
-      if (!box.IsVoid()) return {vec(box.CornerMin()), vec(box.CornerMax())};
-    } catch (const Standard_Failure&) {  // a face whose loops need repair
+      Box3 sampled = sampled_box(make_domain(face));
+      for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) sampled.add(edge_box(TopoDS::Edge(e.Current())));
+      return common_box(rough, sampled);
+    } catch (const Standard_Failure&) {
+      return rough;
     }
-    return rough_box(face);
+  }
+
+  /// Empty without a space curve.
+  static Box3 edge_box(const TopoDS_Edge& edge) {
+    double t0 = 0, t1 = 0;
+    const Handle(Geom_Curve) c = BRep_Tool::Curve(edge, t0, t1);
+    return BRep_Tool::Degenerated(edge) || c.IsNull() ? Box3() : sampled_box(*make_curve(c, t0, t1));
   }
 
   void fill_loops(const FaceDomain& domain) {

@@ -274,6 +274,8 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
   const Sewn start = sew_groups(model, original, limits.of_face);
   const bool is_group_sewn = start.n_free < original.n_free;
+  for (std::size_t f = 0; is_group_sewn && f < limits.of_face.size(); ++f)
+    model.attributes[f].is_sewn_by_group = limits.of_face[f] > 0;
   if (is_group_sewn)
     findings.push_back(sewn_finding("sewn by the tolerance of their group", original, start, start.group_tolerance));
   const std::optional<Sewn> best = sew_all(model, start, tolerances_to_try(diagonal, base, limits.largest));

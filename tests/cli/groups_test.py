@@ -324,7 +324,11 @@ class EntityGroups(ToolTest):
         return make_chain(MODELS / "box.step", self.folder / f"np{n_ranks}", n_ranks, import_options=["--groups", self.folder / "groups.toml"], **options)
 
     def test_every_artifact_holds_them_whatever_the_number_of_ranks(self):
-        one, three = self.chain(**COARSE), self.chain(3, **COARSE)
+        sizes = self.folder / "sizes.toml"
+        sizes.write_text('[[size]]\ngroups = ["outline", "bc:uprights"]\nlmax = 2\n[[size]]\ngroups = "corner"\nlmax = 1\n')
+        options = {"raster_options": [*COARSE["raster_options"], "--sizes", sizes]}
+        one, three = self.chain(**options), self.chain(3, **options)
+        self.assertEqual(content_hash(one / "raster.hdf"), content_hash(three / "raster.hdf"))
         for artifact in ("geometry.hdf", "patches.hdf", "mesh.hdf"):
             self.assertEqual(content_hash(one / artifact), content_hash(three / artifact))
             json = must("st-info", one / artifact, "--groups", "--json").json()
@@ -407,11 +411,13 @@ class EntityGroups(ToolTest):
 
 
 def far_field(tolerance):
-    return f'[[group]]\nname = "far field"\nfaces = "7-12"\ntolerance = {tolerance}\n' if tolerance else '[[group]]\nname = "far field"\nfaces = "7-12"\n'
+    """The cube of 100: its faces meet at one of two corners. Numbers of faces change when the inner cube becomes a void."""
+    corners = ("[-51, -51, -51, -49, -49, -49]", "[49, 49, 49, 51, 51, 51]")
+    return "".join(f'[[group]]\nname = "far field"\ntouching = {box}\n' + (f"tolerance = {tolerance}\n" if tolerance else "") for box in corners)
 
 
 class Tolerances(ToolTest):
-    """A cube in a far field of loose faces, both with a gap of 0.5: the far field has a tolerance of its own."""
+    """A cube in a far field of loose faces, with gaps of 0.05 and 0.5: the far field has a tolerance of its own."""
 
     def imported(self, tolerance, *options):
         (self.folder / "groups.toml").write_text(far_field(tolerance))
@@ -440,6 +446,11 @@ class Tolerances(ToolTest):
         self.assertEqual(run.json()["failed"], ["group-tolerance"])
         self.imported(0, "--sew", "1")
         self.assertEqual(self.meshed().code, OK)
+
+    def test_refuses_a_group_by_numbers_that_repairs_changed(self):
+        (self.folder / "groups.toml").write_text('[[group]]\nname = "far field"\nfaces = "7-12"\ntolerance = 1\n')
+        self.expect_error(USAGE, "st-import", MODELS / "gappy_boxes.brep", "-o", self.folder / "g.hdf", "--groups", self.folder / "groups.toml", "--sew", "1",
+                          says=["was sewn by the tolerance of a group", "other numbers"])
 
     def test_takes_the_place_of_the_largest_deviation(self):
         for tolerance, bound, code in ((None, "0.001", INCOMPLETE), (5, "0.001", OK), (None, "5", OK), (0.001, "5", INCOMPLETE)):

@@ -222,7 +222,7 @@ TopoDS_Shape crossed_loop() {
   return shell;
 }
 
-/// A cube of 10 in one of 100 around it, each of six faces that share no edge, the last one 0.5 away from the others.
+/// A cube of 10 in one of 100 around it, each of six faces that share no edge, the last one 0.5 % of the size away.
 TopoDS_Shape gappy_boxes() {
   TopoDS_Compound all;
   BRep_Builder builder;
@@ -234,7 +234,7 @@ TopoDS_Shape gappy_boxes() {
     TopExp::MapShapes(BRepBuilderAPI_Transform(box(size, size, size), middle, true).Shape(), TopAbs_FACE, faces);
     for (int i = 1; i <= 6; ++i) {
       gp_Trsf gap;
-      gap.SetTranslation(gp_Vec(0, 0, i == 6 ? 0.5 : 0));
+      gap.SetTranslation(gp_Vec(0, 0, i == 6 ? 0.005 * size : 0));
       builder.Add(all, BRepBuilderAPI_Transform(BRepBuilderAPI_Copy(faces(i)).Shape(), gap, true).Shape());
     }
   }

@@ -290,6 +290,24 @@ TEST(EdgeGroups, select_by_number_name_faces_and_place) {
   EXPECT_EQ(members(r), Ids{4}) << "without selection: the edges of its name";
 }
 
+TEST(EdgeGroups, say_why_two_groups_have_no_edge_between_them_and_closed_ones_no_rim) {
+  GroupRule r = entity_rule("x", EntityDim::kEdge);
+  r.between = {"left", "left"};
+  EXPECT_NE(refusal({r}).find("between: 'left' and 'left' have no edge in common"), std::string::npos) << refusal({r});
+  r.between.clear();
+  r.rim = {"*"};
+  ModelTables t = two_squares();
+  t.coedge_edge = {0, 3, 2, 1, 0, 2, 7, 1, 3};  // the right square on the edges of the left one
+  try {
+    apply_groups({r}, t, edge_boxes(t));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("rim: these faces have no outline"), std::string::npos) << e.what();
+  }
+  r.is_optional = true;
+  EXPECT_EQ(apply_groups({r}, t, edge_boxes(t)), (std::vector<EmptyGroup>{{"x", EntityDim::kEdge}}));
+}
+
 TEST(VertexGroups, select_by_number_faces_groups_of_edges_and_place) {
   using Ids = std::vector<int>;
   const GroupRule empty = entity_rule("x", EntityDim::kVertex);
