@@ -19,14 +19,21 @@ inline Vec3 to_vec3(const Eigen::Vector3d& a) { return {a.x(), a.y(), a.z()}; }
 /// The symmetric matrix {{a, b}, {b, c}}.
 inline Eigen::Matrix2d symmetric(double a, double b, double c) { return (Eigen::Matrix2d() << a, b, b, c).finished(); }
 
+/// The adjugate: m * adjugate(m) is the determinant times the identity.
+inline Eigen::Matrix2d adjugate(const Eigen::Matrix2d& m) {
+  return (Eigen::Matrix2d() << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0)).finished();
+}
+
 /// x of m x = b, for 2 x 2 and 3 x 3 (more would need pivots). nullopt unless the determinant is above
 /// `least_determinant` (>= 0): m is too near to singular, of negative determinant, or not a number.
 template <int N>
 std::optional<Eigen::Matrix<double, N, 1>> solve(const Eigen::Matrix<double, N, N>& m,
                                                  const Eigen::Matrix<double, N, 1>& b, double least_determinant) {
   static_assert(N == 2 || N == 3);
-  if (!(m.determinant() > least_determinant)) return std::nullopt;
-  return m.inverse() * b;
+  const double determinant = m.determinant();
+  if (!(determinant > least_determinant)) return std::nullopt;
+  if constexpr (N == 2) return adjugate(m) * b / determinant;  // one rounding less than with the inverse
+  else return m.inverse() * b;
 }
 
 }  // namespace st

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/predicates.h"
+#include "geometry/surface_forms.h"
 #include "meshing/front.h"
 
 namespace st {
@@ -211,11 +211,13 @@ class Enhancer {
       weights += weight;
     }
     const Vec3 target = (middle + kHalfSqrt3 * cross(old.normal, edge)) / weights;
-    const std::optional<Vec2> move = tangent_step(old.du, old.dv, target - old.x);
-    if (!move) return;
+    const Metric metric = metric_of(old.du, old.dv);
+    const Eigen::Matrix2d form = symmetric(metric.e, metric.f, metric.g);
     for (double part : {1.0, 0.4}) {
+      const auto step = solve(form, along_tangents(old.du, old.dv, part * (target - old.x)), 0);
+      if (!step) return;
       MeshNode moved = old;
-      moved.p = old.p + part * *move;
+      moved.p = old.p + to_vec2(*step);
       if (!is_valid_at(moved.p)) continue;
       w_.evaluate(moved);
       if (ring_about(moved, before).improves(before)) {

@@ -174,8 +174,10 @@ class Front {
       Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
       m << dot(ra, p.du), dot(ra, p.dv), dot(rb, p.du), dot(rb, p.dv);
       const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
-      if (!(std::abs(m.determinant()) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
-      Vec2 move = to_vec2(m.inverse() * (0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb)));
+      const double det_m = m.determinant();
+      if (!(std::abs(det_m) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      const Eigen::Vector2d missing = 0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb);
+      Vec2 move = to_vec2(adjugate(m) * missing / det_m);
       const double length = norm(move.x * p.du + move.y * p.dv);
       if (length > 0.5 * r) move = (0.5 * r / length) * move;
       p.p = p.p + move;
