@@ -18,13 +18,16 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
@@ -206,6 +209,20 @@ TopoDS_Shape lost_fillet() {
   return solid;
 }
 
+TopoDS_Shape edges_elsewhere() {
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(new Geom_CylindricalSurface(gp_Ax3(), 2), 0, 2 * M_PI, 0, 5, 1e-7).Face();
+  BRep_Builder builder;
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    double t0, t1;
+    const Handle(Geom_Curve) old = BRep_Tool::Curve(edge, t0, t1);
+    builder.UpdateEdge(edge, Handle(Geom_Curve)::DownCast(old->Translated(gp_Vec(20, 0, 0))), 1e-7);
+  }
+  return face;
+}
+
 TopoDS_Shape bare_sphere() {
   TopoDS_Face face;
   BRep_Builder().MakeFace(face, new Geom_SphericalSurface(gp_Ax3(), 10), 1e-7);
@@ -236,6 +253,11 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        [] {
          return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 10, 10).Shape()});
        }},
+      {"touching_boxes_and_sheet",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 10, 10, 10).Shape(),
+                          polygon_face({{50, 0, 0}, {60, 0, 0}, {60, 10, 0}})});
+       }},
       {"inside_out", [] { return compound({box(60, 40, 20).Reversed()}); }},
       {"loose_shell", [] { return compound({shell_of(box(60, 40, 20)).Reversed()}); }},
       {"lone_sphere", [] { return compound({TopExp_Explorer(BRepPrimAPI_MakeSphere(10).Shape(), TopAbs_FACE).Current()}); }},
@@ -264,6 +286,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        }},
       {"off_meridian", off_meridian},
       {"lost_fillet", lost_fillet},
+      {"edges_elsewhere", edges_elsewhere},
       {"bare_sphere", bare_sphere},
       {"ring", ring},
       {"speeds",

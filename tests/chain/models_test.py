@@ -107,11 +107,6 @@ class Options(ToolTest):
         many = make_chain(MODELS / "cylinder.brep", self.folder / "many", raster_options=coarse, mesh_options=["--max-turning", "5"])
         self.assertGreater(self.n_triangles(many), self.n_triangles(few))
 
-    def test_area_tolerance_decides(self):
-        folder = make_chain(MODELS / "sphere.brep", self.folder / "s", raster_options=["--lmin", "20%", "--lmax", "30%", "--alpha", "90"])
-        loose = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--area-tolerance", "1")
-        self.assertEqual(loose.code, OK, loose)
-
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -247,6 +247,19 @@ class Checked(ToolTest):
                 self.assertEqual(theirs[key], ours[key], suffix)
             self.assertAlmostEqual(theirs["deviation"]["max"], ours["deviation"]["max"], 5)
 
+    def test_area_tolerance_decides(self):
+        good = artifacts_of("box")
+        must("st-export", good / "mesh.hdf", "-o", self.folder / "m.vtu")
+        mesh = Mesh(self.folder / "m.vtu")
+        top = np.flatnonzero(mesh.x[:, 2] > mesh.x[:, 2].max() - 1e-6)
+        middle = mesh.x[top].mean(axis=0)
+        node = top[np.argmin(np.linalg.norm(mesh.x[top] - middle, axis=1))]
+        mesh.x[node, 2] += 0.01  # the face grows by about a millionth
+        mesh.write_stl(self.folder / "m.stl")
+        for tolerance, fails in ((0.01, False), (1e-9, True)):
+            run = Run("st-check", self.folder / "m.stl", "--geometry", good / "geometry.hdf", "--json", "--area-tolerance", tolerance)
+            self.assertEqual("areas" in run.json()["failed"], fails, run)
+
     def test_without_a_geometry(self):
         good = artifacts_of("cylinder")
         must("st-export", good / "mesh.hdf", "-o", self.folder / "m.vtu")

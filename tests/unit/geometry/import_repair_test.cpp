@@ -4,87 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "broken/broken_shapes.h"
-#include "geometry/model.h"
 #include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "unit/geometry/broken_import.h"
 
 namespace st {
 namespace {
 
-ImportResult import_broken(const std::string& shape, const ImportOptions& options = {}) {
-  const TemporaryDirectory dir;
-  test::write_broken(shape, dir / "model.brep");
-  return import_model(dir / "model.brep", options);
-}
-
-std::vector<ImportFinding> findings_of(const ImportResult& r, const std::string& start) {
-  std::vector<ImportFinding> found;
-  std::copy_if(r.findings.begin(), r.findings.end(), std::back_inserter(found),
-               [&](const ImportFinding& f) { return f.what.find(start) == 0; });
-  return found;
-}
-
-/// The largest distance between a coedge's space curve and its trimming curve on the surface.
-double largest_gap(const Model& model, FaceId f) {
-  const ModelTables& t = model.tables();
-  const auto surface = model.surface(f);
-  double gap = 0;
-  for (const CoedgeId c : t.coedges(f)) {
-    const EdgeId e = t.coedge_edge[c];
-    if (t.edge_is_degenerate[e]) continue;
-    const auto curve = model.curve(e);
-    const auto pcurve = model.pcurve(f, c);
-    for (int k = 0; k <= 100; ++k) {
-      const double at = t.edge_range[2 * e] + 0.01 * k * (t.edge_range[2 * e + 1] - t.edge_range[2 * e]);
-      gap = std::max(gap, distance(curve->point(at), surface->point(pcurve->point(at))));
-    }
-  }
-  return gap;
-}
-
-TEST(ImportRepair, removes_a_face_that_is_there_twice) {
-  const ImportResult r = import_broken("doubled_face");
-  EXPECT_EQ(r.tables.n_faces(), 6);
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.n_nonmanifold_edges, 0);
-  EXPECT_NEAR(r.volume, 48000, 1e-6);
-  const auto found = findings_of(r, "duplicated face");
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(found[0].is_repair);
-  EXPECT_EQ(found[0].entity, "face 7 of the file");
-}
-
-TEST(ImportRepair, removes_sheets_that_lie_on_a_solid) {
-  const ImportResult r = import_broken("sheet_on_solid");
-  EXPECT_EQ(findings_of(r, "duplicated face").size(), 2u);
-  EXPECT_EQ(r.tables.n_faces(), 6);
-  EXPECT_EQ(r.tables.n_solids, 1);
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_NEAR(r.volume, 48000, 1e-6);
-}
-
-TEST(ImportRepair, joins_edges_as_far_apart_as_asked_and_no_further) {
-  EXPECT_EQ(import_broken("gappy_box").n_free_edges, 24);
-  ImportOptions options;
-  options.sew = "0.01";
-  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 24);
-  options.sew = "0.15";
-  const ImportResult r = import_broken("gappy_box", options);
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.tables.n_faces(), 6);
-  EXPECT_NEAR(r.volume, 48000, 0.005 * 48000);
-  EXPECT_EQ(findings_of(r, "sewn").size(), 1u);
-  options.unit = "in";
-  options.sew = "0.5%";
-  EXPECT_TRUE(import_broken("gappy_box", options).is_closed);
-}
-
-TEST(ImportRepair, keeps_faces_of_solids_that_touch) {
-  const ImportResult r = import_broken("touching_boxes");
-  EXPECT_EQ(r.tables.n_faces(), 12);
-  EXPECT_EQ(r.n_repairs, 0);
-}
+using test::findings_of;
+using test::import_broken;
+using test::largest_gap;
 
 TEST(ImportRepair, turns_a_solid_that_is_inside_out) {
   const ImportResult r = import_broken("inside_out");
@@ -129,30 +57,6 @@ TEST(ImportRepair, projects_a_trimming_curve_that_leaves_its_edge) {
   for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-5);
 }
 
-/// Volume of the pin of broken_shapes.cpp: its rounded end by Simpson's rule along the cubic, its shaft.
-double pin_volume() {
-  constexpr int n = 2000;
-  double end = 0;
-  for (int k = 0; k < n; ++k) {
-    const auto radius = [](double t) { return 0.8 + 1.98 * t - 0.36 * t * t - 0.42 * t * t * t; };
-    const auto height = [](double t) { return 1.62 * t * t - 0.42 * t * t * t; };
-    const double a = double(k) / n, b = double(k + 1) / n, r = radius(0.5 * (a + b));
-    end += kPi * r * r * (height(b) - height(a));
-  }
-  return end + kPi * 4 * 8.8;
-}
-
-TEST(ImportRepair, makes_loops_anew_that_are_elsewhere_on_the_surface) {
-  const ImportResult r = import_broken("lost_fillet");
-  const auto found = findings_of(r, "loops made anew from their edges");
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_NEAR(r.volume, pin_volume(), 1e-4);
-  const Model model(r.tables, r.brep);
-  for (FaceId f = 0; f < r.tables.n_faces(); ++f) EXPECT_LE(largest_gap(model, f), 1e-6) << f;
-  for (double tolerance : r.tables.vertex_tolerance) EXPECT_LE(tolerance, 1e-5);
-}
-
 TEST(ImportRepair, makes_slits_of_edges_inside_a_face_on_which_others_end) {
   const ImportResult r = test::import_shape("baffled_box");
   ASSERT_EQ(findings_of(r, "edges inside, on which other faces end").size(), 1u);
@@ -166,15 +70,6 @@ TEST(ImportRepair, makes_slits_of_edges_inside_a_face_on_which_others_end) {
   for (EdgeId e = 0; e < t.n_edges(); ++e) n_rims += offsets[e + 1] - offsets[e] == 3;
   EXPECT_EQ(n_rims, 1);
   EXPECT_EQ(r.n_free_edges, 3);
-}
-
-TEST(ImportRepair, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at_different_speeds) {
-  const ImportResult r = import_broken("speeds");
-  EXPECT_EQ(r.n_free_edges, 6);
-  EXPECT_EQ(findings_of(r, "sewn").size(), 1u);
-  for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-3);
-  const Model model(r.tables, r.brep);
-  for (FaceId f = 0; f < 2; ++f) EXPECT_LE(largest_gap(model, f), 1e-3) << f;
 }
 
 TEST(ImportRepair, keeps_the_period_and_the_pole_of_a_trimming_curve_projected_anew) {

@@ -13,14 +13,7 @@ namespace st {
 namespace {
 
 using shapes::CubePatches;
-
-bool same(const SurfaceMesh& a, const SurfaceMesh& b) {
-  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity && a.node_t == b.node_t &&
-         a.node_size == b.node_size &&
-         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
-                    [](const Triangle& x, const Triangle& y) { return std::equal(x.n, x.n + 3, y.n); }) &&
-         a.triangle_face == b.triangle_face && a.triangle_group == b.triangle_group && a.corner_uv == b.corner_uv;
-}
+using shapes::same;
 
 bool is_closed_and_alike(const SurfaceMesh& m) {
   bool ok = true;
@@ -119,120 +112,6 @@ TEST(Merge, refuses_patches_that_name_what_does_not_exist) {
   CubePatches twice;
   twice.patches.push_back(twice.patches[0]);
   EXPECT_THROW(twice.merge(), Error);
-}
-
-TEST(Orientation, of_a_consistent_cube_is_left_alone) {
-  OrientationReport report;
-  CubePatches().merge(report);
-  EXPECT_TRUE(report.turned_faces.empty());
-  EXPECT_EQ(report.turned_components, 0);
-}
-
-TEST(Orientation, turns_the_faces_that_disagree_with_their_neighbours) {
-  CubePatches c;
-  const SurfaceMesh expected = c.merge();
-  c.turn(1);
-  c.turn(4);
-  OrientationReport report;
-  const SurfaceMesh m = c.merge(report);
-  EXPECT_EQ(report.turned_faces, (std::vector<FaceId>{1, 4}));
-  EXPECT_TRUE(same(m, expected));
-}
-
-TEST(Orientation, of_a_face_follows_all_its_edges_whatever_one_triangle_says) {
-  const SurfaceMesh good = shapes::cube(4);
-  for (std::size_t t = 0; t < good.triangles.size(); ++t) {
-    SurfaceMesh m = good;
-    std::swap(m.triangles[t].n[1], m.triangles[t].n[2]);
-    const OrientationReport report = orient_outward(m);
-    EXPECT_TRUE(report.turned_faces.empty()) << t;
-    EXPECT_EQ(report.n_one_sided, 0) << t;
-  }
-}
-
-TEST(Orientation, turns_a_void_with_its_own_body_not_with_the_outermost) {
-  SurfaceMesh m = shapes::cube(1);
-  for (const auto& [lo, is_turned] : {std::pair(0.1, true), std::pair(0.2, true), std::pair(0.3, false)}) {
-    SurfaceMesh next = shapes::cube(1, {lo, lo, lo}, 1 - 2 * lo);
-    if (is_turned) shapes::turn(next);
-    m = shapes::join(m, next);
-  }
-  // as it should be: body, void, body, void; the second body and its void are inside out
-  EXPECT_EQ(orient_outward(m).turned_components, 2);
-  EXPECT_NEAR(shapes::volume(m), 1 - 0.512 + 0.216 - 0.064, 1e-12);
-}
-
-TEST(Orientation, turns_a_body_that_is_inside_out) {
-  CubePatches c;
-  for (FaceId f = 0; f < 6; ++f) c.turn(f);
-  OrientationReport report;
-  const SurfaceMesh m = c.merge(report);
-  EXPECT_TRUE(report.turned_faces.empty());
-  EXPECT_EQ(report.turned_components, 1);
-  EXPECT_EQ(report.inside_out_faces.size(), 6u);
-  EXPECT_DOUBLE_EQ(shapes::volume(m), 1);
-}
-
-TEST(Orientation, leaves_a_void_pointing_inwards) {
-  SurfaceMesh hole = shapes::cube(2, {0.25, 0.25, 0.25}, 0.5);
-  shapes::turn(hole);
-  SurfaceMesh m = shapes::join(shapes::cube(3), hole);
-  EXPECT_EQ(orient_outward(m).turned_components, 0);
-  EXPECT_NEAR(shapes::volume(m), 1 - 0.125, 1e-12);
-}
-
-TEST(Orientation, turns_a_body_inside_a_void_and_a_void_of_a_turned_body) {
-  SurfaceMesh hole = shapes::cube(2, {0.25, 0.25, 0.25}, 0.5), core = shapes::cube(1, {0.4, 0.4, 0.4}, 0.2);
-  shapes::turn(hole);
-  SurfaceMesh m = shapes::join(shapes::join(shapes::cube(3), hole), core);
-  const double expected = shapes::volume(m);
-  shapes::turn(m);
-  EXPECT_EQ(orient_outward(m).turned_components, 3);
-  EXPECT_NEAR(shapes::volume(m), expected, 1e-12);
-}
-
-TEST(Orientation, turns_a_body_beside_another_even_when_they_touch) {
-  SurfaceMesh beside = shapes::cube(2, {1, 0.25, 0.25}, 0.5);
-  shapes::turn(beside);
-  SurfaceMesh m = shapes::join(shapes::cube(4), beside);
-  EXPECT_EQ(orient_outward(m).turned_components, 1);
-  EXPECT_NEAR(shapes::volume(m), 1.125, 1e-12);
-}
-
-TEST(Orientation, of_an_open_surface_follows_the_larger_area) {
-  SurfaceMesh m = shapes::cube(2);
-  const auto keep = [&](FaceId removed) {
-    SurfaceMesh open = m;
-    open.triangles.clear();
-    std::vector<FaceId> faces;
-    for (std::int64_t t = 0; t < m.n_triangles(); ++t)
-      if (m.triangle_face[t] != removed) open.triangles.push_back(m.triangles[t]), faces.push_back(m.triangle_face[t]);
-    return shapes::from(open.node_xyz, open.triangles, faces);
-  };
-  SurfaceMesh open = keep(5);
-  shapes::turn(open, 0);
-  EXPECT_EQ(orient_outward(open).turned_faces, std::vector<FaceId>{0});
-}
-
-TEST(Orientation, of_a_one_sided_strip_is_reported_and_left) {
-  std::vector<Vec3> points;
-  std::vector<Triangle> triangles;
-  std::vector<FaceId> faces;
-  constexpr int n = 12;
-  for (int i = 0; i < n; ++i) {
-    const double u = 2 * kPi * i / n, w = u / 2;
-    for (const double s : {-0.3, 0.3})
-      points.push_back({(1 + s * std::cos(w)) * std::cos(u), (1 + s * std::cos(w)) * std::sin(u), s * std::sin(w)});
-    const bool last = i == n - 1;
-    const NodeId a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
-    triangles.push_back({{a, b, d}});
-    triangles.push_back({{a, d, c}});
-    faces.insert(faces.end(), {i / 4, i / 4});
-  }
-  SurfaceMesh m = shapes::from(points, triangles, faces);
-  const OrientationReport report = orient_outward(m);
-  EXPECT_EQ(report.n_one_sided, 1);
-  EXPECT_TRUE(report.turned_faces.empty());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Small meshes for tests: closed, oriented outwards, one CAD face per side.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -99,6 +100,15 @@ inline SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
 inline void turn(SurfaceMesh& m, FaceId face = kNone) {
   for (std::size_t t = 0; t < m.triangles.size(); ++t)
     if (face == kNone || m.triangle_face[t] == face) std::swap(m.triangles[t].n[1], m.triangles[t].n[2]);
+}
+
+/// Equal to the last bit.
+inline bool same(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity && a.node_t == b.node_t &&
+         a.node_size == b.node_size &&
+         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
+                    [](const Triangle& x, const Triangle& y) { return std::equal(x.n, x.n + 3, y.n); }) &&
+         a.triangle_face == b.triangle_face && a.triangle_group == b.triangle_group && a.corner_uv == b.corner_uv;
 }
 
 inline double volume(const SurfaceMesh& m) {

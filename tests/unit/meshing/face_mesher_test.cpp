@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/analytic.h"
 #include "unit/meshing/faces.h"
 
 namespace st {
 namespace {
 
 using test::FaceCase;
+using test::kPlane;
 using test::MeshView;
+using test::polygons;
 
 struct Case {
   const char* name;
@@ -52,6 +53,8 @@ TEST_P(MeshedFace, is_a_pure_function) {
   const Case c = GetParam();
   const FaceCase face(c.shape, UniformField(c.length), c.face);
   const FaceMesh a = face.mesh(UniformField(c.length));
+  ASSERT_EQ(a.cause, "");
+  ASSERT_FALSE(a.corners.empty());
   face.surface->evaluate({face.surface->u_max(), face.surface->v_max()});
   const FaceMesh b = face.mesh(test::RestlessField(c.length));
   EXPECT_EQ(a.corners, b.corners);
@@ -64,6 +67,8 @@ TEST_P(MeshedFace, keeps_boundary_nodes_and_puts_inner_ones_on_the_surface) {
   const UniformField field(c.length);
   const FaceCase face(c.shape, field, c.face);
   const FaceMesh mesh = face.mesh(field);
+  ASSERT_EQ(mesh.cause, "");
+  ASSERT_FALSE(mesh.inner.empty());
   for (const auto& n : mesh.inner) {
     EXPECT_LE(distance(face.surface->point(n.uv), n.x), 1e-9);
     EXPECT_GT(n.h, 0);
@@ -105,22 +110,26 @@ INSTANTIATE_TEST_SUITE_P(
 /// A field too coarse for the face: no quality to be had, but a valid mesh.
 class MeshThinFace : public testing::TestWithParam<std::pair<const char*, double>> {};
 
-TEST_P(MeshThinFace, is_valid_or_says_where_to_refine) {
+TEST_P(MeshThinFace, is_valid) {
   const auto [shape, length] = GetParam();
   const UniformField field(length);
   const FaceCase face(shape, field);
-  const FaceMesh mesh = face.mesh(field);
-  if (mesh.cause.empty() && mesh.n_folds == 0) {
-    test::expect_valid(face.boundary, mesh);
-  } else {
-    EXPECT_FALSE(mesh.refinement.empty()) << mesh.cause;
-  }
+  test::expect_valid(face.boundary, face.mesh(field));
 }
 
 INSTANTIATE_TEST_SUITE_P(, MeshThinFace,
                          testing::Values(std::pair{"strip", 1.0}, std::pair{"strip", 10.0}, std::pair{"thin_tube", 1.0},
-                                         std::pair{"disc", 50.0}, std::pair{"annulus", 30.0}, std::pair{"sphere", 40.0},
+                                         std::pair{"disc", 50.0}, std::pair{"annulus", 30.0},
                                          std::pair{"torus", 40.0}, std::pair{"cone_side", 30.0}));
+
+TEST(MeshFace, says_where_a_sphere_needs_more_nodes_when_its_seam_has_hardly_any) {
+  const UniformField field(40);
+  const FaceCase face("sphere", field);
+  const FaceMesh mesh = face.mesh(field);
+  EXPECT_EQ(mesh.cause, "too few nodes around a narrow part");
+  ASSERT_FALSE(mesh.refinement.empty());
+  for (const RefinementPoint& p : mesh.refinement) EXPECT_LT(p.length, 40);
+}
 
 TEST(MeshFace, takes_a_strip_thinner_than_the_size) {
   const UniformField field(1);
@@ -138,21 +147,6 @@ TEST(MeshFace, takes_a_tube_of_three_segments_a_turn) {
   test::expect_valid(face.boundary, mesh);
   EXPECT_EQ((MeshView{face.boundary, mesh}.euler()), 0);
 }
-
-/// A hand-made boundary on the plane.
-FaceBoundary polygons(const std::vector<std::vector<Vec2>>& loops, double h) {
-  FaceBoundary b;
-  for (const auto& loop : loops) {
-    const std::int32_t first = static_cast<std::int32_t>(b.nodes.size()), n = static_cast<std::int32_t>(loop.size());
-    for (std::int32_t i = 0; i < n; ++i) {
-      b.nodes.push_back({loop[i], {loop[i].x, loop[i].y, 0}, h, first + i, false});
-      b.segments.push_back({first + i, first + (i + 1) % n});
-    }
-  }
-  return b;
-}
-
-const PlaneSurface kPlane({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 10, 0, 10);
 
 TEST(MeshFace, meshes_polygons_exactly) {
   const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {6, 4}, {0, 10}}, {{4, 2}, {5, 3}, {6, 2}}}, 1.0);
@@ -237,19 +231,28 @@ TEST(MeshFace, leaves_no_edge_far_longer_than_its_size_and_hardly_a_node_with_fo
   EXPECT_LT(n_of_four, n_inner / 2000);
 }
 
-/// Sizes from far too coarse to fine, uniform and falling towards a boundary node.
-class FaceAtEverySize : public testing::TestWithParam<const char*> {};
+/// Sizes from far too coarse to fine, uniform and falling towards a boundary node; up to `valid_below` of the diagonal all are meshed.
+struct EverySize {
+  const char* shape;
+  double valid_below;
+};
 
-TEST_P(FaceAtEverySize, is_valid_or_says_where_to_refine) {
-  const Model model = test::make_model(GetParam());
+void PrintTo(const EverySize& e, std::ostream* out) { *out << e.shape; }
+
+class FaceAtEverySize : public testing::TestWithParam<EverySize> {};
+
+TEST_P(FaceAtEverySize, is_valid_or_far_too_coarse_and_says_where_to_refine) {
+  const auto [shape, valid_below] = GetParam();
+  const Model model = test::make_model(shape);
   const double size = model.tables().reference_diagonal();
   for (double share = 0.6; share > 0.04; share *= 0.75) {
     const UniformField uniform(share * size);
-    const test::LinearField falling(FaceCase(GetParam(), uniform).boundary.nodes[0].x, 0.2 * share * size, 0.3);
+    const test::LinearField falling(FaceCase(shape, uniform).boundary.nodes[0].x, 0.2 * share * size, 0.3);
     for (const SizeField* field : {static_cast<const SizeField*>(&uniform), static_cast<const SizeField*>(&falling)}) {
-      const FaceCase face(GetParam(), *field);
+      SCOPED_TRACE(testing::Message() << share << (field == &uniform ? " uniform" : " falling"));
+      const FaceCase face(shape, *field);
       const FaceMesh mesh = face.mesh(*field);
-      if (mesh.cause.empty() && mesh.n_folds == 0)
+      if (share < valid_below || (mesh.cause.empty() && mesh.n_folds == 0))
         test::expect_valid(face.boundary, mesh);
       else
         EXPECT_FALSE(mesh.refinement.empty()) << mesh.cause;
@@ -258,10 +261,13 @@ TEST_P(FaceAtEverySize, is_valid_or_says_where_to_refine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, FaceAtEverySize,
-                         testing::Values("disc", "annulus", "sphere", "cone_side", "torus", "stretched", "wave", "periodic_tube",
-                                         "rational_torus", "drilled_cylinder", "plate_with_hole", "thin_crescent", "sharp_triangle",
-                                         "tube_window", "kinked", "sphere_octant", "closed_tube"),
-                         [](const auto& info) { return std::string(info.param); });
+                         testing::Values(EverySize{"disc", 1}, EverySize{"annulus", 1}, EverySize{"sphere", 1}, EverySize{"cone_side", 1},
+                                         EverySize{"torus", 1}, EverySize{"stretched", 1}, EverySize{"wave", 1},
+                                         EverySize{"periodic_tube", 1}, EverySize{"rational_torus", 1}, EverySize{"drilled_cylinder", 1},
+                                         EverySize{"plate_with_hole", 1}, EverySize{"thin_crescent", 0.07}, EverySize{"sharp_triangle", 1},
+                                         EverySize{"tube_window", 1}, EverySize{"kinked", 1}, EverySize{"sphere_octant", 1},
+                                         EverySize{"closed_tube", 1}),
+                         [](const auto& info) { return std::string(info.param.shape); });
 
 TEST(MeshFace, stops_a_runaway) {
   /// Asks for next to nothing off the boundary where expected_nodes() does not look: on the diagonal line x = y.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "geometry/analytic.h"
 #include "mesh/quality.h"
 #include "meshing/curve_discretiser.h"
 #include "meshing/face_boundary.h"
@@ -76,6 +77,22 @@ struct FaceCase {
   double area() const { return model.tables().face_area[id]; }
   FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options = {}) const { return mesh_face(*surface, boundary, field, options); }
 };
+
+/// A hand-made boundary on kPlane: loops counter-clockwise, holes clockwise.
+inline FaceBoundary polygons(const std::vector<std::vector<Vec2>>& loops, double h) {
+  FaceBoundary b;
+  for (const auto& loop : loops) {
+    const std::int32_t first = static_cast<std::int32_t>(b.nodes.size()), n = static_cast<std::int32_t>(loop.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      b.nodes.push_back({loop[i], {loop[i].x, loop[i].y, 0}, h, first + i, false});
+      b.segments.push_back({first + i, first + (i + 1) % n});
+    }
+  }
+  return b;
+}
+
+/// (u,v) are x and y, in [0, 10].
+inline const PlaneSurface kPlane({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 10, 0, 10);
 
 /// A mesh with its corners resolved.
 struct MeshView {

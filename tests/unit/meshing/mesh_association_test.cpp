@@ -2,37 +2,14 @@
 #include "meshing/mesh_association.h"
 
 #include <algorithm>
-#include <random>
 
 #include "base/error.h"
 #include "meshing/hole_mesh.h"
-#include "meshing/nearest_node.h"
 #include "meshing/part_matching.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {
 namespace {
-
-TEST(NearestNode, is_the_lowest_of_the_nearest) {
-  std::mt19937 random(7);
-  std::uniform_int_distribution<int> coarse(0, 9);  // many equal points
-  const auto point = [&] { return Vec3{0.1 * coarse(random), 0.1 * coarse(random), 0.1 * coarse(random)}; };
-  std::vector<Vec3> xyz;
-  std::vector<NodeId> nodes;
-  for (NodeId n = 0; n < 2000; ++n) {
-    xyz.push_back(point());
-    if (n % 3) nodes.push_back(n);
-  }
-  const NearestNode nearest(xyz, nodes);
-  for (int i = 0; i < 500; ++i) {
-    const Vec3 x = point() + Vec3{0.01 * (i % 7), 0, 0};
-    NodeId expected = nodes[0];
-    for (const NodeId n : nodes)
-      if (norm2(xyz[n] - x) < norm2(xyz[expected] - x)) expected = n;
-    EXPECT_EQ(nearest.find(x), expected);
-  }
-  EXPECT_EQ(NearestNode(xyz, {}).find({}), kNone);
-}
 
 /// Two triangles on each side of a box between `lo` and `hi`, behind what `mesh` has.
 void add_box(SurfaceMesh& mesh, Vec3 lo, Vec3 hi) {

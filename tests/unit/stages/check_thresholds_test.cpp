@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "io/artifact.h"
 #include "stages/check_stage.h"
@@ -37,10 +40,11 @@ class CheckThreshold : public testing::Test {
     o.reports = std::move(reports);
     return run_check(o);
   }
+  static std::vector<std::string> failed_checks(const StageSummary& s) { return nlohmann::json::parse(s.json).at("failed"); }
   /// Whether the check `name` is among those that failed.
   static bool fails(const StageSummary& s, const std::string& name) {
-    const std::size_t begin = s.json.find("\"failed\":["), end = s.json.find(']', begin);
-    return s.json.substr(begin, end - begin).find('"' + name + '"') != std::string::npos;
+    const auto failed = failed_checks(s);
+    return std::find(failed.begin(), failed.end(), name) != failed.end();
   }
   /// Passes at `loose`, fails by `name` alone at `strict`.
   void expect_decides(const std::string& name, const std::function<void(CheckThresholds&, double)>& set, double loose,
@@ -52,7 +56,7 @@ class CheckThreshold : public testing::Test {
     set(t, strict);
     const StageSummary s = check(cube, t);
     EXPECT_EQ(s.code, ExitCode::kIncomplete) << name << " " << strict;
-    EXPECT_NE(s.json.find("\"failed\":[\"" + name + "\"]"), std::string::npos) << s.json.substr(0, 400);
+    EXPECT_EQ(failed_checks(s), std::vector<std::string>{name});
   }
 
   fs::path folder_;
@@ -91,7 +95,7 @@ TEST_F(CheckThreshold, accepts_as_many_folds_and_crossings_as_asked_and_no_more)
   const StageSummary all = check(m, {});
   ASSERT_TRUE(fails(all, "folds") && (fails(all, "crossings") || fails(all, "overlaps"))) << all.line;
   const auto count = [&](const std::string& key) {
-    return std::stoi(all.json.substr(all.json.find("\"" + key + "\":{\"allowed\":0,\"count\":") + key.size() + 24));
+    return nlohmann::json::parse(all.json).at("checks").at(key).at("count").get<int>();
   };
   const int folds = count("folds"), crossings = count("crossings") + count("overlaps");
   CheckThresholds t;
@@ -128,10 +132,17 @@ TEST_F(CheckThreshold, report_holds_histograms_of_every_face_whatever_the_verdic
   const std::string path = (folder_ / "report.json").string();
   EXPECT_EQ(check(shapes::cube(3), t, {path}).code, ExitCode::kIncomplete);
   std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find("\"angle_histogram\"", at)) != std::string::npos; ++at) ++n;
-  EXPECT_EQ(n, 8u) << "six faces, one group, the model";
+  const auto report = nlohmann::json::parse(file);
+  const auto count = [](const nlohmann::json& of) {
+    std::int64_t n = 0;
+    for (const std::int64_t bin : of.at("quality").at("angle_histogram")) n += bin;
+    return n;
+  };
+  EXPECT_EQ(count(report), 3 * 108) << "all angles of the model";
+  ASSERT_EQ(report.at("groups").size(), 1u);
+  EXPECT_EQ(count(report["groups"][0]), 3 * 108);
+  ASSERT_EQ(report.at("faces").size(), 6u);
+  for (const auto& face : report["faces"]) EXPECT_EQ(count(face), 3 * 18);
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+// STL: welded, in parts, binary or text.
+#include "io/stl_file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+using Corners = std::vector<std::array<float, 9>>;
+
+std::string binary(const Corners& triangles, const std::string& title = "") {
+  std::string bytes = title;
+  bytes.resize(80, ' ');
+  const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  put(static_cast<std::uint32_t>(triangles.size()));
+  for (const auto& t : triangles) {
+    put(std::array<float, 3>{});
+    put(t);
+    put(std::uint16_t{7});
+  }
+  return bytes;
+}
+
+SurfaceMesh read(const std::string& bytes) {
+  const TemporaryDirectory dir;
+  write_bytes(dir / "m.stl", bytes);
+  return read_stl(dir / "m.stl");
+}
+
+void expect_refused(const std::string& bytes, const std::string& says) {
+  const TemporaryDirectory dir;
+  write_bytes(dir / "m.stl", bytes);
+  EXPECT_ERROR(read_stl(dir / "m.stl"), kInput, says);
+}
+
+const Corners kTwo{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}};
+
+TEST(StlFile, makes_one_node_of_equal_points_in_the_order_of_the_file) {
+  const SurfaceMesh m = read(binary(kTwo));
+  ASSERT_EQ(m.n_nodes(), 4);
+  EXPECT_EQ(m.node_xyz[1], (Vec3{1, 0, 0}));
+  EXPECT_EQ(m.node_xyz[3], (Vec3{1, 1, 0}));
+  ASSERT_EQ(m.n_triangles(), 2);
+  EXPECT_EQ(std::vector<NodeId>(m.triangles[1].n, m.triangles[1].n + 3), (std::vector<NodeId>{1, 3, 2}));
+}
+
+TEST(StlFile, takes_minus_zero_for_zero) {
+  EXPECT_EQ(read(binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, -0.0f, 0, 1, 1, 0, -0.0f, 1, 0}})).n_nodes(), 4);
+}
+
+TEST(StlFile, leaves_triangles_out_that_name_a_node_twice) {
+  Corners c = kTwo;
+  c.push_back({0, 0, 0, 0, 0, 0, 5, 5, 5});
+  EXPECT_EQ(read(binary(c)).n_triangles(), 2);
+}
+
+TEST(StlFile, makes_each_connected_part_a_face) {
+  const SurfaceMesh m = read(binary({{9, 9, 9, 8, 9, 9, 9, 8, 9}, kTwo[0], kTwo[1]}));
+  EXPECT_EQ(m.triangle_face, (std::vector<FaceId>{0, 1, 1}));
+  EXPECT_EQ(m.face_name.size(), 2u);
+}
+
+TEST(StlFile, tells_a_binary_file_whose_title_begins_with_solid_by_its_size) {
+  EXPECT_EQ(read(binary(kTwo, "solid of some CAD system")).n_triangles(), 2);
+}
+
+TEST(StlFile, reads_text_with_signs_exponents_and_any_line_ends) {
+  const SurfaceMesh m = read(
+      "solid a\r\nfacet normal 0 0 1\r\n outer loop\r\n\tvertex +1.5e1 -2 .5\r\n vertex 1 0 0\r\n vertex 0 1E0 0\r\n "
+      "endloop\r\nendfacet\r\nendsolid a\r\n");
+  ASSERT_EQ(m.n_triangles(), 1);
+  EXPECT_EQ(m.node_xyz[0], (Vec3{15, -2, 0.5}));
+}
+
+TEST(StlFile, says_what_is_wrong) {
+  expect_refused("", "neither binary nor ASCII");
+  expect_refused("solid a\nendsolid a\n", "no whole triangles");
+  expect_refused("solid a\nvertex 0 0 0\nvertex 1 0 0\nendsolid\n", "no whole triangles");
+  expect_refused("solid a\nvertex 0 zero 0\n", "no coordinate: zero");
+  expect_refused("solid a\nvertex 0 0", "no coordinate");
+  expect_refused(binary({{0, 0, 0, 1, 0, 0, 0, std::nanf(""), 0}}), "not finite");
+  expect_refused(binary(kTwo).substr(0, 150), "neither binary nor ASCII");
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,30 @@
+// Files read and written whole.
+#include "io/text_file.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+TEST(TextFile, has_the_bytes_that_were_written) {
+  const TemporaryDirectory dir;
+  const std::string bytes = std::string("a\0b\r\n\xff", 6);
+  write_text_file(dir / "t", bytes);
+  EXPECT_EQ(read_text_file(dir / "t"), bytes);
+  write_text_file(dir / "t", "");
+  EXPECT_EQ(read_text_file(dir / "t"), "");
+  EXPECT_EQ(dir.files(), std::vector<std::string>{"t"}) << "no temporary is left";
+}
+
+TEST(TextFile, refuses_folders_and_missing_files) {
+  const TemporaryDirectory dir;
+  EXPECT_ERROR(read_text_file(dir.path()), kInput, "is a directory");
+  EXPECT_ERROR(read_text_file(dir / "none"), kInput, "cannot be read");
+  EXPECT_ERROR(write_text_file(dir / "none/t", "x"), kOutput, "none");
+  EXPECT_TRUE(dir.files().empty());
+}
+
+}  // namespace
+}  // namespace st

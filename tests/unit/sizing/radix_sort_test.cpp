@@ -1,0 +1,43 @@
+// Sorting of keys by digits: what std::sort and std::unique give.
+#include "sizing/radix_sort.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace st {
+namespace {
+
+void expect_as_std(std::vector<std::uint64_t> keys) {
+  std::vector<std::uint64_t> expected = keys;
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  sort_unique(keys);
+  EXPECT_TRUE(keys == expected);
+}
+
+std::vector<std::uint64_t> random_keys(std::size_t n, std::uint64_t mask) {
+  std::mt19937_64 random(n);
+  std::vector<std::uint64_t> keys;
+  for (std::size_t i = 0; i < n; ++i) keys.push_back(random() & mask);
+  return keys;
+}
+
+TEST(RadixSort, sorts_keys_of_all_bits_few_and_many) {
+  for (const std::size_t n : {0, 1, 2, 100, 2047, 2048, 2049, 30000}) expect_as_std(random_keys(n, ~std::uint64_t{0}));
+}
+
+TEST(RadixSort, sorts_keys_that_differ_in_few_digits) {
+  for (int shift = 0; shift < 64; shift += 5) expect_as_std(random_keys(5000, std::uint64_t{0x3ff} << shift));
+  expect_as_std(random_keys(5000, (std::uint64_t{1} << 63) | 0x7));
+}
+
+TEST(RadixSort, keeps_one_of_equal_keys) {
+  std::vector<std::uint64_t> keys(5000, 42);
+  sort_unique(keys);
+  EXPECT_EQ(keys, std::vector<std::uint64_t>{42});
+}
+
+}  // namespace
+}  // namespace st
