@@ -210,7 +210,8 @@ TopoDS_Shape lost_fillet() {
 }
 
 TopoDS_Shape edges_elsewhere() {
-  const TopoDS_Face face = BRepBuilderAPI_MakeFace(new Geom_CylindricalSurface(gp_Ax3(), 2), 0, 2 * M_PI, 0, 5, 1e-7).Face();
+  const Handle(Geom_Surface) cylinder = new Geom_CylindricalSurface(gp_Ax3(), 2);
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(cylinder, 0, 2 * M_PI, 0, 5, 1e-7).Face();
   BRep_Builder builder;
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(face, TopAbs_EDGE, edges);

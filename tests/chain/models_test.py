@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, artifacts_of, content_hash, make_chain, must  # noqa: E402
+from chain import INCOMPLETE, MODELS, Run, ToolTest, artifacts_of, content_hash, make_chain, must  # noqa: E402
 
 CLOSED = ["box", "box_inch", "sphere", "cylinder", "cone", "torus", "block_with_hole", "thin_plate", "two_boxes", "assembly"]
 

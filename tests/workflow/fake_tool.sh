@@ -3,7 +3,7 @@
 # FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
 tool=$(basename "$0")
-inputs=() output= allowed=
+inputs=() output='' allowed=''
 while [ $# -gt 0 ]; do
   case $1 in
     --print-options) echo "# options of $tool"; exit 0 ;;

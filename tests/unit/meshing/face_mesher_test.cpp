@@ -231,7 +231,8 @@ TEST(MeshFace, leaves_no_edge_far_longer_than_its_size_and_hardly_a_node_with_fo
   EXPECT_LT(n_of_four, n_inner / 2000);
 }
 
-/// Sizes from far too coarse to fine, uniform and falling towards a boundary node; up to `valid_below` of the diagonal all are meshed.
+/// Sizes from far too coarse to fine, uniform and falling towards a boundary node; up to `valid_below` of the diagonal
+/// all are meshed.
 struct EverySize {
   const char* shape;
   double valid_below;
@@ -261,11 +262,13 @@ TEST_P(FaceAtEverySize, is_valid_or_far_too_coarse_and_says_where_to_refine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, FaceAtEverySize,
-                         testing::Values(EverySize{"disc", 1}, EverySize{"annulus", 1}, EverySize{"sphere", 1}, EverySize{"cone_side", 1},
-                                         EverySize{"torus", 1}, EverySize{"stretched", 1}, EverySize{"wave", 1},
-                                         EverySize{"periodic_tube", 1}, EverySize{"rational_torus", 1}, EverySize{"drilled_cylinder", 1},
-                                         EverySize{"plate_with_hole", 1}, EverySize{"thin_crescent", 0.07}, EverySize{"sharp_triangle", 1},
-                                         EverySize{"tube_window", 1}, EverySize{"kinked", 1}, EverySize{"sphere_octant", 1},
+                         testing::Values(EverySize{"disc", 1}, EverySize{"annulus", 1}, EverySize{"sphere", 1},
+                                         EverySize{"cone_side", 1}, EverySize{"torus", 1}, EverySize{"stretched", 1},
+                                         EverySize{"wave", 1}, EverySize{"periodic_tube", 1},
+                                         EverySize{"rational_torus", 1}, EverySize{"drilled_cylinder", 1},
+                                         EverySize{"plate_with_hole", 1}, EverySize{"thin_crescent", 0.07},
+                                         EverySize{"sharp_triangle", 1}, EverySize{"tube_window", 1},
+                                         EverySize{"kinked", 1}, EverySize{"sphere_octant", 1},
                                          EverySize{"closed_tube", 1}),
                          [](const auto& info) { return std::string(info.param.shape); });
 

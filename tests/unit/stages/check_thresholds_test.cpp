@@ -40,7 +40,9 @@ class CheckThreshold : public testing::Test {
     o.reports = std::move(reports);
     return run_check(o);
   }
-  static std::vector<std::string> failed_checks(const StageSummary& s) { return nlohmann::json::parse(s.json).at("failed"); }
+  static std::vector<std::string> failed_checks(const StageSummary& s) {
+    return nlohmann::json::parse(s.json).at("failed");
+  }
   /// Whether the check `name` is among those that failed.
   static bool fails(const StageSummary& s, const std::string& name) {
     const auto failed = failed_checks(s);
