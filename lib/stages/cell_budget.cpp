@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/packer.h"
+#include "base/share.h"
 #include "sizing/gap_patch.h"
 #include "sizing/sample_seeds.h"
 
@@ -48,11 +49,7 @@ HostMemory least_memory(const Communicator& comm) {
   HostMemory least{kUnlimited, kUnlimited};
   for (const auto& [host, of] : hosts)
     least = {std::min(least.of_rank, of.first / of.second), std::min(least.of_host, of.first)};
-  Packer packer;
-  packer.add(least);
-  Bytes bytes = packer.take();
-  comm.broadcast(bytes);
-  Unpacker(bytes).get(least);
+  share(comm, least);
   return least;
 }
 
