@@ -1,6 +1,7 @@
-// Times of the geometry layer beside OpenCASCADE's in the same run: points and derivatives of surfaces and curves, at nearby and at random
-// parameters, and projection from a near guess. A table of the ratios follows the times.
-//   geometry_bench [--benchmark_filter=REGEX]     synthetic surfaces, and faces of the corpus when ST_CORPUS names its folder
+// Times of the geometry layer beside OpenCASCADE's in the same run: points and derivatives of surfaces and curves, at
+// nearby and at random parameters, and projection from a near guess. A table of the ratios follows the times.
+//   geometry_bench [--benchmark_filter=REGEX]     synthetic surfaces, and faces of the corpus when ST_CORPUS names its
+//   folder
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <BRep_Tool.hxx>
@@ -38,16 +39,18 @@
 #include <string>
 #include <vector>
 
-#include "geometry/edit_model.h"
-#include "geometry/model.h"
-#include "geometry/occt_evaluators.h"
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/import/import.h"
+#include "geometry/model/edit_model.h"
+#include "geometry/model/model.h"
 
 namespace {
 
 using namespace st;
 
 constexpr int kPoints = 4096;
-constexpr double kStep = 1.0 / 2000;     // of the parameter range, between nearby points: about an edge length on a long face
+constexpr double kStep = 1.0 / 2000;  // of the parameter range, between nearby points: about an edge length on a long
+                                      // face
 constexpr double kOffGuess = 1.0 / 500;  // of the parameter range, between a guess and its foot
 
 /// Clamped uniform knots 0, 1/n ... 1 with multiplicities.
@@ -73,8 +76,10 @@ Handle(Geom_BSplineSurface) wavy_surface(int degree, int n_poles, bool is_ration
       weights.SetValue(i, j, is_rational ? 1 + 0.3 * std::sin(x + y) : 1.0);
     }
   const Knots k(degree, n_poles);
-  if (!is_rational) return new Geom_BSplineSurface(poles, k.values, k.values, k.multiplicities, k.multiplicities, degree, degree);
-  return new Geom_BSplineSurface(poles, weights, k.values, k.values, k.multiplicities, k.multiplicities, degree, degree);
+  if (!is_rational)
+    return new Geom_BSplineSurface(poles, k.values, k.values, k.multiplicities, k.multiplicities, degree, degree);
+  return new Geom_BSplineSurface(poles, weights, k.values, k.values, k.multiplicities, k.multiplicities, degree,
+                                 degree);
 }
 
 Handle(Geom_BSplineCurve) wavy_curve(int degree, int n_poles, bool is_rational) {
@@ -235,7 +240,8 @@ void add_synthetic() {
   add_surface("nurbs3_large", wavy_surface(3, 100, false), {0, 1, 0, 1});
   const gp_Ax1 axis(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0));
   add_surface("revolution", new Geom_SurfaceOfRevolution(wavy_curve(3, 30, false), axis), {0, 2 * kPi, 0, 1});
-  add_surface("extrusion", new Geom_SurfaceOfLinearExtrusion(wavy_curve(3, 30, false), gp_Dir(0, 1, 0.2)), {0, 1, 0, 10});
+  add_surface("extrusion", new Geom_SurfaceOfLinearExtrusion(wavy_curve(3, 30, false), gp_Dir(0, 1, 0.2)),
+              {0, 1, 0, 10});
 }
 
 /// One face of the model as a model of its own, face after face.
@@ -286,15 +292,16 @@ class RatioReporter : public benchmark::ConsoleReporter {
     }
   }
   void Finalize() override {
-    GetOutputStream() << fmt::format("\n{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "ns per point", "own", "batch", "adaptor", "Geom",
-                                     "ratio");
+    GetOutputStream() << fmt::format("\n{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "ns per point", "own", "batch",
+                                     "adaptor", "Geom", "ratio");
     const auto ns = [](const std::map<std::string, double>& t, const char* who) {
       return t.contains(who) ? fmt::format("{:.1f}", t.at(who)) : "";
     };
     for (const auto& [name, t] : times_) {
-      const std::string ratio = t.contains("own") && t.contains("occt") ? fmt::format("{:.1f}x", t.at("occt") / t.at("own")) : "";
-      GetOutputStream() << fmt::format("{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", name, ns(t, "own"), ns(t, "batch"), ns(t, "occt"),
-                                       ns(t, "geom"), ratio);
+      const std::string ratio =
+          t.contains("own") && t.contains("occt") ? fmt::format("{:.1f}x", t.at("occt") / t.at("own")) : "";
+      GetOutputStream() << fmt::format("{:<44} {:>9} {:>9} {:>9} {:>9} {:>7}\n", name, ns(t, "own"), ns(t, "batch"),
+                                       ns(t, "occt"), ns(t, "geom"), ratio);
     }
   }
 
@@ -309,8 +316,8 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   add_synthetic();
   if (const char* corpus = std::getenv("ST_CORPUS"); corpus && *corpus)
-    for (const char* name :
-         {"aero_d150_wing_body_half.brep", "aero_onera_m6_sharpte.brep", "mech_occt_linkrods.step", "mech_geouned_scdr.stp"})
+    for (const char* name : {"aero_d150_wing_body_half.brep", "aero_onera_m6_sharpte.brep", "mech_occt_linkrods.step",
+                             "mech_geouned_scdr.stp"})
       if (const auto path = std::filesystem::path(corpus) / name; std::filesystem::exists(path)) add_corpus_face(path);
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

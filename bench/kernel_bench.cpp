@@ -1,6 +1,6 @@
 // The kernel alone: mesh_face on surfaces of each kind, with one length everywhere and with an octree's lengths.
-//   kernel_bench [--benchmark_filter=REGEX] ...     Google Benchmark's own options; counters: triangles, triangles/s, mean and least
-//   quality
+//   kernel_bench [--benchmark_filter=REGEX] ...     Google Benchmark's own options; counters: triangles, triangles/s,
+//   mean and least quality
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/analytic.h"
-#include "geometry/bspline.h"
+#include "geometry/shape/analytic.h"
+#include "geometry/shape/bspline.h"
 #include "mesh/quality.h"
-#include "meshing/face_mesher.h"
+#include "meshing/face/face_mesher.h"
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
 
@@ -23,7 +23,8 @@ using namespace st;
 constexpr Frame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 constexpr double kTriangleArea = 0.43301270189221932;  // sqrt(3)/4: of an equilateral triangle of side 1
 
-/// A face to mesh: the whole parameter rectangle of a surface. Opposite sides of a period are a seam, collapsed sides poles.
+/// A face to mesh: the whole parameter rectangle of a surface. Opposite sides of a period are a seam, collapsed sides
+/// poles.
 struct Case {
   std::unique_ptr<Surface> surface;
   bool is_u_periodic = false, is_v_periodic = false, has_poles = false;
@@ -56,8 +57,8 @@ std::unique_ptr<Surface> make_patch(int n, double length_u) {
       const double u = static_cast<double>(i) / (n_poles - 1), v = static_cast<double>(j) / (n_poles - 1);
       poles.push_back({{length_u * u, v, 0.1 * std::sin(5 * u) * std::cos(4 * v), 1}});
     }
-  return std::make_unique<BsplineSurface>(KnotSpans(kDegree, knots, 0), KnotSpans(kDegree, knots, 0), std::move(poles), n_poles, false,
-                                          BsplineSurface::Bounds{0, 1, 0, 1});
+  return std::make_unique<BsplineSurface>(KnotSpans(kDegree, knots, 0), KnotSpans(kDegree, knots, 0), std::move(poles),
+                                          n_poles, false, BsplineSurface::Bounds{0, 1, 0, 1});
 }
 
 enum Kind : int { kPlane, kSphere, kNurbs, kStretched, kCylinder, kTorus };
@@ -69,7 +70,8 @@ Case make_case(int kind) {
       c.surface = std::make_unique<PlaneSurface>(kFrame, 0, 1, 0, 1);
       break;
     case kSphere:
-      c = {std::make_unique<AxialSurface>(SurfaceType::kSphere, kFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2), true, false, true};
+      c = {std::make_unique<AxialSurface>(SurfaceType::kSphere, kFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2), true,
+           false, true};
       break;
     case kNurbs:
       c.surface = make_patch(10, 1);
@@ -81,7 +83,8 @@ Case make_case(int kind) {
       c = {std::make_unique<AxialSurface>(SurfaceType::kCylinder, kFrame, 1, 0, 0, 2 * kPi, 0, 4), true, false, false};
       break;
     default:
-      c = {std::make_unique<AxialSurface>(SurfaceType::kTorus, kFrame, 2, 0.5, 0, 2 * kPi, 0, 2 * kPi), true, true, false};
+      c = {std::make_unique<AxialSurface>(SurfaceType::kTorus, kFrame, 2, 0.5, 0, 2 * kPi, 0, 2 * kPi), true, true,
+           false};
   }
   c.area = area_of(*c.surface);
   return c;
@@ -111,7 +114,8 @@ std::vector<double> cut_side(const Surface& s, Vec2 from, Vec2 to, const SizeFie
 /// The four sides of the parameter rectangle; seam twins have equal ids and equal parameters, a pole one id.
 FaceBoundary make_boundary(const Case& c, const SizeField& field) {
   const Surface& s = *c.surface;
-  const Vec2 corner[4] = {{s.u_min(), s.v_min()}, {s.u_max(), s.v_min()}, {s.u_max(), s.v_max()}, {s.u_min(), s.v_max()}};
+  const Vec2 corner[4] = {
+      {s.u_min(), s.v_min()}, {s.u_max(), s.v_min()}, {s.u_max(), s.v_max()}, {s.u_min(), s.v_max()}};
   std::vector<double> along_u = cut_side(s, corner[0], corner[1], field);
   const std::vector<double> along_v = cut_side(s, corner[1], corner[2], field);
   if (c.has_poles) {
@@ -151,7 +155,8 @@ std::unique_ptr<SizeField> make_octree_field(const Surface& s, double length) {
   Box3 box;
   for (int i = 0; i <= kSamples; ++i)
     for (int j = 0; j <= kSamples; ++j) {
-      const Vec3 x = s.point({s.u_min() + (s.u_max() - s.u_min()) * i / kSamples, s.v_min() + (s.v_max() - s.v_min()) * j / kSamples});
+      const Vec3 x = s.point(
+          {s.u_min() + (s.u_max() - s.u_min()) * i / kSamples, s.v_min() + (s.v_max() - s.v_min()) * j / kSamples});
       box.add(x);
       boxes.push_back({x, static_cast<float>(8 * length), static_cast<float>(length), 0});
     }
@@ -163,7 +168,8 @@ std::unique_ptr<SizeField> make_octree_field(const Surface& s, double length) {
   storage->raster = build_octree(box, boxes);
   const OctreeView octree = storage->raster.shape.view();
   storage->lengths = prolong(octree, storage->raster.stored_length, storage->raster.stored_cause, {0.2, length});
-  return std::make_unique<OctreeField>(OctreeFieldData{octree, storage->lengths.cells, storage->lengths.cause, 0.2, 1}, storage);
+  return std::make_unique<OctreeField>(OctreeFieldData{octree, storage->lengths.cells, storage->lengths.cause, 0.2, 1},
+                                       storage);
 }
 
 void report_quality(const Case& c, const FaceBoundary& boundary, const FaceMesh& mesh, benchmark::State& state) {
@@ -191,7 +197,8 @@ void report_quality(const Case& c, const FaceBoundary& boundary, const FaceMesh&
 void mesh_one_face(benchmark::State& state, int kind, bool has_octree) {
   const Case c = make_case(kind);
   const double length = std::sqrt(c.area / static_cast<double>(state.range(0)) / kTriangleArea);
-  const std::unique_ptr<SizeField> field = has_octree ? make_octree_field(*c.surface, length) : std::make_unique<UniformField>(length);
+  const std::unique_ptr<SizeField> field =
+      has_octree ? make_octree_field(*c.surface, length) : std::make_unique<UniformField>(length);
   const FaceBoundary boundary = make_boundary(c, *field);
   FaceMesh mesh;
   for (auto _ : state) mesh = mesh_face(*c.surface, boundary, *field, {});
@@ -203,8 +210,8 @@ void register_all() {
   const char* const names[] = {"plane", "sphere", "nurbs_10x10", "nurbs_stretched_1000", "cylinder", "torus"};
   for (int kind = kPlane; kind <= kTorus; ++kind)
     for (const bool has_octree : {false, true})
-      benchmark::RegisterBenchmark((std::string(names[kind]) + (has_octree ? "/octree" : "/uniform")).c_str(), mesh_one_face, kind,
-                                   has_octree)
+      benchmark::RegisterBenchmark((std::string(names[kind]) + (has_octree ? "/octree" : "/uniform")).c_str(),
+                                   mesh_one_face, kind, has_octree)
           ->Arg(100'000)
           ->Arg(1'000'000)
           ->Unit(benchmark::kMillisecond);

@@ -22,9 +22,10 @@
 #include <vector>
 
 #include "base/log.h"
-#include "geometry/model.h"
-#include "io/artifact.h"
-#include "io/sizing_artifact.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "sizing/blanking.h"
 #include "sizing/face_cells.h"
 #include "sizing/model_limits.h"
@@ -90,8 +91,9 @@ void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double f
   const Timer prolong_timer;
   storage->lengths = prolong(octree, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, far_length});
   const double prolong_seconds = prolong_timer.seconds(), n = static_cast<double>(octree.n_leaves());
-  report("octree  {} boxes -> {} cells in {:.3f} s ({:.2g} cells/s), {:.1f} bytes per cell\n", boxes.size(), octree.n_leaves(), build,
-         n / build, sizeof(std::uint64_t) + 1 + 32.0 / 7 + sizeof(CellLength) + sizeof(std::int32_t));
+  report("octree  {} boxes -> {} cells in {:.3f} s ({:.2g} cells/s), {:.1f} bytes per cell\n", boxes.size(),
+         octree.n_leaves(), build, n / build,
+         sizeof(std::uint64_t) + 1 + 32.0 / 7 + sizeof(CellLength) + sizeof(std::int32_t));
   report("prolong {:.3f} s ({:.2g} cells/s)\n", prolong_seconds, n / prolong_seconds);
   time_queries(OctreeField({octree, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage), boxes);
 }
@@ -108,13 +110,15 @@ std::vector<RasterBox> sample_boxes(const Model& model, const FaceRoles& roles, 
     if (limits.edge[e]) raster_curve(*model.curve(e), *limits.edge[e], pack_cause(CauseKind::kEdge, e), boxes);
   for (FaceId f = 0; f < model.tables().n_faces(); ++f)
     if (limits.face[f])
-      raster_face(*model.surface(f), loop_polygons(model, f, limits), *limits.face[f], pack_cause(CauseKind::kFace, f), boxes);
+      raster_face(*model.surface(f), loop_polygons(model, f, limits), *limits.face[f], pack_cause(CauseKind::kFace, f),
+                  boxes);
   return boxes;
 }
 
 /// The smallest length + slope * distance of all samples, one by one.
 double exact_length(const std::vector<RasterBox>& boxes, Vec3 x, double largest) {
-  for (const RasterBox& b : boxes) largest = std::min(largest, static_cast<double>(b.length) + kSlope * distance(b.center, x));
+  for (const RasterBox& b : boxes)
+    largest = std::min(largest, static_cast<double>(b.length) + kSlope * distance(b.center, x));
   return largest;
 }
 
@@ -145,7 +149,8 @@ void bench_accuracy(const std::string& path) {
     seed_lengths(samples, kSlope, raster);
     storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
     hold_samples(raster.shape.view(), samples, {}, storage->lengths);
-    const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage);
+    const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1},
+                            storage);
     std::vector<double> errors;
     double bias = 0;
     for (int i = 0; i < kPoints; ++i) {
@@ -155,9 +160,11 @@ void bench_accuracy(const std::string& path) {
     double mean = 0;
     for (const double e : errors) mean += std::abs(e) / kPoints;
     std::sort(errors.begin(), errors.end());
-    report("cell_per_length {:1}: {:8} cells, lengths off by {:4.1f} % on the mean ({:+.1f} %), 1 to 99 %: {:.2f} to {:.2f}\n",
-           cell_per_length, field.data().octree.n_leaves(), 100 * mean, 100 * bias, std::exp(errors[kPoints / 100]),
-           std::exp(errors[kPoints * 99 / 100]));
+    report(
+        "cell_per_length {:1}: {:8} cells, lengths off by {:4.1f} % on the mean ({:+.1f} %), 1 to 99 %: {:.2f} to "
+        "{:.2f}\n",
+        cell_per_length, field.data().octree.n_leaves(), 100 * mean, 100 * bias, std::exp(errors[kPoints / 100]),
+        std::exp(errors[kPoints * 99 / 100]));
   }
 }
 
@@ -194,10 +201,11 @@ void bench_model(const std::string& path, double lmax_percent) {
     area += t.face_area[f];
     if (std::getenv("SIZING_BENCH_FACES"))
       report("  {:<28} type {} area {:10.4g} sampled {:10.4g} boxes {:8} evaluations {:9} {:.4f} s\n", t.face_label(f),
-             static_cast<int>(surface->type()), t.face_area[f], r.area, r.n_patches, r.n_evaluations, face_seconds.seconds());
+             static_cast<int>(surface->type()), t.face_area[f], r.area, r.n_patches, r.n_evaluations,
+             face_seconds.seconds());
   }
-  report("faces   {} boxes in {:.3f} s, {:.3f} s of it loops; {} evaluations; area sampled / CAD = {:.4f}\n", boxes.size() - n_edge_boxes,
-         face_timer.seconds(), loop_seconds, n_evaluations, sampled_area / area);
+  report("faces   {} boxes in {:.3f} s, {:.3f} s of it loops; {} evaluations; area sampled / CAD = {:.4f}\n",
+         boxes.size() - n_edge_boxes, face_timer.seconds(), loop_seconds, n_evaluations, sampled_area / area);
   time_octree(t.box(), boxes, limits.far_length);
 }
 
@@ -222,8 +230,8 @@ void time_blanking(const Box3& root, const std::vector<RasterBox>& boxes, int n)
   const Blanking blanking = blank_cells(octree, Neighbours(octree), {points, triangles}, BlankSide::kInside);
   const double seconds = timer.seconds();
   const auto n_cut = std::count(blanking.colour.begin(), blanking.colour.end(), CellColour::kCut);
-  report("blank   {} cells with {} triangles: {:.3f} s, {} cut ({:.1f} us each)\n", octree.n_leaves(), triangles.size(), seconds, n_cut,
-         1e6 * seconds / static_cast<double>(n_cut));
+  report("blank   {} cells with {} triangles: {:.3f} s, {} cut ({:.1f} us each)\n", octree.n_leaves(), triangles.size(),
+         seconds, n_cut, 1e6 * seconds / static_cast<double>(n_cut));
 }
 
 void time_opening(const std::string& path) {
@@ -274,7 +282,8 @@ class Meeting {
   int n_, door_[2], answer_[2];
 };
 
-/// Each of `n` processes opens the sizing, asks for a length in every cell and looks at its memory while all others have theirs.
+/// Each of `n` processes opens the sizing, asks for a length in every cell and looks at its memory while all others
+/// have theirs.
 void share_sizing(const std::string& path, int n) {
   const Meeting opened(n), seen(n);
   int rank = 0;
@@ -287,15 +296,17 @@ void share_sizing(const std::string& path, int n) {
   const OctreeView& octree = sizing.field->data().octree;
   double sum = 0;
   int hint = 0;
-  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) sum += sizing.field->size(octree.leaf_center(leaf), hint);
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
+    sum += sizing.field->size(octree.leaf_center(leaf), hint);
   opened.wait(rank);
   const Memory file = mapped_memory(path.substr(path.rfind('/') + 1)), whole = mapped_memory("");
   seen.wait(rank);
   report(
-      "rank {} of {}: {} cells opened in {:.1f} ms ({:.1f} ms of it computing); file {:.1f} MB mapped, its share {:.1f} MB; everything "
+      "rank {} of {}: {} cells opened in {:.1f} ms ({:.1f} ms of it computing); file {:.1f} MB mapped, its share "
+      "{:.1f} MB; everything "
       "else {:+.1f} MB (mean {:.4g})\n",
-      rank, n, octree.n_leaves(), 1e3 * seconds, 1e3 * busy, file.resident, file.share, whole.resident - before.resident - file.resident,
-      sum / octree.n_leaves());
+      rank, n, octree.n_leaves(), 1e3 * seconds, 1e3 * busy, file.resident, file.share,
+      whole.resident - before.resident - file.resident, sum / octree.n_leaves());
   std::fflush(stdout);
   while (wait(nullptr) > 0) {
   }
@@ -314,11 +325,13 @@ void time_nodes(const std::string& sizing_path, const std::string& patches_path)
     for (const Vec3& x : nodes) sum += sizing.field->size(x, hint);
     best = std::min(best, timer.seconds());
   }
-  report("nodes   {} of {} cells: {:.1f} ns per query (mean length {:.9g})\n", nodes.size(), sizing.field->data().octree.n_leaves(),
-         1e9 * best / static_cast<double>(nodes.size()), sum / 5 / static_cast<double>(nodes.size()));
+  report("nodes   {} of {} cells: {:.1f} ns per query (mean length {:.9g})\n", nodes.size(),
+         sizing.field->data().octree.n_leaves(), 1e9 * best / static_cast<double>(nodes.size()),
+         sum / 5 / static_cast<double>(nodes.size()));
 }
 
-/// Boxes on a sphere as raster_face would place them, face after face, so many that the octree has about `millions` cells.
+/// Boxes on a sphere as raster_face would place them, face after face, so many that the octree has about `millions`
+/// cells.
 void bench_cells(double millions) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -329,7 +342,8 @@ void bench_cells(double millions) {
     const double z0 = -1 + 2.0 * band / kBands, length = smallest * (1 + 2 * (z0 + 1));
     const auto n = static_cast<int>(4 * kPi * 0.16 / kBands / (spacing * spacing * length * length));
     for (int i = 0; i < n; ++i) {  // along the band, so that neighbours in the list are neighbours in space
-      const double z = z0 + 2.0 * uniform(random) / kBands, a = 2 * kPi * i / n, r = std::sqrt(std::max(0.0, 1 - z * z));
+      const double z = z0 + 2.0 * uniform(random) / kBands, a = 2 * kPi * i / n,
+                   r = std::sqrt(std::max(0.0, 1 - z * z));
       const float own = static_cast<float>(length);
       boxes.push_back({0.4 * Vec3{r * std::cos(a), r * std::sin(a), z}, own, own, pack_cause(CauseKind::kFace, band)});
     }
@@ -358,6 +372,7 @@ int main(int argc, char** argv) {
     bench_model(first, argc > 2 ? std::atof(argv[2]) : 2.5);
   else
     report(
-        "usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --share SIZING RANKS | --nodes SIZING PATCHES | "
+        "usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --share SIZING RANKS | --nodes "
+        "SIZING PATCHES | "
         "--accuracy MODEL\n");
 }

@@ -8,8 +8,8 @@
 namespace aircraft {
 namespace {
 
-/// Half thickness of the NACA four-digit family at chord fraction x = c * c; c changes sign at the leading edge and gives the side its
-/// sign.
+/// Half thickness of the NACA four-digit family at chord fraction x = c * c; c changes sign at the leading edge and
+/// gives the side its sign.
 double half_thickness(const Section& s, double c) {
   const double x = c * c, side = c < 0 ? -1 : 1;
   const double closing = -0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x;
@@ -36,10 +36,13 @@ gp_Pnt profile_point(const Section& s, double p) {
   const double chordwise = s.chord * x, normal = s.chord * (mean_line(s, x) + half_thickness(s, c));
   const double dx = chordwise * std::cos(s.twist) + normal * std::sin(s.twist),
                dn = normal * std::cos(s.twist) - chordwise * std::sin(s.twist);
-  return gp_Pnt(s.leading_edge.X() + dx, s.leading_edge.Y() - dn * std::sin(s.roll), s.leading_edge.Z() + dn * std::cos(s.roll));
+  return gp_Pnt(s.leading_edge.X() + dx, s.leading_edge.Y() - dn * std::sin(s.roll),
+                s.leading_edge.Z() + dn * std::cos(s.roll));
 }
 
-gp_Pnt lower_point(const Section& section, double chord_fraction) { return profile_point(section, 0.5 * (1 + std::sqrt(chord_fraction))); }
+gp_Pnt lower_point(const Section& section, double chord_fraction) {
+  return profile_point(section, 0.5 * (1 + std::sqrt(chord_fraction)));
+}
 
 std::vector<double> profile_parameters() { return linspace(0, 1, 49); }
 
@@ -55,7 +58,8 @@ std::vector<double> profile_splits(const std::vector<double>& chord_fractions) {
   return splits;
 }
 
-PanelRims add_panel(Patchwork& patches, const Panel& panel, const std::vector<double>& chord_fractions, const std::string& name) {
+PanelRims add_panel(Patchwork& patches, const Panel& panel, const std::vector<double>& chord_fractions,
+                    const std::string& name) {
   std::vector<std::vector<gp_Pnt>> rows;
   for (const Section& s : panel.sections) {
     rows.emplace_back();

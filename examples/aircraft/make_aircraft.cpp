@@ -100,14 +100,15 @@ Report inspect(const TopoDS_Shape& shape, const NameTable& names) {
 
 void print(const Report& r) {
   for (const auto& [name, n] : r.faces_per_group) std::printf("%4d faces  %s\n", n, name.c_str());
-  std::printf("solids %d, shells %d, faces %d, edges %d (open %d), shortest edge %.4g m, largest tolerance %.2g m\n", r.n_solids,
-              r.n_shells, r.n_faces, r.n_edges, r.n_open_edges, r.shortest_edge, r.largest_tolerance);
+  std::printf("solids %d, shells %d, faces %d, edges %d (open %d), shortest edge %.4g m, largest tolerance %.2g m\n",
+              r.n_solids, r.n_shells, r.n_faces, r.n_edges, r.n_open_edges, r.shortest_edge, r.largest_tolerance);
   std::printf("volume %.6g m3, wetted area %.6g m2, %s\n", r.volume, r.wetted_area, r.is_valid ? "valid" : "NOT VALID");
 }
 
 /// @throws std::runtime_error naming the first promise that is not kept.
 void check(const Report& r) {
-  constexpr double kShortestEdge = 2e-3;  // m: the thinnest trailing edge is longer; anything shorter is a sliver of the boolean operation
+  constexpr double kShortestEdge = 2e-3;  // m: the thinnest trailing edge is longer; anything shorter is a sliver of
+                                          // the boolean operation
   const auto require = [](bool kept, const char* promise) {
     if (!kept) throw std::runtime_error(std::string("promise not kept: ") + promise);
   };
@@ -139,7 +140,8 @@ int main(int argc, char** argv) {
   const bool wants_help = argc == 2 && std::string(argv[1]) == "--help";
   if (wants_help || argc != 2 || argv[1][0] == '-') {
     std::fprintf(wants_help ? stdout : stderr,
-                 "usage: make_aircraft OUT.step\nWrites a generic transport aircraft (half configuration, metres) in a half box of air.\n");
+                 "usage: make_aircraft OUT.step\nWrites a generic transport aircraft (half configuration, metres) in a "
+                 "half box of air.\n");
     return wants_help ? 0 : 2;
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();  // no chatter of the STEP translator

@@ -18,7 +18,7 @@ constexpr double kDegree = M_PI / 180;
 constexpr double kFuselageRadius = 2.0;
 constexpr double kFuselageLength = 36.0;
 
-// ---------------------------------------------------------------------------------------------------------------- bodies of ellipses
+// -------------------------------------------------------------------------------- bodies of ellipses
 
 /// A body of elliptic cross-sections and how it is divided into patches.
 struct EllipticBody {
@@ -61,8 +61,8 @@ Rims add_body(Patchwork& patches, const EllipticBody& body, const std::string& n
   return add_body(patches, body, [&](double) { return name; });
 }
 
-/// Body with a rounded pole at both ends: t runs from 0 to 1 along the axis, `size` scales with the elliptic envelope of the given flatness
-/// (2: ellipsoid; more: fuller).
+/// Body with a rounded pole at both ends: t runs from 0 to 1 along the axis, `size` scales with the elliptic envelope
+/// of the given flatness (2: ellipsoid; more: fuller).
 EllipticBody closed_body(double x_begin, double x_end, double flatness, const std::function<Ellipse(double x)>& shape) {
   EllipticBody body;
   body.parameters = linspace(0, 1, 25);
@@ -79,7 +79,7 @@ EllipticBody closed_body(double x_begin, double x_end, double flatness, const st
   return body;
 }
 
-// ---------------------------------------------------------------------------------------------------------------- fuselage
+// -------------------------------------------------------------------------------- fuselage
 
 EllipticBody fuselage_nose(double length) {
   EllipticBody nose;
@@ -106,7 +106,8 @@ EllipticBody fuselage_tail(double begin) {
   EllipticBody tail;
   tail.parameters = linspace(begin, kFuselageLength, 14);
   for (double x : tail.parameters) {
-    const double t = (x - begin) / (kFuselageLength - begin), r = kEndRadius + (kFuselageRadius - kEndRadius) * (1 - t * t);
+    const double t = (x - begin) / (kFuselageLength - begin),
+                 r = kEndRadius + (kFuselageRadius - kEndRadius) * (1 - t * t);
     tail.sections.push_back({x, r, r, 0, kUpsweep * t * t});
   }
   tail.splits = {begin, 25.5, 27.8, 30.0, 33.0, kFuselageLength};
@@ -117,7 +118,8 @@ Part make_fuselage(NameTable& names) {
   constexpr double kNoseLength = 6.4, kTailBegin = 23.2;
   Patchwork patches(names);
   std::vector<Handle(Geom_Curve)> symmetry, base;
-  for (EllipticBody body : {fuselage_nose(kNoseLength), fuselage_cabin(kNoseLength, kTailBegin), fuselage_tail(kTailBegin)}) {
+  for (EllipticBody body :
+       {fuselage_nose(kNoseLength), fuselage_cabin(kNoseLength, kTailBegin), fuselage_tail(kTailBegin)}) {
     body.angles_deg = {0, 42, 85, 180};
     if (body.sections.front().x < kTailBegin) body.angles_deg = {0, 42, 85, 132, 180};
     const Rims rims = add_body(patches, body, "fuselage");
@@ -143,7 +145,7 @@ Part make_belly_fairing(NameTable& names) {
   return {"belly fairing", patches.solid("belly fairing")};
 }
 
-// ---------------------------------------------------------------------------------------------------------------- wing
+// -------------------------------------------------------------------------------- wing
 
 namespace wing {
 constexpr double kRootY = 0.4, kKinkY = 6.2, kTipY = 16.0, kWingletLength = 2.6;
@@ -214,7 +216,8 @@ Part make_wing(NameTable& names) {
 /// Slender pod below the trailing edge at span y.
 Part make_flap_fairing(NameTable& names, double y) {
   const Section s = wing::main_section(y);
-  const double c = s.chord, x0 = s.leading_edge.X(), z_front = lower_point(s, 0.5).Z() + 0.03 * c, z_te = lower_point(s, 1.0).Z();
+  const double c = s.chord, x0 = s.leading_edge.X(), z_front = lower_point(s, 0.5).Z() + 0.03 * c,
+               z_te = lower_point(s, 1.0).Z();
   EllipticBody body = closed_body(x0 + 0.5 * c, x0 + 1.22 * c, 2, [&](double x) {
     const double t = (x - x0 - 0.5 * c) / (0.5 * c);
     return Ellipse{0, 0.03 * c, 0.05 * c, y, z_front + t * (z_te - 0.085 * c - z_front)};
@@ -226,7 +229,7 @@ Part make_flap_fairing(NameTable& names, double y) {
   return {"flap fairing", patches.solid("flap fairing")};
 }
 
-// ---------------------------------------------------------------------------------------------------------------- engine
+// -------------------------------------------------------------------------------- engine
 
 namespace engine {
 constexpr double kY = 5.75, kX = 11.4, kLength = 3.7, kRadius = 1.03;
@@ -271,7 +274,7 @@ Part make_pylon(NameTable& names) {
   return {"pylon", patches.solid("pylon")};
 }
 
-// ---------------------------------------------------------------------------------------------------------------- tail
+// -------------------------------------------------------------------------------- tail
 
 Part make_horizontal_tail(NameTable& names) {
   constexpr double kRootY = 0.2, kTipY = 6.3;
@@ -319,15 +322,17 @@ Part make_vertical_tail(NameTable& names) {
 }  // namespace
 
 std::vector<Part> make_parts(NameTable& names) {
-  std::vector<Part> parts = {make_fuselage(names), make_belly_fairing(names),   make_wing(names),         make_nacelle(names),
-                             make_pylon(names),    make_horizontal_tail(names), make_vertical_tail(names)};
+  std::vector<Part> parts = {make_fuselage(names),     make_belly_fairing(names), make_wing(names),
+                             make_nacelle(names),      make_pylon(names),         make_horizontal_tail(names),
+                             make_vertical_tail(names)};
   for (double y : {3.7, 8.7, 11.2, 13.3}) parts.push_back(make_flap_fairing(names, y));
   return parts;
 }
 
 TopoDS_Solid make_far_field(NameTable& names) {
   constexpr double kReach = 10 * kFuselageLength;
-  const TopoDS_Solid box = BRepPrimAPI_MakeBox(gp_Pnt(-kReach, 0, -kReach), gp_Pnt(kFuselageLength + kReach, kReach, kReach)).Solid();
+  const TopoDS_Solid box =
+      BRepPrimAPI_MakeBox(gp_Pnt(-kReach, 0, -kReach), gp_Pnt(kFuselageLength + kReach, kReach, kReach)).Solid();
   for (TopExp_Explorer it(box, TopAbs_FACE); it.More(); it.Next()) {
     const TopoDS_Face& face = TopoDS::Face(it.Current());
     bool is_symmetry = true;

@@ -1,5 +1,5 @@
-/// The parts of the transport aircraft as closed solids: half configuration, y >= 0, x aft, z up, nose at the origin; lengths in metres.
-/// Parts overlap with clear angles where they meet, so that one boolean operation joins them.
+/// The parts of the transport aircraft as closed solids: half configuration, y >= 0, x aft, z up, nose at the origin;
+/// lengths in metres. Parts overlap with clear angles where they meet, so that one boolean operation joins them.
 #pragma once
 
 #include <string>

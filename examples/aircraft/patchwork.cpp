@@ -55,7 +55,8 @@ TopoDS_Solid Patchwork::solid(const std::string& what) const {
   BRepBuilderAPI_Sewing sewing(kSewingTolerance);
   for (const TopoDS_Face& face : faces_) sewing.Add(face);
   sewing.Perform();
-  if (sewing.NbFreeEdges() != 0) throw std::runtime_error(what + ": " + std::to_string(sewing.NbFreeEdges()) + " free edges after sewing");
+  if (sewing.NbFreeEdges() != 0)
+    throw std::runtime_error(what + ": " + std::to_string(sewing.NbFreeEdges()) + " free edges after sewing");
   TopExp_Explorer shells(sewing.SewedShape(), TopAbs_SHELL);
   if (!shells.More()) throw std::runtime_error(what + ": no shell after sewing");
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells.Current())).Solid();

@@ -1,4 +1,5 @@
-/// Faces with group names, sewn to closed solids. The name of a face hangs on its surface, which booleans and sewing keep.
+/// Faces with group names, sewn to closed solids. The name of a face hangs on its surface, which booleans and sewing
+/// keep.
 #pragma once
 
 #include <Geom_BSplineSurface.hxx>

@@ -37,7 +37,8 @@ CubicInterpolation::CubicInterpolation(std::vector<double> parameters) : paramet
   const int n = int(parameters_.size());
   if (n < kDegree + 1) throw std::invalid_argument("cubic interpolation needs at least four parameters");
   flat_knots_.assign(kDegree + 1, parameters_.front());
-  for (int j = 1; j + kDegree < n; ++j) flat_knots_.push_back((parameters_[j] + parameters_[j + 1] + parameters_[j + 2]) / kDegree);
+  for (int j = 1; j + kDegree < n; ++j)
+    flat_knots_.push_back((parameters_[j] + parameters_[j + 1] + parameters_[j + 2]) / kDegree);
   flat_knots_.insert(flat_knots_.end(), kDegree + 1, parameters_.back());
 }
 
@@ -54,7 +55,9 @@ std::vector<Vec4> CubicInterpolation::poles(const std::vector<Vec4>& points) con
   return result;
 }
 
-std::vector<double> CubicInterpolation::knots() const { return {flat_knots_.begin() + kDegree, flat_knots_.end() - kDegree}; }
+std::vector<double> CubicInterpolation::knots() const {
+  return {flat_knots_.begin() + kDegree, flat_knots_.end() - kDegree};
+}
 
 std::vector<int> CubicInterpolation::multiplicities() const {
   std::vector<int> result(knots().size(), 1);
@@ -62,7 +65,8 @@ std::vector<int> CubicInterpolation::multiplicities() const {
   return result;
 }
 
-Handle(Geom_BSplineSurface) skin(const std::vector<std::vector<gp_Pnt>>& rows, const CubicInterpolation& u, const CubicInterpolation& v) {
+Handle(Geom_BSplineSurface)
+    skin(const std::vector<std::vector<gp_Pnt>>& rows, const CubicInterpolation& u, const CubicInterpolation& v) {
   const int nu = int(rows.front().size()), nv = int(rows.size());
   std::vector<std::vector<Vec4>> row_poles;
   for (const auto& row : rows) {
@@ -77,12 +81,12 @@ Handle(Geom_BSplineSurface) skin(const std::vector<std::vector<gp_Pnt>>& rows, c
     column = v.poles(column);
     for (int j = 0; j < nv; ++j) poles(i + 1, j + 1) = gp_Pnt(column[j][0], column[j][1], column[j][2]);
   }
-  return new Geom_BSplineSurface(poles, reals(u.knots()), reals(v.knots()), integers(u.multiplicities()), integers(v.multiplicities()),
-                                 kDegree, kDegree);
+  return new Geom_BSplineSurface(poles, reals(u.knots()), reals(v.knots()), integers(u.multiplicities()),
+                                 integers(v.multiplicities()), kDegree, kDegree);
 }
 
-Handle(Geom_BSplineSurface)
-    elliptic_sector(const std::vector<Ellipse>& sections, const CubicInterpolation& v, double angle_begin, double angle_end) {
+Handle(Geom_BSplineSurface) elliptic_sector(const std::vector<Ellipse>& sections, const CubicInterpolation& v,
+                                            double angle_begin, double angle_end) {
   std::vector<Vec4> shape, centre;
   for (const Ellipse& e : sections) {
     shape.push_back({e.x, e.half_width, e.half_height, 0});
@@ -107,7 +111,8 @@ Handle(Geom_BSplineSurface)
                                  integers(v.multiplicities()), 2, kDegree);
 }
 
-Handle(Geom_BSplineSurface) segment(const Handle(Geom_BSplineSurface) & surface, std::array<double, 2> u, std::array<double, 2> v) {
+Handle(Geom_BSplineSurface)
+    segment(const Handle(Geom_BSplineSurface) & surface, std::array<double, 2> u, std::array<double, 2> v) {
   auto part = Handle(Geom_BSplineSurface)::DownCast(surface->Copy());
   part->Segment(u[0], u[1], v[0], v[1]);
   return part;
@@ -125,7 +130,8 @@ Handle(Geom_BSplineSurface) ruled(const Handle(Geom_Curve) & a, const Handle(Geo
     weights(1, i) = p->Weight(i);
     weights(2, i) = q->Weight(i);
   }
-  return new Geom_BSplineSurface(poles, weights, reals({0, 1}), p->Knots(), integers({2, 2}), p->Multiplicities(), 1, p->Degree());
+  return new Geom_BSplineSurface(poles, weights, reals({0, 1}), p->Knots(), integers({2, 2}), p->Multiplicities(), 1,
+                                 p->Degree());
 }
 
 std::vector<double> linspace(double a, double b, int n) {

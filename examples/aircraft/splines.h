@@ -11,7 +11,8 @@ namespace aircraft {
 
 using Vec4 = std::array<double, 4>;
 
-/// Interpolation by clamped cubic B-splines. The knots are averages of the parameters, so curves over the same parameters share them.
+/// Interpolation by clamped cubic B-splines. The knots are averages of the parameters, so curves over the same
+/// parameters share them.
 class CubicInterpolation {
  public:
   /// @param parameters strictly increasing, at least four.
@@ -34,7 +35,8 @@ class CubicInterpolation {
 };
 
 /// Surface through a grid of points: u along each row, v from row to row. @param rows rows[j][i] lies at (u_i, v_j).
-Handle(Geom_BSplineSurface) skin(const std::vector<std::vector<gp_Pnt>>& rows, const CubicInterpolation& u, const CubicInterpolation& v);
+Handle(Geom_BSplineSurface)
+    skin(const std::vector<std::vector<gp_Pnt>>& rows, const CubicInterpolation& u, const CubicInterpolation& v);
 
 /// One cross-section of a slender body: an ellipse in a plane x = const.
 struct Ellipse {
@@ -45,14 +47,16 @@ struct Ellipse {
   double centre_z = 0;
 };
 
-/// Exact sector of a body whose cross-sections are ellipses interpolated along v. u is the angle in rad, from the top (+z) towards +y.
+/// Exact sector of a body whose cross-sections are ellipses interpolated along v. u is the angle in rad, from the top
+/// (+z) towards +y.
 /// @param sections as many as v has parameters; a section of zero size becomes a pole.
 /// @param angle_begin,angle_end less than 180 degrees apart.
-Handle(Geom_BSplineSurface)
-    elliptic_sector(const std::vector<Ellipse>& sections, const CubicInterpolation& v, double angle_begin, double angle_end);
+Handle(Geom_BSplineSurface) elliptic_sector(const std::vector<Ellipse>& sections, const CubicInterpolation& v,
+                                            double angle_begin, double angle_end);
 
 /// Copy of the part of a surface between the given parameters.
-Handle(Geom_BSplineSurface) segment(const Handle(Geom_BSplineSurface) & surface, std::array<double, 2> u, std::array<double, 2> v);
+Handle(Geom_BSplineSurface)
+    segment(const Handle(Geom_BSplineSurface) & surface, std::array<double, 2> u, std::array<double, 2> v);
 
 /// Ruled surface between two compatible curves; u across from `a` (0) to `b` (1), v along them.
 Handle(Geom_BSplineSurface) ruled(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b);

@@ -59,7 +59,8 @@ void fix_header(const Handle(StepData_StepModel) & model, const std::string& pro
 
 }  // namespace
 
-void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape, const NameTable& names) {
+void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape,
+                const NameTable& names) {
   STEPCAFControl_Controller::Init();
   set_metres("xstep.cascade.unit");
   set_metres("write.step.unit");
@@ -100,7 +101,8 @@ std::map<std::string, int> read_face_names(const std::string& path) {
     for (int i = 1; i <= faces.Extent(); ++i) {
       TDF_Label label;
       Handle(TDataStd_Name) name;
-      const bool found = shapes->FindSubShape(roots(r), faces(i), label) && label.FindAttribute(TDataStd_Name::GetID(), name);
+      const bool found =
+          shapes->FindSubShape(roots(r), faces(i), label) && label.FindAttribute(TDataStd_Name::GetID(), name);
       ++count[found ? TCollection_AsciiString(name->Get()).ToCString() : ""];
     }
   }

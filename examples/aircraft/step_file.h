@@ -9,7 +9,8 @@
 
 namespace aircraft {
 
-/// Writes a shape (metres) as AP214 with the group name of each ADVANCED_FACE; the header carries no time and no machine.
+/// Writes a shape (metres) as AP214 with the group name of each ADVANCED_FACE; the header carries no time and no
+/// machine.
 /// @throws std::runtime_error when the file cannot be written.
 void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape, const NameTable& names);
 

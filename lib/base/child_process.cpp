@@ -59,10 +59,13 @@ void end_after(double cpu_seconds) {
   setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-double machine_memory() { return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)); }
+double machine_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
 
 /// The child: a code, then the text. Never returns.
-[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits, int fd, const std::string& subject) {
+[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits, int fd,
+                           const std::string& subject) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (limits.cpu_seconds > 0) end_after(limits.cpu_seconds);
   limit(RLIMIT_AS, machine_memory());
@@ -107,12 +110,15 @@ std::string number(double x) {
 
 }  // namespace
 
-std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits, const std::string& subject) {
+std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits,
+                         const std::string& subject) {
   int ends[2];
-  if (pipe(ends) != 0) throw Error(ExitCode::kInternal, std::string("pipe: ") + std::strerror(errno) + "; close some files");
+  if (pipe(ends) != 0)
+    throw Error(ExitCode::kInternal, std::string("pipe: ") + std::strerror(errno) + "; close some files");
   std::fflush(nullptr);
   const pid_t child = fork();
-  if (child < 0) throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
+  if (child < 0)
+    throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
   if (child == 0) {
     close(ends[0]);
     be_child(work, limits, ends[1], subject);

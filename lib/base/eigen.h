@@ -32,8 +32,10 @@ std::optional<Eigen::Matrix<double, N, 1>> solve(const Eigen::Matrix<double, N, 
   static_assert(N == 2 || N == 3);
   const double determinant = m.determinant();
   if (!(determinant > least_determinant)) return std::nullopt;
-  if constexpr (N == 2) return adjugate(m) * b / determinant;  // one rounding less than with the inverse
-  else return m.inverse() * b;
+  if constexpr (N == 2)
+    return adjugate(m) * b / determinant;  // one rounding less than with the inverse
+  else
+    return m.inverse() * b;
 }
 
 }  // namespace st

@@ -9,13 +9,13 @@ namespace st {
 /// Exit codes of every tool (docs/exit_codes.md).
 enum class ExitCode : int {
   kOk = 0,
-  kUsage = 2,        ///< bad option or argument
-  kInput = 3,        ///< input unreadable or invalid
-  kGeometry = 4,     ///< geometry unusable
-  kIncomplete = 5,   ///< faces not meshed, or a check failed
-  kOutput = 6,       ///< output cannot be written
-  kMismatch = 7,     ///< inputs do not belong together
-  kInternal = 70     ///< a defect of ours
+  kUsage = 2,       ///< bad option or argument
+  kInput = 3,       ///< input unreadable or invalid
+  kGeometry = 4,    ///< geometry unusable
+  kIncomplete = 5,  ///< faces not meshed, or a check failed
+  kOutput = 6,      ///< output cannot be written
+  kMismatch = 7,    ///< inputs do not belong together
+  kInternal = 70    ///< a defect of ours
 };
 
 /// Thrown for anything a user can cause or fix. The message says where, what and what to do, on one line:

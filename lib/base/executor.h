@@ -21,10 +21,10 @@ class Executor {
   virtual void broadcast(Bytes& bytes) const = 0;
   /// Collective: the bytes of every rank on rank 0, by rank; nothing elsewhere.
   virtual std::vector<Bytes> gather(Bytes own) const = 0;
-  /// Collective. Runs `compute(task)` once for each task in [0, n_tasks), on any rank and any thread, and `collect(task, result)` on rank 0 only, in
-  /// arrival order: a collector that must not depend on it stores by task. `order`: in which tasks are handed out, heaviest first, a permutation
-  /// of [0, n_tasks), the same on every rank. An exception out of `compute` on any rank is thrown on rank 0 as an Error with its text and exit
-  /// code.
+  /// Collective. Runs `compute(task)` once for each task in [0, n_tasks), on any rank and any thread, and
+  /// `collect(task, result)` on rank 0 only, in arrival order: a collector that must not depend on it stores by task.
+  /// `order`: in which tasks are handed out, heaviest first, a permutation of [0, n_tasks), the same on every rank. An
+  /// exception out of `compute` on any rank is thrown on rank 0 as an Error with its text and exit code.
   virtual void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                          const std::function<Bytes(std::int32_t task)>& compute,
                          const std::function<void(std::int32_t task, Bytes&& result)>& collect) const = 0;
@@ -41,7 +41,8 @@ class SerialExecutor : public Executor {
     all.push_back(std::move(own));
     return all;
   }
-  void run_tasks(std::int32_t, const std::vector<std::int32_t>& order, const std::function<Bytes(std::int32_t)>& compute,
+  void run_tasks(std::int32_t, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t)>& compute,
                  const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
     for (const std::int32_t task : order) collect(task, compute(task));
   }

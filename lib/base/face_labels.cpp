@@ -24,10 +24,12 @@ std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values, std::s
 }
 
 /// Column `of_second` behind `of_first`, either of them perhaps left out.
-std::vector<std::int32_t> joined(std::vector<std::int32_t> of_first, std::int32_t n_first, const std::vector<std::int32_t>& of_second,
-                                 std::int32_t n_second, const std::vector<std::int32_t>& renumbered) {
+std::vector<std::int32_t> joined(std::vector<std::int32_t> of_first, std::int32_t n_first,
+                                 const std::vector<std::int32_t>& of_second, std::int32_t n_second,
+                                 const std::vector<std::int32_t>& renumbered) {
   of_first.resize(n_first, kNone);
-  for (std::int32_t f = 0; f < n_second; ++f) of_first.push_back(of_second.empty() || of_second[f] < 0 ? kNone : renumbered[of_second[f]]);
+  for (std::int32_t f = 0; f < n_second; ++f)
+    of_first.push_back(of_second.empty() || of_second[f] < 0 ? kNone : renumbered[of_second[f]]);
   return of_first;
 }
 
@@ -36,7 +38,9 @@ std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
   std::vector<std::int32_t> number;
   for (std::size_t g = 0; g < from.group_name.size(); ++g) {
     std::size_t k = 0;
-    while (k < to.group_name.size() && (to.group_name[k] != from.group_name[g] || to.group_role[k] != from.group_role[g])) ++k;
+    while (k < to.group_name.size() &&
+           (to.group_name[k] != from.group_name[g] || to.group_role[k] != from.group_role[g]))
+      ++k;
     if (k == to.group_name.size()) {
       to.group_name.push_back(from.group_name[g]);
       to.group_role.push_back(from.group_role[g]);
@@ -48,8 +52,8 @@ std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
 }
 
 /// Adds the faces whose number has a matching name.
-void add_matches(const std::string& pattern, const std::vector<std::string>& name, const std::vector<std::int32_t>& of_face,
-                 std::vector<std::uint8_t>& is_in) {
+void add_matches(const std::string& pattern, const std::vector<std::string>& name,
+                 const std::vector<std::int32_t>& of_face, std::vector<std::uint8_t>& is_in) {
   std::vector<std::uint8_t> is_match;
   for (const std::string& n : name) is_match.push_back(name_matches(pattern, n));
   for (std::size_t f = 0; f < std::min(is_in.size(), of_face.size()); ++f)
@@ -92,7 +96,8 @@ void raise_tolerances(const std::vector<std::string>& attributes, const std::vec
   }
 }
 
-/// Words of a name in small letters: runs of letters, a capital behind a small letter begins a new one. Bytes beyond ASCII are letters.
+/// Words of a name in small letters: runs of letters, a capital behind a small letter begins a new one. Bytes beyond
+/// ASCII are letters.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> words(1);
   bool was_small = false;
@@ -163,7 +168,8 @@ void append_groups(std::vector<EntityGroup>& to, const std::vector<EntityGroup>&
 }
 
 std::vector<std::int32_t> find_members(const std::string& pattern, const std::vector<EntityGroup>& groups) {
-  const auto main = members(groups, [&](const EntityGroup& g) { return g.table.empty() && name_matches(pattern, g.name); });
+  const auto main =
+      members(groups, [&](const EntityGroup& g) { return g.table.empty() && name_matches(pattern, g.name); });
   if (!main.empty()) return main;
   return members(groups, [&](const EntityGroup& g) {
     return !g.table.empty() && (name_matches(pattern, g.name) || name_matches(pattern, g.table + ":" + g.name));
@@ -186,11 +192,13 @@ std::vector<double> face_tolerances(const GroupNames& names) {
 
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken) {
   std::string candidate = path;
-  for (int k = 2; std::find(taken.begin(), taken.end(), candidate) != taken.end(); ++k) candidate = path + "#" + std::to_string(k);
+  for (int k = 2; std::find(taken.begin(), taken.end(), candidate) != taken.end(); ++k)
+    candidate = path + "#" + std::to_string(k);
   return candidate;
 }
 
-FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second, std::int32_t n_second) {
+FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second,
+                         std::int32_t n_second) {
   FaceLabels out = first;
   std::vector<std::int32_t> part;
   for (std::size_t p = 0; p < second.part_name.size(); ++p) {
@@ -204,7 +212,8 @@ FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const Fa
     if (std::none_of(out.tables.begin(), out.tables.end(), [&](const GroupTable& t) { return t.name == table.name; }))
       out.tables.push_back({table.name, {}, {}, {}, {}});
   for (GroupTable& table : out.tables) {
-    const auto same = std::find_if(second.tables.begin(), second.tables.end(), [&](const GroupTable& t) { return t.name == table.name; });
+    const auto same = std::find_if(second.tables.begin(), second.tables.end(),
+                                   [&](const GroupTable& t) { return t.name == table.name; });
     const GroupTable none;
     const GroupTable& other = same == second.tables.end() ? none : *same;
     const std::vector<std::int32_t> number = merge_groups(table, other);

@@ -32,13 +32,15 @@ struct EntityGroup {
 
 /// Labels of a model or mesh, empty where nobody said anything.
 struct FaceLabels {
-  std::vector<std::string> group_attributes;  ///< [n_groups] of the main groups: one JSON object each, "{}": none; or empty
+  std::vector<std::string> group_attributes;  ///< [n_groups] of the main groups: one JSON object each, "{}": none; or
+                                              ///< empty
   std::vector<GroupTable> tables;             ///< in the order of the groups file
   std::vector<std::string> part_name;         ///< [n_parts] UTF-8; instances of a part have the same name
-  std::vector<std::string> part_path;         ///< [n_parts] "assembly/sub#2/bolt#3": unique; #k is the k-th of that name in its assembly
-  std::vector<std::int32_t> face_part;        ///< [n_faces] kNone: of no part; or empty: no parts
-  std::vector<EntityGroup> edge_groups;       ///< in the order of the groups file
-  std::vector<EntityGroup> vertex_groups;     ///< likewise
+  std::vector<std::string> part_path;    ///< [n_parts] "assembly/sub#2/bolt#3": unique; #k is the k-th of that name in
+                                         ///< its assembly
+  std::vector<std::int32_t> face_part;   ///< [n_faces] kNone: of no part; or empty: no parts
+  std::vector<EntityGroup> edge_groups;  ///< in the order of the groups file
+  std::vector<EntityGroup> vertex_groups;  ///< likewise
 
   /// Name and path of the part of a face; empty when it has none.
   const std::string& part_of(FaceId f) const;
@@ -50,9 +52,11 @@ struct FaceLabels {
 /// have.
 FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces);
 
-/// Labels of `n_first` faces and, behind them, of `n_second` others. Tables of one name become one, groups of one name and role in them,
-/// too; parts stay apart, those of `second` with a path that `first` has get the next free number. group_attributes stay those of `first`.
-FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second, std::int32_t n_second);
+/// Labels of `n_first` faces and, behind them, of `n_second` others. Tables of one name become one, groups of one name
+/// and role in them, too; parts stay apart, those of `second` with a path that `first` has get the next free number.
+/// group_attributes stay those of `first`.
+FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second,
+                         std::int32_t n_second);
 
 /// Groups of those ids that have a place in `place` ([n ids of the whole] kNone: none), under that number; groups left
 /// empty go.
@@ -61,7 +65,8 @@ std::vector<EntityGroup> select_groups(const std::vector<EntityGroup>& groups, s
 /// Adds groups whose ids are raised by `shift`, behind all ids of `to`; those of one name and table become one.
 void append_groups(std::vector<EntityGroup>& to, const std::vector<EntityGroup>& more, std::int32_t shift);
 
-/// The division of a model's faces that a name speaks of, for options that take the name of a group. Points into its owner.
+/// The division of a model's faces that a name speaks of, for options that take the name of a group. Points into its
+/// owner.
 struct GroupNames {
   const std::vector<std::string>& group_name;   ///< [n_groups] of the main table
   const std::vector<std::int32_t>& face_group;  ///< [n_faces] main group of each face
@@ -71,8 +76,9 @@ struct GroupNames {
 /// Whether the name is this one or matches this glob pattern (`*`, `?`, `[abc]`); no name matches nothing.
 bool name_matches(const std::string& pattern, const std::string& name);
 
-/// Faces of the main groups whose names match a glob pattern; where none does, of the groups of further tables ("hot", or "bc:hot" with
-/// the name of the table), else of parts with such a name, else of parts with such a path. [n_faces] 1: in it; empty: nothing matches.
+/// Faces of the main groups whose names match a glob pattern; where none does, of the groups of further tables ("hot",
+/// or "bc:hot" with the name of the table), else of parts with such a name, else of parts with such a path. [n_faces]
+/// 1: in it; empty: nothing matches.
 std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names);
 
 /// Ids, ascending, of the groups of edges (or vertices) in the main table whose names match a glob pattern; where none
@@ -90,9 +96,9 @@ std::vector<double> face_tolerances(const GroupNames& names);
 /// `path`, or the first of path#2, path#3 ... that `taken` lacks.
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken);
 
-/// Role that whole words of a name give, whatever their case: "far field", "farfield" -> "farfield"; "symmetry", "sym", "symm",
-/// "SymmetryPlane", "symm-y0" -> "symmetry"; all else, "asymmetry" and "symbol" too, -> "wall". A word is a run of letters; a capital
-/// behind a small letter begins a new one.
+/// Role that whole words of a name give, whatever their case: "far field", "farfield" -> "farfield"; "symmetry", "sym",
+/// "symm", "SymmetryPlane", "symm-y0" -> "symmetry"; all else, "asymmetry" and "symbol" too, -> "wall". A word is a run
+/// of letters; a capital behind a small letter begins a new one.
 std::string role_of_name(const std::string& name);
 
 /// Whether faces of this role bound the air and not the body: "farfield", "symmetry".

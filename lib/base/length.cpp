@@ -13,12 +13,14 @@ namespace st {
 std::optional<double> unit_in_metres(const std::string& name) {
   std::string s;
   for (char c : name)
-    if (!std::isspace(static_cast<unsigned char>(c))) s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!std::isspace(static_cast<unsigned char>(c)))
+      s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   static const std::pair<const char*, double> kUnits[] = {
-      {"um", 1e-6},  {"micron", 1e-6},     {"micrometre", 1e-6}, {"micrometer", 1e-6}, {"mm", 1e-3},   {"millimetre", 1e-3},
-      {"millimeter", 1e-3}, {"cm", 1e-2},  {"centimetre", 1e-2}, {"centimeter", 1e-2}, {"m", 1.0},     {"metre", 1.0},
-      {"meter", 1.0}, {"km", 1e3},         {"kilometre", 1e3},   {"kilometer", 1e3},   {"in", 0.0254}, {"inch", 0.0254},
-      {"ft", 0.3048}, {"foot", 0.3048},    {"feet", 0.3048},     {"mil", 0.0254e-3},   {"yd", 0.9144}};
+      {"um", 1e-6},         {"micron", 1e-6},     {"micrometre", 1e-6}, {"micrometer", 1e-6}, {"mm", 1e-3},
+      {"millimetre", 1e-3}, {"millimeter", 1e-3}, {"cm", 1e-2},         {"centimetre", 1e-2}, {"centimeter", 1e-2},
+      {"m", 1.0},           {"metre", 1.0},       {"meter", 1.0},       {"km", 1e3},          {"kilometre", 1e3},
+      {"kilometer", 1e3},   {"in", 0.0254},       {"inch", 0.0254},     {"ft", 0.3048},       {"foot", 0.3048},
+      {"feet", 0.3048},     {"mil", 0.0254e-3},   {"yd", 0.9144}};
   for (const auto& [unit, metres] : kUnits)
     if (s == unit) return metres;
   return std::nullopt;
@@ -50,14 +52,21 @@ LengthSpec parse_length(const std::string& text, const std::string& option) {
   return spec;
 }
 
-double resolve_length(const LengthSpec& spec, double diagonal, std::optional<double> unit_in_m, const std::string& option) {
+double resolve_length(const LengthSpec& spec, double diagonal, std::optional<double> unit_in_m,
+                      const std::string& option) {
   switch (spec.kind) {
-    case LengthSpec::Kind::kModelUnit: return spec.value;
-    case LengthSpec::Kind::kPercentOfDiagonal: return spec.value * 0.01 * diagonal;
-    case LengthSpec::Kind::kAbsolute: break;
+    case LengthSpec::Kind::kModelUnit:
+      return spec.value;
+    case LengthSpec::Kind::kPercentOfDiagonal:
+      return spec.value * 0.01 * diagonal;
+    case LengthSpec::Kind::kAbsolute:
+      break;
   }
   if (!unit_in_m)
-    throw Error(ExitCode::kUsage, option + ": '" + spec.text + "' has a unit but the model has none; give the model's unit with st-import --unit, or a plain number");
+    throw Error(
+        ExitCode::kUsage,
+        option + ": '" + spec.text +
+            "' has a unit but the model has none; give the model's unit with st-import --unit, or a plain number");
   return spec.value / *unit_in_m;
 }
 

@@ -3,8 +3,9 @@
 
 namespace st {
 
-/// Freed memory is kept for the next array instead of being returned: where arrays of megabytes follow each other, fresh pages for each cost as
-/// much as the work on them. Call it once, early. No effect on other C libraries than glibc.
+/// Freed memory is kept for the next array instead of being returned: where arrays of megabytes follow each other,
+/// fresh pages for each cost as much as the work on them. Call it once, early. No effect on other C libraries than
+/// glibc.
 void keep_freed_memory();
 
 /// Memory that this process may use, bytes: the machine's, or less where a control group (container, batch job) or a

@@ -124,7 +124,8 @@ Expansion<16> det2(const Difference& a, const Difference& b, const Difference& c
 }  // namespace
 
 double orient2d_exact(Vec2 a, Vec2 b, Vec2 c) {
-  const Difference acx = difference(a.x, c.x), acy = difference(a.y, c.y), bcx = difference(b.x, c.x), bcy = difference(b.y, c.y);
+  const Difference acx = difference(a.x, c.x), acy = difference(a.y, c.y), bcx = difference(b.x, c.x),
+                   bcy = difference(b.y, c.y);
   return det2(acx, acy, bcx, bcy).estimate();
 }
 
@@ -139,7 +140,8 @@ double orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 }
 
 double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Difference px = difference(a.x, d.x), py = difference(a.y, d.y), qx = difference(b.x, d.x), qy = difference(b.y, d.y);
+  const Difference px = difference(a.x, d.x), py = difference(a.y, d.y), qx = difference(b.x, d.x),
+                   qy = difference(b.y, d.y);
   const Difference rx = difference(c.x, d.x), ry = difference(c.y, d.y);
   const auto square = [](const Difference& x, const Difference& y) { return add(multiply(x, x), multiply(y, y)); };
   const auto first = multiply_long(det2(qx, qy, rx, ry), square(px, py));

@@ -1,9 +1,10 @@
-// Exact predicates: the sign of a determinant is right whatever the rounding. A filter decides nearly always (inline); the rest is
-// evaluated with floating-point expansions (Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
-// 1997).
+// Exact predicates: the sign of a determinant is right whatever the rounding. A filter decides nearly always (inline);
+// the rest is evaluated with floating-point expansions (Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast
+// Robust Geometric Predicates, 1997).
 //
-// Range: exact as long as no product of coordinate differences overflows or underflows: differences that are zero or between 1e-70 and
-// 1e+70 in absolute value (incircle: 1e-50 to 1e+50). Coordinates must be finite. Compile with -ffp-contract=off.
+// Range: exact as long as no product of coordinate differences overflows or underflows: differences that are zero or
+// between 1e-70 and 1e+70 in absolute value (incircle: 1e-50 to 1e+50). Coordinates must be finite. Compile with
+// -ffp-contract=off.
 #pragma once
 
 #include <cmath>
@@ -23,8 +24,8 @@ double orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 }  // namespace detail
 
-/// Twice the signed area of the triangle (a, b, c): positive when counter-clockwise, zero exactly when collinear. The sign is exact, the
-/// magnitude approximate. Swapping two arguments flips the sign exactly.
+/// Twice the signed area of the triangle (a, b, c): positive when counter-clockwise, zero exactly when collinear. The
+/// sign is exact, the magnitude approximate. Swapping two arguments flips the sign exactly.
 inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
   const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
   const double det = left - right;
@@ -32,27 +33,31 @@ inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return det >= bound || -det >= bound ? det : detail::orient2d_exact(a, b, c);
 }
 
-/// Six times the signed volume of the tetrahedron (a, b, c, d), ((b-a) x (c-a)) . (d-a): positive when d lies on the side that the normal
-/// of (a, b, c) points to, zero exactly when coplanar. The sign is exact, the magnitude approximate. Swapping two arguments flips the sign.
+/// Six times the signed volume of the tetrahedron (a, b, c, d), ((b-a) x (c-a)) . (d-a): positive when d lies on the
+/// side that the normal of (a, b, c) points to, zero exactly when coplanar. The sign is exact, the magnitude
+/// approximate. Swapping two arguments flips the sign.
 inline double orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
-  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y, qxpy = q.x * p.y;
+  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y,
+               qxpy = q.x * p.y;
   const double det = p.z * (rxqy - qxry) + q.z * (pxry - rxpy) + r.z * (qxpy - pxqy);
-  const double permanent = (std::fabs(qxry) + std::fabs(rxqy)) * std::fabs(p.z) + (std::fabs(rxpy) + std::fabs(pxry)) * std::fabs(q.z) +
+  const double permanent = (std::fabs(qxry) + std::fabs(rxqy)) * std::fabs(p.z) +
+                           (std::fabs(rxpy) + std::fabs(pxry)) * std::fabs(q.z) +
                            (std::fabs(pxqy) + std::fabs(qxpy)) * std::fabs(r.z);
   const double bound = detail::kOrient3dBound * permanent;
   return det >= bound || -det >= bound ? det : detail::orient3d_exact(a, b, c, d);
 }
 
-/// Positive when d lies inside the circle through a, b, c (counter-clockwise), negative outside, zero exactly when cocircular; the opposite
-/// for a clockwise triangle. The sign is exact.
+/// Positive when d lies inside the circle through a, b, c (counter-clockwise), negative outside, zero exactly when
+/// cocircular; the opposite for a clockwise triangle. The sign is exact.
 inline double incircle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Vec2 p = a - d, q = b - d, r = c - d;
-  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y, qxpy = q.x * p.y;
+  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y,
+               qxpy = q.x * p.y;
   const double p2 = p.x * p.x + p.y * p.y, q2 = q.x * q.x + q.y * q.y, r2 = r.x * r.x + r.y * r.y;
   const double det = p2 * (qxry - rxqy) + q2 * (rxpy - pxry) + r2 * (pxqy - qxpy);
-  const double permanent =
-      (std::fabs(qxry) + std::fabs(rxqy)) * p2 + (std::fabs(rxpy) + std::fabs(pxry)) * q2 + (std::fabs(pxqy) + std::fabs(qxpy)) * r2;
+  const double permanent = (std::fabs(qxry) + std::fabs(rxqy)) * p2 + (std::fabs(rxpy) + std::fabs(pxry)) * q2 +
+                           (std::fabs(pxqy) + std::fabs(qxpy)) * r2;
   const double bound = detail::kIncircleBound * permanent;
   return det >= bound || -det >= bound ? det : detail::incircle_exact(a, b, c, d);
 }

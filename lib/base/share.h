@@ -6,8 +6,8 @@
 
 namespace st {
 
-/// Collective. Rank 0's values on every rank. A decision that all ranks act on is made on rank 0 and shared: processors of different makes round
-/// sines and powers differently, and two ranks that decide for themselves could disagree.
+/// Collective. Rank 0's values on every rank. A decision that all ranks act on is made on rank 0 and shared: processors
+/// of different makes round sines and powers differently, and two ranks that decide for themselves could disagree.
 template <class... Values>
 void share(const Executor& executor, Values&... values) {
   if (executor.size() == 1) return;

@@ -31,9 +31,10 @@ Similarity rotation_about(Vec3 axis, double angle);
 /// Reflection at the plane through the origin with this normal.
 Similarity reflection_at(Vec3 normal);
 
-/// Steps in order, separated by ';' (angles in degrees, right-handed; `at` a point on the axis or plane, or the one that stays; else the
-/// origin): "rotate X Y Z DEGREES [at X Y Z]", "hinge X Y Z X Y Z DEGREES" (about the line through two points), "mirror X Y Z [at X Y Z]"
-/// (X Y Z: normal of the plane), "scale F [at X Y Z]", "translate X Y Z". No step: nothing moves. Throws Error(kUsage) naming `option`.
+/// Steps in order, separated by ';' (angles in degrees, right-handed; `at` a point on the axis or plane, or the one
+/// that stays; else the origin): "rotate X Y Z DEGREES [at X Y Z]", "hinge X Y Z X Y Z DEGREES" (about the line through
+/// two points), "mirror X Y Z [at X Y Z]" (X Y Z: normal of the plane), "scale F [at X Y Z]", "translate X Y Z". No
+/// step: nothing moves. Throws Error(kUsage) naming `option`.
 Similarity parse_similarity(const std::string& text, const std::string& option);
 
 }  // namespace st

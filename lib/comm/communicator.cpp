@@ -47,7 +47,8 @@ constexpr int kTagGather = 4;  // task_farm.cpp has the others
 template <class Transfer>
 void for_each_piece(Bytes& bytes, const Transfer& transfer) {
   for (std::uint64_t start = 0; start < bytes.size(); start += kMaxMessageBytes)
-    require_mpi(transfer(bytes.data() + start, static_cast<int>(std::min<std::uint64_t>(kMaxMessageBytes, bytes.size() - start))),
+    require_mpi(transfer(bytes.data() + start,
+                         static_cast<int>(std::min<std::uint64_t>(kMaxMessageBytes, bytes.size() - start))),
                 "the transfer of bytes");
 }
 
@@ -107,7 +108,8 @@ void Communicator::broadcast(Bytes& bytes) const {
   std::uint64_t n = bytes.size();
   require_mpi(MPI_Bcast(&n, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Bcast");
   bytes.resize(n);
-  for_each_piece(bytes, [](std::byte* piece, int count) { return MPI_Bcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
+  for_each_piece(bytes,
+                 [](std::byte* piece, int count) { return MPI_Bcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD); });
 }
 
 std::vector<Bytes> Communicator::gather(Bytes own) const {
@@ -115,7 +117,8 @@ std::vector<Bytes> Communicator::gather(Bytes own) const {
   if (impl_->size > 1) barrier();  // whoever comes early waits asleep
   std::uint64_t n = own.size();
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(impl_->size), n);
-  if (impl_->size > 1) require_mpi(MPI_Gather(&n, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Gather");
+  if (impl_->size > 1)
+    require_mpi(MPI_Gather(&n, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD), "MPI_Gather");
   if (is_root()) {
     all.push_back(std::move(own));
     for (int rank = 1; rank < impl_->size; ++rank) {
@@ -125,7 +128,9 @@ std::vector<Bytes> Communicator::gather(Bytes own) const {
       });
     }
   } else {
-    for_each_piece(own, [](std::byte* piece, int count) { return MPI_Send(piece, count, MPI_BYTE, 0, kTagGather, MPI_COMM_WORLD); });
+    for_each_piece(own, [](std::byte* piece, int count) {
+      return MPI_Send(piece, count, MPI_BYTE, 0, kTagGather, MPI_COMM_WORLD);
+    });
   }
   return all;
 }
@@ -137,7 +142,8 @@ void Communicator::reduce_min(std::vector<std::uint64_t>& values) const {
   for (std::uint64_t start = 0; start < values.size(); start += kPiece) {
     std::uint64_t* piece = values.data() + start;
     const int count = static_cast<int>(std::min<std::uint64_t>(kPiece, values.size() - start));
-    require_mpi(MPI_Reduce(is_root() ? MPI_IN_PLACE : piece, is_root() ? piece : nullptr, count, MPI_UINT64_T, MPI_MIN, 0, MPI_COMM_WORLD),
+    require_mpi(MPI_Reduce(is_root() ? MPI_IN_PLACE : piece, is_root() ? piece : nullptr, count, MPI_UINT64_T, MPI_MIN,
+                           0, MPI_COMM_WORLD),
                 "MPI_Reduce");
   }
 }
@@ -204,7 +210,9 @@ std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& argum
   set_launch_environment();
   char self[4096];
   const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  if (length <= 0) throw Error(ExitCode::kInternal, "cannot find the path of this program; start it with mpirun -np " + std::to_string(n));
+  if (length <= 0)
+    throw Error(ExitCode::kInternal,
+                "cannot find the path of this program; start it with mpirun -np " + std::to_string(n));
   std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), std::string(self, length)};
   words.insert(words.end(), arguments_without_np.begin(), arguments_without_np.end());
   MpirunReport report;

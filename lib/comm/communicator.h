@@ -16,7 +16,8 @@ namespace st {
 /// The process group of this run. Without a launcher MPI is never initialised and the group has one rank.
 class Communicator : public Executor {
  public:
-  /// Initialises MPI when a launcher (Open MPI, PMI/PMIx, Slurm) started this process. One object per process, made in main.
+  /// Initialises MPI when a launcher (Open MPI, PMI/PMIx, Slurm) started this process. One object per process, made in
+  /// main.
   Communicator();
   /// Collective: finalises MPI.
   ~Communicator() override;
@@ -28,18 +29,21 @@ class Communicator : public Executor {
 
   void broadcast(Bytes& bytes) const override;
   std::vector<Bytes> gather(Bytes own) const override;
-  /// Collective: entry by entry the smallest of all ranks' values, on rank 0; the other ranks' are left as they are. Same length
-  /// everywhere.
+  /// Collective: entry by entry the smallest of all ranks' values, on rank 0; the other ranks' are left as they are.
+  /// Same length everywhere.
   void reduce_min(std::vector<std::uint64_t>& values) const;
   /// Collective: waits for all ranks without burning a core.
   void barrier() const;
-  /// Local: ends every rank at once with this exit code (mpirun takes some tenths of a second). Call after the message was printed.
+  /// Local: ends every rank at once with this exit code (mpirun takes some tenths of a second). Call after the message
+  /// was printed.
   [[noreturn]] void abort(int exit_code) const;
 
-  /// As Executor says. Rank 0 computes, too: `compute` runs there on a thread of its own, so it must not call MPI nor share unguarded state with
-  /// `collect`, which runs on the main thread; both cores of a two-rank run are busy. At one rank everything runs on the main thread. Of several
-  /// exceptions the first that arrives is thrown; the other ranks stay in the call, so the job can then only be ended with abort().
-  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order, const std::function<Bytes(std::int32_t task)>& compute,
+  /// As Executor says. Rank 0 computes, too: `compute` runs there on a thread of its own, so it must not call MPI nor
+  /// share unguarded state with `collect`, which runs on the main thread; both cores of a two-rank run are busy. At one
+  /// rank everything runs on the main thread. Of several exceptions the first that arrives is thrown; the other ranks
+  /// stay in the call, so the job can then only be ended with abort().
+  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
 
  private:

@@ -25,7 +25,8 @@ bool tells_the_end(const std::string& line) {
 /// What Open MPI adds when several ranks abort.
 bool is_repetition(const std::string& line) {
   static const std::regex repetition(
-      "^\\[.*\\] (\\d+ more process(es)? .*mpi-abort|Set MCA parameter .orte_base_help_aggregate.|.*ORTE_ERROR_LOG: .*show_help)");
+      "^\\[.*\\] (\\d+ more process(es)? .*mpi-abort|Set MCA parameter .orte_base_help_aggregate.|.*ORTE_ERROR_LOG: "
+      ".*show_help)");
   return std::regex_search(line, repetition);
 }
 

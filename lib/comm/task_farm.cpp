@@ -74,7 +74,8 @@ Outcome run_task(std::int32_t task, const Compute& compute) {
   return outcome;
 }
 
-/// The bytes of an outcome on their way, in pieces that MPI can count. Neither side waits for the other: a worker goes on computing.
+/// The bytes of an outcome on their way, in pieces that MPI can count. Neither side waits for the other: a worker goes
+/// on computing.
 class Transfer {
  public:
   /// Worker: sends what rank 0 has to know, then the bytes.
@@ -85,25 +86,32 @@ class Transfer {
     require_mpi(MPI_Isend(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD, &request), "MPI_Isend");
     transfer.requests_.push_back(request);
     transfer.for_each_piece(
-        [&](std::byte* piece, int count) { return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request); }, request);
+        [&](std::byte* piece, int count) {
+          return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request);
+        },
+        request);
     return transfer;
   }
 
   /// Rank 0: receives the message that a probe has announced from `rank`, and starts to receive the bytes.
   static Transfer receive(int rank) {
     OutcomeMessage message{};
-    require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+    require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE),
+                "MPI_Recv");
     Transfer transfer({message.task, message.code, message.seconds, Bytes(message.n_bytes)});
     MPI_Request request;
     transfer.for_each_piece(
-        [&](std::byte* piece, int count) { return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request); },
+        [&](std::byte* piece, int count) {
+          return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request);
+        },
         request);
     return transfer;
   }
 
   bool is_done() {
     int done = 0;
-    require_mpi(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "MPI_Testall");
+    require_mpi(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE),
+                "MPI_Testall");
     return done != 0;
   }
 
@@ -113,13 +121,15 @@ class Transfer {
  private:
   explicit Transfer(Outcome&& outcome)
       : outcome_(std::move(outcome)),
-        message_(std::make_unique<OutcomeMessage>(OutcomeMessage{outcome_.task, outcome_.code, outcome_.seconds, outcome_.bytes.size()})) {}
+        message_(std::make_unique<OutcomeMessage>(
+            OutcomeMessage{outcome_.task, outcome_.code, outcome_.seconds, outcome_.bytes.size()})) {}
 
   template <class Post>
   void for_each_piece(const Post& post, MPI_Request& request) {
     const std::uint64_t n = outcome_.bytes.size();
     for (std::uint64_t start = 0; start < n; start += kMaxMessageBytes) {
-      require_mpi(post(outcome_.bytes.data() + start, static_cast<int>(std::min(kMaxMessageBytes, n - start))), "the transfer of a result");
+      require_mpi(post(outcome_.bytes.data() + start, static_cast<int>(std::min(kMaxMessageBytes, n - start))),
+                  "the transfer of a result");
       requests_.push_back(request);
     }
   }
@@ -229,7 +239,9 @@ class Distributor {
   }
 
  private:
-  void send_task(int rank, std::int32_t task) { require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send"); }
+  void send_task(int rank, std::int32_t task) {
+    require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send");
+  }
 
   /// The next task to a rank, if there is one.
   void give(int rank) {
@@ -239,7 +251,8 @@ class Distributor {
     rank == 0 ? local_.give(task) : send_task(rank, task);
   }
 
-  /// One task less is out; keeps the rank busy. Comes before the bytes are there and before collecting: that may take its time.
+  /// One task less is out; keeps the rank busy. Comes before the bytes are there and before collecting: that may take
+  /// its time.
   void answer(int rank, double seconds) {
     --n_pending_[rank];
     const int n_wanted = 1 + static_cast<int>(std::min<double>(kMaxAhead, kAheadSeconds / std::max(seconds, 1e-9)));
@@ -342,7 +355,8 @@ void Backoff::sleep() {
 
 void Backoff::lengthen() { next_ = std::min(next_ * 3 / 2, std::chrono::microseconds(1000)); }
 
-void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect) {
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute,
+                      const Collect& collect) {
   Distributor(n_ranks, order, compute, collect).run();
 }
 

@@ -1,8 +1,9 @@
 // The task farm behind Communicator::run_tasks. Internal to comm.
 //
-// Rank 0 hands out tasks and collects results on its main thread, asleep while there is nothing to do, and computes on a second thread; MPI
-// is called from main threads only. Workers get their next task when they send a result. Whose tasks are so short that a message's latency
-// matters gets some ahead; long ones are not given ahead, for a task that waits behind another long one could run elsewhere.
+// Rank 0 hands out tasks and collects results on its main thread, asleep while there is nothing to do, and computes on
+// a second thread; MPI is called from main threads only. Workers get their next task when they send a result. Whose
+// tasks are so short that a message's latency matters gets some ahead; long ones are not given ahead, for a task that
+// waits behind another long one could run elsewhere.
 #pragma once
 
 #include <chrono>
@@ -33,9 +34,10 @@ class Backoff {
 using Compute = std::function<Bytes(std::int32_t task)>;
 using Collect = std::function<void(std::int32_t task, Bytes&& result)>;
 
-/// Rank 0's side: returns when all results are collected. Throws Error with code and text of the first compute that failed, on any rank,
-/// and what `collect` throws; the other ranks then wait for more until the job is aborted.
-void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect);
+/// Rank 0's side: returns when all results are collected. Throws Error with code and text of the first compute that
+/// failed, on any rank, and what `collect` throws; the other ranks then wait for more until the job is aborted.
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute,
+                      const Collect& collect);
 
 /// Every other rank's side: returns when rank 0 says that there is no more.
 void work_on_tasks(const Compute& compute);

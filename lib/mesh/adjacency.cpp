@@ -74,7 +74,8 @@ void DisjointSets::join(std::int32_t a, std::int32_t b) {
   if (a != b) parent_[std::max(a, b)] = std::min(a, b);
 }
 
-std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes, std::int32_t& n_components) {
+std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes,
+                                          std::int32_t& n_components) {
   ST_ASSERT(are_nodes_below(triangles, n_nodes));
   DisjointSets sets(n_nodes);
   std::vector<std::int32_t> component(n_nodes, kNone);

@@ -13,8 +13,8 @@ namespace st {
 /// Side k of triangle t as one number, 3 t + k: it runs from node n[k] to node n[(k+1) % 3].
 using SideId = std::int32_t;
 
-/// All sides of a triangulation sorted by (lower node, higher node, side): equal node pairs are the uses of one mesh edge.
-/// Triangles with a repeated node have no sides here. 24 bytes per triangle and 4 per node.
+/// All sides of a triangulation sorted by (lower node, higher node, side): equal node pairs are the uses of one mesh
+/// edge. Triangles with a repeated node have no sides here. 24 bytes per triangle and 4 per node.
 class EdgeTable {
  public:
   /// Precondition: node ids in [0, n_nodes). Throws Error(kUsage) beyond kMaxTriangles. Linear time but for the log of
@@ -54,8 +54,9 @@ class DisjointSets {
   std::vector<std::int32_t> parent_;
 };
 
-/// Connected component of each node, kNone for nodes without a triangle; triangles connect their nodes. Components are numbered by their
-/// lowest node. `n_components` is set.
-std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes, std::int32_t& n_components);
+/// Connected component of each node, kNone for nodes without a triangle; triangles connect their nodes. Components are
+/// numbered by their lowest node. `n_components` is set.
+std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes,
+                                          std::int32_t& n_components);
 
 }  // namespace st

@@ -19,7 +19,9 @@ Vec3 area_vector(const SurfaceMesh& mesh, TriangleId t) {
   return cross(corner(mesh, t, 1) - a, corner(mesh, t, 2) - a);
 }
 
-Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) { return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3; }
+Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) {
+  return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
+}
 
 bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
 
@@ -33,14 +35,16 @@ class CadEdgeLookup {
  public:
   CadEdgeLookup(const SurfaceMesh& mesh, const CadEdges& cad) : mesh_(mesh) {
     for (std::size_t e = 0; 2 * e < cad.edge_vertices.size(); ++e)
-      edges_between_.emplace(std::minmax({cad.edge_vertices[2 * e], cad.edge_vertices[2 * e + 1]}), static_cast<EdgeId>(e));
+      edges_between_.emplace(std::minmax({cad.edge_vertices[2 * e], cad.edge_vertices[2 * e + 1]}),
+                             static_cast<EdgeId>(e));
   }
   /// Whether `flags` is set for a CAD edge under the mesh edge (a, b).
   bool is_allowed(std::span<const std::uint8_t> flags, NodeId a, NodeId b) const {
     if (flags.empty()) return false;
     if (dim(a) < dim(b)) std::swap(a, b);
     if (dim(a) == 1)
-      return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b] : flags[mesh_.node_entity[a]] != 0;
+      return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b]
+                         : flags[mesh_.node_entity[a]] != 0;
     if (dim(a) != 0) return false;
     const auto [begin, end] = edges_between_.equal_range(std::minmax({mesh_.node_entity[a], mesh_.node_entity[b]}));
     return std::any_of(begin, end, [&](const auto& pair) { return flags[pair.second] != 0; });
@@ -61,14 +65,17 @@ void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideI
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const NodeId third = opposite(mesh, sides[i]);
     if (third < high) continue;
-    const bool is_repeated = std::any_of(sides.begin(), sides.begin() + i, [&](SideId s) { return opposite(mesh, s) == third; });
+    const bool is_repeated =
+        std::any_of(sides.begin(), sides.begin() + i, [&](SideId s) { return opposite(mesh, s) == third; });
     if (is_repeated) duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone});
   }
 }
 
 /// Joins the corners that an edge puts into one fan, at both of its nodes.
 void join_fans(const SurfaceMesh& mesh, std::span<const SideId> sides, DisjointSets& corners) {
-  const auto corner_at = [&](SideId s, NodeId n) { return mesh.triangles[s / 3].n[s % 3] == n ? s : s / 3 * 3 + (s % 3 + 1) % 3; };
+  const auto corner_at = [&](SideId s, NodeId n) {
+    return mesh.triangles[s / 3].n[s % 3] == n ? s : s / 3 * 3 + (s % 3 + 1) % 3;
+  };
   const NodeId a = side_start(mesh.triangles, sides[0]), b = mesh.triangles[sides[0] / 3].n[(sides[0] % 3 + 1) % 3];
   for (std::size_t i = 1; i < sides.size(); ++i) {
     corners.join(corner_at(sides[0], a), corner_at(sides[i], a));
@@ -112,7 +119,8 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
   });
   std::int64_t n_repeated = 0;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
-    if (has_repeated_node(mesh.triangles[t])) ++n_repeated, r.repeated_nodes.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
+    if (has_repeated_node(mesh.triangles[t]))
+      ++n_repeated, r.repeated_nodes.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
   find_pinched_nodes(mesh, corners, r.pinched_nodes);
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), r.n_components);
   r.n_used_nodes = mesh.n_nodes() - std::count(component.begin(), component.end(), kNone);
@@ -140,7 +148,8 @@ MeshMeasure measure_mesh(const SurfaceMesh& mesh) {
 
 namespace {
 
-/// An edge between boundary nodes that lies at two places of (u,v): a seam, where the surface may end in a sharp edge like any CAD edge.
+/// An edge between boundary nodes that lies at two places of (u,v): a seam, where the surface may end in a sharp edge
+/// like any CAD edge.
 bool is_seam(const SurfaceMesh& mesh, NodeId a, NodeId b, TriangleId s, TriangleId t) {
   constexpr auto kInner = static_cast<std::uint8_t>(EntityDim::kFace);
   if (mesh.corner_uv.empty() || mesh.node_entity_dim[a] == kInner || mesh.node_entity_dim[b] == kInner) return false;
@@ -158,7 +167,9 @@ void find_folds(const SurfaceMesh& mesh, Defects& folds) {
       const TriangleId s = sides[0] / 3, t = sides[i] / 3;
       if (mesh.triangle_face[s] != mesh.triangle_face[t] || is_seam(mesh, a, b, s, t)) continue;
       const Vec3 ns = area_vector(mesh, s), nt = area_vector(mesh, t);
-      const bool is_misoriented = sides.size() == 2 && run_alike(mesh.triangles, sides[0], sides[1]);  // a defect of its own, no fold
+      const bool is_misoriented = sides.size() == 2 && run_alike(mesh.triangles, sides[0], sides[1]);  // a defect of
+                                                                                                       // its own, no
+                                                                                                       // fold
       const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);
       if (cosine < kFoldCosine * norm(ns) * norm(nt))
         folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
@@ -190,7 +201,8 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
   };
   std::vector<NodeId> found;
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i]) == key(order[i - 1]) && !(is_vertex(order[i]) && is_vertex(order[i - 1]))) found.push_back(order[i]);
+    if (key(order[i]) == key(order[i - 1]) && !(is_vertex(order[i]) && is_vertex(order[i - 1])))
+      found.push_back(order[i]);
   std::sort(found.begin(), found.end());
   for (std::size_t i = 0; i < found.size(); ++i)
     duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
@@ -208,14 +220,18 @@ ShapeReport check_shape(const SurfaceMesh& mesh) {
   return r;
 }
 
-CrossingReport check_crossings(const SurfaceMesh& mesh, const std::function<bool(const TrianglePair&)>& is_cad_contact) {
+CrossingReport check_crossings(const SurfaceMesh& mesh,
+                               const std::function<bool(const TrianglePair&)>& is_cad_contact) {
   CrossingReport r;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
     const bool is_contact = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
     const bool is_own = !is_contact && is_cad_contact && is_cad_contact(p);
-    Defects& kind = is_contact ? r.contacts : is_own ? r.cad_contacts : p.n_shared ? r.overlapping_neighbours : r.crossings;
+    Defects& kind = is_contact   ? r.contacts
+                    : is_own     ? r.cad_contacts
+                    : p.n_shared ? r.overlapping_neighbours
+                                 : r.crossings;
     kind.add({centroid(mesh, p.a), mesh.triangle_face[p.a], mesh.triangle_face[p.b]});
   }
   return r;

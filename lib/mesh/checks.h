@@ -40,21 +40,23 @@ struct CadEdges {
 struct TopologyReport {
   std::int64_t n_edges = 0;
   std::int64_t n_used_nodes = 0;
-  std::int32_t n_components = 0;          ///< connected by common nodes
-  std::int64_t euler = 0;                 ///< nodes - edges + triangles (those without a repeated node)
-  std::int64_t genus = 0;                 ///< of all components together; meaningful when is_closed() and nothing is pinched
-  Defects boundary_edges;                 ///< used by one triangle
-  Defects nonmanifold_edges;              ///< used by more than two
-  Defects misoriented_edges;              ///< used by two triangles that run along it the same way
-  Defects repeated_nodes;                 ///< triangles that name a node twice
-  Defects duplicate_triangles;            ///< triangles with the same three nodes as an earlier one
-  Defects pinched_nodes;                  ///< nodes whose triangles form more than one fan: parts that touch in a point
+  std::int32_t n_components = 0;  ///< connected by common nodes
+  std::int64_t euler = 0;         ///< nodes - edges + triangles (those without a repeated node)
+  std::int64_t genus = 0;         ///< of all components together; meaningful when is_closed() and nothing is pinched
+  Defects boundary_edges;         ///< used by one triangle
+  Defects nonmanifold_edges;      ///< used by more than two
+  Defects misoriented_edges;      ///< used by two triangles that run along it the same way
+  Defects repeated_nodes;         ///< triangles that name a node twice
+  Defects duplicate_triangles;    ///< triangles with the same three nodes as an earlier one
+  Defects pinched_nodes;          ///< nodes whose triangles form more than one fan: parts that touch in a point
   std::int64_t n_cad_boundary_edges = 0;  ///< used by one triangle, where the CAD is open, too: in no list
   std::int64_t n_cad_nonmanifold_edges = 0;
 
   /// Closed, or open only where the CAD is, and manifold likewise.
   bool is_closed() const { return boundary_edges.count == 0 && nonmanifold_edges.count == 0; }
-  bool passes() const { return is_closed() && misoriented_edges.count == 0 && repeated_nodes.count == 0 && duplicate_triangles.count == 0; }
+  bool passes() const {
+    return is_closed() && misoriented_edges.count == 0 && repeated_nodes.count == 0 && duplicate_triangles.count == 0;
+  }
 };
 
 /// Local, linear. Precondition: node ids within the mesh.
@@ -88,13 +90,14 @@ ShapeReport check_shape(const SurfaceMesh& mesh);
 struct CrossingReport {
   Defects crossings;               ///< pairs within one component without a common node that have a point in common
   Defects overlapping_neighbours;  ///< pairs with one or two common nodes that have more in common than these
-  Defects contacts;                ///< pairs of different components that have a point in common: parts in contact, no defect
-  Defects cad_contacts;            ///< pairs of crossings and overlapping neighbours where the CAD touches itself
+  Defects contacts;      ///< pairs of different components that have a point in common: parts in contact, no defect
+  Defects cad_contacts;  ///< pairs of crossings and overlapping neighbours where the CAD touches itself
   bool passes() const { return crossings.count == 0 && overlapping_neighbours.count == 0; }
 };
 
-/// Local, n log n; a second per million triangles. `is_cad_contact` says of a pair of one component that the CAD touches itself there; it
-/// is asked in the order of the pairs. Empty: never.
-CrossingReport check_crossings(const SurfaceMesh& mesh, const std::function<bool(const TrianglePair&)>& is_cad_contact = {});
+/// Local, n log n; a second per million triangles. `is_cad_contact` says of a pair of one component that the CAD
+/// touches itself there; it is asked in the order of the pairs. Empty: never.
+CrossingReport check_crossings(const SurfaceMesh& mesh,
+                               const std::function<bool(const TrianglePair&)>& is_cad_contact = {});
 
 }  // namespace st

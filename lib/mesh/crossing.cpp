@@ -18,7 +18,9 @@ using Points = std::array<Vec3, 3>;
 int sign(double x) { return (x > 0) - (x < 0); }
 int side(const Points& t, Vec3 p) { return sign(orient3d(t[0], t[1], t[2], p)); }
 
-Points corners(std::span<const Vec3> points, const Triangle& t) { return {points[t.n[0]], points[t.n[1]], points[t.n[2]]}; }
+Points corners(std::span<const Vec3> points, const Triangle& t) {
+  return {points[t.n[0]], points[t.n[1]], points[t.n[2]]};
+}
 
 /// The point without its coordinate `axis`.
 Vec2 drop(Vec3 p, int axis) { return axis == 0 ? Vec2{p.y, p.z} : axis == 1 ? Vec2{p.z, p.x} : Vec2{p.x, p.y}; }
@@ -68,7 +70,9 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, int side_p, int side_q, const Points
   return s0 * s2 >= 0 && s1 * s2 >= 0;
 }
 
-bool all_beyond(const std::array<int, 3>& s) { return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0); }
+bool all_beyond(const std::array<int, 3>& s) {
+  return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
+}
 
 /// Coplanar triangles without a common node: apart when a side of one has the whole other strictly beyond it.
 bool coplanar_meet(const Points& a, const Points& b) {
@@ -83,7 +87,8 @@ bool coplanar_meet(const Points& a, const Points& b) {
   return !separates(a, b) && !separates(b, a);
 }
 
-/// Coplanar triangles with the common corner a[0] = b[0]: they meet beyond it when a leg of one lies in the other's angle.
+/// Coplanar triangles with the common corner a[0] = b[0]: they meet beyond it when a leg of one lies in the other's
+/// angle.
 bool coplanar_angles_meet(const Points& a, const Points& b) {
   const int axis = visible_axis(a);
   const auto leg_in_angle = [&](const Points& t, Vec3 leg) {
@@ -101,7 +106,8 @@ bool disjoint_nodes_cross(const Points& a, const Points& b) {
   if (all_beyond(sa)) return false;
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
-    if (segment_meets_triangle(b[k], b[l], sb[k], sb[l], a) || segment_meets_triangle(a[k], a[l], sa[k], sa[l], b)) return true;
+    if (segment_meets_triangle(b[k], b[l], sb[k], sb[l], a) || segment_meets_triangle(a[k], a[l], sa[k], sa[l], b))
+      return true;
   }
   return false;
 }
@@ -126,13 +132,14 @@ bool two_nodes_cross(Vec3 u, Vec3 v, Vec3 p, Vec3 q) {
 
 Points rotated(const Points& t, int k) { return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]}; }
 
-// --- bounding volume hierarchy ---------------------------------------------------------------------------------------------------------
+// --- bounding volume hierarchy ---
 
 /// Box in single precision, rounded outwards.
 struct FloatBox {
   std::array<float, 3> lo, hi;
   bool meets(const FloatBox& o) const {
-    return lo[0] <= o.hi[0] && o.lo[0] <= hi[0] && lo[1] <= o.hi[1] && o.lo[1] <= hi[1] && lo[2] <= o.hi[2] && o.lo[2] <= hi[2];
+    return lo[0] <= o.hi[0] && o.lo[0] <= hi[0] && lo[1] <= o.hi[1] && o.lo[1] <= hi[1] && lo[2] <= o.hi[2] &&
+           o.lo[2] <= hi[2];
   }
   void add(const FloatBox& o) {
     for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
@@ -199,8 +206,8 @@ class BoxTree {
       if (is_degenerate(points, triangles[t])) continue;
       const Points p = corners(points, triangles[t]);
       const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
-      const std::uint64_t key =
-          spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 | spread(cell(c.z, all.lo.z, extent.z)) << 2;
+      const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 |
+                                spread(cell(c.z, all.lo.z, extent.z)) << 2;
       keyed.emplace_back(key, static_cast<TriangleId>(t));
     }
     std::sort(keyed.begin(), keyed.end());
@@ -282,7 +289,8 @@ bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Tria
     case 1:
       return one_node_cross(rotated(pa, corner_a[0]), rotated(pb, corner_b[0]));
     case 2:
-      return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]], pb[3 - corner_b[0] - corner_b[1]]);
+      return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]],
+                             pb[3 - corner_b[0] - corner_b[1]]);
     default:
       return false;
   }

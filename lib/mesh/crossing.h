@@ -16,10 +16,11 @@ struct TrianglePair {
   std::int32_t n_shared = 0;        ///< number of nodes they share by id: 0, 1 or 2
 };
 
-/// All pairs of triangles that cross, touch or overlap, sorted by (a, b): without a common node, any common point counts; with one, any
-/// further common point; with two, an overlap of positive area. Pairs with three common nodes (duplicates) are not listed, nor are
-/// triangles of no area (a repeated node, or three collinear ones). Exact, whatever the rounding; the order of the input does not matter
-/// for what is found. `points` finite. About n log n; a million triangles of a clean mesh take a second or two.
+/// All pairs of triangles that cross, touch or overlap, sorted by (a, b): without a common node, any common point
+/// counts; with one, any further common point; with two, an overlap of positive area. Pairs with three common nodes
+/// (duplicates) are not listed, nor are triangles of no area (a repeated node, or three collinear ones). Exact,
+/// whatever the rounding; the order of the input does not matter for what is found. `points` finite. About n log n; a
+/// million triangles of a clean mesh take a second or two.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 /// The exact test of one pair; `n_shared` as above. Precondition: neither triangle is degenerate.

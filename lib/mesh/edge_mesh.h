@@ -16,15 +16,17 @@ struct CurveNodes {
   std::vector<double> h;  ///< requested length
 };
 
-/// Nodes on all edges: those of edge e are node_* [edge_offsets[e], edge_offsets[e+1]). The first and the last lie on the edge's vertices
-/// (edge_vertices[2e], [2e+1]). A degenerate edge, and an edge not meshed, has no nodes.
+/// Nodes on all edges: those of edge e are node_* [edge_offsets[e], edge_offsets[e+1]). The first and the last lie on
+/// the edge's vertices (edge_vertices[2e], [2e+1]). A degenerate edge, and an edge not meshed, has no nodes.
 struct EdgeMesh {
   std::vector<std::int32_t> edge_offsets;  ///< [n_edges+1]
   std::vector<double> node_t;              ///< parameter on the edge, strictly increasing within an edge
   std::vector<Vec3> node_xyz;              ///< model unit; end nodes are the vertices' own coordinates
-  std::vector<double> node_size;           ///< length it was made for at the node: the request, or less where that had to be refined
-  std::vector<double> node_request;        ///< requested length; empty: node_size
-  std::vector<NodeId> node_previous;       ///< empty, or the node's number in the mesh that st-remesh started from, kNone: new
+  std::vector<double> node_size;      ///< length it was made for at the node: the request, or less where that had to be
+                                      ///< refined
+  std::vector<double> node_request;   ///< requested length; empty: node_size
+  std::vector<NodeId> node_previous;  ///< empty, or the node's number in the mesh that st-remesh started from, kNone:
+                                      ///< new
 
   EdgeId n_edges() const { return edge_offsets.empty() ? 0 : static_cast<EdgeId>(edge_offsets.size()) - 1; }
   std::int32_t first_node(EdgeId e) const { return edge_offsets[e]; }

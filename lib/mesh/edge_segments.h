@@ -20,8 +20,8 @@ void add_segments(SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const Vert
 struct NodeGroups {
   std::string name;                     ///< of the array: "edge_group", "edge_group_bc", "vertex_group" ...
   std::vector<std::string> group_name;  ///< of number 1, 2 ...
-  std::vector<std::int32_t>
-      of_node;  ///< [n_nodes] from 1, 0: in none; at the end of edges of two groups the smaller number
+  std::vector<std::int32_t> of_node;    ///< [n_nodes] from 1, 0: in none; at the end of edges of two groups the smaller
+                                        ///< number
 };
 
 /// One for each table that has groups of edges, then likewise of vertices; the main table first, others in the order of

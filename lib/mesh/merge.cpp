@@ -38,21 +38,23 @@ std::vector<const FacePatch*> patches_by_face(std::span<const FacePatch> patches
 void require_valid(const MergeInput& in, const FacePatch& p) {
   const auto n_boundary = static_cast<std::size_t>(p.n_boundary);
   if (p.n_boundary < 0 || p.boundary_dim.size() != n_boundary || p.boundary_entity.size() != n_boundary ||
-      p.boundary_index.size() != n_boundary || p.inner_uv.size() != p.inner_xyz.size() || p.inner_size.size() != p.inner_xyz.size() ||
-      p.corner_uv.size() != 3 * p.triangles.size() || (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
+      p.boundary_index.size() != n_boundary || p.inner_uv.size() != p.inner_xyz.size() ||
+      p.inner_size.size() != p.inner_xyz.size() || p.corner_uv.size() != 3 * p.triangles.size() ||
+      (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
       (!p.triangle_previous.empty() && p.triangle_previous.size() != p.triangles.size()))
     throw_bad_patch(p.face, "has arrays that do not fit each other");
   const EdgeId n_edges = in.edges.n_edges();
   for (std::size_t i = 0; i < n_boundary; ++i) {
     const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     const bool on_vertex = p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex);
-    if (on_vertex ? entity < 0 || entity >= static_cast<std::int64_t>(in.vertex_xyz.size()) : entity < 0 || entity >= n_edges)
-      throw_bad_patch(p.face,
-                      std::string("names ") + (on_vertex ? "vertex " : "edge ") + std::to_string(entity + 1) + ", which does not exist");
+    if (on_vertex ? entity < 0 || entity >= static_cast<std::int64_t>(in.vertex_xyz.size())
+                  : entity < 0 || entity >= n_edges)
+      throw_bad_patch(p.face, std::string("names ") + (on_vertex ? "vertex " : "edge ") + std::to_string(entity + 1) +
+                                  ", which does not exist");
     if (!on_vertex && (p.boundary_dim[i] != static_cast<std::uint8_t>(EntityDim::kEdge) || index < 1 ||
                        index + 1 >= in.edges.n_nodes(entity)))
-      throw_bad_patch(p.face,
-                      "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) + ", which is no inner node of it");
+      throw_bad_patch(p.face, "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) +
+                                  ", which is no inner node of it");
   }
   const auto n_nodes = static_cast<std::int64_t>(n_boundary + p.inner_xyz.size());
   for (const Triangle& t : p.triangles)
@@ -75,7 +77,8 @@ std::vector<std::uint8_t> used_nodes(const FacePatch& p) {
 }
 
 /// Marks the vertices and edge nodes that triangles use; counts nodes and triangles of the result.
-NodeNumbers mark_used(const MergeInput& in, std::span<const FacePatch* const> patches, std::size_t& n_inner, std::size_t& n_triangles) {
+NodeNumbers mark_used(const MergeInput& in, std::span<const FacePatch* const> patches, std::size_t& n_inner,
+                      std::size_t& n_triangles) {
   NodeNumbers numbers;
   numbers.vertex.assign(in.vertex_xyz.size(), kNone);
   numbers.edge_node.assign(in.edges.node_xyz.size(), kNone);
@@ -98,7 +101,8 @@ std::vector<double> vertex_sizes(const MergeInput& in) {
     const IdRange nodes = in.edges.nodes(e);
     if (nodes.empty()) continue;
     for (int k = 0; k < 2; ++k)
-      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0) s = in.edges.requests()[k ? nodes.first() + nodes.size() - 1 : nodes.first()];
+      if (double& s = size[in.edge_vertices[2 * e + k]]; s == 0)
+        s = in.edges.requests()[k ? nodes.first() + nodes.size() - 1 : nodes.first()];
   }
   return size;
 }
@@ -120,7 +124,8 @@ void append_boundary_nodes(const MergeInput& in, NodeNumbers& numbers, SurfaceMe
     return true;
   };
   for (std::size_t v = 0; v < numbers.vertex.size(); ++v)
-    if (number(numbers.vertex[v])) append_node(mesh, in.vertex_xyz[v], EntityDim::kVertex, static_cast<std::int32_t>(v), 0, size[v]);
+    if (number(numbers.vertex[v]))
+      append_node(mesh, in.vertex_xyz[v], EntityDim::kVertex, static_cast<std::int32_t>(v), 0, size[v]);
   for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
     for (const std::int32_t i : in.edges.nodes(e))
       if (number(numbers.edge_node[i]))
@@ -137,7 +142,8 @@ void append_patch(const MergeInput& in, const FacePatch& p, NodeNumbers& numbers
     patch_to_mesh[p.n_boundary + i] = static_cast<NodeId>(mesh.node_xyz.size());
     append_node(mesh, p.inner_xyz[i], EntityDim::kFace, p.face, 0, p.inner_size[i]);
   }
-  for (const Triangle& t : p.triangles) mesh.triangles.push_back({{patch_to_mesh[t.n[0]], patch_to_mesh[t.n[1]], patch_to_mesh[t.n[2]]}});
+  for (const Triangle& t : p.triangles)
+    mesh.triangles.push_back({{patch_to_mesh[t.n[0]], patch_to_mesh[t.n[1]], patch_to_mesh[t.n[2]]}});
   mesh.corner_uv.insert(mesh.corner_uv.end(), p.corner_uv.begin(), p.corner_uv.end());
   const bool has_group = static_cast<std::size_t>(p.face) < in.face_group.size();
   mesh.triangle_face.insert(mesh.triangle_face.end(), p.triangles.size(), p.face);
@@ -145,16 +151,20 @@ void append_patch(const MergeInput& in, const FacePatch& p, NodeNumbers& numbers
 }
 
 /// Numbers in the mesh that a remeshing started from, in the order of append_*; nothing when no patch has them.
-void append_previous(const MergeInput& in, std::span<const FacePatch* const> patches, const NodeNumbers& numbers, SurfaceMesh& mesh) {
+void append_previous(const MergeInput& in, std::span<const FacePatch* const> patches, const NodeNumbers& numbers,
+                     SurfaceMesh& mesh) {
   if (in.edges.node_previous.empty()) return;
   mesh.node_previous.assign(mesh.node_xyz.size(), kNone);
   for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
     for (const std::int32_t i : in.edges.nodes(e)) {
-      const bool is_first = i == in.edges.first_node(e), is_last = i + 1 == in.edges.first_node(e) + in.edges.n_nodes(e);
-      const NodeId n = is_first || is_last ? numbers.vertex[in.edge_vertices[2 * e + (is_first ? 0 : 1)]] : numbers.edge_node[i];
+      const bool is_first = i == in.edges.first_node(e),
+                 is_last = i + 1 == in.edges.first_node(e) + in.edges.n_nodes(e);
+      const NodeId n =
+          is_first || is_last ? numbers.vertex[in.edge_vertices[2 * e + (is_first ? 0 : 1)]] : numbers.edge_node[i];
       if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
     }
-  NodeId n = std::count_if(mesh.node_entity_dim.begin(), mesh.node_entity_dim.end(), [](std::uint8_t d) { return d < 2; });
+  NodeId n =
+      std::count_if(mesh.node_entity_dim.begin(), mesh.node_entity_dim.end(), [](std::uint8_t d) { return d < 2; });
   for (const FacePatch* p : patches) {
     const std::vector<std::uint8_t> used = used_nodes(*p);
     for (std::size_t i = 0; i < p->inner_xyz.size(); ++i)
@@ -162,7 +172,8 @@ void append_previous(const MergeInput& in, std::span<const FacePatch* const> pat
     if (p->triangle_previous.empty())
       mesh.triangle_previous.insert(mesh.triangle_previous.end(), p->triangles.size(), kNone);
     else
-      mesh.triangle_previous.insert(mesh.triangle_previous.end(), p->triangle_previous.begin(), p->triangle_previous.end());
+      mesh.triangle_previous.insert(mesh.triangle_previous.end(), p->triangle_previous.begin(),
+                                    p->triangle_previous.end());
   }
 }
 

@@ -27,12 +27,12 @@ struct OrientationReport {
   std::int32_t n_one_sided = 0;          ///< components that cannot be oriented (a Moebius strip); left as they are
 };
 
-/// Welds, orders and orients. Nodes: (entity dim, entity id, index); nodes without a triangle are omitted. Triangles: (face, position in
-/// its patch). Triangles with a repeated node stay: check_topology() counts them. face_name and group_name of the result are left empty.
-/// Orientation: faces that share a manifold edge are made to agree, the larger area deciding; a closed component of negative volume is
-/// turned, unless it lies inside another closed one as a void does (odd nesting depth).
-/// Throws Error(kInput) when a patch names an entity or node that does not exist, or a face occurs twice.
-/// Linear time; at most 130 bytes per triangle besides the result and the input.
+/// Welds, orders and orients. Nodes: (entity dim, entity id, index); nodes without a triangle are omitted. Triangles:
+/// (face, position in its patch). Triangles with a repeated node stay: check_topology() counts them. face_name and
+/// group_name of the result are left empty. Orientation: faces that share a manifold edge are made to agree, the larger
+/// area deciding; a closed component of negative volume is turned, unless it lies inside another closed one as a void
+/// does (odd nesting depth). Throws Error(kInput) when a patch names an entity or node that does not exist, or a face
+/// occurs twice. Linear time; at most 130 bytes per triangle besides the result and the input.
 SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report);
 
 /// The orientation step alone: turns triangles (and their corner uv) of `mesh` in place.

@@ -42,7 +42,8 @@ std::vector<FaceLink> find_links(const SurfaceMesh& mesh, const EdgeTable& edges
     const auto [a, b] = std::minmax(mesh.triangle_face[sides[0] / 3], mesh.triangle_face[sides[1] / 3]);
     if (a != b) links.push_back({a, b, run_alike(mesh.triangles, sides[0], sides[1]) ? -1 : 1});
   });
-  std::sort(links.begin(), links.end(), [](const FaceLink& x, const FaceLink& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  std::sort(links.begin(), links.end(),
+            [](const FaceLink& x, const FaceLink& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
   std::size_t n = 0;
   for (const FaceLink& l : links)
     if (n && links[n - 1].a == l.a && links[n - 1].b == l.b)
@@ -57,13 +58,16 @@ std::vector<double> face_areas(const SurfaceMesh& mesh, FaceId n_faces) {
   std::vector<double> area(n_faces, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& n = mesh.triangles[t].n;
-    area[mesh.triangle_face[t]] += 0.5 * norm(cross(mesh.node_xyz[n[1]] - mesh.node_xyz[n[0]], mesh.node_xyz[n[2]] - mesh.node_xyz[n[0]]));
+    area[mesh.triangle_face[t]] +=
+        0.5 * norm(cross(mesh.node_xyz[n[1]] - mesh.node_xyz[n[0]], mesh.node_xyz[n[2]] - mesh.node_xyz[n[0]]));
   }
   return area;
 }
 
-/// Components by flooding over the links; `is_turned[f]`: face f must turn to agree with the lowest face of its component.
-std::vector<FaceComponent> flood(std::span<const FaceLink> links, std::span<const double> area, std::vector<std::uint8_t>& is_turned) {
+/// Components by flooding over the links; `is_turned[f]`: face f must turn to agree with the lowest face of its
+/// component.
+std::vector<FaceComponent> flood(std::span<const FaceLink> links, std::span<const double> area,
+                                 std::vector<std::uint8_t>& is_turned) {
   const auto n_faces = static_cast<FaceId>(area.size());
   std::vector<std::vector<std::pair<FaceId, bool>>> neighbours(n_faces);
   for (const FaceLink& l : links) {
@@ -96,11 +100,13 @@ std::vector<FaceComponent> flood(std::span<const FaceLink> links, std::span<cons
 }
 
 /// The larger area keeps its orientation; one-sided components are left alone.
-void settle_majority(std::span<const FaceComponent> components, std::span<const double> area, std::vector<std::uint8_t>& is_turned) {
+void settle_majority(std::span<const FaceComponent> components, std::span<const double> area,
+                     std::vector<std::uint8_t>& is_turned) {
   for (const FaceComponent& c : components) {
     double kept = 0, turned = 0;
     for (const FaceId f : c.faces) (is_turned[f] ? turned : kept) += area[f];
-    for (const FaceId f : c.faces) is_turned[f] = c.is_one_sided ? 0 : is_turned[f] ^ static_cast<std::uint8_t>(turned > kept);
+    for (const FaceId f : c.faces)
+      is_turned[f] = c.is_one_sided ? 0 : is_turned[f] ^ static_cast<std::uint8_t>(turned > kept);
   }
 }
 
@@ -137,7 +143,8 @@ void find_open(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const 
 }
 
 /// Signed volumes about the centre of the model's box (less cancellation), and boxes.
-void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_component, std::vector<FaceComponent>& components) {
+void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_component,
+             std::vector<FaceComponent>& components) {
   Box3 all;
   for (const Vec3 p : mesh.node_xyz) all.add(p);
   const Vec3 origin = all.center();
@@ -151,7 +158,7 @@ void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_compone
   }
 }
 
-// --- nesting ---------------------------------------------------------------------------------------------------------------------------
+// --- nesting ---
 
 bool contains(const Box3& outer, const Box3& inner) {
   return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && outer.lo.z <= inner.lo.z && outer.hi.x >= inner.hi.x &&
@@ -160,8 +167,8 @@ bool contains(const Box3& outer, const Box3& inner) {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-/// Whether the closed component holds `p`, by the parity of the crossings of the segment (p, q), q outside; nullopt when the segment meets
-/// an edge, a node or a plane it lies in.
+/// Whether the closed component holds `p`, by the parity of the crossings of the segment (p, q), q outside; nullopt
+/// when the segment meets an edge, a node or a plane it lies in.
 std::optional<bool> is_inside(const SurfaceMesh& mesh, const FaceComponent& component, Vec3 p, Vec3 q) {
   bool inside = false;
   for (const TriangleId t : component.triangles) {
@@ -177,7 +184,8 @@ std::optional<bool> is_inside(const SurfaceMesh& mesh, const FaceComponent& comp
   return inside;
 }
 
-/// Whether `outer` encloses `inner` (they may touch): asked from several nodes in several directions until the answer is clear.
+/// Whether `outer` encloses `inner` (they may touch): asked from several nodes in several directions until the answer
+/// is clear.
 bool encloses(const SurfaceMesh& mesh, const FaceComponent& outer, const FaceComponent& inner) {
   if (!contains(outer.box, inner.box)) return false;
   static constexpr std::array<Vec3, 3> kDirections{Vec3{0.8017, 0.4211, 0.4243}, Vec3{-0.3701, 0.7369, -0.5657},

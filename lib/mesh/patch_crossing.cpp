@@ -16,7 +16,8 @@ namespace {
 struct FloatBox {
   std::array<float, 3> lo, hi;
   bool meets(const FloatBox& o) const {
-    return (lo[0] <= o.hi[0]) & (o.lo[0] <= hi[0]) & (lo[1] <= o.hi[1]) & (o.lo[1] <= hi[1]) & (lo[2] <= o.hi[2]) & (o.lo[2] <= hi[2]);
+    return (lo[0] <= o.hi[0]) & (o.lo[0] <= hi[0]) & (lo[1] <= o.hi[1]) & (o.lo[1] <= hi[1]) & (lo[2] <= o.hi[2]) &
+           (o.lo[2] <= hi[2]);
   }
   void add(const FloatBox& o) {
     for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
@@ -30,30 +31,33 @@ struct FloatBox {
   }
 };
 
-// --- normals ---------------------------------------------------------------------------------------------------------------------------
+// --- normals ---
 
 /// One bit per direction that a set of normals agrees with: of all normals within 60 degrees.
 using Directions = std::uint32_t;
 
-constexpr float kMinCosine = 0.5f;        // of the angle between a normal and a direction: 60 degrees, the bound of a narrow cone
+constexpr float kMinCosine = 0.5f;  // of the angle between a normal and a direction: 60 degrees, the bound of a narrow
+                                    // cone
 constexpr double kSurelyHasArea = 1e-10;  // twice the area over the product of two sides: far above rounding
-constexpr int kAxes = 13;                 // through the faces, edges and corners of a cube; a cone of 33 degrees always fits one
+constexpr int kAxes = 13;  // through the faces, edges and corners of a cube; a cone of 33 degrees always fits one
 constexpr float kEdge = 0.70710678f, kCorner = 0.57735027f;
 constexpr float kAxisX[kAxes] = {1, 0, 0, kEdge, kEdge, kEdge, kEdge, 0, 0, kCorner, kCorner, kCorner, kCorner};
 constexpr float kAxisY[kAxes] = {0, 1, 0, kEdge, -kEdge, 0, 0, kEdge, kEdge, kCorner, kCorner, -kCorner, -kCorner};
 constexpr float kAxisZ[kAxes] = {0, 0, 1, 0, 0, kEdge, -kEdge, kEdge, -kEdge, kCorner, -kCorner, kCorner, -kCorner};
 
 Directions directions_near(Vec3 unit_normal) {
-  const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y), z = static_cast<float>(unit_normal.z);
+  const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y),
+             z = static_cast<float>(unit_normal.z);
   Directions near = 0;
   for (int k = 0; k < kAxes; ++k) {
     const float cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
-    near |= static_cast<Directions>(cosine > kMinCosine) << k | static_cast<Directions>(cosine < -kMinCosine) << (k + kAxes);
+    near |= static_cast<Directions>(cosine > kMinCosine) << k | static_cast<Directions>(cosine < -kMinCosine)
+                                                                    << (k + kAxes);
   }
   return near;
 }
 
-// --- a tree per face, built while it is descended --------------------------------------------------------------------------------------
+// --- a tree per face, built while it is descended ---
 
 struct Item {
   FloatBox box;
@@ -119,7 +123,9 @@ class Forest {
       const Vec3 a = mesh_.points[tri.n[0]], b = mesh_.points[tri.n[1]], c = mesh_.points[tri.n[2]];
       const Vec3 normal = cross(b - a, c - a);
       const double length2 = norm2(normal);
-      if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) && is_degenerate(mesh_.points, tri)) continue;
+      if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) &&
+          is_degenerate(mesh_.points, tri))
+        continue;
       Box3 box{a, a};
       box.add(b);
       box.add(c);
@@ -149,8 +155,9 @@ class Forest {
     auto middle = std::partition(first, last, [&, at = key(node.box)](const Item& i) { return key(i.box) < at; });
     if (std::min(middle - first, last - middle) * kMaxLopsided < node.size()) {
       middle = first + node.size() / 2;
-      std::nth_element(first, middle, last,
-                       [&](const Item& i, const Item& j) { return std::pair(key(i.box), i.id) < std::pair(key(j.box), j.id); });
+      std::nth_element(first, middle, last, [&](const Item& i, const Item& j) {
+        return std::pair(key(i.box), i.id) < std::pair(key(j.box), j.id);
+      });
     }
     const auto at = static_cast<std::int32_t>(middle - items_.begin());
     nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
@@ -165,7 +172,8 @@ class Forest {
       if (!items_[i].box.meets(items_[j].box)) continue;
       const auto [a, b] = std::minmax(items_[i].id, items_[j].id);
       int n_shared = 0;
-      if (triangles_cross(mesh_.points, mesh_.triangles[a], mesh_.triangles[b], n_shared)) pairs_.push_back({a, b, n_shared});
+      if (triangles_cross(mesh_.points, mesh_.triangles[a], mesh_.triangles[b], n_shared))
+        pairs_.push_back({a, b, n_shared});
     }
   }
 
@@ -175,7 +183,8 @@ class Forest {
   std::vector<TrianglePair> pairs_;
 };
 
-/// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the model.
+/// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the
+/// model.
 template <class Visit>
 void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit) {
   std::vector<FaceId> order;
@@ -185,8 +194,9 @@ void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit
   FloatBox all = forest.box(order[0]);
   for (const FaceId f : order) all.add(forest.box(f));
   const int axis = all.longest_axis();
-  std::sort(order.begin(), order.end(),
-            [&](FaceId f, FaceId g) { return std::pair(forest.box(f).lo[axis], f) < std::pair(forest.box(g).lo[axis], g); });
+  std::sort(order.begin(), order.end(), [&](FaceId f, FaceId g) {
+    return std::pair(forest.box(f).lo[axis], f) < std::pair(forest.box(g).lo[axis], g);
+  });
   std::vector<FaceId> open;
   for (const FaceId f : order) {
     std::erase_if(open, [&](FaceId g) { return forest.box(g).hi[axis] < forest.box(f).lo[axis]; });

@@ -80,7 +80,8 @@ std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const 
   for (std::size_t t = 0; t < key.size(); ++t) sorted[fill[key[t]]++] = static_cast<TriangleId>(t);
   std::vector<QualityStats> stats;
   for (std::size_t k = 0; k < n_keys; ++k)
-    stats.push_back(stats_of(mesh, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
+    stats.push_back(
+        stats_of(mesh, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
   return stats;
 }
 
@@ -95,7 +96,8 @@ void measure_jumps(const SurfaceMesh& mesh, QualityReport& report) {
       if (!(low > 0)) continue;
       jumps.push_back(std::sqrt(high / low));
       if (jumps.back() > kLargeGrowth) report.large_jumps.push_back({t, sides[i] / 3, jumps.back()});
-      for (JumpStats* stats : {&report.jumps, &report.group_jumps[mesh.triangle_group[t]], &report.face_jumps[mesh.triangle_face[t]]})
+      for (JumpStats* stats :
+           {&report.jumps, &report.group_jumps[mesh.triangle_group[t]], &report.face_jumps[mesh.triangle_face[t]]})
         stats->add(jumps.back());
     }
   });
@@ -107,7 +109,8 @@ void measure_jumps(const SurfaceMesh& mesh, QualityReport& report) {
 }  // namespace
 
 std::array<double, 3> triangle_angles_deg(Vec3 a, Vec3 b, Vec3 c) {
-  return {degrees(angle_between(b - a, c - a)), degrees(angle_between(c - b, a - b)), degrees(angle_between(a - c, b - c))};
+  return {degrees(angle_between(b - a, c - a)), degrees(angle_between(c - b, a - b)),
+          degrees(angle_between(a - c, b - c))};
 }
 
 void JumpStats::add(double ratio) {

@@ -1,4 +1,5 @@
-// How good is a mesh: shapes of triangles, growth between neighbours, lengths against the requested sizes (docs/checks.md).
+// How good is a mesh: shapes of triangles, growth between neighbours, lengths against the requested sizes
+// (docs/checks.md).
 #pragma once
 
 #include <array>
@@ -24,8 +25,8 @@ struct QualityStats {
   std::array<std::int64_t, 10> histogram{};  ///< triangles by quality in [k/10, (k+1)/10)
   double min_angle_deg = 0, max_angle_deg = 0;
   std::int64_t n_below_20_deg = 0, n_below_10_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
-  std::array<std::int64_t, 18> angle_histogram{};                          ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
-  TriangleId worst = kNone;                                                ///< the (first) triangle of least quality
+  std::array<std::int64_t, 18> angle_histogram{};  ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
+  TriangleId worst = kNone;                        ///< the (first) triangle of least quality
 };
 
 /// Growth between neighbours: square root of the ratio of their areas, at least 1.
@@ -50,7 +51,8 @@ struct QualityReport {
   std::vector<QualityStats> faces;     ///< [n_faces]
   double jump_p999 = 1, jump_max = 1;  ///< sqrt of the area ratio of neighbours, 99.9th percentile and largest
   JumpStats jumps;
-  std::vector<JumpStats> group_jumps, face_jumps;  ///< [n_groups], [n_faces]; a pair counts for the face of its first triangle
+  std::vector<JumpStats> group_jumps, face_jumps;  ///< [n_groups], [n_faces]; a pair counts for the face of its first
+                                                   ///< triangle
   std::vector<LargeJump> large_jumps;              ///< by the nodes of their common edge
 };
 
@@ -73,7 +75,8 @@ inline constexpr double kConformityMin = 0.7, kConformityMax = 1.4;
 /// Mesh edges shorter than kConformityMin because the CAD leaves no choice.
 struct ForcedPlace {
   enum class Kind : std::uint8_t {
-    kShortEdge,  ///< along a CAD edge of at most three segments: it is shorter than its sizes, or a loop that needs its three sides
+    kShortEdge,  ///< along a CAD edge of at most three segments: it is shorter than its sizes, or a loop that needs its
+                 ///< three sides
     kStrip       ///< across a face, from boundary to boundary: a strip or corner thinner than its sizes
   };
   Kind kind = Kind::kShortEdge;
@@ -90,17 +93,17 @@ struct ConformityReport {
     double ratio;
   };
   ConformityStats model;
-  ConformityStats free;                        ///< all edges but those of `forced`
-  std::vector<ForcedPlace> forced;             ///< by kind and entity; between two vertices: one each
-  ConformityStats inner;                       ///< edges with a node inside a face: nothing of the CAD forces their length
+  ConformityStats free;             ///< all edges but those of `forced`
+  std::vector<ForcedPlace> forced;  ///< by kind and entity; between two vertices: one each
+  ConformityStats inner;            ///< edges with a node inside a face: nothing of the CAD forces their length
   std::vector<ConformityStats> groups, faces;  ///< an edge counts for the face of its first triangle
-  std::vector<OutsideEdge> outside;            ///< edges of `free` outside [kConformityMin, kConformityMax], by their nodes
-  double p1 = 1, p99 = 1;                      ///< percentiles of the ratio
+  std::vector<OutsideEdge> outside;  ///< edges of `free` outside [kConformityMin, kConformityMax], by their nodes
+  double p1 = 1, p99 = 1;            ///< percentiles of the ratio
 };
 
 /// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
-/// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of faces that lies on
-/// a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
+/// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of
+/// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
 ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length);
 
 }  // namespace st

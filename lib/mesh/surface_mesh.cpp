@@ -3,7 +3,8 @@
 namespace st {
 namespace {
 
-bool is_closed(const MergedFeatures& m, std::size_t strip, const EdgeMesh& edges, const std::vector<VertexId>& edge_vertices) {
+bool is_closed(const MergedFeatures& m, std::size_t strip, const EdgeMesh& edges,
+               const std::vector<VertexId>& edge_vertices) {
   const EdgeId kept = m.strip_kept[strip], closed = m.strip_closed[strip];
   const bool opposed = m.strip_is_opposed[strip];
   for (int k = 0; k < 2; ++k)
@@ -17,7 +18,8 @@ bool is_closed(const MergedFeatures& m, std::size_t strip, const EdgeMesh& edges
 
 }  // namespace
 
-std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges, const std::vector<VertexId>& edge_vertices) {
+std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges,
+                                 const std::vector<VertexId>& edge_vertices) {
   std::vector<FaceId> faces;
   for (std::size_t s = 0; s < merged.strip_face.size(); ++s)
     if (is_closed(merged, s, edges, edge_vertices)) faces.push_back(merged.strip_face[s]);

@@ -17,7 +17,8 @@ struct Triangle {
   NodeId n[3];
 };
 
-/// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the rest are inside.
+/// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the
+/// rest are inside.
 struct FacePatch {
   FaceId face = kNone;
   std::int32_t n_boundary = 0;
@@ -29,22 +30,26 @@ struct FacePatch {
   std::vector<double> inner_size;             ///< [n_inner] requested length
   std::vector<Triangle> triangles;            ///< patch node ids; already oriented out of the solid
   std::vector<Vec2> corner_uv;                ///< [3*n_triangles] (u,v) of each corner: a seam node has two
-  std::vector<NodeId> inner_previous;         ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone: new
+  std::vector<NodeId> inner_previous;  ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone:
+                                       ///< new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 };
 
-/// CAD features far below the requested lengths, merged for meshing only (virtual topology). All ids 0-based, ascending by edge and by face.
+/// CAD features far below the requested lengths, merged for meshing only (virtual topology). All ids 0-based, ascending
+/// by edge and by face.
 struct MergedFeatures {
-  std::vector<EdgeId> edge;                     ///< drawn together to one node each
-  std::vector<FaceId> strip_face;               ///< [n_strips] a face between two long edges, closed where it is narrow
-  std::vector<EdgeId> strip_kept, strip_closed; ///< [n_strips] these: where closed, both have the nodes of `kept`
-  std::vector<std::uint8_t> strip_is_opposed;   ///< [n_strips] 1: they run against each other
+  std::vector<EdgeId> edge;        ///< drawn together to one node each
+  std::vector<FaceId> strip_face;  ///< [n_strips] a face between two long edges, closed where it is narrow
+  std::vector<EdgeId> strip_kept, strip_closed;  ///< [n_strips] these: where closed, both have the nodes of `kept`
+  std::vector<std::uint8_t> strip_is_opposed;    ///< [n_strips] 1: they run against each other
   bool empty() const { return edge.empty() && strip_face.empty(); }
   bool operator==(const MergedFeatures&) const = default;
 };
 
-/// Faces of strips that are closed all along, so that they have no triangles: both long edges have nodes, all of them common. Ascending.
-std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges, const std::vector<VertexId>& edge_vertices);
+/// Faces of strips that are closed all along, so that they have no triangles: both long edges have nodes, all of them
+/// common. Ascending.
+std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges,
+                                 const std::vector<VertexId>& edge_vertices);
 
 /// Why a face has no complete patch.
 struct FaceFailure {
@@ -66,12 +71,13 @@ struct SurfaceMesh {
   std::vector<std::int32_t> triangle_group;  ///< index into group_name
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
   std::vector<std::string> face_name, group_name;
-  std::vector<std::string> group_role;       ///< [n_groups], or empty: those of the names
-  FaceLabels labels;                         ///< parts, further tables of groups, groups of edges and vertices
+  std::vector<std::string> group_role;  ///< [n_groups], or empty: those of the names
+  FaceLabels labels;                    ///< parts, further tables of groups, groups of edges and vertices
   std::vector<NodeId> segment_nodes;  ///< [2*n_segments] of the edges in groups only: by edge, along it from its t_min
   std::vector<EdgeId> segment_edge;   ///< [n_segments]
   MergedFeatures merged;
-  std::vector<NodeId> node_previous;          ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone: new
+  std::vector<NodeId> node_previous;  ///< empty, or [n_nodes] number in the mesh that st-remesh started from, kNone:
+                                      ///< new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 
   std::int64_t n_nodes() const { return static_cast<std::int64_t>(node_xyz.size()); }

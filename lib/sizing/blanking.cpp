@@ -25,7 +25,8 @@ struct Cube {
 
   Vec3 sample(int s) const {
     if (s == 8) return center + kSampleCentre * half * Vec3{1, 0.7, 0.4};
-    return center + half * Vec3{s & 1 ? kSampleX : -kSampleX, s & 2 ? kSampleY : -kSampleY, s & 4 ? kSampleZ : -kSampleZ};
+    return center +
+           half * Vec3{s & 1 ? kSampleX : -kSampleX, s & 2 ? kSampleY : -kSampleY, s & 4 ? kSampleZ : -kSampleZ};
   }
   /// The point of the cube, a share of it around its centre, that is nearest to x.
   Vec3 closest(Vec3 x, double share = 1) const {
@@ -61,7 +62,9 @@ class Blanker {
   }
 
  private:
-  Cube cube(std::int32_t leaf) const { return {octree_.leaf_center(leaf), 0.5 * octree_.cell_edge(octree_.leaf_levels[leaf])}; }
+  Cube cube(std::int32_t leaf) const {
+    return {octree_.leaf_center(leaf), 0.5 * octree_.cell_edge(octree_.leaf_levels[leaf])};
+  }
   bool is_cut(std::int32_t leaf) const { return result_.colour[leaf] == CellColour::kCut; }
 
   void colour_cut_cells() {
@@ -105,7 +108,8 @@ class Blanker {
     for (const TriangleId t : cut_.triangle) {
       Box3 box;
       for (int k = 0; k < 3; ++k) box.add(surface_.corner(t, k));
-      boxes_.push_back({below(box.lo.x), below(box.lo.y), below(box.lo.z), above(box.hi.x), above(box.hi.y), above(box.hi.z)});
+      boxes_.push_back(
+          {below(box.lo.x), below(box.lo.y), below(box.lo.z), above(box.hi.x), above(box.hi.y), above(box.hi.z)});
     }
   }
 
@@ -118,10 +122,12 @@ class Blanker {
     way.add(q);
     for (std::int64_t i = cut_.offsets[cut]; i < cut_.offsets[cut + 1]; ++i) {
       const TriangleBox& b = boxes_[i];
-      if (b.lo_x > way.hi.x || b.hi_x < way.lo.x || b.lo_y > way.hi.y || b.hi_y < way.lo.y || b.lo_z > way.hi.z || b.hi_z < way.lo.z)
+      if (b.lo_x > way.hi.x || b.hi_x < way.lo.x || b.lo_y > way.hi.y || b.hi_y < way.lo.y || b.lo_z > way.hi.z ||
+          b.hi_z < way.lo.z)
         continue;
       const TriangleId t = cut_.triangle[i];
-      if (segment_meets_triangle(p, q, surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2))) return false;
+      if (segment_meets_triangle(p, q, surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2)))
+        return false;
     }
     return true;
   }
@@ -198,7 +204,8 @@ class Blanker {
     return group;
   }
 
-  /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface decides.
+  /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface
+  /// decides.
   int sign_at(Vec3 x) const {
     const Piece* nearest = nullptr;
     for (const Piece& piece : pieces_)
@@ -207,7 +214,8 @@ class Blanker {
     double first = std::numeric_limits<double>::infinity();
     int sign = 0;
     for (const Piece& piece : pieces_) {
-      const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1), c = surface_.corner(piece.triangle, 2);
+      const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1),
+                 c = surface_.corner(piece.triangle, 2);
       if (&piece != nearest && !segment_meets_triangle(x, nearest->middle, a, b, c)) continue;
       const double from = orient3d(a, b, c, x), to = orient3d(a, b, c, nearest->middle);
       const double t = &piece == nearest ? 1 : from / (from - to);
@@ -296,7 +304,8 @@ class Blanker {
     return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
   }
 
-  /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and once more.
+  /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and
+  /// once more.
   bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) const {
     const Cube cube_a = cube(a), cube_b = cube(b);
     const Vec3 from_a = nearest_point(a, part_a, cube_b.center), to_b = nearest_point(b, part_b, from_a);
@@ -359,7 +368,8 @@ std::int32_t Blanking::find_split(std::int32_t leaf) const {
   return it != split_leaf.end() && *it == leaf ? static_cast<std::int32_t>(it - split_leaf.begin()) : kNone;
 }
 
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side) {
+Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface,
+                     BlankSide side) {
   return Blanker(octree, neighbours, surface, side).run();
 }
 

@@ -15,26 +15,29 @@ enum class CellColour : std::uint8_t { kFlow = 0, kCut = 1, kBlanked = 2 };
 /// Which side of a closed surface is no flow.
 enum class BlankSide { kInside, kOutside };
 
-/// A cell in which the surface separates two parts of the flow (a wall thinner than the cell): which of them a point belongs to.
+/// A cell in which the surface separates two parts of the flow (a wall thinner than the cell): which of them a point
+/// belongs to.
 struct CellSplit {
   float normal[3] = {0, 0, 0};  ///< unit, towards the first part
-  float offset = 0;             ///< the plane normal . x = offset between them; x counts from the cell's centre, model unit
-  float margin = 0;             ///< points closer to the plane may belong to either, model unit, >= 0
+  float offset = 0;  ///< the plane normal . x = offset between them; x counts from the cell's centre, model unit
+  float margin = 0;  ///< points closer to the plane may belong to either, model unit, >= 0
 };
 
-/// Links to the neighbours of a cell in the order of Neighbours::for_each: bit k is set when a length passes to the k-th.
+/// Links to the neighbours of a cell in the order of Neighbours::for_each: bit k is set when a length passes to the
+/// k-th.
 struct OpenLinks {
   std::uint64_t to_first = 0;   ///< to its first part, or its only one
   std::uint64_t to_second = 0;  ///< to its second part
 };
 
-/// An octree with a closed surface in it. Sites are what lengths belong to: the leaves (in split ones their first part), then the second
-/// parts of split leaves.
+/// An octree with a closed surface in it. Sites are what lengths belong to: the leaves (in split ones their first
+/// part), then the second parts of split leaves.
 struct Blanking {
   std::vector<CellColour> colour;        ///< [n_leaves]
   std::vector<std::int32_t> split_leaf;  ///< [n_split] ascending
   std::vector<CellSplit> split;          ///< [n_split]
-  std::vector<std::int32_t> site_links;  ///< [n_leaves + n_split] row of `links`; kNone: all links are open, to first parts
+  std::vector<std::int32_t> site_links;  ///< [n_leaves + n_split] row of `links`; kNone: all links are open, to first
+                                         ///< parts
   std::vector<OpenLinks> links;
 
   std::int32_t n_sites() const { return static_cast<std::int32_t>(site_links.size()); }
@@ -42,11 +45,12 @@ struct Blanking {
   std::int32_t find_split(std::int32_t leaf) const;
 };
 
-/// Cells that the surface cuts, one ray per region for the rest, colouring; then the links near the surface: a length passes between flow
-/// and flow where the surface does not lie between, from flow to what is blanked, never from there to flow. Where the surface separates the
-/// flow in a cell, the cell has two parts (more are taken together). Precondition: closed, oriented surface (normals out of its inside).
-/// Local; a few microseconds per cut cell.
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side);
+/// Cells that the surface cuts, one ray per region for the rest, colouring; then the links near the surface: a length
+/// passes between flow and flow where the surface does not lie between, from flow to what is blanked, never from there
+/// to flow. Where the surface separates the flow in a cell, the cell has two parts (more are taken together).
+/// Precondition: closed, oriented surface (normals out of its inside). Local; a few microseconds per cut cell.
+Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface,
+                     BlankSide side);
 
 /// Calls f(site, step) for each site that a length passes to from `site`. `blanking` may be null: each leaf is a site.
 template <class F>
@@ -56,11 +60,12 @@ void for_each_link(const Blanking* blanking, const Neighbours& neighbours, std::
   if (row == kNone) return neighbours.for_each(site, f);
   const OpenLinks open = blanking->links[row];
   std::uint64_t bit = 1;
-  neighbours.for_each(site < n_leaves ? site : blanking->split_leaf[site - n_leaves], [&](std::int32_t other, const CellStep& step) {
-    if (open.to_first & bit) f(other, step);
-    if (open.to_second & bit) f(n_leaves + blanking->find_split(other), step);
-    bit <<= 1;
-  });
+  neighbours.for_each(site < n_leaves ? site : blanking->split_leaf[site - n_leaves],
+                      [&](std::int32_t other, const CellStep& step) {
+                        if (open.to_first & bit) f(other, step);
+                        if (open.to_second & bit) f(n_leaves + blanking->find_split(other), step);
+                        bit <<= 1;
+                      });
 }
 
 }  // namespace st

@@ -31,7 +31,8 @@ class TriangleWalk {
   void descend(std::int32_t node, Vec3 center, double half) {
     if (!may_meet(center, kTouching * half)) return;
     if (node < 0) {
-      if (clip_triangle(corner_[0], corner_[1], corner_[2], center, kTouching * half).n > 0) found.emplace_back(~node, triangle_);
+      if (clip_triangle(corner_[0], corner_[1], corner_[2], center, kTouching * half).n > 0)
+        found.emplace_back(~node, triangle_);
       return;
     }
     const double q = 0.5 * half;
@@ -40,10 +41,11 @@ class TriangleWalk {
               center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q}, q);
   }
   bool may_meet(Vec3 c, double h) const {
-    if (box_.lo.x > c.x + h || box_.hi.x < c.x - h || box_.lo.y > c.y + h || box_.hi.y < c.y - h || box_.lo.z > c.z + h ||
-        box_.hi.z < c.z - h)
+    if (box_.lo.x > c.x + h || box_.hi.x < c.x - h || box_.lo.y > c.y + h || box_.hi.y < c.y - h ||
+        box_.lo.z > c.z + h || box_.hi.z < c.z - h)
       return false;
-    return std::abs(dot(normal_, c - corner_[0])) <= h * (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
+    return std::abs(dot(normal_, c - corner_[0])) <=
+           h * (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
   }
 
   const OctreeView& octree_;
@@ -104,7 +106,8 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-// A ray along +x: seen along it, each triangle winds around x or not; common edges of two triangles are counted once whatever the rounding.
+// A ray along +x: seen along it, each triangle winds around x or not; common edges of two triangles are counted once
+// whatever the rounding.
 int winding_number(const SurfaceView& surface, Vec3 x) {
   const Vec2 origin{x.y, x.z};
   int winding = 0;
@@ -120,7 +123,8 @@ int winding_number(const SurfaceView& surface, Vec3 x) {
       if (a.y > origin.y && side < 0) --turns;
     }
     if (turns == 0) continue;
-    // the side of the triangle that x lies on tells whether the ray meets it: seen along +x, a counter-clockwise one has its normal there
+    // the side of the triangle that x lies on tells whether the ray meets it: seen along +x, a counter-clockwise one
+    // has its normal there
     const double side = orient3d(p[0], p[1], p[2], x);
     if ((turns > 0 && side < 0) || (turns < 0 && side > 0)) winding += turns;
   }

@@ -45,7 +45,8 @@ ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half);
 /// Whether the closed segment pq and the closed triangle have a point in common. Exact.
 bool segment_meets_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c);
 
-/// How often a closed, oriented surface winds around `x`: 1 inside, 0 outside. Exact, unless x lies on it. O(n_triangles).
+/// How often a closed, oriented surface winds around `x`: 1 inside, 0 outside. Exact, unless x lies on it.
+/// O(n_triangles).
 int winding_number(const SurfaceView& surface, Vec3 x);
 
 }  // namespace st

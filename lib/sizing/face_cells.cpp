@@ -38,7 +38,8 @@ class CellLocator {
     // A patch that the loops only graze counts a little, so that a sliver between the probes is somewhere.
     const PatchSpans spans = patch.n_inside > 0 ? PatchSpans() : measure_spans(patch);
     const double area = patch.n_inside > 0 ? inside_area(patch) : 1e-3 * spans.along_u * spans.along_v;
-    parts_.push_back({leaf_, area, size.center, cross(patch.probe[8].x - patch.probe[0].x, patch.probe[6].x - patch.probe[2].x)});
+    parts_.push_back(
+        {leaf_, area, size.center, cross(patch.probe[8].x - patch.probe[0].x, patch.probe[6].x - patch.probe[2].x)});
     return false;
   }
 
@@ -85,7 +86,8 @@ class PlanePoints {
   /// `n` points per axis.
   const std::vector<Vec3>& make(const CellPlane& plane, Vec3 middle, double edge, int n) {
     points_.clear();
-    const Vec3 c{plane.center[0], plane.center[1], plane.center[2]}, m{plane.normal[0], plane.normal[1], plane.normal[2]};
+    const Vec3 c{plane.center[0], plane.center[1], plane.center[2]},
+        m{plane.normal[0], plane.normal[1], plane.normal[2]};
     const double steepest = std::max({std::abs(m.x), std::abs(m.y), std::abs(m.z)});
     if (steepest > 0)
       for (int b = 0; b < n; ++b)
@@ -130,7 +132,8 @@ int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeVie
 }  // namespace
 
 void FaceCells::append_face(std::span<const CellArea> cells) {
-  ST_ASSERT(std::is_sorted(cells.begin(), cells.end(), [](const CellArea& a, const CellArea& b) { return a.leaf < b.leaf; }));
+  ST_ASSERT(
+      std::is_sorted(cells.begin(), cells.end(), [](const CellArea& a, const CellArea& b) { return a.leaf < b.leaf; }));
   for (const CellArea& c : cells) {
     leaf.push_back(c.leaf);
     area.push_back(c.area);
@@ -139,7 +142,8 @@ void FaceCells::append_face(std::span<const CellArea> cells) {
   offsets.push_back(static_cast<std::int64_t>(leaf.size()));
 }
 
-std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree, double face_area) {
+std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
+                                  double face_area) {
   CellLocator locator(surface, octree);
   PatchWalk<PositionProbe, CellLocator> walk(loops, locator);
   walk.walk(surface.u_min(), surface.u_max(), surface.v_min(), surface.v_max(), surface.is_planar() ? 1 : 2);
@@ -157,7 +161,8 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
       const float* n = faces.plane[i].normal;
       const Vec3 normal{n[0], n[1], n[2]};
       const int n_points = points_per_axis(raster, leaf, field.data().octree);
-      const auto& on_plane = points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n_points);
+      const auto& on_plane =
+          points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n_points);
       double uniform = 0, graded = 0;
       for (const Vec3& x : on_plane) {
         Vec3 gradient;

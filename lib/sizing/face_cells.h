@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/shape/surface.h"
 #include "sizing/loop_polygon.h"
 #include "sizing/octree_field.h"
 
@@ -36,9 +36,10 @@ struct FaceCells {
   void append_face(std::span<const CellArea> cells);
 };
 
-/// The cells in which a trimmed surface lies: it is halved in (u,v) until each patch is no larger than the cell at its centre. Areas are
-/// scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
-std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree, double face_area);
+/// The cells in which a trimmed surface lies: it is halved in (u,v) until each patch is no larger than the cell at its
+/// centre. Areas are scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
+std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
+                                  double face_area);
 
 /// How much meshing a face is, as a function of a scale of all lengths.
 struct FaceWeight {
@@ -49,11 +50,12 @@ struct FaceWeight {
   double at(double scale) const { return uniform / (scale * scale) + graded / scale; }
 };
 
-/// Where lengths change, advancing fronts make more triangles than 1/h^2: measured, wings and bodies with slopes up to 0.2.
+/// Where lengths change, advancing fronts make more triangles than 1/h^2: measured, wings and bodies with slopes up to
+/// 0.2.
 inline constexpr double kTrianglesPerGradient = 0.6;
 
-/// Per face. `raster`: the octree that `faces` refers to; `field` may live on a finer one: the area in a cell is spread over its plane, the
-/// finer the more the cell was refined there.
+/// Per face. `raster`: the octree that `faces` refers to; `field` may live on a finer one: the area in a cell is spread
+/// over its plane, the finer the more the cell was refined there.
 std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field);
 
 }  // namespace st

@@ -29,9 +29,11 @@ bool GapPatch::is_inside(double s, double t) const {
 
 Box3 GapPatch::box() const {
   Box3 box;
-  const double h = 0.5 * (std::abs(k_ss) * std::max(s_lo * s_lo, s_hi * s_hi) + std::abs(k_tt) * std::max(t_lo * t_lo, t_hi * t_hi)) +
+  const double h = 0.5 * (std::abs(k_ss) * std::max(s_lo * s_lo, s_hi * s_hi) +
+                          std::abs(k_tt) * std::max(t_lo * t_lo, t_hi * t_hi)) +
                    std::abs(k_st) * std::max(-s_lo, s_hi) * std::max(-t_lo, t_hi);
-  const double below = k_ss >= 0 && k_tt >= 0 && k_st == 0 ? 0 : -h, above = k_ss <= 0 && k_tt <= 0 && k_st == 0 ? 0 : h;
+  const double below = k_ss >= 0 && k_tt >= 0 && k_st == 0 ? 0 : -h,
+               above = k_ss <= 0 && k_tt <= 0 && k_st == 0 ? 0 : h;
   for (const double s : {s_lo, s_hi})
     for (const double t : {t_lo, t_hi})
       for (const double z : {below, above}) box.add(x + s * axis_s + t * axis_t + z * normal);

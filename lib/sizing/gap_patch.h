@@ -9,7 +9,8 @@
 
 namespace st {
 
-/// x + s * axis_s + t * axis_t + height(s, t) * normal for (s, t) in [s_lo, s_hi] x [t_lo, t_hi]. The axes are unit and orthogonal.
+/// x + s * axis_s + t * axis_t + height(s, t) * normal for (s, t) in [s_lo, s_hi] x [t_lo, t_hi]. The axes are unit and
+/// orthogonal.
 struct GapPatch {
   Vec3 x;                               ///< on the surface, model unit
   Vec3 normal;                          ///< unit, out of the solid
@@ -33,12 +34,13 @@ struct GapPatch {
   bool is_inside(double s, double t) const;
   /// Box of the paraboloid.
   Box3 box() const;
-  /// Distance along `direction` (unit) from `from` to the patch, either sign, where the ray meets it inside the loops from the side to
-  /// which the normals are opposed by more than 135 degrees.
+  /// Distance along `direction` (unit) from `from` to the patch, either sign, where the ray meets it inside the loops
+  /// from the side to which the normals are opposed by more than 135 degrees.
   std::optional<double> facing_distance(Vec3 from, Vec3 direction) const;
 };
 
-/// The paraboloid through the middle of 3 x 3 points (rows in v) with the normal there that fits the others best. `normal` is unit.
+/// The paraboloid through the middle of 3 x 3 points (rows in v) with the normal there that fits the others best.
+/// `normal` is unit.
 GapPatch fit_patch(const std::array<Vec3, 9>& points, Vec3 normal);
 
 /// Cosine between normals of surfaces that face each other: below (a V of 60 degrees is no gap).

@@ -24,7 +24,8 @@ struct Facing {
 /// Cuts a patch into tiles that are small enough for the gap they see.
 class GapTiler {
  public:
-  GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, double cell_per_length, std::vector<RasterBox>& boxes)
+  GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, double cell_per_length,
+           std::vector<RasterBox>& boxes)
       : patch_(patch), facing_(facing), cell_per_length_(cell_per_length), boxes_(boxes) {
     has_large_ = std::any_of(facing.begin(), facing.end(), [&](const Facing& f) { return is_large(*f.patch); });
   }
@@ -54,12 +55,15 @@ class GapTiler {
       const double along = dot(to, n);
       if (std::abs(along) - f.radius > sight.gap || norm2(to) - along * along > f.radius * f.radius) continue;
       const std::optional<double> d = f.patch->facing_distance(x, n);
-      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap) sight = {std::abs(*d), f.patch, x + *d * n};
+      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap)
+        sight = {std::abs(*d), f.patch, x + *d * n};
     }
     return sight;
   }
 
-  static double asked_length(const GapPatch& patch, double gap) { return std::max(gap / *patch.gap_cells, patch.min_length); }
+  static double asked_length(const GapPatch& patch, double gap) {
+    return std::max(gap / *patch.gap_cells, patch.min_length);
+  }
   double length_at(double s, double t) const { return asked_length(patch_, look(s, t).gap); }
 
   /// Cuts the tile into n_s x n_t, and each part again while it is larger than its raster box.
@@ -72,14 +76,17 @@ class GapTiler {
       for (int i = 0; i < n_s; ++i) {
         const int k = j * (n_s + 1) + i;
         const double smallest = std::min({length[k], length[k + 1], length[k + n_s + 1], length[k + n_s + 2]});
-        visit({tile.s_lo + i * ds, tile.s_lo + (i + 1) * ds, tile.t_lo + j * dt, tile.t_lo + (j + 1) * dt}, smallest, depth);
+        visit({tile.s_lo + i * ds, tile.s_lo + (i + 1) * ds, tile.t_lo + j * dt, tile.t_lo + (j + 1) * dt}, smallest,
+              depth);
       }
   }
 
   void visit(const Tile& tile, double length, int depth) {
     if (!(length < patch_.length) || !is_inside(tile)) return;
     const double room = kFill * cell_per_length_ * length;
-    const auto parts = [&](double width) { return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts); };
+    const auto parts = [&](double width) {
+      return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts);
+    };
     const int n_s = parts(tile.s_hi - tile.s_lo), n_t = parts(tile.t_hi - tile.t_lo);
     if (n_s * n_t > 1 && depth < kMaxDepth) return cut(tile, n_s, n_t, depth + 1);
     const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);

@@ -34,7 +34,8 @@ class LoopTracer {
       const std::size_t l = static_cast<std::size_t>(loop), first = sides_.size();
       for (const CoedgeId c : t.loop_coedges(l)) trace(c);
       if (!points_.empty()) join(points_.back(), points_.front().uv);
-      for (std::size_t i = 0; i < points_.size(); ++i) sides_.push_back({points_[i], points_[(i + 1) % points_.size()]});
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        sides_.push_back({points_[i], points_[(i + 1) % points_.size()]});
       if (sides_.size() > first) sides_.back().b.coedge = kNone;  // closes the loop, on no trimming curve
     }
     for (int i = 0; i < kMaxRefinements && refine_crossing_sides(); ++i) {
@@ -80,7 +81,8 @@ class LoopTracer {
   std::vector<double> edge_parameters(EdgeId edge) const {
     const ModelTables& t = model_.tables();
     if (!t.edge_is_degenerate[edge]) return measure_curve(*model_.curve(edge), limits_.trace(edge)).t;
-    const double t0 = t.edge_range[2 * static_cast<std::size_t>(edge)], t1 = t.edge_range[2 * static_cast<std::size_t>(edge) + 1];
+    const double t0 = t.edge_range[2 * static_cast<std::size_t>(edge)],
+                 t1 = t.edge_range[2 * static_cast<std::size_t>(edge) + 1];
     std::vector<double> parameters;
     for (int i = 0; i <= kFirstSides; ++i) parameters.push_back(t0 + (t1 - t0) * i / kFirstSides);
     return parameters;
@@ -134,7 +136,8 @@ class LoopTracer {
 /// Do the two sides cross properly: neither touches the other with an end?
 bool cross_properly(const LoopSide& s, const LoopSide& r) {
   const auto opposite = [](double x, double y) { return (x > 0 && y < 0) || (x < 0 && y > 0); };
-  return opposite(orient2d(s.a, s.b, r.a), orient2d(s.a, s.b, r.b)) && opposite(orient2d(r.a, r.b, s.a), orient2d(r.a, r.b, s.b));
+  return opposite(orient2d(s.a, s.b, r.a), orient2d(s.a, s.b, r.b)) &&
+         opposite(orient2d(r.a, r.b, s.a), orient2d(r.a, r.b, s.b));
 }
 
 }  // namespace
@@ -157,7 +160,8 @@ LoopPolygons::LoopPolygons(std::vector<LoopSide> sides) : sides_(std::move(sides
   bin_sides_.resize(static_cast<std::size_t>(bin_offsets_.back()));
   std::vector<std::int32_t> next(bin_offsets_.begin(), bin_offsets_.end() - 1);
   for (std::size_t i = 0; i < sides_.size(); ++i)
-    for (std::size_t b = bin(std::min(sides_[i].a.y, sides_[i].b.y)); b <= bin(std::max(sides_[i].a.y, sides_[i].b.y)); ++b)
+    for (std::size_t b = bin(std::min(sides_[i].a.y, sides_[i].b.y)); b <= bin(std::max(sides_[i].a.y, sides_[i].b.y));
+         ++b)
       bin_sides_[next[b]++] = static_cast<std::int32_t>(i);
 }
 
@@ -191,7 +195,8 @@ std::vector<std::int32_t> crossing_sides(std::span<const LoopSide> sides) {
   std::vector<std::int32_t> order(sides.size());
   std::iota(order.begin(), order.end(), 0);
   const auto start = [&](std::int32_t i) { return std::min(along(sides[i].a), along(sides[i].b)); };
-  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) { return std::pair(start(i), i) < std::pair(start(j), j); });
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t i, std::int32_t j) { return std::pair(start(i), i) < std::pair(start(j), j); });
   std::vector<std::int32_t> open, result;
   for (const std::int32_t i : order) {
     const LoopSide& s = sides[i];
@@ -199,7 +204,9 @@ std::vector<std::int32_t> crossing_sides(std::span<const LoopSide> sides) {
     std::erase_if(open, [&](std::int32_t k) { return std::max(along(sides[k].a), along(sides[k].b)) < start(i); });
     for (const std::int32_t k : open) {
       const LoopSide& r = sides[k];
-      if (std::max(across(r.a), across(r.b)) < low || std::min(across(r.a), across(r.b)) > high || !cross_properly(s, r)) continue;
+      if (std::max(across(r.a), across(r.b)) < low || std::min(across(r.a), across(r.b)) > high ||
+          !cross_properly(s, r))
+        continue;
       result.push_back(i);
       result.push_back(k);
     }

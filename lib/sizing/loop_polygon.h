@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 #include "sizing/model_limits.h"
 
 namespace st {
@@ -31,11 +31,12 @@ class LoopPolygons {
   std::vector<std::int32_t> bin_offsets_, bin_sides_;  // CSR: sides that meet each strip of v
 };
 
-/// Sides that properly cross another one (ends that touch do not count), ascending. Cost: near linear for loops of short sides.
+/// Sides that properly cross another one (ends that touch do not count), ascending. Cost: near linear for loops of
+/// short sides.
 std::vector<std::int32_t> crossing_sides(std::span<const LoopSide> sides);
 
-/// Polygons of the face's loops: each coedge at the parameters of its measured curve, refined until the polygon follows the trimming curve
-/// within 0.1 % of the face's (u,v) range, and further where sides cross each other.
+/// Polygons of the face's loops: each coedge at the parameters of its measured curve, refined until the polygon follows
+/// the trimming curve within 0.1 % of the face's (u,v) range, and further where sides cross each other.
 LoopPolygons loop_polygons(const Model& model, FaceId face, const ModelLimits& limits);
 
 }  // namespace st

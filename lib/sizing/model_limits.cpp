@@ -28,8 +28,8 @@ struct FaceLimits {
 
 class LimitsMaker {
  public:
-  LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules,
-              std::span<const WingEdge> wing_edges)
+  LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
+              const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges)
       : t_(t), roles_(roles), wall_(wall), rules_(rules) {
     for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t, wing_edges));
   }
@@ -48,7 +48,9 @@ class LimitsMaker {
   }
 
  private:
-  double far_length(std::size_t f) const { return std::max(wall_.max_length, kFarLengthPerDiagonal * t_.face_box[f].diagonal()); }
+  double far_length(std::size_t f) const {
+    return std::max(wall_.max_length, kFarLengthPerDiagonal * t_.face_box[f].diagonal());
+  }
 
   void set_by_role() {
     for (std::size_t f = 0; f < roles_.role.size(); ++f) {
@@ -123,8 +125,8 @@ class LimitsMaker {
 
 }  // namespace
 
-ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall, const std::vector<SizeRule>& rules,
-                         std::span<const WingEdge> wing_edges) {
+ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
+                         const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges) {
   return LimitsMaker(t, roles, wall, rules, wing_edges).run();
 }
 

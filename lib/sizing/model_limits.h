@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/model.h"
-#include "sizing/face_roles.h"
+#include "features/face_roles.h"
+#include "geometry/model/model.h"
 #include "sizing/size_limits.h"
 #include "sizing/size_rules.h"
 
@@ -14,30 +14,32 @@ namespace st {
 
 /// Limits per face and edge, by the role of the face.
 ///
-/// Walls take the limits as given. A far field takes its own largest length, 1/30 of the diagonal of the face's box (never less than the
-/// walls'): sizes meant for the body would fill it with triangles. A symmetry plane asks for nothing: its sizes come from what it touches.
-/// Rules then change faces and the edges of faces, in order; an edge takes the finest of its faces for each limit apart, and after that
-/// what rules say of the edge itself.
+/// Walls take the limits as given. A far field takes its own largest length, 1/30 of the diagonal of the face's box
+/// (never less than the walls'): sizes meant for the body would fill it with triangles. A symmetry plane asks for
+/// nothing: its sizes come from what it touches. Rules then change faces and the edges of faces, in order; an edge
+/// takes the finest of its faces for each limit apart, and after that what rules say of the edge itself.
 struct ModelLimits {
-  std::vector<std::optional<SamplingLimits>> face;  ///< [n_faces]; nullopt: not sampled
-  std::vector<std::optional<SamplingLimits>> edge;  ///< [n_edges]; nullopt: not sampled (degenerate, or between symmetry planes only)
-  std::vector<std::optional<SamplingLimits>>
-      vertex;  ///< [n_vertices] its max_length is asked for there; nullopt: no rule names it
-  SamplingLimits far;                               ///< the walls' limits with max_length = far_length: for what is not sampled but traced
-  double min_length = 0;                            ///< smallest min_length of all
-  bool wants_gaps = false;                          ///< some face has gap_cells
-  double far_length = 0;                            ///< largest max_length of all: the length where nothing asks for less
+  std::vector<std::optional<SamplingLimits>> face;    ///< [n_faces]; nullopt: not sampled
+  std::vector<std::optional<SamplingLimits>> edge;    ///< [n_edges]; nullopt: not sampled (degenerate, or between
+                                                      ///< symmetry planes only)
+  std::vector<std::optional<SamplingLimits>> vertex;  ///< [n_vertices] its max_length is asked for there; nullopt: no
+                                                      ///< rule names it
+  SamplingLimits far;       ///< the walls' limits with max_length = far_length: for what is not sampled but traced
+  double min_length = 0;    ///< smallest min_length of all
+  bool wants_gaps = false;  ///< some face has gap_cells
+  double far_length = 0;    ///< largest max_length of all: the length where nothing asks for less
 
   /// Limits at which an edge is traced as part of a loop.
   const SamplingLimits& trace(EdgeId e) const { return edge[e] ? *edge[e] : far; }
 };
 
-/// Longest side of a far-field triangle over the diagonal of its face's box: keeps the volume inside a spherical far field within 0.5 %.
+/// Longest side of a far-field triangle over the diagonal of its face's box: keeps the volume inside a spherical far
+/// field within 0.5 %.
 inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
-/// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field there, so that a
-/// domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for a rule that selects nothing or
-/// contradicts itself. `wing_edges`: what detection found, where a rule asks for it.
+/// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field
+/// there, so that a domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for
+/// a rule that selects nothing or contradicts itself. `wing_edges`: what detection found, where a rule asks for it.
 ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
                          const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {});
 

@@ -17,9 +17,11 @@ Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
       }
       for (int d = 0; d < 27; ++d) {
         bool is_larger = false;
-        const std::int32_t other = beside(static_cast<std::int32_t>(node), o, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1, is_larger);
+        const std::int32_t other =
+            beside(static_cast<std::int32_t>(node), o, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1, is_larger);
         // Balanced: beside a node there is always a cell of its size, or the end of the root cube.
-        node_neighbours_[27 * static_cast<std::size_t>(child) + static_cast<std::size_t>(d)] = is_larger ? kOutside : other;
+        node_neighbours_[27 * static_cast<std::size_t>(child) + static_cast<std::size_t>(d)] =
+            is_larger ? kOutside : other;
       }
     }
   }

@@ -8,36 +8,39 @@
 
 namespace st {
 
-/// Displacement from a cell's centre to a neighbour's, in halves of the smaller cell's edge: 2 per axis between equals; +-1 or +-3 between
-/// a cell and one of half its size.
+/// Displacement from a cell's centre to a neighbour's, in halves of the smaller cell's edge: 2 per axis between equals;
+/// +-1 or +-3 between a cell and one of half its size.
 struct CellStep {
   std::int8_t x, y, z;
   std::int8_t length2;      ///< x*x + y*y + z*z: one of 4 8 12 (equals), 11 19 27
   std::uint8_t fine_level;  ///< level of the smaller cell
 };
 
-/// Neighbour tables of a balanced octree: for each node its 27 neighbours of the same size, for each leaf its parent. 20 bytes per leaf.
+/// Neighbour tables of a balanced octree: for each node its 27 neighbours of the same size, for each leaf its parent.
+/// 20 bytes per leaf.
 class Neighbours {
  public:
   /// Precondition: balanced 2:1 across faces, edges and corners.
   explicit Neighbours(const OctreeView& octree);
 
-  /// Calls f(leaf, step) for every leaf that touches `leaf`, in a fixed order. A larger neighbour may come several times (once for each of
-  /// the directions in which it lies), always with the same step.
+  /// Calls f(leaf, step) for every leaf that touches `leaf`, in a fixed order. A larger neighbour may come several
+  /// times (once for each of the directions in which it lies), always with the same step.
   template <class F>
   void for_each(std::int32_t leaf, F&& f) const;
 
  private:
   static constexpr std::int32_t kOutside = std::numeric_limits<std::int32_t>::min();
   static int direction(int x, int y, int z) { return (x + 1) + 3 * (y + 1) + 9 * (z + 1); }
-  /// The cell beside child `octant` of `node` in direction (x, y, z): of the same size as the child, or one level larger; or kOutside.
+  /// The cell beside child `octant` of `node` in direction (x, y, z): of the same size as the child, or one level
+  /// larger; or kOutside.
   std::int32_t beside(std::int32_t node, int octant, int x, int y, int z, bool& is_larger) const {
     const int cx = (octant & 1) + x, cy = (octant >> 1 & 1) + y, cz = (octant >> 2) + z;
-    const std::int32_t parent =
-        node_neighbours_[27 * static_cast<std::size_t>(node) + static_cast<std::size_t>(direction(cx >> 1, cy >> 1, cz >> 1))];
+    const std::int32_t parent = node_neighbours_[27 * static_cast<std::size_t>(node) +
+                                                 static_cast<std::size_t>(direction(cx >> 1, cy >> 1, cz >> 1))];
     is_larger = parent < 0;
     if (parent < 0) return parent;
-    return octree_.node_children[8 * static_cast<std::size_t>(parent) + static_cast<std::size_t>((cx & 1) | (cy & 1) << 1 | (cz & 1) << 2)];
+    return octree_.node_children[8 * static_cast<std::size_t>(parent) +
+                                 static_cast<std::size_t>((cx & 1) | (cy & 1) << 1 | (cz & 1) << 2)];
   }
   template <class F>
   void visit_direction(std::int32_t leaf, int x, int y, int z, F&& f) const;

@@ -21,7 +21,8 @@ Weights weights_at(Vec3 x, Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 n = cross(b - a, c - a);
   const double area2 = norm2(n);
   if (!(area2 > 0)) return {{1, 0, 0}};
-  Weights r{{dot(cross(b - x, c - x), n) / area2, dot(cross(c - x, a - x), n) / area2, dot(cross(a - x, b - x), n) / area2}};
+  Weights r{
+      {dot(cross(b - x, c - x), n) / area2, dot(cross(c - x, a - x), n) / area2, dot(cross(a - x, b - x), n) / area2}};
   double sum = 0;
   for (double& w : r.w) sum += w = std::max(w, 0.0);
   for (double& w : r.w) w /= sum;
@@ -30,7 +31,8 @@ Weights weights_at(Vec3 x, Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
-NodeField::NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope) : mesh_(mesh), size_(std::move(size)), slope_(slope) {
+NodeField::NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope)
+    : mesh_(mesh), size_(std::move(size)), slope_(slope) {
   ST_ASSERT(size_.size() == mesh_.node_xyz.size() && slope_ > 0);
   ST_ASSERT(std::all_of(size_.begin(), size_.end(), [](double h) { return h > 0 && std::isfinite(h); }));
   find_triangles();
@@ -73,7 +75,8 @@ void NodeField::build_tree(std::size_t begin, std::size_t end, int axis) {
   if (end - begin < 2) return;
   const std::size_t middle = (begin + end) / 2;
   const auto key = [&](NodeId n) { return std::pair(along(mesh_.node_xyz[n], axis), n); };
-  std::nth_element(tree_.begin() + begin, tree_.begin() + middle, tree_.begin() + end, [&](NodeId a, NodeId b) { return key(a) < key(b); });
+  std::nth_element(tree_.begin() + begin, tree_.begin() + middle, tree_.begin() + end,
+                   [&](NodeId a, NodeId b) { return key(a) < key(b); });
   build_tree(begin, middle, (axis + 1) % 3);
   build_tree(middle + 1, end, (axis + 1) % 3);
 }

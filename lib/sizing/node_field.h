@@ -9,11 +9,13 @@
 
 namespace st {
 
-/// Linear within the triangle of the nearest node that is closest; between the nodes the length grows no faster than a slope: larger ones
-/// are reduced. Where two walls are closer than a node's neighbours, a point may get the length of the other wall.
+/// Linear within the triangle of the nearest node that is closest; between the nodes the length grows no faster than a
+/// slope: larger ones are reduced. Where two walls are closer than a node's neighbours, a point may get the length of
+/// the other wall.
 class NodeField : public SizeField {
  public:
-  /// `size` [n_nodes] > 0, finite. `slope` > 0: change of length per distance along mesh edges. `mesh` outlives it. n log n.
+  /// `size` [n_nodes] > 0, finite. `slope` > 0: change of length per distance along mesh edges. `mesh` outlives it. n
+  /// log n.
   NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope);
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;

@@ -90,9 +90,10 @@ class KeyCollector {
   std::size_t next_sort_ = kFirstSort;
 };
 
-/// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight per box).
-void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes, std::span<const std::uint8_t> levels,
-                            NodeLevels& nodes, std::uint64_t max_cells) {
+/// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight
+/// per box).
+void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes,
+                            std::span<const std::uint8_t> levels, NodeLevels& nodes, std::uint64_t max_cells) {
   std::vector<KeyCollector> collectors(nodes.begin(), nodes.end());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (levels[i] == 0) continue;
@@ -166,9 +167,9 @@ std::uint64_t pack_length(float length, std::int32_t cause) {
 }
 constexpr std::uint64_t kNothing = ~std::uint64_t{0};
 
-/// Gives each leaf the smallest length of the boxes that meet it. A cell that lies in a box as a whole keeps the length for all its leaves.
-/// Boxes of fine levels come first, and whole subtrees that hold smaller lengths already are skipped, so that large boxes do not visit
-/// every fine cell inside them.
+/// Gives each leaf the smallest length of the boxes that meet it. A cell that lies in a box as a whole keeps the length
+/// for all its leaves. Boxes of fine levels come first, and whole subtrees that hold smaller lengths already are
+/// skipped, so that large boxes do not visit every fine cell inside them.
 class LengthStore {
  public:
   explicit LengthStore(const OctreeShape& shape)
@@ -242,7 +243,8 @@ class LengthStore {
     const auto holds = [extent](std::uint32_t a, std::uint32_t first, std::uint32_t last) {
       return first <= a && a + (extent - 1) <= last;
     };
-    return holds(lo.x, range_.lo.x, range_.hi.x) && holds(lo.y, range_.lo.y, range_.hi.y) && holds(lo.z, range_.lo.z, range_.hi.z);
+    return holds(lo.x, range_.lo.x, range_.hi.x) && holds(lo.y, range_.lo.y, range_.hi.y) &&
+           holds(lo.z, range_.lo.z, range_.hi.z);
   }
 
   const OctreeShape& shape_;
@@ -302,7 +304,8 @@ void unite_nodes(NodeLevels& nodes, const NodeLevels& other) {
   for (std::size_t level = 0; level < nodes.size(); ++level) {
     std::vector<std::uint64_t> all;
     all.reserve(nodes[level].size() + other[level].size());
-    std::set_union(nodes[level].begin(), nodes[level].end(), other[level].begin(), other[level].end(), std::back_inserter(all));
+    std::set_union(nodes[level].begin(), nodes[level].end(), other[level].begin(), other[level].end(),
+                   std::back_inserter(all));
     nodes[level] = std::move(all);
   }
 }
@@ -351,7 +354,8 @@ namespace {
 
 const char* shape_defect(const OctreeView& octree) {
   const std::size_t n = octree.leaf_keys.size();
-  if (n == 0 || octree.leaf_levels.size() != n || octree.node_children.size() % 8 != 0) return "array lengths do not fit";
+  if (n == 0 || octree.leaf_levels.size() != n || octree.node_children.size() % 8 != 0)
+    return "array lengths do not fit";
   if (n != 7 * (octree.node_children.size() / 8) + 1) return "number of leaves does not fit the number of nodes";
   if (!(octree.edge > 0) || !std::isfinite(octree.edge)) return "root cube has no size";
   std::uint64_t expected = 0;
@@ -370,11 +374,13 @@ const char* link_defect(const OctreeView& octree) {
   const auto walk = [&](const auto& self, std::int32_t node, std::uint64_t key, int level) -> bool {
     if (node < 0) {
       const std::int32_t leaf = ~node;
-      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[leaf] == key && octree.leaf_levels[leaf] == level;
+      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[leaf] == key &&
+             octree.leaf_levels[leaf] == level;
     }
     if (node >= octree.n_nodes() || level >= kMaxLevel || ++n_visited > octree.node_children.size() / 8) return false;
     for (std::uint64_t o = 0; o < 8; ++o)
-      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o], key | o << (3 * (kMaxLevel - 1 - level)), level + 1))
+      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o],
+                key | o << (3 * (kMaxLevel - 1 - level)), level + 1))
         return false;
     return true;
   };

@@ -11,7 +11,8 @@
 
 namespace st {
 
-/// Why a cell has its length. Packed into an int32: id * 4 + kind; kNone (-1): nothing asks for less than the largest length.
+/// Why a cell has its length. Packed into an int32: id * 4 + kind; kNone (-1): nothing asks for less than the largest
+/// length.
 enum class CauseKind : std::uint8_t { kEdge = 0, kFace = 1, kSource = 2, kOther = 3 };
 constexpr std::int32_t pack_cause(CauseKind kind, std::int32_t id) { return id * 4 + static_cast<std::int32_t>(kind); }
 constexpr CauseKind cause_kind(std::int32_t cause) { return static_cast<CauseKind>(cause & 3); }
@@ -32,7 +33,8 @@ struct OctreeView {
   double edge = 1;                              ///< its edge, model unit, > 0
   std::span<const std::uint64_t> leaf_keys;     ///< [n_leaves] Morton key of the lower corner, strictly ascending
   std::span<const std::uint8_t> leaf_levels;    ///< [n_leaves] 0 .. kMaxLevel; edge of the leaf = edge / 2^level
-  std::span<const std::int32_t> node_children;  ///< [8*n_nodes] >= 0: node; < 0: leaf ~child. Empty when the root is the only leaf
+  std::span<const std::int32_t> node_children;  ///< [8*n_nodes] >= 0: node; < 0: leaf ~child. Empty when the root is
+                                                ///< the only leaf
 
   std::int32_t n_leaves() const { return static_cast<std::int32_t>(leaf_keys.size()); }
   std::int32_t n_nodes() const { return static_cast<std::int32_t>(node_children.size() / 8); }
@@ -71,7 +73,8 @@ struct OctreeShape {
 /// Octree before prolongation: the raster.
 struct RasterOctree {
   OctreeShape shape;
-  std::vector<float> stored_length;        ///< [n_leaves] smallest sample length that met the cell, model unit; +infinity: none did
+  std::vector<float> stored_length;  ///< [n_leaves] smallest sample length that met the cell, model unit; +infinity:
+                                     ///< none did
   std::vector<std::int32_t> stored_cause;  ///< [n_leaves] its cause (the smallest of equal lengths'), kNone: none
 };
 
@@ -79,15 +82,17 @@ struct RasterOctree {
 struct CellLength {
   float length = 0;               ///< at the centre, model unit, > 0
   float gradient[3] = {0, 0, 0};  ///< change of length per distance
-  float upper = 0;                ///< largest length of the leaf and its neighbours, model unit; negated where a surface splits the leaf
+  float upper = 0;  ///< largest length of the leaf and its neighbours, model unit; negated where a surface splits the
+                    ///< leaf
 };
 
 /// Cube around `box`, enlarged by 1 % on each side; edge 1 for an empty box or a single point.
 void octree_root(const Box3& box, Vec3& lo, double& edge);
 
 /// Coarsest 2:1-balanced octree (across faces, edges and corners) in the root cube whose leaves are not larger than any
-/// raster box they meet; depth capped at kMaxLevel. Each leaf stores the smallest length of the boxes that meet it. The result depends on
-/// the set of boxes only, not on their order. Parts of boxes outside the root are ignored. O(n log n) in boxes and cells.
+/// raster box they meet; depth capped at kMaxLevel. Each leaf stores the smallest length of the boxes that meet it. The
+/// result depends on the set of boxes only, not on their order. Parts of boxes outside the root are ignored. O(n log n)
+/// in boxes and cells.
 RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes);
 
 /// First defect of an octree's shape (order, gaps, links, balance), or empty. For tests and for artifacts from outside.

@@ -7,10 +7,14 @@
 namespace st {
 
 OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length)
-    : data_(data), owner_(std::move(owner)), unit_(data.octree.edge / kCoordinateEnd), to_grid_(kCoordinateEnd / data.octree.edge) {
+    : data_(data),
+      owner_(std::move(owner)),
+      unit_(data.octree.edge / kCoordinateEnd),
+      to_grid_(kCoordinateEnd / data.octree.edge) {
   if (!(min_length > 0)) {
-    const auto smallest = std::min_element(data.cells.begin(), data.cells.end(),
-                                           [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
+    const auto smallest =
+        std::min_element(data.cells.begin(), data.cells.end(),
+                         [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
     min_length = smallest->length;
   }
   min_size_ = min_length * data_.scale;

@@ -37,12 +37,13 @@ struct SizeExplanation {
   std::int32_t cause = kNone;  ///< see pack_cause
 };
 
-/// h(x) = min(length + gradient . (x - centre), upper) of the leaf at x, times scale. Never leaves the range of the lengths of the leaf and
-/// its neighbours. Where a surface splits the leaf, those of the part that x lies in; the smaller one when that is not certain.
+/// h(x) = min(length + gradient . (x - centre), upper) of the leaf at x, times scale. Never leaves the range of the
+/// lengths of the leaf and its neighbours. Where a surface splits the leaf, those of the part that x lies in; the
+/// smaller one when that is not certain.
 class OctreeField : public SizeField {
  public:
-  /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n): looks for the
-  /// smallest length, unless `min_length` (before scale) is known.
+  /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n):
+  /// looks for the smallest length, unless `min_length` (before scale) is known.
   OctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length = 0);
 
   using SizeField::size;
@@ -50,7 +51,8 @@ class OctreeField : public SizeField {
   double min_size() const override { return min_size_; }
   double slope() const override { return data_.slope * data_.scale; }
   const OctreeFieldData& data() const { return data_; }
-  /// Where the octree lies: its point x (leaves, split planes) at frame()(x) of the model, in which all questions are asked.
+  /// Where the octree lies: its point x (leaves, split planes) at frame()(x) of the model, in which all questions are
+  /// asked.
   virtual Similarity frame() const { return {}; }
   virtual SizeExplanation explain(Vec3 xyz) const;
   /// Likewise size() in the octree's own frame, and its gradient.
@@ -73,7 +75,8 @@ class OctreeField : public SizeField {
       return ~node;
     }
     for (level = kTopLevel; node >= 0; ++level)
-      node = data_.octree.node_children[8 * static_cast<std::size_t>(node) + ((key >> (3 * (kMaxLevel - 1 - level))) & 7)];
+      node =
+          data_.octree.node_children[8 * static_cast<std::size_t>(node) + ((key >> (3 * (kMaxLevel - 1 - level))) & 7)];
     return ~node;
   }
 

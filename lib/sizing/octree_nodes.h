@@ -1,4 +1,5 @@
-// How octrees are made from the cells that must be split: the steps of build_octree, for boxes that are spread over ranks, too.
+// How octrees are made from the cells that must be split: the steps of build_octree, for boxes that are spread over
+// ranks, too.
 #pragma once
 
 #include <array>
@@ -34,8 +35,8 @@ void unite_nodes(NodeLevels& nodes, const NodeLevels& other);
 /// The octree with these inner cells (closed).
 OctreeShape make_shape(const Box3& root, const NodeLevels& nodes);
 
-/// Stored length and cause of each leaf as one number that orders by length, then by cause; ~0: nothing stored. [n_leaves]. What all boxes
-/// store is, leaf by leaf, the smallest number that any parts of them store.
+/// Stored length and cause of each leaf as one number that orders by length, then by cause; ~0: nothing stored.
+/// [n_leaves]. What all boxes store is, leaf by leaf, the smallest number that any parts of them store.
 using PackedLengths = std::vector<std::uint64_t>;
 
 /// What these boxes store. Precondition: the shape has the cells that they split.

@@ -35,7 +35,8 @@ class TetMaker {
     for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) {
       const GridPoint p = morton::decode(octree_.leaf_keys[leaf]);
       const std::uint32_t e = morton::cell_extent(octree_.leaf_levels[leaf]);
-      for (std::uint32_t c = 0; c < 8; ++c) corners_.push_back(pack({p.x + (c & 1) * e, p.y + (c >> 1 & 1) * e, p.z + (c >> 2) * e}));
+      for (std::uint32_t c = 0; c < 8; ++c)
+        corners_.push_back(pack({p.x + (c & 1) * e, p.y + (c >> 1 & 1) * e, p.z + (c >> 2) * e}));
     }
     sort_unique(corners_);
     const double unit = octree_.edge / kCoordinateEnd;
@@ -45,7 +46,8 @@ class TetMaker {
     }
     result_.n_corners = static_cast<std::int64_t>(corners_.size());
     require_countable(corners_.size() + octree_.leaf_keys.size(), "corners and centres of the octree's cells");
-    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) result_.node_xyz.push_back(octree_.leaf_center(leaf));
+    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf)
+      result_.node_xyz.push_back(octree_.leaf_center(leaf));
   }
 
   std::int32_t corner(std::uint64_t key) const {
@@ -59,10 +61,12 @@ class TetMaker {
     apex_ = static_cast<std::int32_t>(result_.n_corners) + leaf;
     constexpr std::uint64_t step[3] = {1, 1ull << kCornerBits, 1ull << (2 * kCornerBits)};
     for (int axis = 0; axis < 3; ++axis)
-      for (std::uint64_t side = 0; side < 2; ++side) fill_square(lo + side * e * step[axis], e, step[(axis + 1) % 3], step[(axis + 2) % 3]);
+      for (std::uint64_t side = 0; side < 2; ++side)
+        fill_square(lo + side * e * step[axis], e, step[(axis + 1) % 3], step[(axis + 2) % 3]);
   }
 
-  /// The square at `lo` with sides e*u and e*v: in four when a finer leaf has a corner in its middle, else a fan around one of its corners.
+  /// The square at `lo` with sides e*u and e*v: in four when a finer leaf has a corner in its middle, else a fan around
+  /// one of its corners.
   void fill_square(std::uint64_t lo, std::uint64_t e, std::uint64_t u, std::uint64_t v) {
     const std::uint64_t h = e / 2;
     if (h > 0 && corner(lo + h * (u + v)) != kNone) {
@@ -74,7 +78,8 @@ class TetMaker {
     int n = 0, first = -1;
     bool first_is_middle = false;
     const auto add = [&](std::int32_t node, bool is_middle) {
-      const bool is_better = first < 0 || is_middle > first_is_middle || (is_middle == first_is_middle && node < polygon[first]);
+      const bool is_better =
+          first < 0 || is_middle > first_is_middle || (is_middle == first_is_middle && node < polygon[first]);
       polygon[n] = node;
       if (is_better) {
         first = n;

@@ -21,11 +21,13 @@ struct Prism {
       : x(p.x), axes{p.axis_s, p.axis_t, p.normal}, lo{p.s_lo, p.t_lo, 0}, hi{p.s_hi, p.t_hi, 0} {
     box.add(own);
     // Normals of a curved patch lean outward: what it sees at `reach` is as much wider.
-    const double lean_s = reach * (std::abs(p.k_ss) * std::max(-p.s_lo, p.s_hi) + std::abs(p.k_st) * std::max(-p.t_lo, p.t_hi));
-    const double lean_t = reach * (std::abs(p.k_tt) * std::max(-p.t_lo, p.t_hi) + std::abs(p.k_st) * std::max(-p.s_lo, p.s_hi));
+    const double lean_s =
+        reach * (std::abs(p.k_ss) * std::max(-p.s_lo, p.s_hi) + std::abs(p.k_st) * std::max(-p.t_lo, p.t_hi));
+    const double lean_t =
+        reach * (std::abs(p.k_tt) * std::max(-p.t_lo, p.t_hi) + std::abs(p.k_st) * std::max(-p.s_lo, p.s_hi));
     lo[0] -= lean_s, hi[0] += lean_s, lo[1] -= lean_t, hi[1] += lean_t;
-    const double sag = std::max({std::abs(p.height(p.s_lo, p.t_lo)), std::abs(p.height(p.s_lo, p.t_hi)), std::abs(p.height(p.s_hi, p.t_lo)),
-                                 std::abs(p.height(p.s_hi, p.t_hi))});
+    const double sag = std::max({std::abs(p.height(p.s_lo, p.t_lo)), std::abs(p.height(p.s_lo, p.t_hi)),
+                                 std::abs(p.height(p.s_hi, p.t_lo)), std::abs(p.height(p.s_hi, p.t_hi))});
     lo[2] = -reach - sag, hi[2] = reach + sag;
     for (int corner = 0; corner < 8; ++corner)
       box.add(x + ((corner & 1) ? hi[0] : lo[0]) * axes[0] + ((corner & 2) ? hi[1] : lo[1]) * axes[1] +
@@ -34,7 +36,8 @@ struct Prism {
 
   /// Can the prism meet the box? Tests the axes of both, not their cross products.
   bool meets(const Box3& b) const {
-    if (b.lo.x > box.hi.x || b.hi.x < box.lo.x || b.lo.y > box.hi.y || b.hi.y < box.lo.y || b.lo.z > box.hi.z || b.hi.z < box.lo.z)
+    if (b.lo.x > box.hi.x || b.hi.x < box.lo.x || b.lo.y > box.hi.y || b.hi.y < box.lo.y || b.lo.z > box.hi.z ||
+        b.hi.z < box.lo.z)
       return false;
     const Vec3 center = b.center() - x, half = 0.5 * (b.hi - b.lo);
     for (int k = 0; k < 3; ++k) {
@@ -57,7 +60,9 @@ PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches), ord
   if (!patches.empty()) build(0, patches.size());
 }
 
-PatchTree::Cone PatchTree::make_cone(Vec3 axis, double angle) { return {axis, angle, std::cos(angle), std::sin(angle)}; }
+PatchTree::Cone PatchTree::make_cone(Vec3 axis, double angle) {
+  return {axis, angle, std::cos(angle), std::sin(angle)};
+}
 
 PatchTree::Cone PatchTree::cone_of(const GapPatch& p) {
   double cosine = 1;

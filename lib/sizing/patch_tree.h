@@ -10,14 +10,16 @@
 
 namespace st {
 
-/// Finds patches that may face a patch. Built in O(n log n); does not depend on anything but the patches and their order.
+/// Finds patches that may face a patch. Built in O(n log n); does not depend on anything but the patches and their
+/// order.
 class PatchTree {
  public:
   /// `patches` must outlive the tree.
   explicit PatchTree(std::span<const GapPatch> patches);
 
-  /// Clears `found` and fills it with the patches, in the tree's order, that meet the prism swept by this patch along its normal by `reach`
-  /// (model unit) to both sides and of whose normals some are opposed to some of the patch's by more than 135 degrees.
+  /// Clears `found` and fills it with the patches, in the tree's order, that meet the prism swept by this patch along
+  /// its normal by `reach` (model unit) to both sides and of whose normals some are opposed to some of the patch's by
+  /// more than 135 degrees.
   void find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const;
 
  private:

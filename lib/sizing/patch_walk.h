@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/shape/surface.h"
 #include "sizing/loop_polygon.h"
 
 namespace st {
 
-/// A rectangle in (u,v) with probes at its corners, the middles of its sides and its middle: probe[3 * row + column], rows in v.
-/// Probe: a struct with the position `Vec3 x`.
+/// A rectangle in (u,v) with probes at its corners, the middles of its sides and its middle: probe[3 * row + column],
+/// rows in v. Probe: a struct with the position `Vec3 x`.
 template <class Probe>
 struct Patch {
   double u[3], v[3];
@@ -21,7 +21,8 @@ struct Patch {
   std::array<bool, 9> is_inside{};      // inside the loops
   std::span<const std::int32_t> sides;  // sides of the loops that meet it
   int n_inside = 0;
-  std::uint16_t is_known = 0, is_contained = 0;  // a bit per probe: whether the answer of contains() is known, and the answer
+  std::uint16_t is_known = 0, is_contained = 0;  // a bit per probe: whether the answer of contains() is known, and the
+                                                 // answer
   int n_splits = 0, n_doubts = 0;
 
   Vec2 uv(std::size_t k) const { return {u[k % 3], v[k / 3]}; }
@@ -50,7 +51,8 @@ PatchSpans measure_spans(const Patch<Probe>& patch) {
   const auto& p = patch.probe;
   PatchSpans spans;
   for (std::size_t k = 0; k < 3; ++k) {
-    spans.along_u = std::max(spans.along_u, distance(p[3 * k].x, p[3 * k + 1].x) + distance(p[3 * k + 1].x, p[3 * k + 2].x));
+    spans.along_u =
+        std::max(spans.along_u, distance(p[3 * k].x, p[3 * k + 1].x) + distance(p[3 * k + 1].x, p[3 * k + 2].x));
     spans.along_v = std::max(spans.along_v, distance(p[k].x, p[3 + k].x) + distance(p[3 + k].x, p[6 + k].x));
   }
   return spans;
@@ -63,15 +65,17 @@ double inside_area(const Patch<Probe>& patch) {
   for (const std::size_t k : {0u, 1u, 3u, 4u}) {
     const auto& p = patch.probe;
     const double quarter = 0.5 * norm(cross(p[k + 4].x - p[k].x, p[k + 3].x - p[k + 1].x));
-    area += 0.25 * quarter * (patch.is_inside[k] + patch.is_inside[k + 1] + patch.is_inside[k + 3] + patch.is_inside[k + 4]);
+    area += 0.25 * quarter *
+            (patch.is_inside[k] + patch.is_inside[k + 1] + patch.is_inside[k + 3] + patch.is_inside[k + 4]);
   }
   return area;
 }
 
 /// Walks the patches of a trimmed surface that lie inside its loops or are cut by them. `Visitor` has
 ///   Probe probe(Vec2 uv)                                       evaluates one point;
-///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is not yet known);
-///   bool visit(const Patch<Probe>&, const PatchSize&, int& n_doubts)   true: split it; false: done with it.
+///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is
+///   not yet known); bool visit(const Patch<Probe>&, const PatchSize&, int& n_doubts)   true: split it; false: done
+///   with it.
 /// A patch is split across its longer side in space, and not more than 60 times.
 template <class Probe, class Visitor>
 class PatchWalk {
@@ -142,7 +146,8 @@ class PatchWalk {
     child.is_contained |= static_cast<std::uint16_t>((patch.is_contained >> from & 1) << to);
   }
 
-  /// Those of the candidates that meet the patch. One list per depth: a patch's own is in use while its parts are walked.
+  /// Those of the candidates that meet the patch. One list per depth: a patch's own is in use while its parts are
+  /// walked.
   void collect_sides(Patch<Probe>& patch, std::span<const std::int32_t> candidates) {
     std::vector<std::int32_t>& own = sides_[static_cast<std::size_t>(patch.n_splits) + 1];
     own.clear();
@@ -168,13 +173,15 @@ class PatchWalk {
     }
   }
 
-  /// Probes on a loop count as inside: faces often end where they are bent most (a leading edge), and exactly on an iso-line.
+  /// Probes on a loop count as inside: faces often end where they are bent most (a leading edge), and exactly on an
+  /// iso-line.
   bool is_on_loop(const Patch<Probe>& patch, Vec2 uv) const {
     constexpr double kOnLoop = 0.02;  // distance from a side, patch widths
     const Vec2 scale{1 / (patch.u[2] - patch.u[0]), 1 / (patch.v[2] - patch.v[0])};
     for (const std::int32_t i : patch.sides) {
       const LoopSide& s = loops_.sides()[i];
-      const Vec2 d{(s.b.x - s.a.x) * scale.x, (s.b.y - s.a.y) * scale.y}, r{(uv.x - s.a.x) * scale.x, (uv.y - s.a.y) * scale.y};
+      const Vec2 d{(s.b.x - s.a.x) * scale.x, (s.b.y - s.a.y) * scale.y},
+          r{(uv.x - s.a.x) * scale.x, (uv.y - s.a.y) * scale.y};
       const double d2 = dot(d, d), t = d2 > 0 ? std::clamp(dot(r, d) / d2, 0.0, 1.0) : 0;
       const Vec2 off = r - t * d;
       if (dot(off, off) < kOnLoop * kOnLoop) return true;
@@ -183,8 +190,8 @@ class PatchWalk {
   }
 
   static bool meets(const Patch<Probe>& patch, const LoopSide& s) {
-    if (std::max(s.a.x, s.b.x) < patch.u[0] || std::min(s.a.x, s.b.x) > patch.u[2] || std::max(s.a.y, s.b.y) < patch.v[0] ||
-        std::min(s.a.y, s.b.y) > patch.v[2])
+    if (std::max(s.a.x, s.b.x) < patch.u[0] || std::min(s.a.x, s.b.x) > patch.u[2] ||
+        std::max(s.a.y, s.b.y) < patch.v[0] || std::min(s.a.y, s.b.y) > patch.v[2])
       return false;
     const Vec2 d = s.b - s.a;
     int n_left = 0;  // of the four corners, seen along the side

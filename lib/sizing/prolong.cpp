@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kLargestStep2 = 27;
 
-/// What is prolonged: one length and its cause per site: the cells, and the second parts of cells that a surface splits.
+/// What is prolonged: one length and its cause per site: the cells, and the second parts of cells that a surface
+/// splits.
 struct CellLengths {
   std::vector<float> length;
   std::vector<std::int32_t> cause;
@@ -27,7 +28,8 @@ class StepWeights {
   StepWeights(double root_edge, double slope) {
     for (int level = 0; level <= kMaxLevel; ++level) {
       const double half = 0.5 * root_edge / static_cast<double>(1u << level);
-      for (int s = 0; s <= kLargestStep2; ++s) weight_[level][s] = static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
+      for (int s = 0; s <= kLargestStep2; ++s)
+        weight_[level][s] = static_cast<float>(slope * half * std::sqrt(static_cast<double>(s)));
     }
   }
   float operator()(const CellStep& step) const { return weight_[step.fine_level][step.length2]; }
@@ -48,10 +50,12 @@ struct SiteSlopes {
   float between(std::int32_t a, std::int32_t b) const { return 0.5F * (at(a) + at(b)); }
 };
 
-/// Cells to be looked at, in rising order of length in steps of 1/8 octave. The order is for speed only: the result does not depend on it.
+/// Cells to be looked at, in rising order of length in steps of 1/8 octave. The order is for speed only: the result
+/// does not depend on it.
 class LengthBuckets {
  public:
-  LengthBuckets(float smallest, float largest) : first_(bucket_bits(smallest)), buckets_(bucket_bits(largest) - first_ + 1) {}
+  LengthBuckets(float smallest, float largest)
+      : first_(bucket_bits(smallest)), buckets_(bucket_bits(largest) - first_ + 1) {}
   void push(float length, std::int32_t leaf) { buckets_[bucket_bits(length) - first_].push_back(leaf); }
   std::size_t size() const { return buckets_.size(); }
   std::vector<std::int32_t>& operator[](std::size_t b) { return buckets_[b]; }
@@ -63,9 +67,10 @@ class LengthBuckets {
   std::vector<std::vector<std::int32_t>> buckets_;
 };
 
-/// Label-correcting shortest paths: start from every cell with a stored length, pass length + slope * distance on until nothing changes.
-void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking* blanking, const ProlongOptions& options,
-                  CellLengths& cells) {
+/// Label-correcting shortest paths: start from every cell with a stored length, pass length + slope * distance on until
+/// nothing changes.
+void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking* blanking,
+                  const ProlongOptions& options, CellLengths& cells) {
   const auto [smallest, largest] = std::minmax_element(cells.length.begin(), cells.length.end());
   LengthBuckets buckets(*smallest, *largest);
   const bool is_uniform = options.cell_slope.empty();
@@ -127,18 +132,21 @@ struct FitInput {
   std::span<const float> lengths;  // [n_sites]
   const ProlongOptions& options;
 
-  bool is_blanked(std::int32_t site) const { return site < octree.n_leaves() && blanking->colour[site] == CellColour::kBlanked; }
+  bool is_blanked(std::int32_t site) const {
+    return site < octree.n_leaves() && blanking->colour[site] == CellColour::kBlanked;
+  }
   /// Lengths pass from flow to blanked cells, which must not be seen from the flow.
   bool is_one_way(std::int32_t from, std::int32_t to) const { return blanking && is_blanked(from) != is_blanked(to); }
 };
 
-/// Least-squares gradient of one cell, shortened until the slope holds and no corner is below the smallest length around; a ridge is cut
-/// off by `upper` instead, so that the field still rises to it.
+/// Least-squares gradient of one cell, shortened until the slope holds and no corner is below the smallest length
+/// around; a ridge is cut off by `upper` instead, so that the field still rises to it.
 CellLength fit_cell(const FitInput& in, std::int32_t site) {
   const double length = static_cast<double>(in.lengths[site]);
   double smallest = length, largest = length;
   GradientFit fit;
-  const std::int32_t n_leaves = in.octree.n_leaves(), leaf = site < n_leaves ? site : in.blanking->split_leaf[site - n_leaves];
+  const std::int32_t n_leaves = in.octree.n_leaves(),
+                     leaf = site < n_leaves ? site : in.blanking->split_leaf[site - n_leaves];
   const int level = in.octree.leaf_levels[leaf];
   for_each_link(in.blanking, in.neighbours, site, [&](std::int32_t other, const CellStep& step) {
     if (in.is_one_way(site, other)) return;
@@ -151,7 +159,8 @@ CellLength fit_cell(const FitInput& in, std::int32_t site) {
   CellLength cell{static_cast<float>(length), {0, 0, 0}, static_cast<float>(largest)};
   if (!(length > smallest)) return cell;
   const double edge = in.octree.cell_edge(level);
-  const double slope = in.options.cell_slope.empty() ? in.options.slope : static_cast<double>(in.options.cell_slope[leaf]);
+  const double slope =
+      in.options.cell_slope.empty() ? in.options.slope : static_cast<double>(in.options.cell_slope[leaf]);
   Vec3 gradient = fit.gradient() / edge;
   const double steepness = norm(gradient);
   if (steepness > slope) gradient = gradient * (slope / steepness);
@@ -164,7 +173,8 @@ CellLength fit_cell(const FitInput& in, std::int32_t site) {
 }
 
 /// Stored lengths below `max_length` with their causes, `max_length` without a cause elsewhere.
-CellLengths bounded_lengths(std::span<const float> stored_length, std::span<const std::int32_t> stored_cause, float max_length) {
+CellLengths bounded_lengths(std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
+                            float max_length) {
   CellLengths cells;
   cells.length.assign(stored_length.begin(), stored_length.end());
   cells.cause.assign(stored_cause.begin(), stored_cause.end());
@@ -186,8 +196,9 @@ void add_second_parts(const Blanking& blanking, CellLengths& cells) {
 
 }  // namespace
 
-ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
-                         const ProlongOptions& options, const Blanking* blanking) {
+ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
+                         std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
+                         const Blanking* blanking) {
   ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && stored_cause.size() == octree.leaf_keys.size());
   ST_ASSERT(options.cell_slope.empty() || options.cell_slope.size() == octree.leaf_keys.size());
   ST_ASSERT(options.slope > 0 && options.max_length > 0);
@@ -211,8 +222,9 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
 }
 
 // The label that goes with the lengths is the slope of their origin instead of their cause.
-std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length, std::span<const float> seed_slope,
-                                 const ProlongOptions& options, const Blanking* blanking) {
+std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
+                                 std::span<const float> seed_slope, const ProlongOptions& options,
+                                 const Blanking* blanking) {
   ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && seed_slope.size() == octree.leaf_keys.size());
   std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
   for (float& slope : kinds)

@@ -8,30 +8,34 @@ namespace st {
 
 /// Lengths of all cells after prolongation. Arrays are [n_leaves].
 struct ProlongedLengths {
-  std::vector<CellLength> cells;    ///< no point of a cell is below the smallest or above the largest length of the cell and its neighbours
-  std::vector<std::int32_t> cause;  ///< whose sample length it goes back to; kNone: the largest length
-  std::vector<CellLength> second_cells =
-      {};  ///< [n_split] of the second parts of cells that a surface splits; their `upper` is negated in `cells`
+  std::vector<CellLength> cells;  ///< no point of a cell is below the smallest or above the largest length of the cell
+                                  ///< and its neighbours
+  std::vector<std::int32_t> cause;              ///< whose sample length it goes back to; kNone: the largest length
+  std::vector<CellLength> second_cells = {};    ///< [n_split] of the second parts of cells that a surface splits; their
+                                                ///< `upper` is negated in `cells`
   std::vector<std::int32_t> second_cause = {};  ///< [n_split]
 };
 
 struct ProlongOptions {
-  double slope = 0.2;     ///< largest change of length per distance, > 0
-  double max_length = 0;  ///< length where nothing asks for less, model unit, > 0
-  std::span<const float> cell_slope =
-      {};  ///< [n_leaves] slope in each cell, > 0; between two cells the mean holds. Empty: `slope` everywhere
+  double slope = 0.2;                      ///< largest change of length per distance, > 0
+  double max_length = 0;                   ///< length where nothing asks for less, model unit, > 0
+  std::span<const float> cell_slope = {};  ///< [n_leaves] slope in each cell, > 0; between two cells the mean holds.
+                                           ///< Empty: `slope` everywhere
 };
 
-/// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives to the cell that
-/// its length comes from (0: options.slope). `seed_slope` is [n_leaves]. Unique, as prolong().
-std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length, std::span<const float> seed_slope,
-                                 const ProlongOptions& options, const Blanking* blanking = nullptr);
+/// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives
+/// to the cell that its length comes from (0: options.slope). `seed_slope` is [n_leaves]. Unique, as prolong().
+std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
+                                 std::span<const float> seed_slope, const ProlongOptions& options,
+                                 const Blanking* blanking = nullptr);
 
-/// The largest lengths with h <= stored, h <= max_length and h(a) <= h(b) + slope * |centre a - centre b| for all cells a, b that touch at
-/// a face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed point, so the result is exactly
-/// reproducible; equal lengths take the smallest cause. Then the least-squares gradient. O(n) in practice. Precondition: balanced octree.
-/// With `blanking` (may be null) lengths pass through its open links only; both parts of a split cell start from what the cell stores.
-ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length, std::span<const std::int32_t> stored_cause,
-                         const ProlongOptions& options, const Blanking* blanking = nullptr);
+/// The largest lengths with h <= stored, h <= max_length and h(a) <= h(b) + slope * |centre a - centre b| for all cells
+/// a, b that touch at a face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed
+/// point, so the result is exactly reproducible; equal lengths take the smallest cause. Then the least-squares
+/// gradient. O(n) in practice. Precondition: balanced octree. With `blanking` (may be null) lengths pass through its
+/// open links only; both parts of a split cell start from what the cell stores.
+ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
+                         std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
+                         const Blanking* blanking = nullptr);
 
 }  // namespace st

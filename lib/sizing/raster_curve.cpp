@@ -41,7 +41,8 @@ class CurveMeasurer {
     const double length = distance(a.x, m.x) + distance(m.x, b.x);
     const double turning = angle_between(a.d1, m.d1) + angle_between(m.d1, b.d1);
     const bool is_long = length > 0.5 * limits_.max_length;
-    const bool is_bent = (turning > 0.25 * limits_.alpha || turning * length > 0.5 * limits_.chord) && length > 0.25 * limits_.min_length;
+    const bool is_bent = (turning > 0.25 * limits_.alpha || turning * length > 0.5 * limits_.chord) &&
+                         length > 0.25 * limits_.min_length;
     if ((is_long || is_bent) && depth < kMaxDepth && ta < tm && tm < tb) {
       measure(ta, a, tm, m, depth + 1);
       measure(tm, m, tb, b, depth + 1);
@@ -87,7 +88,8 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 /// Walks one smooth piece of a measured curve.
 class PieceWalker {
  public:
-  PieceWalker(const Curve& curve, const CurveTable& table, const SamplingLimits& limits) : curve_(curve), table_(table), limits_(limits) {}
+  PieceWalker(const Curve& curve, const CurveTable& table, const SamplingLimits& limits)
+      : curve_(curve), table_(table), limits_(limits) {}
 
   void walk(std::size_t first, std::size_t last, std::int32_t cause, std::vector<RasterBox>& boxes) {
     const double end = table_.s[last];
@@ -108,7 +110,8 @@ class PieceWalker {
   }
 
  private:
-  /// Arc length at which the segment from s0 ends if nothing stops it: beyond the table's end when the rest is short and straight.
+  /// Arc length at which the segment from s0 ends if nothing stops it: beyond the table's end when the rest is short
+  /// and straight.
   double next_stop(double s0, std::size_t i, std::size_t last) const {
     const double turning_end = interpolate_at(table_.s, table_.turning, s0, i) + limits_.alpha;
     double s = table_.s[last] + limits_.max_length;
@@ -121,7 +124,8 @@ class PieceWalker {
     return std::max(s, s0 + limits_.min_length);
   }
 
-  /// Nearest arc length, at most s1, at which the sagitta of the arc from s0 reaches the limit (a flat arc: length * turning / 8).
+  /// Nearest arc length, at most s1, at which the sagitta of the arc from s0 reaches the limit (a flat arc: length *
+  /// turning / 8).
   double chord_stop(double s0, double s1, std::size_t i) const {
     constexpr int kHalvings = 40;
     const double turning0 = interpolate_at(table_.s, table_.turning, s0, i);
@@ -139,7 +143,8 @@ class PieceWalker {
 
   /// Length that the turning of a last piece, shorter than a segment, allows.
   double rest_length(double s0, double end, std::size_t i) const {
-    const double turning = interpolate_at(table_.s, table_.turning, end, i) - interpolate_at(table_.s, table_.turning, s0, i);
+    const double turning =
+        interpolate_at(table_.s, table_.turning, end, i) - interpolate_at(table_.s, table_.turning, s0, i);
     if (!(turning > 0)) return limits_.max_length;
     return std::min((end - s0) * limits_.alpha / turning, std::sqrt(8 * limits_.chord * (end - s0) / turning));
   }
@@ -151,7 +156,8 @@ class PieceWalker {
 
   void add_box(Vec3 center, double length, std::int32_t cause, std::vector<RasterBox>& boxes) const {
     length = std::clamp(std::min(length, table_.s.back()), limits_.min_length, limits_.max_length);
-    boxes.push_back({center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause});
+    boxes.push_back(
+        {center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause});
   }
 
   const Curve& curve_;
@@ -170,7 +176,8 @@ CurveTable measure_curve(const Curve& curve, const SamplingLimits& limits) {
 void raster_curve(const Curve& curve, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
   const CurveTable table = measure_curve(curve, limits);
   SamplingLimits own = limits;
-  if (limits.edge_cells) own.max_length = std::clamp(table.s.back() / *limits.edge_cells, limits.min_length, limits.max_length);
+  if (limits.edge_cells)
+    own.max_length = std::clamp(table.s.back() / *limits.edge_cells, limits.min_length, limits.max_length);
   PieceWalker walker(curve, table, own);
   std::size_t first = 0;
   for (const std::size_t corner : table.corners) {

@@ -16,7 +16,8 @@ constexpr double kFill = 0.9;         // largest extent of a patch over the edge
 constexpr double kProbeReach = 2;     // lengths per patch, however large the raster boxes: three probes cannot see more
 constexpr int kFirstCuts = 4;         // per direction, on surfaces whose curvature varies freely
 constexpr int kDoubts = 6;            // splits (two per halving) granted to a curvature that no angle confirms
-constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as confirmed
+constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as
+                                      // confirmed
 constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
 constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
@@ -43,8 +44,10 @@ class FaceRaster {
   }
 
   FaceRasterReport run() {
-    const std::vector<double> us = grid_lines(surface_.u_min(), surface_.u_max(), creases(surface_.u_breaks(), Direction::kU));
-    const std::vector<double> vs = grid_lines(surface_.v_min(), surface_.v_max(), creases(surface_.v_breaks(), Direction::kV));
+    const std::vector<double> us =
+        grid_lines(surface_.u_min(), surface_.u_max(), creases(surface_.u_breaks(), Direction::kU));
+    const std::vector<double> vs =
+        grid_lines(surface_.v_min(), surface_.v_max(), creases(surface_.v_breaks(), Direction::kV));
     PatchWalk<CurvatureProbe, FaceRaster> walk(loops_, *this);
     for (std::size_t j = 0; j + 1 < vs.size(); ++j)
       for (std::size_t i = 0; i + 1 < us.size(); ++i) {
@@ -61,7 +64,8 @@ class FaceRaster {
     const Vec3 n = cross(p.du, p.dv);
     const double du2 = norm2(p.du), dv2 = norm2(p.dv), n2 = norm2(n);
     const double lu2 = du2 * range_u_ * range_u_, lv2 = dv2 * range_v_ * range_v_;
-    if (!(n2 > kSingular2 * du2 * dv2) || lu2 < kCollapsed * kCollapsed * lv2 || lv2 < kCollapsed * kCollapsed * lu2) return {p.x, {}, 0};
+    if (!(n2 > kSingular2 * du2 * dv2) || lu2 < kCollapsed * kCollapsed * lv2 || lv2 < kCollapsed * kCollapsed * lu2)
+      return {p.x, {}, 0};
     return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1)};
   }
 
@@ -73,8 +77,8 @@ class FaceRaster {
     bool is_doubtful = false;
     const double curvature = patch.n_inside > 0 ? patch_curvature(patch, is_doubtful) : boundary_curvature(patch);
     const double length = allowed_length(curvature);
-    const bool is_large =
-        size.extent > kFill * std::min(limits_.cell_per_length, kProbeReach) * length || (is_free_ && size.extent > limits_.max_length);
+    const bool is_large = size.extent > kFill * std::min(limits_.cell_per_length, kProbeReach) * length ||
+                          (is_free_ && size.extent > limits_.max_length);
     const bool may_doubt = is_doubtful && n_doubts < kDoubts && size.extent > limits_.min_length;
     if (is_large || may_doubt) {
       n_doubts += is_doubtful;
@@ -133,13 +137,16 @@ class FaceRaster {
 
   double allowed_length(double curvature) const {
     double length = curvature * limits_.max_length > limits_.alpha ? limits_.alpha / curvature : limits_.max_length;
-    if (curvature * length * length > 8 * limits_.chord) length = std::sqrt(8 * limits_.chord / curvature);  // sagitta of a flat arc
+    if (curvature * length * length > 8 * limits_.chord)
+      length = std::sqrt(8 * limits_.chord / curvature);  // sagitta of a flat arc
     return std::max(length, limits_.min_length);
   }
 
-  /// Largest curvature that the probes inside the loops show: the larger of curvature at a point and angle per distance between neighbours.
+  /// Largest curvature that the probes inside the loops show: the larger of curvature at a point and angle per distance
+  /// between neighbours.
   double patch_curvature(const CurvaturePatch& patch, bool& is_doubtful) const {
-    std::array<double, 9> turning{}, steepest{};  // of the pairs at each probe: largest angle, largest angle per distance
+    std::array<double, 9> turning{}, steepest{};  // of the pairs at each probe: largest angle, largest angle per
+                                                  // distance
     for_each_pair([&](std::size_t a, std::size_t b) {
       if (!patch.is_inside[a] || !patch.is_inside[b]) return;
       const double angle = probe_angle(patch.probe[a], patch.probe[b]);
@@ -199,7 +206,8 @@ class FaceRaster {
   }
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
-    boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_});
+    boxes_.push_back(
+        {size.center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
     report_.area += inside_area(patch);
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
@@ -231,8 +239,8 @@ class FaceRaster {
 
 }  // namespace
 
-FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-                             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches) {
+FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
+                             std::int32_t cause, std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches) {
   ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
   ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
   return FaceRaster(surface, loops, limits, cause, boxes, patches).run();

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/shape/surface.h"
 #include "sizing/gap_patch.h"
 #include "sizing/loop_polygon.h"
 #include "sizing/octree.h"
@@ -19,18 +19,19 @@ struct FaceRasterReport {
   std::int64_t n_evaluations = 0;  ///< of the surface
 };
 
-/// Appends raster boxes that cover the trimmed surface without holes, each with the length that curvature allows: alpha times the smallest
-/// principal radius, clamped to the limits.
+/// Appends raster boxes that cover the trimmed surface without holes, each with the length that curvature allows: alpha
+/// times the smallest principal radius, clamped to the limits.
 ///
-/// The parameter rectangle is halved, always across its longer side in space, until each patch is no larger than its raster box; patches
-/// outside the loops are dropped. A patch is probed at 3 x 3 points by curvature and by the angle between the normals of neighbouring
-/// points, and the two watch each other: an angle that curvature does not explain (a fillet between two probes) makes the patch split; a
-/// curvature that no angle confirms after three halvings is noise of the parametrisation and is cut down to what the angles show. Sizes in
-/// space decide, so poles and stretched iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil
-/// points lie too far apart; halving patches covers the surface by construction.)
-/// `patches`, where wanted, gets one patch per box whose middle is no singular point; normals are along du x dv.
-/// Throws TooManyCells beyond max_samples boxes.
-FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-                             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches = nullptr);
+/// The parameter rectangle is halved, always across its longer side in space, until each patch is no larger than its
+/// raster box; patches outside the loops are dropped. A patch is probed at 3 x 3 points by curvature and by the angle
+/// between the normals of neighbouring points, and the two watch each other: an angle that curvature does not explain
+/// (a fillet between two probes) makes the patch split; a curvature that no angle confirms after three halvings is
+/// noise of the parametrisation and is cut down to what the angles show. Sizes in space decide, so poles and stretched
+/// iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil points lie too far
+/// apart; halving patches covers the surface by construction.) `patches`, where wanted, gets one patch per box whose
+/// middle is no singular point; normals are along du x dv. Throws TooManyCells beyond max_samples boxes.
+FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
+                             std::int32_t cause, std::vector<RasterBox>& boxes,
+                             std::vector<GapPatch>* patches = nullptr);
 
 }  // namespace st

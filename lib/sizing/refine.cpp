@@ -96,7 +96,8 @@ class Refinement {
     const ActiveSources active = from.index.empty() ? ActiveSources{} : select(cell, from);
     if (node < 0) return split_leaf(cell, active, static_cast<double>(raster_.stored_length[~node]));
     nodes_[cell.level].push_back(cell.key);
-    for (std::uint64_t o = 0; o < 8; ++o) collect(octree_.node_children[8 * static_cast<std::size_t>(node) + o], cell.child(o), active);
+    for (std::uint64_t o = 0; o < 8; ++o)
+      collect(octree_.node_children[8 * static_cast<std::size_t>(node) + o], cell.child(o), active);
   }
 
   /// `stored`: what the raster asks for there already.
@@ -164,12 +165,13 @@ class SourceStore {
     const ActiveSources active = refinement_.select(cell, from);
     if (active.index.empty()) return;
     if (node < 0) return store(~node, cell, active);
-    for (std::uint64_t o = 0; o < 8; ++o) visit(view_.node_children[8 * static_cast<std::size_t>(node) + o], cell.child(o), active);
+    for (std::uint64_t o = 0; o < 8; ++o)
+      visit(view_.node_children[8 * static_cast<std::size_t>(node) + o], cell.child(o), active);
   }
 
   void store(std::int32_t leaf, const Cell& cell, const ActiveSources& active) {
-    const bool any_covers =
-        std::any_of(active.index.begin(), active.index.end(), [&](std::int32_t i) { return sources_[i].source->covers(cell.center); });
+    const bool any_covers = std::any_of(active.index.begin(), active.index.end(),
+                                        [&](std::int32_t i) { return sources_[i].source->covers(cell.center); });
     for (const std::int32_t i : active.index) {
       const SizeSource& source = *sources_[i].source;
       if (any_covers && !source.covers(cell.center)) continue;
@@ -191,7 +193,8 @@ class SourceStore {
 
 }  // namespace
 
-RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSource> sources, const RefineOptions& options) {
+RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSource> sources,
+                           const RefineOptions& options) {
   ST_ASSERT(options.max_length > 0 && options.cell_per_length > 0);
   Refinement refinement(raster, sources, options);
   NodeLevels nodes = refinement.split();

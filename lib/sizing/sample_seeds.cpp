@@ -15,16 +15,17 @@ Vec3 place_of(const LengthSample& s) { return {s.xyz[0], s.xyz[1], s.xyz[2]}; }
 
 /// Calls f(leaf, centre) for every leaf that comes within `reach` of x along each axis.
 template <class F>
-void visit_leaves(const OctreeView& octree, std::int32_t node, Vec3 middle, double half, Vec3 x, double reach, const F& f) {
+void visit_leaves(const OctreeView& octree, std::int32_t node, Vec3 middle, double half, Vec3 x, double reach,
+                  const F& f) {
   const Vec3 d = x - middle;
   if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) > half + reach) return;
   if (node < 0) return f(~node, middle);
   const double quarter = 0.5 * half;
   for (std::size_t o = 0; o < 8; ++o)
-    visit_leaves(
-        octree, octree.node_children[8 * static_cast<std::size_t>(node) + o],
-        {middle.x + (o & 1 ? quarter : -quarter), middle.y + (o & 2 ? quarter : -quarter), middle.z + (o & 4 ? quarter : -quarter)},
-        quarter, x, reach, f);
+    visit_leaves(octree, octree.node_children[8 * static_cast<std::size_t>(node) + o],
+                 {middle.x + (o & 1 ? quarter : -quarter), middle.y + (o & 2 ? quarter : -quarter),
+                  middle.z + (o & 4 ? quarter : -quarter)},
+                 quarter, x, reach, f);
 }
 
 /// Samples by the leaf in which they lie.
@@ -57,7 +58,8 @@ class Limits {
     for (std::int32_t k = first_[leaf]; k < first_[leaf + 1]; ++k) {
       const LengthSample& s = samples_[by_leaf_[k]];
       const Vec3 d = place_of(s) - octree_.leaf_center(static_cast<std::int32_t>(leaf));
-      excess = std::max(excess, cell.length + cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z - s.length);
+      excess = std::max(
+          excess, cell.length + cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z - s.length);
       smallest = std::min(smallest, s.length);
     }
     if (!(excess > 0)) return;
@@ -79,9 +81,11 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes) {
   std::vector<LengthSample> samples;
   samples.reserve(boxes.size());
   const auto f = [](double x) { return static_cast<float>(x); };
-  for (const RasterBox& b : boxes) samples.push_back({{f(b.center.x), f(b.center.y), f(b.center.z)}, b.length, b.cause});
+  for (const RasterBox& b : boxes)
+    samples.push_back({{f(b.center.x), f(b.center.y), f(b.center.z)}, b.length, b.cause});
   const auto key = [](const LengthSample& s) { return std::tuple(s.cause, s.xyz[0], s.xyz[1], s.xyz[2], s.length); };
-  std::sort(samples.begin(), samples.end(), [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
+  std::sort(samples.begin(), samples.end(),
+            [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
   return samples;
 }
 
@@ -111,8 +115,8 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOct
   }
 }
 
-void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, std::span<const std::int32_t> split_leaf,
-                  ProlongedLengths& lengths) {
+void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples,
+                  std::span<const std::int32_t> split_leaf, ProlongedLengths& lengths) {
   if (samples.empty()) return;
   Limits limits(octree, samples);
   limits.hold(lengths.cells, [](std::size_t cell) { return cell; });

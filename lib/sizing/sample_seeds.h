@@ -26,13 +26,13 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes);
 /// Takes away the lengths that edges and faces store, before sources are added and samples seeded.
 void forget_samples(RasterOctree& octree);
 
-/// Lowers stored lengths to what the samples ask for at the cells' centres: the smallest of length + slope * distance of the samples within
-/// one length of which the cell comes; equal ones take the smaller cause.
+/// Lowers stored lengths to what the samples ask for at the cells' centres: the smallest of length + slope * distance
+/// of the samples within one length of which the cell comes; equal ones take the smaller cause.
 void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOctree& octree);
 
-/// Lowers cells, and second parts of split leaves (`split_leaf`, see Blanking), in which the linear length at the place of a sample is more
-/// than the sample's. No centre gets below all samples of its cell.
-void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, std::span<const std::int32_t> split_leaf,
-                  ProlongedLengths& lengths);
+/// Lowers cells, and second parts of split leaves (`split_leaf`, see Blanking), in which the linear length at the place
+/// of a sample is more than the sample's. No centre gets below all samples of its cell.
+void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples,
+                  std::span<const std::int32_t> split_leaf, ProlongedLengths& lengths);
 
 }  // namespace st

@@ -5,7 +5,8 @@
 
 namespace st {
 
-/// Requested edge length in space. Implementations are immutable and safe to share between threads; `hint` is the caller's own.
+/// Requested edge length in space. Implementations are immutable and safe to share between threads; `hint` is the
+/// caller's own.
 class SizeField {
  public:
   virtual ~SizeField() = default;

@@ -9,16 +9,18 @@
 
 namespace st {
 
-/// How a curve or a face is sampled. Invariants: 0 < min_length <= max_length, 0 < alpha <= pi/2, 1 <= cell_per_length <= 8,
-/// 0 < chord.
+/// How a curve or a face is sampled. Invariants: 0 < min_length <= max_length, 0 < alpha <= pi/2, 1 <= cell_per_length
+/// <= 8, 0 < chord.
 struct SamplingLimits {
-  double min_length = 0;                                   ///< smallest sample length, model unit
-  double max_length = 0;                                   ///< largest sample length, model unit
-  double alpha = radians(10);                              ///< largest turning of tangent or normal along one length, radians
-  double cell_per_length = 2;                              ///< edge of a raster box over its sample length
-  double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry, model unit
-  std::optional<int> gap_cells = std::nullopt;             ///< lengths across gaps and thin walls; nullopt: gaps do not matter
-  std::optional<int> edge_cells = std::nullopt;            ///< lengths along each CAD edge at least, down to min_length; nullopt: one
+  double min_length = 0;       ///< smallest sample length, model unit
+  double max_length = 0;       ///< largest sample length, model unit
+  double alpha = radians(10);  ///< largest turning of tangent or normal along one length, radians
+  double cell_per_length = 2;  ///< edge of a raster box over its sample length
+  double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry,
+                                                           ///< model unit
+  std::optional<int> gap_cells = std::nullopt;   ///< lengths across gaps and thin walls; nullopt: gaps do not matter
+  std::optional<int> edge_cells = std::nullopt;  ///< lengths along each CAD edge at least, down to min_length; nullopt:
+                                                 ///< one
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 

@@ -19,7 +19,9 @@ std::string text_of(const Parts&... parts) {
   return text.str();
 }
 
-bool matches(const std::string& pattern, const std::string& name) { return fnmatch(pattern.c_str(), name.c_str(), 0) == 0; }
+bool matches(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
 
 [[noreturn]] void fail(const SizeRule& rule, const std::string& what) {
   throw Error(ExitCode::kUsage, text_of(rule.where, ": ", what, "; st-info geometry.hdf --groups lists names"));
@@ -61,7 +63,8 @@ std::vector<std::int32_t> select(const SizeRule& rule, const std::vector<std::st
 }
 
 /// [n_faces] 1 where the face's group matches.
-std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key, const std::string& pattern, const ModelTables& t) {
+std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key, const std::string& pattern,
+                                          const ModelTables& t) {
   std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
   if (is_in.empty())
     fail(rule, text_of(key, ": no group of faces or part matches '", pattern, "'", say_other_kind(pattern, t.labels)));
@@ -69,9 +72,11 @@ std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key,
 }
 
 std::vector<EdgeId> edges_between(const SizeRule& rule, const ModelTables& t) {
-  const auto a = faces_of_groups(rule, "between", rule.between[0], t), b = faces_of_groups(rule, "between", rule.between[1], t);
+  const auto a = faces_of_groups(rule, "between", rule.between[0], t),
+             b = faces_of_groups(rule, "between", rule.between[1], t);
   std::vector<EdgeId> result = st::edges_between(a, b, t);
-  if (result.empty()) fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));
+  if (result.empty())
+    fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));
   return result;
 }
 
@@ -95,7 +100,8 @@ std::vector<EdgeId> detected_edges(const SizeRule& rule, std::span<const WingEdg
   for (const WingEdge& w : wing_edges)
     if (std::find(rule.detected.begin(), rule.detected.end(), w.kind) != rule.detected.end()) result.push_back(w.edge);
   if (result.empty())
-    fail(rule, text_of("no ", name_of(rule.detected.front()), " found; st-import --check lists what is, or name the edges"));
+    fail(rule,
+         text_of("no ", name_of(rule.detected.front()), " found; st-import --check lists what is, or name the edges"));
   return result;
 }
 
@@ -134,7 +140,8 @@ RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<c
   return targets;
 }
 
-SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal, std::optional<double> unit_in_m) {
+SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal,
+                              std::optional<double> unit_in_m) {
   const auto resolved = [&](const LengthSpec& spec, const char* key) {
     return resolve_length(spec, diagonal, unit_in_m, text_of(rule.where, ": ", key));
   };
@@ -148,8 +155,8 @@ SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, doubl
   if (rule.lmax && !rule.lmin) limits.min_length = std::min(limits.min_length, limits.max_length);
   if (rule.lmin && !rule.lmax) limits.max_length = std::max(limits.min_length, limits.max_length);
   if (limits.min_length > limits.max_length)
-    throw Error(ExitCode::kUsage,
-                text_of(rule.where, ": lmin ", limits.min_length, " is larger than lmax ", limits.max_length, "; give lmin at most lmax"));
+    throw Error(ExitCode::kUsage, text_of(rule.where, ": lmin ", limits.min_length, " is larger than lmax ",
+                                          limits.max_length, "; give lmin at most lmax"));
   return limits;
 }
 

@@ -7,28 +7,32 @@
 #include <vector>
 
 #include "base/length.h"
-#include "geometry/model.h"
+#include "features/wing_edges.h"
+#include "geometry/model/model.h"
 #include "sizing/size_limits.h"
-#include "sizing/wing_edges.h"
 
 namespace st {
 
-/// One rule. A rule without selection speaks of the whole model; one with several selections of all that any of them meets.
+/// One rule. A rule without selection speaks of the whole model; one with several selections of all that any of them
+/// meets.
 struct SizeRule {
-  std::string where;                      ///< for messages: "sizes.toml:12"
+  std::string where;                ///< for messages: "sizes.toml:12"
   std::vector<std::string> groups;  ///< glob patterns on names of groups of faces, edges or vertices, and of parts
   std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names; of edges also of their groups
-  std::vector<std::string> between;       ///< two glob patterns: the edges between a face of a group of the first and one of the second
-  std::vector<WingEdgeKind> detected;     ///< edges that detection gives these kinds
-  bool for_surfaces = true;               ///< the insides of the faces selected
-  bool for_curves = true;                 ///< the edges of the faces selected
-  std::optional<bool> is_sampled;         ///< false: asks for nothing
+  std::vector<std::string> between;  ///< two glob patterns: the edges between a face of a group of the first and one of
+                                     ///< the second
+  std::vector<WingEdgeKind> detected;  ///< edges that detection gives these kinds
+  bool for_surfaces = true;            ///< the insides of the faces selected
+  bool for_curves = true;              ///< the edges of the faces selected
+  std::optional<bool> is_sampled;      ///< false: asks for nothing
   std::optional<LengthSpec> lmin, lmax, chord;
   std::optional<double> alpha_deg;  ///< (0, 90]
   std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
   std::optional<int> edge_cells;    ///< [1, 100]; 0: one length along an edge will do
 
-  bool has_selection() const { return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty()); }
+  bool has_selection() const {
+    return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty());
+  }
 };
 
 /// Adds the kinds of edges that "trailing" or "leading" mean to the rule; false: another word.
@@ -41,11 +45,13 @@ struct RuleTargets {
   std::vector<VertexId> vertices;
 };
 
-/// `wing_edges`: what detection found, where any rule needs it. Throws Error(kUsage) naming the rule for a selection that meets nothing or
-/// an id that does not exist.
+/// `wing_edges`: what detection found, where any rule needs it. Throws Error(kUsage) naming the rule for a selection
+/// that meets nothing or an id that does not exist.
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables, std::span<const WingEdge> wing_edges = {});
 
-/// `limits` with what the rule says. `diagonal`: what per cents refer to, model unit. Throws Error(kUsage) when lmin exceeds lmax.
-SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal, std::optional<double> unit_in_m);
+/// `limits` with what the rule says. `diagonal`: what per cents refer to, model unit. Throws Error(kUsage) when lmin
+/// exceeds lmax.
+SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal,
+                              std::optional<double> unit_in_m);
 
 }  // namespace st

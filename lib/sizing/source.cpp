@@ -30,7 +30,8 @@ Nearest nearest_on_segment(Vec3 x, const Vec3* p, const SourceSpacing* s) {
   const Vec3 d = p[1] - p[0];
   const double d2 = norm2(d), t = d2 > 0 ? std::clamp(dot(x - p[0], d) / d2, 0.0, 1.0) : 0;
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
-  return {distance(x, p[0] + t * d), {mix(s[0].length, s[1].length), mix(s[0].radius, s[1].radius), mix(s[0].doubling, s[1].doubling)}};
+  return {distance(x, p[0] + t * d),
+          {mix(s[0].length, s[1].length), mix(s[0].radius, s[1].radius), mix(s[0].doubling, s[1].doubling)}};
 }
 
 /// Nearest point of a triangle: inside when its foot is, else on one of the sides.
@@ -97,7 +98,8 @@ class ShapeSource final : public SizeSource {
     const SourceSpacing& s = n.spacing;
     const double dl = change_.length * radius, dr = change_.radius * radius, dd = change_.doubling * radius;
     const double nearest_r = std::max(0.0, n.distance - radius);
-    const SourceSpacing least{std::max(min_size_, s.length - dl), s.radius + dr, s.doubling > s.radius ? s.doubling + dd : 0};
+    const SourceSpacing least{std::max(min_size_, s.length - dl), s.radius + dr,
+                              s.doubling > s.radius ? s.doubling + dd : 0};
     const SourceSpacing most{s.length + dl, std::max(0.0, s.radius - dr), s.doubling - dd};
     const bool meets_core = nearest_r <= least.radius;
     return {length_at(least, slope_, nearest_r), length_at(most, slope_, n.distance + radius), meets_core, meets_core};
@@ -116,7 +118,8 @@ class ShapeSource final : public SizeSource {
       case SourceKind::kBox:
         return {distance_to_box(x, spec_), spec_.spacing[0]};
       case SourceKind::kCylinder:
-        return {distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent), spec_.spacing[0]};
+        return {distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent),
+                spec_.spacing[0]};
       case SourceKind::kSphere:
         return {distance(x, p[0]) - spec_.extent, spec_.spacing[0]};
       case SourceKind::kDisc:
@@ -130,7 +133,8 @@ class ShapeSource final : public SizeSource {
     double extent = distance(spec_.point[0], spec_.point[1]);
     if (n == 3) {
       double longest = 0;
-      for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(spec_.point[k], spec_.point[(k + 1) % 3]));
+      for (std::size_t k = 0; k < 3; ++k)
+        longest = std::max(longest, distance(spec_.point[k], spec_.point[(k + 1) % 3]));
       extent = norm(cross(spec_.point[1] - spec_.point[0], spec_.point[2] - spec_.point[0])) / longest;
     }
     const auto bound = [&](double SourceSpacing::*m) {
@@ -217,7 +221,8 @@ int n_spacings(SourceKind kind) { return kind == SourceKind::kLine ? 2 : kind ==
 void transform(const Similarity& motion, SourceSpec& source) {
   for (Vec3& p : source.point) p = motion(p);
   for (Vec3& a : source.half_axis) a = motion.scale * motion.rotated(a);
-  for (SourceSpacing& s : source.spacing) s = {motion.scale * s.length, motion.scale * s.radius, motion.scale * s.doubling};
+  for (SourceSpacing& s : source.spacing)
+    s = {motion.scale * s.length, motion.scale * s.radius, motion.scale * s.doubling};
   source.extent *= motion.scale;
 }
 
@@ -226,7 +231,9 @@ void transform(const Similarity& motion, BackgroundMesh& mesh) {
   for (double& h : mesh.node_length) h *= motion.scale;
 }
 
-std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope) { return std::make_unique<ShapeSource>(spec, slope); }
+std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope) {
+  return std::make_unique<ShapeSource>(spec, slope);
+}
 
 std::vector<std::unique_ptr<SizeSource>> make_sources(const BackgroundMesh& mesh) {
   constexpr double kFlat = 1e-12;  // volume over cubed edge

@@ -1,4 +1,5 @@
-// Lengths asked for in space besides the raster: point, line and triangle sources, volumes, and the cells of a background mesh.
+// Lengths asked for in space besides the raster: point, line and triangle sources, volumes, and the cells of a
+// background mesh.
 #pragma once
 
 #include <array>
@@ -13,9 +14,11 @@ namespace st {
 
 /// Bounds of a length over a cube.
 struct SizeRange {
-  double lo = 0, hi = 0;    ///< lo <= length <= hi wherever the source asks for something; lo = infinity: it asks for nothing there
+  double lo = 0, hi = 0;    ///< lo <= length <= hi wherever the source asks for something; lo = infinity: it asks for
+                            ///< nothing there
   bool meets_core = false;  ///< part of the cube may lie where the length is constant and smallest
-  bool has_detail = false;  ///< the length may do more in the cube than grow evenly: its values at a few points do not tell
+  bool has_detail = false;  ///< the length may do more in the cube than grow evenly: its values at a few points do not
+                            ///< tell
 };
 
 /// Something that asks for lengths in space. A new kind of source is a new implementation.
@@ -24,15 +27,16 @@ class SizeSource : public SizeField {
   using SizeField::size;
   /// Bounds over the cube center +- half; they may be wide, but tighten as the cube shrinks.
   virtual SizeRange range(Vec3 center, double half) const = 0;
-  /// Whether it asks for something everywhere, and if not, whether at `xyz`; elsewhere size() continues what holds at the border.
+  /// Whether it asks for something everywhere, and if not, whether at `xyz`; elsewhere size() continues what holds at
+  /// the border.
   virtual bool is_everywhere() const { return true; }
   virtual bool covers(Vec3) const { return true; }
 };
 
 enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
 
-/// What a source asks for at one of its points (FLITE): `length` up to the distance `radius`, twice as much at `doubling`, growing
-/// exponentially, but never faster than the slope.
+/// What a source asks for at one of its points (FLITE): `length` up to the distance `radius`, twice as much at
+/// `doubling`, growing exponentially, but never faster than the slope.
 struct SourceSpacing {
   double length = 0;    ///< model unit, > 0
   double radius = 0;    ///< model unit, >= 0
@@ -43,7 +47,7 @@ struct SourceSpacing {
 struct SourceSpec {
   std::string name;
   SourceKind kind = SourceKind::kPoint;
-  std::array<Vec3, 3> point;             ///< point; ends; corners; centre of box, sphere, disc; ends of the cylinder's axis
+  std::array<Vec3, 3> point;  ///< point; ends; corners; centre of box, sphere, disc; ends of the cylinder's axis
   std::array<SourceSpacing, 3> spacing;  ///< at each point of point, line and triangle; [0] for the others
   std::array<Vec3, 3> half_axis;         ///< box: its three half axes; disc: [0] the normal
   double extent = 0;                     ///< radius of cylinder, sphere, disc: the length is constant inside

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "io/triangulation_reader.h"
+#include "io/foreign/triangulation_reader.h"
 #include "mesh/adjacency.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
@@ -20,7 +20,8 @@ BlankSide parse_side(const std::string& side, const SurfaceMesh& mesh) {
   if (side == "inside") return BlankSide::kInside;
   if (side == "outside") return BlankSide::kOutside;
   for (std::size_t g = 0; g < mesh.group_name.size(); ++g)
-    if ((g < mesh.group_role.size() ? mesh.group_role[g] : role_of_name(mesh.group_name[g])) == "farfield") return BlankSide::kOutside;
+    if ((g < mesh.group_role.size() ? mesh.group_role[g] : role_of_name(mesh.group_name[g])) == "farfield")
+      return BlankSide::kOutside;
   return BlankSide::kInside;
 }
 
@@ -31,7 +32,8 @@ std::string places(const Defects& defects) {
   return text + (defects.count > static_cast<std::int64_t>(defects.first.size()) ? ", ..." : "");
 }
 
-/// Edges along which not as many triangles run one way as the other: one triangle alone (open), an inner wall of three, two that disagree.
+/// Edges along which not as many triangles run one way as the other: one triangle alone (open), an inner wall of three,
+/// two that disagree.
 void find_unbalanced_edges(const SurfaceMesh& mesh, Defects& open, Defects& unbalanced) {
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId low, NodeId high, std::span<const SideId> sides) {
     std::ptrdiff_t balance = 0;
@@ -46,14 +48,16 @@ void require_closed(const std::string& path, const SurfaceMesh& mesh) {
   Defects open, unbalanced;
   find_unbalanced_edges(mesh, open, unbalanced);
   if (open.count > 0)
-    throw Error(ExitCode::kGeometry, fmt::format("{}: open, so it has no inside to blank: {} edges have one triangle only, at {}; close it "
-                                                 "there (st-check names the faces)",
-                                                 path, open.count, places(open)));
-  if (unbalanced.count > 0)
     throw Error(ExitCode::kGeometry,
-                fmt::format("{}: has no clear inside to blank: at {} edges triangles meet that are not oriented alike, or "
-                            "that are inner walls, at {}; mesh the parts as one body",
-                            path, unbalanced.count, places(unbalanced)));
+                fmt::format("{}: open, so it has no inside to blank: {} edges have one triangle only, at {}; close it "
+                            "there (st-check names the faces)",
+                            path, open.count, places(open)));
+  if (unbalanced.count > 0)
+    throw Error(
+        ExitCode::kGeometry,
+        fmt::format("{}: has no clear inside to blank: at {} edges triangles meet that are not oriented alike, or "
+                    "that are inner walls, at {}; mesh the parts as one body",
+                    path, unbalanced.count, places(unbalanced)));
 }
 
 }  // namespace

@@ -31,16 +31,20 @@ std::string place_text(const SurfaceMesh& mesh, const DefectPlace& p) {
 std::string check_line(const SurfaceMesh& mesh, const Check& c) {
   const std::string note = c.note.empty() ? "" : "  " + c.note;
   if (c.defects.count == 0) return fmt::format("  {:<20} ok{}\n", c.name, note);
-  const std::string where = c.defects.first[0].face_a == kNone ? "" : ", first at " + place_text(mesh, c.defects.first[0]);
-  return fmt::format("  {:<20} {} {} {}{}{}\n", c.name, c.fails() ? "FAILS" : "note:", c.defects.count, c.what, where, note);
+  const std::string where =
+      c.defects.first[0].face_a == kNone ? "" : ", first at " + place_text(mesh, c.defects.first[0]);
+  return fmt::format("  {:<20} {} {} {}{}{}\n", c.name, c.fails() ? "FAILS" : "note:", c.defects.count, c.what, where,
+                     note);
 }
 
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
-  const std::string worst = q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
+  const std::string worst =
+      q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
   return fmt::format(
-      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth {:.2f} (99.9 %)\n",
-      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg,
-      q.jump_p999);
+      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth "
+      "{:.2f} (99.9 %)\n",
+      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg,
+      q.model.max_angle_deg, q.jump_p999);
 }
 
 std::string conformity_lines(const ConformityReport& c) {
@@ -49,42 +53,54 @@ std::string conformity_lines(const ConformityReport& c) {
   const std::string forced =
       n_forced ? fmt::format(" ({} edges in {} places forced short by the CAD apart)", n_forced, c.forced.size()) : "";
   return fmt::format(
-      "  {:<20} {:.1f} % of edges within {} to {} of the requested length{}, {:.1f} % of those inside faces; mean {:.3f}, 1 % to 99 %: "
+      "  {:<20} {:.1f} % of edges within {} to {} of the requested length{}, {:.1f} % of those inside faces; mean "
+      "{:.3f}, 1 % to 99 %: "
       "{:.2f} to {:.2f}\n",
-      "sizes", 100 * c.free.share(), kConformityMin, kConformityMax, forced, 100 * c.inner.share(), c.model.mean(), c.p1, c.p99);
+      "sizes", 100 * c.free.share(), kConformityMin, kConformityMax, forced, 100 * c.inner.share(), c.model.mean(),
+      c.p1, c.p99);
 }
 
 std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d) {
   const auto in_face = [&](FaceId f) { return f == kNone ? "" : " in " + face_label(mesh, f); };
-  return fmt::format("  {:<20} midpoints off the surface by {:.3g} at most{}, mean {:.3g}; normals by {:.1f} deg at most{}, mean {:.2f}\n",
-                     "deviation", d.model.max_distance, in_face(d.worst_distance), d.model.mean_distance(), d.model.max_angle_deg,
-                     in_face(d.worst_angle), d.model.mean_angle_deg());
+  return fmt::format(
+      "  {:<20} midpoints off the surface by {:.3g} at most{}, mean {:.3g}; normals by {:.1f} deg at most{}, mean "
+      "{:.2f}\n",
+      "deviation", d.model.max_distance, in_face(d.worst_distance), d.model.mean_distance(), d.model.max_angle_deg,
+      in_face(d.worst_angle), d.model.mean_angle_deg());
 }
 
-/// "  sharp  5 with an angle below 10 deg: 3 corner, 2 free; worst: 4.5 at ..., ...": free places before those that the CAD forces.
-std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const std::string& what, const CauseList& list) {
+/// "  sharp  5 with an angle below 10 deg: 3 corner, 2 free; worst: 4.5 at ..., ...": free places before those that the
+/// CAD forces.
+std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const std::string& what,
+                       const CauseList& list) {
   constexpr std::size_t kShown = 3;
   if (list.total() == 0) return fmt::format("  {:<20} none {}\n", name, what);
   std::string counts, places;
   std::size_t n_shown = 0;
   for (std::size_t k = 0; k < kNShapeCauses; ++k)
-    if (list.count[k]) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", list.count[k], cause_name(static_cast<ShapeCause>(k)));
+    if (list.count[k])
+      counts +=
+          fmt::format("{}{} {}", counts.empty() ? "" : ", ", list.count[k], cause_name(static_cast<ShapeCause>(k)));
   for (std::size_t k = kNShapeCauses; k-- > 0;)
     for (const CausePlace& p : list.worst[k])
       if (n_shown++ < kShown)
-        places += fmt::format("{}{:.4g} at {}", places.empty() ? "" : "; ", p.value, place_text(mesh, {p.xyz, p.face, kNone}));
+        places += fmt::format("{}{:.4g} at {}", places.empty() ? "" : "; ", p.value,
+                              place_text(mesh, {p.xyz, p.face, kNone}));
   return fmt::format("  {:<20} {} {}: {}; worst: {}\n", name, list.total(), what, counts, places);
 }
 
 std::string cause_lines(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_sizes) {
   return cause_line(mesh, "sharp", fmt::format("with an angle below {:g} deg", c.angle_deg), c.sharp) +
          cause_line(mesh, "growth", fmt::format("between neighbours above {}", kLargeGrowth), c.growth) +
-         (has_sizes ? cause_line(mesh, "lengths", fmt::format("more outside {} to {}", kConformityMin, kConformityMax), c.lengths) : "");
+         (has_sizes ? cause_line(mesh, "lengths", fmt::format("more outside {} to {}", kConformityMin, kConformityMax),
+                                 c.lengths)
+                    : "");
 }
 
 /// Handles of all parts together, where the number means something.
 std::optional<std::int64_t> genus_of(const TopologyReport& t) {
-  const bool is_manifold = t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
+  const bool is_manifold =
+      t.is_closed() && t.n_cad_boundary_edges == 0 && t.n_cad_nonmanifold_edges == 0 && t.pinched_nodes.count == 0;
   return is_manifold ? std::optional(t.genus) : std::nullopt;
 }
 
@@ -98,11 +114,12 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
   }
   const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
   const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
-  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(), f.topology.n_used_nodes,
-                     f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts", genus, seconds);
+  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(),
+                     f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts",
+                     genus, seconds);
 }
 
-// --- JSON --------------------------------------------------------------------------------------------------------------------------------
+// --- JSON ---
 
 json xyz_json(Vec3 p) { return {p.x, p.y, p.z}; }
 
@@ -145,8 +162,10 @@ json conformity_json(const ConformityStats& c, ReportDetail detail) {
 }
 
 json deviation_json(const DeviationStats& d, ReportDetail detail) {
-  json j{
-      {"max", d.max_distance}, {"mean", d.mean_distance()}, {"normal_max_deg", d.max_angle_deg}, {"normal_mean_deg", d.mean_angle_deg()}};
+  json j{{"max", d.max_distance},
+         {"mean", d.mean_distance()},
+         {"normal_max_deg", d.max_angle_deg},
+         {"normal_mean_deg", d.mean_angle_deg()}};
   if (detail == ReportDetail::kFull) {
     j["place"] = xyz_json(d.distance_place);
     j["normal_place"] = xyz_json(d.angle_place);
@@ -217,7 +236,8 @@ json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail
     json entry{{"name", g < mesh.group_name.size() ? mesh.group_name[g] : ""},
                {"quality", quality_json(f.quality.groups[g], detail)},
                {"jumps", jump_json(f.quality.group_jumps[g], detail)}};
-    if (f.conformity && g < f.conformity->groups.size()) entry["sizes"] = conformity_json(f.conformity->groups[g], detail);
+    if (f.conformity && g < f.conformity->groups.size())
+      entry["sizes"] = conformity_json(f.conformity->groups[g], detail);
     if (f.deviation) entry["deviation"] = deviation_json(deviation[g], detail);
     groups.push_back(entry);
   }
@@ -276,7 +296,8 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
   return text + verdict_line(path, mesh, f, seconds);
 }
 
-std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds, ReportDetail detail) {
+std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
+                              ReportDetail detail) {
   json checks = json::object(), failed = json::array();
   for (const Check& c : f.checks) {
     checks[c.name] = check_json(c);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "geometry/model.h"
+#include "geometry/model/model.h"
+#include "judge/chord_error.h"
+#include "judge/shape_causes.h"
+#include "judge/surface_deviation.h"
 #include "mesh/checks.h"
 #include "mesh/quality.h"
-#include "stages/chord_error.h"
-#include "stages/shape_causes.h"
-#include "stages/surface_deviation.h"
 
 namespace st {
 
@@ -54,8 +54,9 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
 
 enum class ReportDetail { kSummary, kFull };
 
-/// One JSON object (docs/checks.md): a line for programs, or in full and indented, with histograms per group and face and all forced
-/// places.
-std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds, ReportDetail detail);
+/// One JSON object (docs/checks.md): a line for programs, or in full and indented, with histograms per group and face
+/// and all forced places.
+std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
+                              ReportDetail detail);
 
 }  // namespace st

@@ -12,11 +12,11 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "base/log.h"
-#include "io/artifact.h"
-#include "io/sizing_artifact.h"
-#include "io/text_file.h"
-#include "io/triangulation_reader.h"
-#include "stages/cad_contacts.h"
+#include "io/file/text_file.h"
+#include "io/foreign/triangulation_reader.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "judge/cad_contacts.h"
 #include "stages/check_report.h"
 #include "stages/foreign_mesh.h"
 
@@ -69,27 +69,29 @@ Check check_faces(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   for (const FaceId f : mesh.triangle_face) has_triangle[f] = 1;
   for (const FaceId f : mesh.merged.strip_face) has_triangle[f] = 1;
   for (FaceId f = 0; f < tables.n_faces(); ++f)
-    if (!has_triangle[f] && tables.face_area[f] > kNoArea * total) c.defects.add({tables.face_box[f].center(), f, kNone});
+    if (!has_triangle[f] && tables.face_area[f] > kNoArea * total)
+      c.defects.add({tables.face_box[f].center(), f, kNone});
   c.note = fmt::format("mesh area / CAD area {:.6f}", total > 0 ? measure.area / total : 0.0);
   return c;
 }
 
 /// Faces whose mesh area differs from the CAD's by more than the tolerance and what chords explain together.
-Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables, const ChordError& chords,
-                  double tolerance) {
+Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
+                  const ChordError& chords, double tolerance) {
   Check c{"areas", "faces whose area differs from the CAD's", {}, true, ""};
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
   double largest = 0;
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     const double cad = tables.face_area[f], difference = std::fabs(measure.face_area[f] - cad);
-    if (std::binary_search(mesh.merged.strip_face.begin(), mesh.merged.strip_face.end(), f)) continue;  // partly or wholly closed
+    if (std::binary_search(mesh.merged.strip_face.begin(), mesh.merged.strip_face.end(), f))
+      continue;  // partly or wholly closed
     if (difference > tolerance * cad + chords.area[f] && measure.face_area[f] > 0) c.defects.add({place[f], f, kNone});
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest difference {:.3g} % ({}; chords explain {:.3g} %)", 100 * largest, face_label(mesh, worst),
-                         100 * chords.area[worst] / tables.face_area[worst]);
+    c.note = fmt::format("largest difference {:.3g} % ({}; chords explain {:.3g} %)", 100 * largest,
+                         face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
   return c;
 }
 
@@ -100,7 +102,8 @@ double cad_tolerance(const ModelTables& tables, FaceId f) {
     for (const CoedgeId k : tables.loop_coedges(l)) {
       const EdgeId e = tables.coedge_edge[k];
       const VertexId a = tables.edge_vertices[2 * e], b = tables.edge_vertices[2 * e + 1];
-      tolerance = std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[a], tables.vertex_tolerance[b]});
+      tolerance =
+          std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[a], tables.vertex_tolerance[b]});
     }
   return tolerance;
 }
@@ -116,11 +119,13 @@ Check check_on_surface(const ModelTables& tables, const ChordError& chords, cons
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     if (group_tolerance(of_group, f) > 0) continue;
-    if (chords.node_distance[f] > 2 * cad_tolerance(tables, f) + rounding) c.defects.add({chords.node_place[f], f, kNone});
+    if (chords.node_distance[f] > 2 * cad_tolerance(tables, f) + rounding)
+      c.defects.add({chords.node_place[f], f, kNone});
     if (worst == kNone || chords.node_distance[f] > chords.node_distance[worst]) worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest distance {:.3g} (CAD tolerance there {:.3g})", chords.node_distance[worst], cad_tolerance(tables, worst));
+    c.note = fmt::format("largest distance {:.3g} (CAD tolerance there {:.3g})", chords.node_distance[worst],
+                         cad_tolerance(tables, worst));
   return c;
 }
 
@@ -148,7 +153,11 @@ Check check_group_tolerance(const ModelTables& tables, const ChordError& chords,
 
 /// Faces with a node so far off that it cannot belong there: a wrong face id, a misplaced node.
 Check check_off_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
-  Check c{"off-surface", fmt::format("faces with nodes off the surface by more than {} of their length", kOffSurface), {}, true, ""};
+  Check c{"off-surface",
+          fmt::format("faces with nodes off the surface by more than {} of their length", kOffSurface),
+          {},
+          true,
+          ""};
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (chords.off_surface[f] > 2 * std::max(cad_tolerance(tables, f), group_tolerance(of_group, f)))
       c.defects.add({chords.off_place[f], f, kNone});
@@ -176,7 +185,9 @@ double volume_at_strips(const SurfaceMesh& mesh, const ModelTables& tables) {
     }
   const auto width_at = [&](NodeId n) {
     const std::int32_t entity = mesh.node_entity[n];
-    return mesh.node_entity_dim[n] == 0 ? vertex_width[entity] : mesh.node_entity_dim[n] == 1 ? edge_width[entity] : 0.0;
+    return mesh.node_entity_dim[n] == 0   ? vertex_width[entity]
+           : mesh.node_entity_dim[n] == 1 ? edge_width[entity]
+                                          : 0.0;
   };
   double volume = 0;
   for (const Triangle& t : mesh.triangles) {
@@ -187,12 +198,14 @@ double volume_at_strips(const SurfaceMesh& mesh, const ModelTables& tables) {
   return volume;
 }
 
-/// The volume enclosed against the CAD's: beyond the tolerance there is what the chords cut off, at most their distance times the area.
-Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, const MeshMeasure& measure, const ModelTables& tables,
-                       const ChordError& chords) {
+/// The volume enclosed against the CAD's: beyond the tolerance there is what the chords cut off, at most their distance
+/// times the area.
+Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, const MeshMeasure& measure,
+                       const ModelTables& tables, const ChordError& chords) {
   constexpr double kTolerance = 0.005;  // relative
   Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
-  if (!tables.volume || !topology.is_closed() || topology.n_cad_boundary_edges > 0 || topology.n_cad_nonmanifold_edges > 0) {
+  if (!tables.volume || !topology.is_closed() || topology.n_cad_boundary_edges > 0 ||
+      topology.n_cad_nonmanifold_edges > 0) {
     c.note = tables.volume ? "open or non-manifold: none" : "open, or faces between solids: none";
     return c;
   }
@@ -200,8 +213,8 @@ Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, 
   for (FaceId f = 0; f < tables.n_faces(); ++f) explained += chords.distance[f] * tables.face_area[f];
   const double cad = std::fabs(*tables.volume), difference = std::fabs(measure.volume - *tables.volume);
   if (difference > kTolerance * cad + explained) c.defects.add({});
-  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords and closed strips explain {:.3g} %)", measure.volume / *tables.volume,
-                       100 * explained / cad);
+  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords and closed strips explain {:.3g} %)",
+                       measure.volume / *tables.volume, 100 * explained / cad);
   return c;
 }
 
@@ -228,10 +241,13 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const Che
   check_crossings_and_contacts(mesh, cad, f);
   f.measure = measure_mesh(mesh);
   f.quality = measure_quality(mesh);
-  const std::string open =
-      f.topology.n_cad_boundary_edges ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges) : "";
+  const std::string open = f.topology.n_cad_boundary_edges
+                               ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges)
+                               : "";
   const std::string nonmanifold =
-      f.topology.n_cad_nonmanifold_edges ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges) : "";
+      f.topology.n_cad_nonmanifold_edges
+          ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges)
+          : "";
   f.checks = {
       check_complete(artifact),
       {"closed", "open edges", f.topology.boundary_edges, true, open},
@@ -246,7 +262,8 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const Che
       {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, "",
        std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
-      {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself", f.crossings.cad_contacts, false, ""},
+      {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
+       f.crossings.cad_contacts, false, ""},
       {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
       check_volume(f.topology, f.measure)};
 }
@@ -266,7 +283,7 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, of_group));
 }
 
-// --- thresholds --------------------------------------------------------------------------------------------------------------------------
+// --- thresholds ---
 
 /// One value of the whole mesh against its bound: one defect without a place, or none.
 Check check_value(const std::string& name, const std::string& what, bool is_good, const std::string& note) {
@@ -290,10 +307,12 @@ Check check_triangles(const SurfaceMesh& mesh, const std::string& name, const st
 void check_quality(const SurfaceMesh& mesh, const CheckThresholds& asked, Findings& f) {
   const QualityReport& q = f.quality;
   if (asked.min_quality)
-    f.checks.push_back(check_triangles(mesh, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
-                                       [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
+    f.checks.push_back(
+        check_triangles(mesh, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
+                        [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
   if (asked.min_angle_deg)
-    f.checks.push_back(check_triangles(mesh, "min-angle", fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
+    f.checks.push_back(check_triangles(mesh, "min-angle",
+                                       fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
                                        [&](Vec3 a, Vec3 b, Vec3 c) {
                                          const auto angles = triangle_angles_deg(a, b, c);
                                          return *std::min_element(angles.begin(), angles.end()) < *asked.min_angle_deg;
@@ -302,11 +321,12 @@ void check_quality(const SurfaceMesh& mesh, const CheckThresholds& asked, Findin
     f.checks.push_back(check_value("min-mean-quality", fmt::format("mean quality below {}", *asked.min_mean_quality),
                                    q.model.mean >= *asked.min_mean_quality, fmt::format("{:.4f}", q.model.mean)));
   if (asked.min_p1_quality)
-    f.checks.push_back(check_value("min-p1-quality", fmt::format("first percentile of quality below {}", *asked.min_p1_quality),
+    f.checks.push_back(check_value("min-p1-quality",
+                                   fmt::format("first percentile of quality below {}", *asked.min_p1_quality),
                                    q.model.p1 >= *asked.min_p1_quality, fmt::format("{:.4f}", q.model.p1)));
   if (asked.max_jump)
-    f.checks.push_back(check_value("max-jump", fmt::format("growth (99.9 %) above {}", *asked.max_jump), q.jump_p999 <= *asked.max_jump,
-                                   fmt::format("{:.3f}", q.jump_p999)));
+    f.checks.push_back(check_value("max-jump", fmt::format("growth (99.9 %) above {}", *asked.max_jump),
+                                   q.jump_p999 <= *asked.max_jump, fmt::format("{:.3f}", q.jump_p999)));
 }
 
 void check_causes(const CheckThresholds& asked, Findings& f) {
@@ -316,7 +336,8 @@ void check_causes(const CheckThresholds& asked, Findings& f) {
           {},
           true,
           ""};
-  for (const CausePlace& p : f.causes->sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)]) c.defects.add({p.xyz, p.face, kNone});
+  for (const CausePlace& p : f.causes->sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)])
+    c.defects.add({p.xyz, p.face, kNone});
   c.defects.count = f.causes->sharp.free();
   c.allowed = *asked.max_free_sharp;
   f.checks.push_back(c);
@@ -325,15 +346,16 @@ void check_causes(const CheckThresholds& asked, Findings& f) {
 void check_sizes(const CheckThresholds& asked, Findings& f) {
   if (!asked.min_size_share || !f.conformity) return;
   const double share = f.conformity->free.share();
-  f.checks.push_back(check_value("min-size-share", fmt::format("share of edges of the requested length below {}", *asked.min_size_share),
+  f.checks.push_back(check_value("min-size-share",
+                                 fmt::format("share of edges of the requested length below {}", *asked.min_size_share),
                                  share >= *asked.min_size_share, fmt::format("{:.4f}", share)));
 }
 
 void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Findings& f) {
   const std::vector<DeviationStats>& faces = f.deviation->faces;
   if (!asked.max_deviation.empty()) {
-    const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"), tables.reference_diagonal(), tables.unit_in_m,
-                                        "--max-deviation");
+    const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"),
+                                        tables.reference_diagonal(), tables.unit_in_m, "--max-deviation");
     const std::vector<double> of_group = face_tolerances(tables.group_names());
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",
@@ -349,13 +371,15 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
     f.checks.push_back(c);
   }
   if (!asked.max_normal_deviation_deg) return;
-  Check c{"max-normal-deviation",
-          fmt::format("faces with a triangle turned from the surface by more than {} deg", *asked.max_normal_deviation_deg),
-          {},
-          true,
-          ""};
+  Check c{
+      "max-normal-deviation",
+      fmt::format("faces with a triangle turned from the surface by more than {} deg", *asked.max_normal_deviation_deg),
+      {},
+      true,
+      ""};
   for (std::size_t i = 0; i < faces.size(); ++i)
-    if (faces[i].max_angle_deg > *asked.max_normal_deviation_deg) c.defects.add({faces[i].angle_place, static_cast<FaceId>(i), kNone});
+    if (faces[i].max_angle_deg > *asked.max_normal_deviation_deg)
+      c.defects.add({faces[i].angle_place, static_cast<FaceId>(i), kNone});
   f.checks.push_back(c);
 }
 
@@ -374,7 +398,8 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
     cad = read_cad(o, artifact.header);
   } else if (o.geometry.empty()) {
     if (!o.sizing.empty())
-      throw Error(ExitCode::kUsage, fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
     artifact.mesh = read_triangulation(o.mesh);
   } else {
     GeometryArtifact geometry = read_geometry(o.geometry);
@@ -419,10 +444,12 @@ StageSummary run_check(const CheckStageOptions& options) {
   Findings f;
   run_mesh_checks(artifact, cad.get(), options.thresholds, f);
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
-  if (field) f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
+  if (field)
+    f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
 
   if (cad)
-    f.causes = find_shape_causes(cad->model, artifact.mesh, f.quality, f.conformity ? &*f.conformity : nullptr, options.list_below_deg);
+    f.causes = find_shape_causes(cad->model, artifact.mesh, f.quality, f.conformity ? &*f.conformity : nullptr,
+                                 options.list_below_deg);
 
   check_quality(artifact.mesh, options.thresholds, f);
   check_causes(options.thresholds, f);

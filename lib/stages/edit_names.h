@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/model.h"
-#include "io/artifact.h"
+#include "geometry/model/model.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/similarity.h"
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
 #include "stages/edit_stage.h"
 
 namespace st {

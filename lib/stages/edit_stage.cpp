@@ -12,14 +12,16 @@
 
 #include "base/log.h"
 #include "base/similarity.h"
-#include "geometry/edit_model.h"
-#include "geometry/model_state.h"
-#include "geometry/unused_labels.h"
-#include "io/artifact.h"
+#include "geometry/import/import.h"
+#include "geometry/model/edit_model.h"
+#include "geometry/model/model_state.h"
+#include "geometry/model/unused_labels.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
+#include "judge/part_crossings.h"
 #include "stages/edit_names.h"
 #include "stages/edit_provenance.h"
 #include "stages/edit_trace.h"
-#include "stages/part_crossings.h"
 
 namespace st {
 namespace {

@@ -1,4 +1,5 @@
 #include "stages/edit_trace.h"
+#include "geometry/import/import.h"
 
 #include <algorithm>
 #include <optional>

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "base/similarity.h"
-#include "io/artifact.h"
+#include "geometry/import/import.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 

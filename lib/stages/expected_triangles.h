@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/limits.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 
 namespace st {
 

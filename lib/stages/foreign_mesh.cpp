@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/length.h"
-#include "io/triangulation_reader.h"
+#include "io/foreign/triangulation_reader.h"
 
 namespace st {
 namespace {
@@ -60,8 +60,8 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
   const ModelTables& t = model.tables();
   AssociationOptions association;
   if (!options.tolerance.empty())
-    association.tolerance =
-        resolve_length(parse_length(options.tolerance, "--tolerance"), t.reference_diagonal(), t.unit_in_m, "--tolerance");
+    association.tolerance = resolve_length(parse_length(options.tolerance, "--tolerance"), t.reference_diagonal(),
+                                           t.unit_in_m, "--tolerance");
   const SurfaceMesh file = read_triangulation(path);
   ForeignMesh result;
   try {
@@ -83,7 +83,8 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
 Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
   ModelTables tables = model.tables();
   bool is_same = true;
-  for (std::size_t n = 0; n < mesh.node_xyz.size() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex); ++n) {
+  for (std::size_t n = 0;
+       n < mesh.node_xyz.size() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex); ++n) {
     Vec3& x = tables.vertex_xyz[mesh.node_entity[n]];
     is_same &= x == mesh.node_xyz[n];
     x = mesh.node_xyz[n];
@@ -94,13 +95,15 @@ Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
 StageSummary association_summary(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& r) {
   StageSummary s;
   s.line = fmt::format(
-      "{}: {} triangles on {} faces; {} nodes on vertices, {} on edges, {} inside faces; farthest {:.3g} from the CAD, at ({:.6g}, {:.6g}, "
+      "{}: {} triangles on {} faces; {} nodes on vertices, {} on edges, {} inside faces; farthest {:.3g} from the CAD, "
+      "at ({:.6g}, {:.6g}, "
       "{:.6g})",
-      path, mesh.n_triangles(), r.face_triangles.size(), r.n_nodes[0], r.n_nodes[1], r.n_nodes[2], r.max_distance, r.max_place.x,
-      r.max_place.y, r.max_place.z);
+      path, mesh.n_triangles(), r.face_triangles.size(), r.n_nodes[0], r.n_nodes[1], r.n_nodes[2], r.max_distance,
+      r.max_place.x, r.max_place.y, r.max_place.z);
   if (r.n_turned > 0) s.line += fmt::format("; {} triangles turned to agree with their neighbours", r.n_turned);
   if (r.n_unused > 0) s.line += fmt::format("; {} nodes without a triangle left out", r.n_unused);
-  if (!mesh.merged.edge.empty()) s.line += fmt::format("; {} short CAD edges without a mesh edge", mesh.merged.edge.size());
+  if (!mesh.merged.edge.empty())
+    s.line += fmt::format("; {} short CAD edges without a mesh edge", mesh.merged.edge.size());
   s.json = nlohmann::json{{"farthest", r.max_distance},
                           {"farthest_at", {r.max_place.x, r.max_place.y, r.max_place.z}},
                           {"nodes_on_vertices", r.n_nodes[0]},

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/model.h"
-#include "io/artifact.h"
-#include "meshing/mesh_association.h"
+#include "geometry/model/model.h"
+#include "io/hdf5/artifact.h"
+#include "meshing/associate/mesh_association.h"
 #include "sizing/size_field.h"
 #include "stages/summary.h"
 
@@ -27,9 +27,9 @@ struct ForeignMesh {
   AssociationReport report;
 };
 
-/// Reads and associates (associate_mesh). Stored lengths are those of the file (point data "size"), else those the mesh was made for, else
-/// measured: `sizes` where the mean edge at the node is 0.7 to 1.4 of them, that mean elsewhere. Throws Error(kInput), Error(kMismatch)
-/// naming the file, Error(kUsage).
+/// Reads and associates (associate_mesh). Stored lengths are those of the file (point data "size"), else those the mesh
+/// was made for, else measured: `sizes` where the mean edge at the node is 0.7 to 1.4 of them, that mean elsewhere.
+/// Throws Error(kInput), Error(kMismatch) naming the file, Error(kUsage).
 ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const ForeignMeshOptions& options);
 
 /// The model with its vertices where the mesh has its nodes on them, so that these stay to the bit.

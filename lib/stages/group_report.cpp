@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "geometry/groups.h"
-#include "io/artifact.h"
+#include "geometry/model/groups.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 namespace {
@@ -47,16 +47,30 @@ Identity identity_of(const std::string& path) {
   }
   if (schema == "patches") {
     PatchesArtifact p = read_patches(path);
-    return {
-        std::move(p.face_name), std::move(p.group_name), std::move(p.group_role), std::move(p.face_group), std::move(p.labels), {}, {}, {}};
+    return {std::move(p.face_name),
+            std::move(p.group_name),
+            std::move(p.group_role),
+            std::move(p.face_group),
+            std::move(p.labels),
+            {},
+            {},
+            {}};
   }
   if (schema != "mesh")
     throw Error(ExitCode::kInput,
-                fmt::format("{}: is a {} artifact, which has no groups; give a geometry, patches or mesh artifact", path, schema));
+                fmt::format("{}: is a {} artifact, which has no groups; give a geometry, patches or mesh artifact",
+                            path, schema));
   SurfaceMesh m = read_mesh(path).mesh;
   std::vector<std::int32_t> face_group(m.face_name.size(), kNone);
   for (std::size_t t = 0; t < m.triangles.size(); ++t) face_group[m.triangle_face[t]] = m.triangle_group[t];
-  return {std::move(m.face_name), std::move(m.group_name), std::move(m.group_role), std::move(face_group), std::move(m.labels), {}, {}, {}};
+  return {std::move(m.face_name),
+          std::move(m.group_name),
+          std::move(m.group_role),
+          std::move(face_group),
+          std::move(m.labels),
+          {},
+          {},
+          {}};
 }
 
 /// 1-based ids of the faces with this number.
@@ -78,8 +92,8 @@ std::string ranges(std::span<const FaceId> faces) {
   return text;
 }
 
-Json groups_json(const std::vector<std::string>& name, const std::vector<std::string>& role, const std::vector<std::string>& attributes,
-                 const std::vector<std::int32_t>& face_group) {
+Json groups_json(const std::vector<std::string>& name, const std::vector<std::string>& role,
+                 const std::vector<std::string>& attributes, const std::vector<std::int32_t>& face_group) {
   Json groups = Json::array();
   for (std::size_t g = 0; g < name.size(); ++g) {
     Json own = g < attributes.size() ? Json::parse(attributes[g], nullptr, false) : Json::object();
@@ -105,18 +119,21 @@ void add_entity_groups(const std::vector<EntityGroup>& groups, const char* kind,
 }
 
 Json report(const Identity& id) {
-  Json json = {{"tables", Json::array()},  {"parts", Json::array()},   {"face_names", Json::object()},
-               {"layers", Json::object()}, {"colors", Json::object()}, {"surfaces", Json::object()},
+  Json json = {{"tables", Json::array()},     {"parts", Json::array()},   {"face_names", Json::object()},
+               {"layers", Json::object()},    {"colors", Json::object()}, {"surfaces", Json::object()},
                {"edge_names", Json::object()}};
   const FaceLabels& labels = id.labels;
   json["tables"].push_back(
-      {{"table", "main"}, {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
+      {{"table", "main"},
+       {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
   for (const GroupTable& t : labels.tables)
-    json["tables"].push_back({{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
+    json["tables"].push_back(
+        {{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
   add_entity_groups(labels.edge_groups, "edges", json["tables"]);
   add_entity_groups(labels.vertex_groups, "vertices", json["tables"]);
   for (std::size_t p = 0; p < labels.part_path.size(); ++p)
-    json["parts"].push_back({{"path", labels.part_path[p]}, {"name", labels.part_name[p]}, {"faces", faces_with(labels.face_part, p)}});
+    json["parts"].push_back(
+        {{"path", labels.part_path[p]}, {"name", labels.part_name[p]}, {"faces", faces_with(labels.face_part, p)}});
   const auto add = [&](const char* key, const std::vector<std::string>& texts) {
     for (std::size_t f = 0; f < texts.size(); ++f)
       if (!texts[f].empty()) json[key][texts[f]].push_back(f + 1);

@@ -9,11 +9,13 @@
 #include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "io/artifact.h"
-#include "io/groups_file.h"
-#include "io/text_file.h"
-#include "io/triangulation_reader.h"
-#include "sizing/wing_edges.h"
+#include "features/wing_edges.h"
+#include "geometry/import/import.h"
+#include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
+#include "io/foreign/triangulation_reader.h"
+#include "io/hdf5/artifact.h"
+#include "io/toml/groups_file.h"
 
 namespace st {
 namespace {
@@ -26,16 +28,22 @@ std::string file_hash(const std::string& path) {
 }
 
 nlohmann::json finding_json(const ImportFinding& f) {
-  return {{"what", f.what}, {"entity", f.entity}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}, {"size", f.size}, {"repair", f.is_repair}};
+  return {{"what", f.what},
+          {"entity", f.entity},
+          {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}},
+          {"size", f.size},
+          {"repair", f.is_repair}};
 }
 
 /// Groups with their roles and numbers of faces, table by table, the main one first.
 nlohmann::json tables_json(const ModelTables& t) {
   nlohmann::json tables = nlohmann::json::array();
-  const auto add = [&](const std::string& name, const auto& groups, const auto& roles, const std::vector<std::int32_t>& face_group) {
+  const auto add = [&](const std::string& name, const auto& groups, const auto& roles,
+                       const std::vector<std::int32_t>& face_group) {
     nlohmann::json entries = nlohmann::json::array();
     for (std::size_t g = 0; g < groups.size(); ++g)
-      entries.push_back({{"name", groups[g]}, {"role", roles[g]}, {"faces", std::count(face_group.begin(), face_group.end(), g)}});
+      entries.push_back(
+          {{"name", groups[g]}, {"role", roles[g]}, {"faces", std::count(face_group.begin(), face_group.end(), g)}});
     tables.push_back({{"table", name}, {"groups", entries}});
   };
   add("main", t.group_name, t.group_role, t.face_group);
@@ -101,11 +109,13 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
   if (!edges.empty()) log_info(fmt::format("  {} trailing and leading edges:", edges.size()));
   for (std::size_t i = 0; i < edges.size() && i < kFindingsShown; ++i) {
     const WingEdge& w = edges[i];
-    log_info(fmt::format("  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}, angle {:.3g} deg{}", t.edge_label(w.edge), name_of(w.kind),
-                         w.middle.x, w.middle.y, w.middle.z, w.length, degrees(w.angle),
-                         w.size > 0 ? fmt::format(", {} {:.4g}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size) : ""));
+    log_info(fmt::format(
+        "  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}, angle {:.3g} deg{}", t.edge_label(w.edge),
+        name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, degrees(w.angle),
+        w.size > 0 ? fmt::format(", {} {:.4g}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size) : ""));
   }
-  if (edges.size() > kFindingsShown) log_info(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
+  if (edges.size() > kFindingsShown)
+    log_info(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
   return list;
 }
 
@@ -126,7 +136,8 @@ std::string repairs_in_words(const ImportResult& r) {
     known == kinds.end() ? kinds.emplace_back(kind, 1), void() : void(++known->second);
   }
   std::string text;
-  for (const auto& [kind, n] : kinds) text += (text.empty() ? "" : "; ") + kind + (n > 1 ? fmt::format(" ({} times)", n) : "");
+  for (const auto& [kind, n] : kinds)
+    text += (text.empty() ? "" : "; ") + kind + (n > 1 ? fmt::format(" ({} times)", n) : "");
   return text;
 }
 
@@ -136,9 +147,11 @@ void say(const std::string& model, const ImportResult& r) {
     log_warning(fmt::format("{}: the model encloses no volume: its faces are in no shell", model));
   else if (!r.is_closed)
     log_warning(
-        fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges further apart)",
+        fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges "
+                    "further apart)",
                     model, r.n_free_edges));
-  if (r.n_repairs > 0) log_warning(fmt::format("{}: repaired: {}; -v lists places and sizes", model, repairs_in_words(r)));
+  if (r.n_repairs > 0)
+    log_warning(fmt::format("{}: repaired: {}; -v lists places and sizes", model, repairs_in_words(r)));
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
@@ -153,8 +166,8 @@ std::string extent(const ImportResult& r) {
   const Box3 box = r.tables.box();
   const std::string unit = r.tables.unit.empty() ? "" : " " + r.tables.unit, square = unit.empty() ? "" : unit + "^2",
                     cube = unit.empty() ? "" : unit + "^3";
-  std::string text = fmt::format("box {:.6g} x {:.6g} x {:.6g}{}, area {:.6g}{}", box.hi.x - box.lo.x, box.hi.y - box.lo.y,
-                                 box.hi.z - box.lo.z, unit, r.area, square);
+  std::string text = fmt::format("box {:.6g} x {:.6g} x {:.6g}{}, area {:.6g}{}", box.hi.x - box.lo.x,
+                                 box.hi.y - box.lo.y, box.hi.z - box.lo.z, unit, r.area, square);
   if (r.is_closed) text += fmt::format(", volume {:.6g}{}", r.volume, cube);
   return text;
 }
@@ -185,9 +198,10 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   if (o.check) json["wing_edges"] = list_wing_edges(r);
   const ModelTables& t = r.tables;
   StageSummary s;
-  s.line = fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(), t.n_edges(),
-                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), extent(r),
-                       r.findings.size() - r.n_repairs, r.n_repairs);
+  s.line =
+      fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(),
+                  t.n_edges(), r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), extent(r),
+                  r.findings.size() - r.n_repairs, r.n_repairs);
   if (!o.check) {
     GeometryArtifact g;
     g.header.schema = "geometry";
@@ -202,7 +216,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
-    if (!o.groups.empty()) g.header.inputs.push_back({"groups", std::filesystem::path(o.groups).filename().string(), groups.hash});
+    if (!o.groups.empty())
+      g.header.inputs.push_back({"groups", std::filesystem::path(o.groups).filename().string(), groups.hash});
     g.findings = r.findings;
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
@@ -219,13 +234,15 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
 /// Meshes are used elsewhere.
 void require_cad(const std::string& path) {
   if (const std::string format = triangulation_format(path); !format.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: is {}, not a CAD model; give it to st-prolong --blank, st-remesh or st-check", path, format));
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: is {}, not a CAD model; give it to st-prolong --blank, st-remesh or st-check", path, format));
 }
 
 }  // namespace
 
-// OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps the last word.
+// OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps
+// the last word.
 StageSummary run_import(const ImportStageOptions& o) {
   require_cad(o.model);
   if (!o.check) require_writable(o.output);

@@ -21,7 +21,8 @@ struct ImportStageOptions {
   bool require_closed = false;       ///< an open model is an error (exit 4)
 };
 
-/// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE crashes.
+/// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE
+/// crashes.
 StageSummary run_import(const ImportStageOptions& options);
 
 }  // namespace st

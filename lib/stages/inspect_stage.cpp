@@ -10,12 +10,14 @@
 
 #include "base/length.h"
 #include "base/log.h"
-#include "geometry/flite_writer.h"
-#include "io/artifact.h"
-#include "io/failure_artifact.h"
-#include "io/inspect.h"
-#include "io/octree_export.h"
-#include "io/text_file.h"
+#include "geometry/flite/flite_writer.h"
+#include "io/export/export.h"
+#include "io/export/octree_export.h"
+#include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/failure_artifact.h"
+#include "io/hdf5/inspect.h"
 #include "stages/mesh_export.h"
 
 namespace st {
@@ -26,7 +28,8 @@ using Json = nlohmann::ordered_json;
 /// Names in artifacts are any bytes; JSON wants UTF-8.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// What there is how many of, by schema: name for people and programs, dataset whose rows are counted, rows that do not count.
+/// What there is how many of, by schema: name for people and programs, dataset whose rows are counted, rows that do not
+/// count.
 struct Count {
   const char* name;
   const char* dataset;
@@ -50,14 +53,19 @@ const std::vector<Count>& counts_of(const std::string& schema) {
         {"patches", "/st/patch/face"},
         {"failures", "/st/failure/face"},
         {"groups", "/st/group/name"}}},
-      {"mesh", {{"triangles", "/VTKHDF/Types"}, {"nodes", "/VTKHDF/Points"}, {"faces", "/st/face/name"}, {"groups", "/st/group/name"}}},
+      {"mesh",
+       {{"triangles", "/VTKHDF/Types"},
+        {"nodes", "/VTKHDF/Points"},
+        {"faces", "/st/face/name"},
+        {"groups", "/st/group/name"}}},
       {"failures", {{"failures", "/st/failure/face"}, {"cells", "/VTKHDF/Types"}}}};
   static const std::vector<Count> none;
   const auto it = counts.find(schema);
   return it == counts.end() ? none : it->second;
 }
 
-/// Attributes of our own groups, by their names without the group, header apart: resolved numbers, is_closed, is_complete ...
+/// Attributes of our own groups, by their names without the group, header apart: resolved numbers, is_closed,
+/// is_complete ...
 std::vector<AttributeSummary> properties_of(const ArtifactDescription& artifact) {
   std::vector<AttributeSummary> properties;
   for (const AttributeSummary& a : artifact.attributes) {
@@ -96,7 +104,8 @@ std::vector<std::int64_t> faces_of_inputs(const std::string& path, const Artifac
 
 Json info_json(const std::string& path, const ArtifactDescription& artifact, const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
-  Json json = {{"tool", "st-info"},    {"artifact", path},         {"schema", h.schema}, {"schema_version", h.schema_version},
+  Json json = {{"tool", "st-info"},    {"artifact", path},
+               {"schema", h.schema},   {"schema_version", h.schema_version},
                {"written_by", h.tool}, {"version", h.tool_version}};
   json["unit"] = h.unit.empty() ? Json(nullptr) : Json(h.unit);
   json["unit_in_m"] = h.unit_in_m ? Json(*h.unit_in_m) : Json(nullptr);
@@ -105,7 +114,8 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
   json["properties"] = Json::object();
   for (const AttributeSummary& p : properties_of(artifact)) json["properties"][p.name] = to_json(p);
   json["inputs"] = Json::array();
-  for (const InputRef& input : h.inputs) json["inputs"].push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
+  for (const InputRef& input : h.inputs)
+    json["inputs"].push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
   for (std::size_t i = 0; i < n_faces.size(); ++i) json["inputs"][i]["faces"] = n_faces[i];
   json["options"] = parse_or_text(h.options_json.empty() ? "{}" : h.options_json);
   json["geometry_hash"] = h.schema == "geometry" ? h.content_hash : h.geometry_hash;
@@ -116,9 +126,11 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
 std::string info_lines(const std::string& path, const ArtifactDescription& artifact,
                        const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
-  std::string text =
-      fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version, h.tool, h.tool_version);
-  const auto row = [&](const std::string& name, const std::string& value) { text += fmt::format("  {:<16} {}\n", name, value); };
+  std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version,
+                                 h.tool, h.tool_version);
+  const auto row = [&](const std::string& name, const std::string& value) {
+    text += fmt::format("  {:<16} {}\n", name, value);
+  };
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
@@ -135,7 +147,8 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
 StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
   StageSummary summary;
   summary.line = fmt::format("{}: {} exported, {:.2f} s", output, artifact, timer.seconds());
-  summary.json = dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
+  summary.json =
+      dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
   return summary;
 }
 
@@ -152,12 +165,15 @@ void export_artifact(const std::string& artifact, const std::string& output) {
     require_writable(output);
     export_failures(artifact, output);
   } else if (schema == "geometry") {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
   } else {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
-                            artifact, schema));
+    throw Error(
+        ExitCode::kInput,
+        fmt::format(
+            "{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
+            artifact, schema));
   }
 }
 
@@ -169,17 +185,20 @@ bool has_suffix(const std::string& path, const std::string& suffix) {
 StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   GeometryArtifact geometry = read_geometry(o.artifact);
   const double diagonal = geometry.tables.reference_diagonal();
-  const double tolerance = resolve_length(parse_length(o.tolerance, "--tolerance"), diagonal, geometry.tables.unit_in_m, "--tolerance");
+  const double tolerance =
+      resolve_length(parse_length(o.tolerance, "--tolerance"), diagonal, geometry.tables.unit_in_m, "--tolerance");
   require_writable(o.output);
   const FliteExport flite = make_flite(Model(std::move(geometry.tables), std::move(geometry.brep)), tolerance);
   write_text_file(o.output, flite_text(flite.file));
   StageSummary summary;
   const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);
-  summary.line = fmt::format("{}: {} exported: {} regions of {} faces ({} divided), {} segments, within {:.3g} of the model{}, {:.2f} s",
-                             o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
-                             flite.deviation, where, timer.seconds());
+  summary.line = fmt::format(
+      "{}: {} exported: {} regions of {} faces ({} divided), {} segments, within {:.3g} of the model{}, {:.2f} s",
+      o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
+      flite.deviation, where, timer.seconds());
   if (flite.deviation > tolerance)
-    log_warning(fmt::format("{}: the tolerance of {:.3g} is not reached: {:.3g}{}", o.output, tolerance, flite.deviation, where));
+    log_warning(fmt::format("{}: the tolerance of {:.3g} is not reached: {:.3g}{}", o.output, tolerance,
+                            flite.deviation, where));
   summary.json = dump({{"tool", "st-export"},
                        {"artifact", o.artifact},
                        {"output", o.output},

@@ -13,8 +13,8 @@ StageSummary run_info(const std::string& artifact);
 StageSummary run_hash(const std::string& artifact);
 
 struct DiffStageOptions {
-  std::string a, b;                     ///< two artifacts of the same schema
-  double tolerance = 0;                 ///< relative to the larger value, for floating-point data; 0: bits
+  std::string a, b;      ///< two artifacts of the same schema
+  double tolerance = 0;  ///< relative to the larger value, for floating-point data; 0: bits
 };
 /// Code kOk when equal within the tolerance, kIncomplete when not (says where first, and how much).
 StageSummary run_diff(const DiffStageOptions& options);
@@ -23,7 +23,8 @@ struct ExportStageOptions {
   std::string artifact, output;
   std::string tolerance = "0.001%";  ///< length: distance of FLITE curves and surfaces from the model
 };
-/// Exports a mesh artifact (.stl .vtu .obj .ply), a raster/sizing artifact's octree (.vtu), or a geometry (FLITE .dat), by suffix.
+/// Exports a mesh artifact (.stl .vtu .obj .ply), a raster/sizing artifact's octree (.vtu), or a geometry (FLITE .dat),
+/// by suffix.
 StageSummary run_export(const ExportStageOptions& options);
 
 }  // namespace st

@@ -11,7 +11,9 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "io/artifact.h"
+#include "io/export/export.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
 #include "mesh/checks.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
@@ -25,7 +27,8 @@ namespace {
 std::string list_faces(std::span<const FaceId> faces) {
   constexpr std::size_t kShown = 5;
   std::string text;
-  for (std::size_t i = 0; i < std::min(faces.size(), kShown); ++i) text += (i ? ", " : "") + std::to_string(faces[i] + 1);
+  for (std::size_t i = 0; i < std::min(faces.size(), kShown); ++i)
+    text += (i ? ", " : "") + std::to_string(faces[i] + 1);
   return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
 }
 
@@ -43,15 +46,17 @@ std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
 /// The nodes of edges of two parts; an edge that both have must have the same nodes in both.
 EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& path_a, const std::string& path_b) {
   if (a.n_edges() != b.n_edges())
-    throw Error(ExitCode::kMismatch,
-                fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
+    throw Error(
+        ExitCode::kMismatch,
+        fmt::format("{} and {} differ in their number of edges; mesh both on the same geometry", path_a, path_b));
   EdgeMesh both;
   for (EdgeId e = 0; e < a.n_edges(); ++e) {
     const bool in_a = a.n_nodes(e) > 0, in_b = b.n_nodes(e) > 0;
     if (in_a && in_b && !has_same_nodes(a, b, e))
       throw Error(
           ExitCode::kMismatch,
-          fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first", e + 1, path_b, path_a));
+          fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first",
+                      e + 1, path_b, path_a));
     const EdgeMesh& from = in_a ? a : b;
     both.append(from, e);
     for (const std::int32_t i : from.nodes(e)) both.node_request.push_back(from.requests()[i]);
@@ -64,10 +69,12 @@ void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& pat
   require_same_geometry(path_all, all.header, path, part.header);
   if (!(all.merged == part.merged))
     throw Error(ExitCode::kMismatch,
-                fmt::format("{} and {} merge other small features of the CAD; mesh the second part with --edges {}", path_all, path, path_all));
+                fmt::format("{} and {} merge other small features of the CAD; mesh the second part with --edges {}",
+                            path_all, path, path_all));
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
   for (FacePatch& p : part.patches) {
-    const auto same = std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
+    const auto same =
+        std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
     if (same != all.patches.end())
       throw Error(ExitCode::kMismatch,
                   fmt::format("face {} is meshed in {} and in an earlier part; give each face once", p.face + 1, path));
@@ -95,11 +102,14 @@ void require_complete(const PatchesArtifact& patches, const MergeStageOptions& o
   if (patches.is_complete || options.allow_incomplete) return;
   const std::vector<FaceId> missing = find_missing_faces(patches);
   const std::string cause =
-      patches.failures.empty() ? "" : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
-  throw Error(ExitCode::kIncomplete,
-              fmt::format("{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
-                          options.patches[0], std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ",
-                          list_faces(missing), cause));
+      patches.failures.empty() ? ""
+                               : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
+  throw Error(
+      ExitCode::kIncomplete,
+      fmt::format(
+          "{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
+          options.patches[0], std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ",
+          list_faces(missing), cause));
 }
 
 /// Everything that could stop the outputs is found before the work, so that none is left without the others.
@@ -116,9 +126,10 @@ void warn_of_changes(const OrientationReport& report) {
     log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(),
                             list_faces(report.turned_faces)));
   if (report.turned_components)
-    log_warning(
-        fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components, list_faces(report.inside_out_faces)));
-  if (report.n_one_sided) log_warning(fmt::format("{} parts have one side only and cannot be oriented", report.n_one_sided));
+    log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components,
+                            list_faces(report.inside_out_faces)));
+  if (report.n_one_sided)
+    log_warning(fmt::format("{} parts have one side only and cannot be oriented", report.n_one_sided));
 }
 
 MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs,
@@ -133,7 +144,8 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.header.geometry_hash = patches.header.geometry_hash;
   artifact.header.inputs = std::move(inputs);
   artifact.is_complete = patches.is_complete;
-  artifact.mesh = merge_patches({patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
+  artifact.mesh = merge_patches(
+      {patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
   artifact.mesh.face_name = std::move(patches.face_name);
   artifact.mesh.group_name = std::move(patches.group_name);
   artifact.mesh.group_role = std::move(patches.group_role);
@@ -180,11 +192,12 @@ StageSummary run_merge(const MergeStageOptions& options) {
                             {"area", measure.area},
                             {"volume", measure.volume},
                             {"seconds", seconds}};
-  const std::string state = topology.is_closed() ? "closed"
-                                                 : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count,
-                                                               topology.nonmanifold_edges.count);
-  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(), state,
-                      artifact.is_complete ? "" : ", INCOMPLETE", seconds),
+  const std::string state = topology.is_closed()
+                                ? "closed"
+                                : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count,
+                                              topology.nonmanifold_edges.count);
+  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(),
+                      state, artifact.is_complete ? "" : ", INCOMPLETE", seconds),
           json.dump(), ExitCode::kOk};
 }
 

@@ -9,10 +9,10 @@
 namespace st {
 
 struct MergeStageOptions {
-  std::vector<std::string> patches;     ///< patches artifacts (one, or parts meshed apart)
+  std::vector<std::string> patches;  ///< patches artifacts (one, or parts meshed apart)
   std::string output = "mesh.hdf";
-  std::vector<std::string> exports;     ///< further files by suffix: .stl .vtu .obj .ply
-  bool allow_incomplete = false;        ///< merge although faces are missing
+  std::vector<std::string> exports;  ///< further files by suffix: .stl .vtu .obj .ply
+  bool allow_incomplete = false;     ///< merge although faces are missing
 };
 
 /// Local. Throws Error; Error(kIncomplete) for incomplete patches without allow_incomplete.

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/log.h"
-#include "io/artifact.h"
+#include "io/export/export.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 

@@ -12,9 +12,10 @@
 
 #include "base/log.h"
 #include "base/memory.h"
-#include "io/artifact.h"
-#include "io/sizing_artifact.h"
-#include "meshing/model_mesher.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "meshing/engine/model_mesher.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
 
@@ -24,7 +25,8 @@ namespace {
 void require_valid(const MeshStageOptions& o) {
   if (o.enhance_rounds < 0 || o.enhance_rounds > 10)
     throw Error(ExitCode::kUsage, fmt::format("--enhance-rounds {}: not in [0, 10]", o.enhance_rounds));
-  if (!(o.merge_below >= 0 && o.merge_below <= 0.2)) throw Error(ExitCode::kUsage, fmt::format("--merge-below {}: not in [0, 0.2]", o.merge_below));
+  if (!(o.merge_below >= 0 && o.merge_below <= 0.2))
+    throw Error(ExitCode::kUsage, fmt::format("--merge-below {}: not in [0, 0.2]", o.merge_below));
   if (!(o.max_turning_deg > 0 && o.max_turning_deg <= 60))
     throw Error(ExitCode::kUsage, fmt::format("--max-turning {}: not in (0, 60] degrees", o.max_turning_deg));
 }
@@ -33,7 +35,8 @@ FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
   FaceId id = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), id);
   if (status != std::errc() || end != text.data() + text.size() || id < 1 || id > n_faces)
-    throw Error(ExitCode::kUsage, fmt::format("--faces '{}': '{}' is no face id from 1 to {}; write 12,17,30-40", all, text, n_faces));
+    throw Error(ExitCode::kUsage,
+                fmt::format("--faces '{}': '{}' is no face id from 1 to {}; write 12,17,30-40", all, text, n_faces));
   return id - 1;
 }
 
@@ -47,7 +50,8 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
     rest.remove_prefix(std::min(comma + 1, rest.size()));
     const std::size_t dash = item.find('-');
     const FaceId first = parse_face(item.substr(0, dash), o.faces, t.n_faces());
-    const FaceId last = dash == std::string_view::npos ? first : parse_face(item.substr(dash + 1), o.faces, t.n_faces());
+    const FaceId last =
+        dash == std::string_view::npos ? first : parse_face(item.substr(dash + 1), o.faces, t.n_faces());
     for (FaceId f = first; f <= last; ++f) chosen[f] = 1;
   }
   if (!o.group.empty()) {
@@ -106,10 +110,17 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
 
   ArtifactHeader header;
   header.tool = "st-mesh";
-  header.options_json = nlohmann::json{{"faces", o.faces}, {"group", o.group}, {"enhance_rounds", o.enhance_rounds}, {"merge_below", o.merge_below}, {"max_turning", o.max_turning_deg}}.dump();
+  header.options_json = nlohmann::json{
+      {"faces", o.faces},
+      {"group", o.group},
+      {"enhance_rounds", o.enhance_rounds},
+      {"merge_below", o.merge_below},
+      {"max_turning",
+       o.max_turning_deg}}.dump();
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry_header.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.header.content_hash}};
-  return write_patches_result(o.output, model.tables(), geometry_header, header, mesher, {timer, load_seconds, comm.size()});
+  return write_patches_result(o.output, model.tables(), geometry_header, header, mesher,
+                              {timer, load_seconds, comm.size()});
 }
 
 }  // namespace st

@@ -5,18 +5,24 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "io/failure_artifact.h"
+#include "io/hdf5/failure_artifact.h"
 
 namespace st {
 namespace {
 
 nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
-  return {{"face", f.face + 1}, {"name", t.face_name[f.face]}, {"cause", f.cause}, {"remedy", f.remedy}, {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
+  return {{"face", f.face + 1},
+          {"name", t.face_name[f.face]},
+          {"cause", f.cause},
+          {"remedy", f.remedy},
+          {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
 }
 
 /// Where the first of them is, for the one line on standard error.
 std::string first_of(const ModelTables& t, const MergedFeatures& m) {
-  const auto at = [](const std::string& label, Vec3 x) { return fmt::format("; first {} near ({:.6g}, {:.6g}, {:.6g})", label, x.x, x.y, x.z); };
+  const auto at = [](const std::string& label, Vec3 x) {
+    return fmt::format("; first {} near ({:.6g}, {:.6g}, {:.6g})", label, x.x, x.y, x.z);
+  };
   if (!m.strip_face.empty()) return at(t.face_label(m.strip_face[0]), t.face_box[m.strip_face[0]].center());
   return at(t.edge_label(m.edge[0]), t.vertex_xyz[t.edge_vertices[2 * m.edge[0]]]);
 }
@@ -26,7 +32,8 @@ nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const 
   nlohmann::json edges = nlohmann::json::array(), strips = nlohmann::json::array();
   for (const EdgeId e : m.edge) {
     const Vec3 x = t.vertex_xyz[t.edge_vertices[2 * e]];
-    edges.push_back({{"edge", e + 1}, {"name", t.edge_name[e]}, {"length", t.edge_length[e]}, {"xyz", {x.x, x.y, x.z}}});
+    edges.push_back(
+        {{"edge", e + 1}, {"name", t.edge_name[e]}, {"length", t.edge_length[e]}, {"xyz", {x.x, x.y, x.z}}});
   }
   for (std::size_t s = 0; s < m.strip_face.size(); ++s) {
     const FaceId f = m.strip_face[s];
@@ -42,8 +49,10 @@ nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const 
   return {{"edges", edges}, {"strips", strips}};
 }
 
-/// Beside the patches: what the faces that could not be meshed look like; an earlier run's is removed when all were. Returns its path, or "".
-std::string write_failed_faces(const std::string& patches, const ArtifactHeader& header, const ModelTables& t, const ModelMesher& m) {
+/// Beside the patches: what the faces that could not be meshed look like; an earlier run's is removed when all were.
+/// Returns its path, or "".
+std::string write_failed_faces(const std::string& patches, const ArtifactHeader& header, const ModelTables& t,
+                               const ModelMesher& m) {
   const std::string path = failures_path(patches);
   if (m.failures.empty()) {
     remove_failures(path);
@@ -67,8 +76,8 @@ void store_requests(const SizeField& field, ModelMesher& m) {
   for (FacePatch& p : m.patches) renew(p.inner_xyz, p.inner_previous, p.inner_size);
 }
 
-StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry, ArtifactHeader header,
-                                  ModelMesher& m, const RunFacts& facts) {
+StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
+                                  ArtifactHeader header, ModelMesher& m, const RunFacts& facts) {
   PatchesArtifact out;
   header.schema = "patches";
   header.tool_version = ST_VERSION;
@@ -105,45 +114,53 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
   for (const FaceFailure& f : m.failures) {
     failures.push_back(failure_json(t, f));
-    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause, f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
+    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause,
+                            f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
   }
-  if (!failures_file.empty()) log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
+  if (!failures_file.empty())
+    log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
   for (const RefinementPoint& p : m.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
-  if (!m.folds.empty()) log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})", m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
-  if (m.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
+  if (!m.folds.empty())
+    log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})",
+                            m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
+  if (m.n_crossing_pairs)
+    log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
 
   if (!m.merged().empty())
-    log_info(fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole faces{} (--merge-below 0: none)", m.merged().edge.size(),
-                         m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
+    log_info(
+        fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole "
+                    "faces{} (--merge-below 0: none)",
+                    m.merged().edge.size(), m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
 
   StageSummary s;
   s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
-  s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path, n_triangles,
-                       out.patches.size(), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
+  s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
+                       n_triangles, out.patches.size(), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
                        seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);
-  s.json = nlohmann::json{{"tool", header.tool},
-                          {"output", path},
-                          {"triangles", n_triangles},
-                          {"inner_nodes", n_nodes},
-                          {"faces", t.n_faces()},
-                          {"faces_meshed", out.patches.size()},
-                          {"faces_failed", m.failures.size()},
-                          {"failures", failures},
-                          {"failures_file", failures_file},
-                          {"folds", folds},
-                          {"crossing_pairs", m.n_crossing_pairs},
-                          {"merged", merged_json(t, m.merged(), closed)},
-                          {"rounds", m.n_rounds},
-                          {"refinements", m.n_refinements},
-                          {"ranks", facts.n_ranks},
-                          {"seconds", seconds},
-                          {"seconds_load", facts.load_seconds},
-                          {"seconds_edges", m.times.edges},
-                          {"seconds_faces", m.times.faces},
-                          {"seconds_crossing", m.times.crossing},
-                          {"seconds_write", write_seconds},
-                          {"hash", hash}}
-               .dump();
+  s.json = nlohmann::json{
+      {"tool", header.tool},
+      {"output", path},
+      {"triangles", n_triangles},
+      {"inner_nodes", n_nodes},
+      {"faces", t.n_faces()},
+      {"faces_meshed", out.patches.size()},
+      {"faces_failed", m.failures.size()},
+      {"failures", failures},
+      {"failures_file", failures_file},
+      {"folds", folds},
+      {"crossing_pairs", m.n_crossing_pairs},
+      {"merged", merged_json(t, m.merged(), closed)},
+      {"rounds", m.n_rounds},
+      {"refinements", m.n_refinements},
+      {"ranks", facts.n_ranks},
+      {"seconds", seconds},
+      {"seconds_load", facts.load_seconds},
+      {"seconds_edges", m.times.edges},
+      {"seconds_faces", m.times.faces},
+      {"seconds_crossing", m.times.crossing},
+      {"seconds_write", write_seconds},
+      {"hash",
+       hash}}.dump();
   return s;
 }
 

@@ -10,7 +10,8 @@
 
 namespace st {
 
-/// One clock per rank, started when it is made. Processor time says what a part costs on a quiet machine, whatever else runs meanwhile.
+/// One clock per rank, started when it is made. Processor time says what a part costs on a quiet machine, whatever else
+/// runs meanwhile.
 class PhaseTimes {
  public:
   PhaseTimes();

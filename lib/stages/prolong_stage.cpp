@@ -11,7 +11,8 @@
 
 #include "base/limits.h"
 #include "base/log.h"
-#include "io/sizing_artifact.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
 #include "stages/blank_input.h"
 #include "stages/edit_provenance.h"
@@ -29,13 +30,15 @@ constexpr double kMostExact = 9e15;  // triangles that are still written as a wh
 
 void require_valid(const ProlongStageOptions& o) {
   if (!(o.slope > 0 && o.slope <= 2)) throw Error(ExitCode::kUsage, fmt::format("--slope {}: not in (0, 2]", o.slope));
-  if (!(o.scale > 0) || !std::isfinite(o.scale)) throw Error(ExitCode::kUsage, fmt::format("--scale {}: not a positive number", o.scale));
+  if (!(o.scale > 0) || !std::isfinite(o.scale))
+    throw Error(ExitCode::kUsage, fmt::format("--scale {}: not a positive number", o.scale));
   if (o.target_triangles && *o.target_triangles < 4)
     throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
   parse_slopes(o.slope_of);
-  if (o.target_triangles && o.scale != 1) throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
+  if (o.target_triangles && o.scale != 1)
+    throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
 /// Resolved options; file names stand among the inputs.
@@ -112,7 +115,8 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   const OctreeShape raster_shape = raster.octree.shape;
   if (!raster.samples.empty()) forget_samples(raster.octree);
   if (!input.sources.empty())
-    raster.octree = refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
+    raster.octree =
+        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
   const OctreeView octree = raster.octree.shape.view();
   seed_lengths(raster.samples, o.slope, raster.octree);
   if (!o.blank.empty()) {
@@ -128,7 +132,8 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
     const std::vector<float> seeds = seed_slopes(slopes, raster, raster_shape.view(), octree);
     cell_slope = spread_slopes(octree, raster.octree.stored_length, seeds, options, blanking);
     options.cell_slope = cell_slope;
-    for (const NamedSlope& s : slopes) sizing.slope = std::max(sizing.slope, s.slope);  // what the field as a whole promises
+    for (const NamedSlope& s : slopes)
+      sizing.slope = std::max(sizing.slope, s.slope);  // what the field as a whole promises
   }
   sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
   hold_samples(octree, raster.samples, sizing.blanking.split_leaf, sizing.lengths);
@@ -146,24 +151,28 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
-  const auto [smallest, largest] = std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
-                                                       [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
+  const auto [smallest, largest] =
+      std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
+                          [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
   const double scale = sizing.scale * sizing.frame.scale;
   const double lo = scale * smallest->length, hi = scale * largest->length, n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
-  const std::string sources = sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
+  const std::string sources =
+      sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
   const std::vector<CellColour>& colour = sizing.blanking.colour;
   const auto n_blanked = std::count(colour.begin(), colour.end(), CellColour::kBlanked);
   const auto n_cut = std::count(colour.begin(), colour.end(), CellColour::kCut);
-  const std::string blanked =
-      colour.empty() ? "" : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut, sizing.blanking.split.size());
+  const std::string blanked = colour.empty() ? ""
+                                             : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut,
+                                                           sizing.blanking.split.size());
   if (n > static_cast<double>(kMaxTriangles))
     log_warning(fmt::format(
         "the mesh would have about {:.4g} triangles; st-mesh takes up to {}: give a larger --scale or larger lengths",
         n, kMaxTriangles));
   StageSummary summary;
-  summary.line = fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
-                             sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
+  summary.line =
+      fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s",
+                  o.output, sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
   summary.json = Json{
       {"tool", "st-prolong"},
       {"output", o.output},

@@ -12,20 +12,24 @@ namespace st {
 struct ProlongStageOptions {
   std::string raster;  ///< raster artifact
   std::string output = "sizing.hdf";
-  double slope = 0.2;                   ///< largest change of length per distance, (0, 2]
-  std::string slope_of;                 ///< "WING=0.1, FLAP=0.15": slope where lengths come from faces of these names; empty: none
-  double scale = 1.0;                   ///< multiplies every length, > 0
-  std::vector<std::string> sources;     ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same name
-  std::string background;               ///< background mesh (.bac, .ba3, .msh); empty: none
-  std::string transform;                ///< moves sources and background into the model's frame; see parse_similarity; empty: as they are
-  std::string
-      geometry;  ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty: that one
+  double slope = 0.2;    ///< largest change of length per distance, (0, 2]
+  std::string slope_of;  ///< "WING=0.1, FLAP=0.15": slope where lengths come from faces of these names; empty: none
+  double scale = 1.0;    ///< multiplies every length, > 0
+  std::vector<std::string> sources;  ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same
+                                     ///< name
+  std::string background;            ///< background mesh (.bac, .ba3, .msh); empty: none
+  std::string transform;  ///< moves sources and background into the model's frame; see parse_similarity; empty: as they
+                          ///< are
+  std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:
+                          ///< that one
   std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
-  std::string blank;                    ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty: none
-  std::string blank_side = "auto";      ///< "inside", "outside", or "auto": outside when a group of the mesh is the far field
-  std::string sample;                   ///< CSV of points at which lengths are written to `sample_output`; empty: none
+  std::string blank;  ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
+                      ///< none
+  std::string blank_side = "auto";  ///< "inside", "outside", or "auto": outside when a group of the mesh is the far
+                                    ///< field
+  std::string sample;               ///< CSV of points at which lengths are written to `sample_output`; empty: none
   std::string sample_output = "sizes.csv";
-  bool allow_incomplete = false;        ///< take a raster of which parts could not be sampled
+  bool allow_incomplete = false;  ///< take a raster of which parts could not be sampled
 };
 
 /// Local. Throws Error.

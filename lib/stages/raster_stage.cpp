@@ -14,16 +14,18 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
-#include "io/artifact.h"
-#include "io/size_rule_file.h"
-#include "io/sizing_artifact.h"
+#include "features/strip.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "io/toml/size_rule_file.h"
 #include "sizing/cell_limit.h"
 #include "sizing/face_cells.h"
 #include "sizing/gap_sizes.h"
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
-#include "sizing/strip.h"
+#include "sizing/raster_strip.h"
 #include "stages/cell_budget.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
@@ -45,7 +47,8 @@ SizeRule detection_rule(const std::string& option, const std::string& word, cons
   if (colon != std::string::npos) rule.lmin = parse_length(lengths.substr(0, colon), option);
   rule.lmax = parse_length(colon == std::string::npos ? lengths : lengths.substr(colon + 1), option);
   if (rule.lmin && rule.lmin->kind == rule.lmax->kind && rule.lmin->value > rule.lmax->value)
-    throw Error(ExitCode::kUsage, fmt::format("{} {}: the smallest length is larger than the largest; write LMIN:LMAX", option, lengths));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: the smallest length is larger than the largest; write LMIN:LMAX", option, lengths));
   return rule;
 }
 
@@ -66,27 +69,30 @@ void require_valid(const RasterStageOptions& o) {
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
   return fmt::format(
-      "no group is named far field or symmetry: {} faces far larger than the rest, {} the first, are taken as the outer boundary, and "
+      "no group is named far field or symmetry: {} faces far larger than the rest, {} the first, are taken as the "
+      "outer boundary, and "
       "lengths refer to "
       "the rest (diagonal {:.4g}); name the groups, or give --lmin and --lmax",
       roles.guessed.size(), t.face_label(roles.guessed.front()), roles.reference_diagonal);
 }
 
 SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t, double diagonal) {
-  if (!(diagonal > 0)) throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
+  if (!(diagonal > 0))
+    throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
   SamplingLimits limits;
-  limits.max_length =
-      o.lmax.empty() ? kDefaultMaxLength * diagonal : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
+  limits.max_length = o.lmax.empty() ? kDefaultMaxLength * diagonal
+                                     : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
   limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length
                                      : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
   limits.alpha = radians(o.alpha_deg);
-  if (!o.chord.empty()) limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
+  if (!o.chord.empty())
+    limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
   limits.cell_per_length = o.cell_per_length;
   limits.gap_cells = o.gap_cells;
   limits.edge_cells = o.edge_cells;
   if (limits.min_length > limits.max_length)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax", limits.min_length, limits.max_length));
+    throw Error(ExitCode::kUsage, fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax",
+                                              limits.min_length, limits.max_length));
   return limits;
 }
 
@@ -117,11 +123,13 @@ class RasterTasks {
   /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
   std::vector<std::int32_t> order() const {
     std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
-    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f) work[n_batches_ + f] = face_work(static_cast<std::size_t>(f));
+    for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f)
+      work[n_batches_ + f] = face_work(static_cast<std::size_t>(f));
     return heaviest_first(work);
   }
 
-  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty: nothing) and the patches.
+  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty:
+  /// nothing) and the patches.
   Bytes compute(std::int32_t task, std::vector<RasterBox>& own_boxes) const {
     const std::size_t n_before = own_boxes.size();
     std::vector<GapPatch> patches;
@@ -138,8 +146,8 @@ class RasterTasks {
     } catch (const std::exception& e) {
       own_boxes.resize(n_before);
       patches.clear();
-      failure =
-          task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1) : model_.tables().face_label(task - n_batches_);
+      failure = task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1)
+                                  : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
     }
     Packer packer;
@@ -192,8 +200,10 @@ class RasterTasks {
                 limits_.wants_gaps ? &patches : nullptr);
     if (model_.tables().face_is_reversed[f])
       for (GapPatch& patch : patches) patch.flip();
-    const auto strip = std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
-    if (strip != strips_.end() && strip->face == f) raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
+    const auto strip =
+        std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
+    if (strip != strips_.end() && strip->face == f)
+      raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
   const Model& model_;
@@ -262,7 +272,8 @@ std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t 
       n_tasks, heaviest_first(std::vector<double>(static_cast<std::size_t>(n_tasks), 1.0)),
       [&](std::int32_t task) {
         const std::size_t n_before = samples.own_boxes.size(), first = static_cast<std::size_t>(task) * kPatchesPerTask;
-        for (std::size_t i = first; i < std::min(first + kPatchesPerTask, patches.size()); ++i) finder.add_boxes(i, samples.own_boxes);
+        for (std::size_t i = first; i < std::min(first + kPatchesPerTask, patches.size()); ++i)
+          finder.add_boxes(i, samples.own_boxes);
         Packer packer;
         packer.add(static_cast<std::uint64_t>(samples.own_boxes.size() - n_before));
         return packer.take();
@@ -292,13 +303,15 @@ SampleCounts report_samples(const Samples& samples) {
   return counts;
 }
 
-void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits, const std::string& sizes_hash,
-                 ArtifactHeader& header) {
+void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits,
+                 const std::string& sizes_hash, ArtifactHeader& header) {
   header.schema = "raster";
   header.tool = "st-raster";
   header.tool_version = ST_VERSION;
-  nlohmann::json options{
-      {"lmin", limits.min_length}, {"lmax", limits.max_length}, {"alpha", o.alpha_deg}, {"cell_per_length", o.cell_per_length}};
+  nlohmann::json options{{"lmin", limits.min_length},
+                         {"lmax", limits.max_length},
+                         {"alpha", o.alpha_deg},
+                         {"cell_per_length", o.cell_per_length}};
   if (o.gap_cells) options["gap_cells"] = *o.gap_cells;
   if (o.edge_cells) options["edge_cells"] = *o.edge_cells;
   if (!o.trailing_edges.empty()) options["trailing_edges"] = o.trailing_edges;
@@ -309,11 +322,13 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   header.unit_in_m = geometry.unit_in_m;
   header.geometry_hash = geometry.content_hash;
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash}};
-  if (!o.sizes.empty()) header.inputs.push_back({"sizes", std::filesystem::path(o.sizes).filename().string(), sizes_hash});
+  if (!o.sizes.empty())
+    header.inputs.push_back({"sizes", std::filesystem::path(o.sizes).filename().string(), sizes_hash});
 }
 
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
-FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const Communicator& comm) {
+FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits,
+                       const Communicator& comm) {
   const ModelTables& t = model.tables();
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
   comm.run_tasks(
@@ -353,8 +368,8 @@ ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
   return counts.n_failures == 0 || o.allow_incomplete ? ExitCode::kOk : ExitCode::kIncomplete;
 }
 
-StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts, std::size_t n_rules,
-                       std::size_t n_wing_edges, const PhaseTimes& times) {
+StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts,
+                       std::size_t n_rules, std::size_t n_wing_edges, const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
@@ -363,26 +378,25 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
       a.numbers.min_length, a.numbers.max_length,
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
-  summary.json = nlohmann::json{
-      {"tool", "st-raster"},
-      {"output", o.output},
-      {"samples", counts.n_boxes},
-      {"cells", n_cells},
-      {"lmin", a.numbers.min_length},
-      {"lmax", a.numbers.max_length},
-      {"far_length", a.numbers.far_length},
-      {"alpha", a.numbers.alpha_deg},
-      {"cell_per_length", a.numbers.cell_per_length},
-      {"rules", n_rules},
-      {"wing_edges", n_wing_edges},
-      {"gap_samples", counts.n_gap_boxes},
-      {"not_sampled", counts.n_failures},
-      {"beyond_depth", depth_json(counts.depth)},
-      {"hash", a.header.content_hash},
-      {"seconds", seconds},
-      {"seconds_of", times.wall()},
-      {"processor_seconds_of",
-       times.processor()}}.dump();
+  summary.json = nlohmann::json{{"tool", "st-raster"},
+                                {"output", o.output},
+                                {"samples", counts.n_boxes},
+                                {"cells", n_cells},
+                                {"lmin", a.numbers.min_length},
+                                {"lmax", a.numbers.max_length},
+                                {"far_length", a.numbers.far_length},
+                                {"alpha", a.numbers.alpha_deg},
+                                {"cell_per_length", a.numbers.cell_per_length},
+                                {"rules", n_rules},
+                                {"wing_edges", n_wing_edges},
+                                {"gap_samples", counts.n_gap_boxes},
+                                {"not_sampled", counts.n_failures},
+                                {"beyond_depth", depth_json(counts.depth)},
+                                {"hash", a.header.content_hash},
+                                {"seconds", seconds},
+                                {"seconds_of", times.wall()},
+                                {"processor_seconds_of", times.processor()}}
+                     .dump();
   return summary;
 }
 
@@ -408,7 +422,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     wing_edges = detect_edges(model, roles, rules);
     limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
   }
-  share(comm, limits.face, limits.edge, limits.vertex, limits.far, limits.min_length, limits.wants_gaps, limits.far_length);
+  share(comm, limits.face, limits.edge, limits.vertex, limits.far, limits.min_length, limits.wants_gaps,
+        limits.far_length);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);
   limit_samples(budget.max_samples, limits);
@@ -434,7 +449,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
 
   warn_of_depth(counts.depth);
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
-  artifact.numbers = {limits.min_length, wall.max_length, limits.far_length, o.alpha_deg, o.cell_per_length, roles.reference_diagonal};
+  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
+                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   artifact.group_name = model.tables().group_name;
   artifact.face_group = model.tables().face_group;

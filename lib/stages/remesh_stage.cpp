@@ -11,29 +11,31 @@
 
 #include "base/log.h"
 #include "base/memory.h"
-#include "io/artifact.h"
-#include "io/mesh_part.h"
-#include "io/node_array.h"
-#include "io/sizing_artifact.h"
-#include "io/triangulation_reader.h"
+#include "io/file/temporary_file.h"
+#include "io/foreign/triangulation_reader.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/mesh_part.h"
+#include "io/hdf5/node_array.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
-#include "meshing/hole_reprojector.h"
-#include "meshing/mesh_gaps.h"
-#include "meshing/mesh_topology.h"
+#include "meshing/engine/model_mesher.h"
+#include "meshing/engine/remesher.h"
+#include "meshing/hole/hole_reprojector.h"
+#include "meshing/hole/mesh_gaps.h"
+#include "meshing/topology/mesh_topology.h"
 #include "sizing/node_field.h"
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
-#include "meshing/model_mesher.h"
 #include "stages/patches_result.h"
-#include "meshing/remesher.h"
 
 namespace st {
 namespace {
 
 void require_valid(const RemeshStageOptions& o) {
   if (!(o.too_long > 1)) throw Error(ExitCode::kUsage, fmt::format("--too-long {}: must be larger than 1", o.too_long));
-  if (!(o.too_short > 0 && o.too_short < 1)) throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
+  if (!(o.too_short > 0 && o.too_short < 1))
+    throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
 }
 
 std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std::vector<NodeId>& file_node) {
@@ -43,7 +45,8 @@ std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std:
 }
 
 /// The sizing's field, or the one on the nodes that takes its place.
-std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh, const ForeignMesh* foreign, double slope) {
+std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh,
+                                           const ForeignMesh* foreign, double slope) {
   if (o.sizes_on_nodes.empty()) return nullptr;
   const std::size_t colon = o.sizes_on_nodes.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == o.sizes_on_nodes.size())
@@ -91,8 +94,9 @@ nlohmann::json counts(const Remesher& r, const HoleMesh& mesh) {
 
 StageSummary dry_run_summary(const Remesher& r, const HoleMesh& mesh) {
   StageSummary s;
-  s.line = fmt::format("{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
-                       r.n_marked_triangles, mesh.mesh.n_triangles(), r.dirty_faces.size(), mesh.tables.n_faces(), r.n_marked_segments);
+  s.line = fmt::format(
+      "{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
+      r.n_marked_triangles, mesh.mesh.n_triangles(), r.dirty_faces.size(), mesh.tables.n_faces(), r.n_marked_segments);
   nlohmann::json json = counts(r, mesh);
   json["tool"] = "st-remesh";
   s.json = json.dump();
@@ -105,14 +109,16 @@ void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
   for (EdgeId e = 0; e < after.n_edges(); ++e) {
     const std::int32_t a = before.first_node(e), n = before.n_nodes(e), b = after.first_node(e), m = after.n_nodes(e);
     if (n == 0 || m == 0) continue;
-    const bool is_same = n == m && std::equal(before.node_t.begin() + a, before.node_t.begin() + a + n, after.node_t.begin() + b);
+    const bool is_same =
+        n == m && std::equal(before.node_t.begin() + a, before.node_t.begin() + a + n, after.node_t.begin() + b);
     for (std::int32_t i = 0; is_same && i < n; ++i) after.node_previous[b + i] = before.node_previous[a + i];
     after.node_previous[b] = before.node_previous[a];
     after.node_previous[b + m - 1] = before.node_previous[a + n - 1];
   }
 }
 
-/// Collective. Faces whose holes could not be filled are meshed again as wholes, in rounds as st-mesh does; the edges keep their nodes.
+/// Collective. Faces whose holes could not be filled are meshed again as wholes, in rounds as st-mesh does; the edges
+/// keep their nodes.
 void redo_failed_faces(const SizeField& field, Remesher& r, ModelMesher& mesher) {
   const EdgeMesh before = r.edges;
   mesher.run_from(r.edges, r.all_patches(), r.failed_faces);
@@ -130,10 +136,10 @@ struct RemeshInput {
   ArtifactHeader geometry;
   Model model;
   MappedSizing sizing;
-  std::vector<Vec3> earlier_xyz = {};   ///< of the nodes, before the geometry moved; else empty
-  std::vector<TriangleId> spoilt = {};  ///< by the move
+  std::vector<Vec3> earlier_xyz = {};                 ///< of the nodes, before the geometry moved; else empty
+  std::vector<TriangleId> spoilt = {};                ///< by the move
   std::optional<ForeignMesh> foreign = std::nullopt;  ///< what `old` was made of
-  MeshShare share = {};                 ///< of this rank, in `old`
+  MeshShare share = {};                               ///< of this rank, in `old`
 };
 
 /// Puts the mesh onto the moved geometry.
@@ -146,7 +152,10 @@ void move(RemeshInput& in) {
 
 /// A mesh of another program, put onto the geometry.
 RemeshInput read_foreign_input(const RemeshStageOptions& o) {
-  if (o.moved) throw Error(ExitCode::kUsage, fmt::format("--moved: {} is no mesh artifact, so it lies on no geometry that could have moved", o.mesh));
+  if (o.moved)
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--moved: {} is no mesh artifact, so it lies on no geometry that could have moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
   MappedSizing sizing = map_sizing(o.sizing);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
@@ -156,7 +165,8 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     require_same_geometry(o.geometry, geometry.header, o.made_for, made_for->header);
   }
   Model model(std::move(geometry.tables), std::move(geometry.brep));
-  ForeignMesh foreign = read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
+  ForeignMesh foreign =
+      read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
   MeshArtifact old = std::move(foreign.artifact);
   orient_outward(old.mesh);  // as st-merge does
   Model on_nodes = with_vertices_of(old.mesh, std::move(model));
@@ -191,17 +201,21 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
     return in;
   }
   for (const auto& [option, value] : {std::pair("--tolerance", o.tolerance), std::pair("--made-for", o.made_for)})
-    if (!value.empty()) throw Error(ExitCode::kUsage, fmt::format("{}: {} is a mesh artifact, which knows; leave the option out", option, o.mesh));
+    if (!value.empty())
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{}: {} is a mesh artifact, which knows; leave the option out", option, o.mesh));
   MeshShare share;
   MeshArtifact old = read_share(o, comm, share);
   if (!old.is_complete)
-    throw Error(ExitCode::kInput, fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: incomplete, faces are missing; mesh all of them with st-mesh first", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
   MappedSizing sizing = map_sizing(o.sizing);
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   ArtifactHeader header = geometry.header;
-  RemeshInput in{std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)), std::move(sizing)};
+  RemeshInput in{std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)),
+                 std::move(sizing)};
   in.share = share;
   if (o.moved) move(in);
   return in;
@@ -212,10 +226,10 @@ void require_no_gaps(const RemeshStageOptions& o, const HoleMesh& m) {
   const std::vector<OpenSide> open = find_open_sides(m);
   if (open.empty()) return;
   const Vec3 x = 0.5 * (m.mesh.node_xyz[open[0].low] + m.mesh.node_xyz[open[0].high]);
-  throw Error(ExitCode::kInput,
-              fmt::format("{}: has a hole that belongs to no face of the model: {} sides have no triangle beyond them, the first at ({:.6g} {:.6g} {:.6g}), "
-                          "{}; make the mesh again with st-mesh and st-merge",
-                          o.mesh, open.size(), x.x, x.y, x.z, m.tables.face_label(open[0].face)));
+  throw Error(ExitCode::kInput, fmt::format("{}: has a hole that belongs to no face of the model: {} sides have no "
+                                            "triangle beyond them, the first at ({:.6g} {:.6g} {:.6g}), "
+                                            "{}; make the mesh again with st-mesh and st-merge",
+                                            o.mesh, open.size(), x.x, x.y, x.z, m.tables.face_label(open[0].face)));
 }
 
 ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const Remesher& r) {
@@ -272,15 +286,17 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
     add_segments(artifact.mesh, mesher ? mesher->edges : r.edges,
                  MeshTopology(in.model.tables(), artifact.mesh.merged).tables().edge_vertices);
   if (mesher && !mesher->failures.empty())
-    throw Error(ExitCode::kIncomplete, fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
-                                                   in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
-  if (r.n_crossing_pairs) log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
+    throw Error(ExitCode::kIncomplete,
+                fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
+                            in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
+  if (r.n_crossing_pairs)
+    log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
   const Timer timer;
   const std::string hash = write_mesh(o.merged, artifact);
   const double write_seconds = timer.seconds(), seconds = facts.timer.seconds();
   StageSummary s;
-  s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(), artifact.mesh.n_nodes(),
-                       seconds, facts.n_ranks);
+  s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(),
+                       artifact.mesh.n_nodes(), seconds, facts.n_ranks);
   s.json = nlohmann::json{{"tool", "st-remesh"},
                           {"output", o.merged},
                           {"hash", hash},
@@ -295,7 +311,8 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
 }
 
 /// Local, on rank 0. Writes patches for st-merge.
-StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, ModelMesher& mesher, const RunFacts& facts) {
+StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, ModelMesher& mesher,
+                              const RunFacts& facts) {
   if (r.failed_faces.empty()) {
     mesher.patches = r.all_patches();
     mesher.edges = std::move(r.edges);
@@ -346,7 +363,8 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   set_kept(o, in.model.tables(), in.old.mesh.merged, options.mark);
   options.mark.earlier_xyz = in.earlier_xyz;
   options.mark.redo = in.spoilt;
-  const std::unique_ptr<SizeField> on_nodes = make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
+  const std::unique_ptr<SizeField> on_nodes =
+      make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
   if (!on_nodes) require_countable_sizes(o, in, options.mark);
   std::optional<StageSummary> association;
@@ -361,7 +379,8 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   ModelMesherOptions mesher_options;
   mesher_options.merged = &in.old.mesh.merged;
   mesher_options.keep_edge = options.mark.keep_edge;
-  if (!remesher.failed_faces.empty() || o.merged.empty()) mesher.emplace(in.model, field, in.sizing.face_weight, mesher_options, comm);
+  if (!remesher.failed_faces.empty() || o.merged.empty())
+    mesher.emplace(in.model, field, in.sizing.face_weight, mesher_options, comm);
   if (!remesher.failed_faces.empty()) redo_failed_faces(field, remesher, *mesher);
   if (!comm.is_root()) return {};
   const RunFacts facts{timer, load_seconds, comm.size()};

@@ -14,15 +14,17 @@ struct RemeshStageOptions {
   std::string geometry;  ///< geometry artifact the mesh was made on
   std::string sizing;    ///< new sizing artifact
   std::string output = "patches.hdf";
-  std::string merged;      ///< mesh artifact to write instead of `output`, merged already; empty: none
-  double too_long = 1.4;   ///< where the sizes changed, an edge longer than this times the requested length is redone, > 1
-  double too_short = 0.7;  ///< likewise shorter than, (0, 1)
-  std::string keep;        ///< group of which nothing changes; empty: none
-  std::string sizes_on_nodes;           ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's; empty: none
-  bool moved = false;                   ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
-  std::string tolerance;                ///< length: how far nodes of a foreign mesh may lie from the CAD; empty: by its edges
-  std::string made_for;                 ///< sizing artifact that a foreign mesh was made for; empty: unknown
-  bool dry_run = false;    ///< say how much would change, write nothing
+  std::string merged;     ///< mesh artifact to write instead of `output`, merged already; empty: none
+  double too_long = 1.4;  ///< where the sizes changed, an edge longer than this times the requested length is redone, >
+                          ///< 1
+  double too_short = 0.7;      ///< likewise shorter than, (0, 1)
+  std::string keep;            ///< group of which nothing changes; empty: none
+  std::string sizes_on_nodes;  ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's;
+                               ///< empty: none
+  bool moved = false;     ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
+  std::string tolerance;  ///< length: how far nodes of a foreign mesh may lie from the CAD; empty: by its edges
+  std::string made_for;   ///< sizing artifact that a foreign mesh was made for; empty: unknown
+  bool dry_run = false;   ///< say how much would change, write nothing
 };
 
 /// Collective. Throws Error.

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/temporary_file.h"
+#include "io/file/temporary_file.h"
 #include "sizing/size_origin.h"
 
 namespace st {
@@ -46,7 +46,8 @@ std::string to_text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x
 
 StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   Vec3 x;
-  if (!parse_point(text, x)) throw Error(ExitCode::kUsage, fmt::format("--at '{}': three numbers expected, such as 1.5,0,-2", text));
+  if (!parse_point(text, x))
+    throw Error(ExitCode::kUsage, fmt::format("--at '{}': three numbers expected, such as 1.5,0,-2", text));
   const MappedSizing sizing = map_sizing(artifact);
   const CauseNames names = read_cause_names(artifact);
   const OctreeField& field = *sizing.field;
@@ -55,32 +56,37 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   SizeOrigin origin = find_origin(field.data(), Neighbours(field.data().octree), why.leaf);
   origin.xyz = frame(origin.xyz);
   origin.length *= frame.scale;
-  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit, cause = cause_text(names, why.cause);
+  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit,
+                    cause = cause_text(names, why.cause);
   const bool inside = is_inside(field.data().octree, frame.inverse()(x));
   StageSummary summary;
   summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
   if (!inside) summary.line += "  outside the box of the model: the length at its border holds\n";
-  summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient), norm(why.gradient), field.slope());
+  summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient),
+                              norm(why.gradient), field.slope());
   summary.line += fmt::format("  cause     {}", cause);
   if (why.cause != kNone)
-    summary.line += fmt::format(", which asks for {:.6g}{} near {}, {:.4g}{} away", origin.length, unit, to_text(origin.xyz),
-                                distance(x, origin.xyz), unit);
-  summary.line += fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
-  const Json json = {{"tool", "st-info"},
-                     {"artifact", artifact},
-                     {"xyz", to_json(x)},
-                     {"is_inside", inside},
-                     {"length", why.length},
-                     {"gradient", to_json(why.gradient)},
-                     {"slope", field.slope()},
-                     {"cause", cause},
-                     {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
-                     {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
+    summary.line += fmt::format(", which asks for {:.6g}{} near {}, {:.4g}{} away", origin.length, unit,
+                                to_text(origin.xyz), distance(x, origin.xyz), unit);
+  summary.line +=
+      fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
+  const Json json = {
+      {"tool", "st-info"},
+      {"artifact", artifact},
+      {"xyz", to_json(x)},
+      {"is_inside", inside},
+      {"length", why.length},
+      {"gradient", to_json(why.gradient)},
+      {"slope", field.slope()},
+      {"cause", cause},
+      {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
+      {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
   summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return summary;
 }
 
-std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, const std::string& points, const std::string& output) {
+std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, const std::string& points,
+                         const std::string& output) {
   std::ifstream in(points);
   if (!in) throw Error(ExitCode::kInput, points + ": cannot be read; check name and permissions");
   TemporaryFile temporary(output);
@@ -98,8 +104,8 @@ std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, cons
     const SizeExplanation why = field.explain(x);
     std::string cause = cause_text(names, why.cause);
     for (std::size_t k = 0; (k = cause.find('"', k)) != std::string::npos; k += 2) cause.insert(k, 1, '"');
-    out << fmt::format("{},{},{},{:.9g},{:.6g},{:.6g},{:.6g},\"{}\"\n", x.x, x.y, x.z, why.length, why.gradient.x, why.gradient.y,
-                       why.gradient.z, cause);
+    out << fmt::format("{},{},{},{:.9g},{:.6g},{:.6g},{:.6g},\"{}\"\n", x.x, x.y, x.z, why.length, why.gradient.x,
+                       why.gradient.y, why.gradient.z, cause);
     ++n;
   }
   out.close();

@@ -18,10 +18,12 @@ NamedSlope parse_slope(const std::string& item) {
     result.name = trimmed(std::string_view(item).substr(0, equals));
     const std::string number = trimmed(std::string_view(item).substr(equals + 1));
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.slope);
-    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() && result.slope > 0 && result.slope <= 2)
+    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() && result.slope > 0 &&
+        result.slope <= 2)
       return result;
   }
-  throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': NAME=S with S in (0, 2] expected, such as WING=0.1", item));
+  throw Error(ExitCode::kUsage,
+              fmt::format("--slope-of '{}': NAME=S with S in (0, 2] expected, such as WING=0.1", item));
 }
 
 /// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.
@@ -61,8 +63,8 @@ std::vector<NamedSlope> parse_slopes(const std::string& text) {
   return result;
 }
 
-std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster, const OctreeView& raster_octree,
-                               const OctreeView& octree) {
+std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster,
+                               const OctreeView& raster_octree, const OctreeView& octree) {
   const std::vector<double> of_face = face_slopes(slopes, raster);
   std::vector<float> seed(octree.leaf_keys.size(), 0);
   for (std::int32_t f = 0; f < raster.faces.n_faces(); ++f) {
@@ -70,7 +72,8 @@ std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const Rast
     if (!(slope > 0)) continue;
     for (std::int64_t i = raster.faces.offsets[f]; i < raster.faces.offsets[f + 1]; ++i) {
       const std::int32_t cell = raster.faces.leaf[i];
-      const std::uint64_t key = raster_octree.leaf_keys[cell], n = 1ull << (3 * (kMaxLevel - raster_octree.leaf_levels[cell]));
+      const std::uint64_t key = raster_octree.leaf_keys[cell],
+                          n = 1ull << (3 * (kMaxLevel - raster_octree.leaf_levels[cell]));
       for (std::int32_t leaf = octree.find_leaf(key), end = octree.find_leaf(key + n - 1); leaf <= end; ++leaf)
         seed[leaf] = seed[leaf] > 0 ? std::min(seed[leaf], slope) : slope;
     }

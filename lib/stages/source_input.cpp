@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "io/text_file.h"
+#include "io/file/text_file.h"
 
 namespace st {
 namespace {
@@ -31,7 +31,9 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
   const std::size_t n_before = all.size();
   for (const SourceSpec& source : file.sources) {
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(n_before);
-    const auto old = source.name.empty() ? end : std::find_if(all.begin(), end, [&](const SourceSpec& s) { return s.name == source.name; });
+    const auto old = source.name.empty()
+                         ? end
+                         : std::find_if(all.begin(), end, [&](const SourceSpec& s) { return s.name == source.name; });
     if (old != end)
       *old = source;
     else
@@ -41,7 +43,8 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
 
 void add_background(BackgroundMesh&& mesh, const Similarity& motion, SourceInput& input) {
   if (mesh.n_anisotropic > 0)
-    log_warning(fmt::format("{} nodes of the background mesh are anisotropic: their smallest spacings are taken", mesh.n_anisotropic));
+    log_warning(fmt::format("{} nodes of the background mesh are anisotropic: their smallest spacings are taken",
+                            mesh.n_anisotropic));
   transform(motion, mesh);
   for (auto& tet : make_sources(mesh)) {
     input.sources.push_back({tet.get(), pack_cause(CauseKind::kOther, 0)});
@@ -66,7 +69,8 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
   for (SourceSpec& spec : specs) {
     transform(motion, spec);
     input.owned.push_back(make_source(spec, slope));
-    input.sources.push_back({input.owned.back().get(), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(input.names.size()))});
+    input.sources.push_back(
+        {input.owned.back().get(), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(input.names.size()))});
     input.names.push_back(spec.name);
   }
   return input;

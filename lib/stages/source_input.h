@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/artifact.h"
-#include "io/source_file.h"
+#include "io/hdf5/artifact.h"
+#include "io/toml/source_file.h"
 #include "sizing/refine.h"
 
 namespace st {
@@ -20,9 +20,9 @@ struct SourceInput {
   std::size_t n_tets = 0;          ///< of the background mesh
 };
 
-/// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up. Warns where an
-/// anisotropic background is taken by its smallest spacings. `motion` brings everything into
-/// the octree's frame. Throws Error(kInput), Error(kUsage).
+/// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up.
+/// Warns where an anisotropic background is taken by its smallest spacings. `motion` brings everything into the
+/// octree's frame. Throws Error(kInput), Error(kUsage).
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
                          double slope, const ModelScale& scale);
 

@@ -1,6 +1,5 @@
 #include "broken/broken_shapes.h"
 
-#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -10,6 +9,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -50,12 +50,15 @@ TopoDS_Shape compound(const std::vector<TopoDS_Shape>& parts) {
 }
 
 TopoDS_Shape box(double x, double y, double z) { return BRepPrimAPI_MakeBox(x, y, z).Shape(); }
-TopoDS_Shape centred_cube(double side) { return BRepPrimAPI_MakeBox(gp_Pnt(-side / 2, -side / 2, -side / 2), side, side, side).Shape(); }
+TopoDS_Shape centred_cube(double side) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(-side / 2, -side / 2, -side / 2), side, side, side).Shape();
+}
 TopoDS_Shape shell_of(const TopoDS_Shape& solid) { return TopExp_Explorer(solid, TopAbs_SHELL).Current(); }
 
 std::vector<TopoDS_Shape> loose_faces_of(const TopoDS_Shape& solid) {
   std::vector<TopoDS_Shape> faces;
-  for (TopExp_Explorer f(solid, TopAbs_FACE); f.More(); f.Next()) faces.push_back(BRepBuilderAPI_Copy(f.Current()).Shape());
+  for (TopExp_Explorer f(solid, TopAbs_FACE); f.More(); f.Next())
+    faces.push_back(BRepBuilderAPI_Copy(f.Current()).Shape());
   return faces;
 }
 
@@ -120,7 +123,8 @@ TopoDS_Shape stacked_boxes() {
   return compound({lower, BRepPrimAPI_MakePrism(f.Current(), gp_Vec(0, 0, 10)).Shape()});
 }
 
-/// As a reader leaves it that found no edge between two vertices: one vertex in the middle, its tolerance reaching both.
+/// As a reader leaves it that found no edge between two vertices: one vertex in the middle, its tolerance reaching
+/// both.
 TopoDS_Shape parted_corner() {
   BRep_Builder builder;
   TopoDS_Vertex corner;
@@ -147,8 +151,8 @@ TopoDS_Shape rectangle_with_side(double y, int power) {
   multiplicities(1) = multiplicities(2) = power + 1;
   const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(new Geom_BSplineCurve(poles, knots, multiplicities, power)).Edge();
   BRepBuilderAPI_MakeWire wire(side);
-  for (const auto& [a, b] : {std::pair{gp_Pnt(10, 0, 0), gp_Pnt(10, y, 0)}, std::pair{gp_Pnt(10, y, 0), gp_Pnt(0, y, 0)},
-                             std::pair{gp_Pnt(0, y, 0), gp_Pnt(0, 0, 0)}})
+  for (const auto& [a, b] : {std::pair{gp_Pnt(10, 0, 0), gp_Pnt(10, y, 0)},
+                             std::pair{gp_Pnt(10, y, 0), gp_Pnt(0, y, 0)}, std::pair{gp_Pnt(0, y, 0), gp_Pnt(0, 0, 0)}})
     wire.Add(BRepBuilderAPI_MakeEdge(a, b).Edge());
   return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Shape();
 }
@@ -168,7 +172,9 @@ Handle(Geom2d_Curve) bulged(const TopoDS_Edge& edge, const TopoDS_Face& face, do
 }
 
 TopoDS_Shape off_meridian() {
-  const TopoDS_Face face = BRepBuilderAPI_MakeFace(new Geom_SphericalSurface(gp_Ax3(), 10), -0.25 * M_PI, 0.25 * M_PI, 0, 0.5 * M_PI, 1e-7).Face();
+  const TopoDS_Face face =
+      BRepBuilderAPI_MakeFace(new Geom_SphericalSurface(gp_Ax3(), 10), -0.25 * M_PI, 0.25 * M_PI, 0, 0.5 * M_PI, 1e-7)
+          .Face();
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
     double t0, t1;
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
@@ -182,13 +188,16 @@ TopoDS_Shape off_meridian() {
 /// A pin around z: radius 2, 10 long, its lower end rounded by a cubic from radius 0.8 at z = 0 to 2 at z = 1.2.
 TopoDS_Shape pin() {
   TColgp_Array1OfPnt poles(1, 4);
-  poles(1) = gp_Pnt(0.8, 0, 0), poles(2) = gp_Pnt(1.46, 0, 0), poles(3) = gp_Pnt(2, 0, 0.54), poles(4) = gp_Pnt(2, 0, 1.2);
+  poles(1) = gp_Pnt(0.8, 0, 0), poles(2) = gp_Pnt(1.46, 0, 0), poles(3) = gp_Pnt(2, 0, 0.54),
+  poles(4) = gp_Pnt(2, 0, 1.2);
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(0.8, 0, 0)).Edge());
   wire.Add(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
-  for (const auto& [a, b] : {std::pair{gp_Pnt(2, 0, 1.2), gp_Pnt(2, 0, 10)}, std::pair{gp_Pnt(2, 0, 10), gp_Pnt(0, 0, 10)},
-                             std::pair{gp_Pnt(0, 0, 10), gp_Pnt(0, 0, 0)}})
+  for (const auto& [a, b] :
+       {std::pair{gp_Pnt(2, 0, 1.2), gp_Pnt(2, 0, 10)}, std::pair{gp_Pnt(2, 0, 10), gp_Pnt(0, 0, 10)},
+        std::pair{gp_Pnt(0, 0, 10), gp_Pnt(0, 0, 0)}})
     wire.Add(BRepBuilderAPI_MakeEdge(a, b).Edge());
-  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))).Shape();
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)))
+      .Shape();
 }
 
 TopoDS_Shape lost_fillet() {
@@ -204,7 +213,8 @@ TopoDS_Shape lost_fillet() {
       const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
       builder.UpdateEdge(edge, Handle(Geom2d_Curve)::DownCast(old->Translated(gp_Vec2d(3.14, 0))), face, 1e-7);
     }
-    for (TopExp_Explorer v(face, TopAbs_VERTEX); v.More(); v.Next()) builder.UpdateVertex(TopoDS::Vertex(v.Current()), 1.0);
+    for (TopExp_Explorer v(face, TopAbs_VERTEX); v.More(); v.Next())
+      builder.UpdateVertex(TopoDS::Vertex(v.Current()), 1.0);
   }
   return solid;
 }
@@ -261,7 +271,8 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
        }},
       {"inside_out", [] { return compound({box(60, 40, 20).Reversed()}); }},
       {"loose_shell", [] { return compound({shell_of(box(60, 40, 20)).Reversed()}); }},
-      {"lone_sphere", [] { return compound({TopExp_Explorer(BRepPrimAPI_MakeSphere(10).Shape(), TopAbs_FACE).Current()}); }},
+      {"lone_sphere",
+       [] { return compound({TopExp_Explorer(BRepPrimAPI_MakeSphere(10).Shape(), TopAbs_FACE).Current()}); }},
       {"nested_shells",
        [] {
          return compound({shell_of(centred_cube(40)), shell_of(centred_cube(60)), shell_of(centred_cube(20))});

@@ -11,17 +11,19 @@ namespace st::test {
 ///   gappy_box        the six loose faces of that box with gaps up to 0.09
 ///   touching_boxes   two solids side by side that share a place, not a face
 ///   touching_boxes_and_sheet   those, and a triangle far away in no solid
-///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in common
-///   parted_corner    a plane square of 10, two sides of which end 0.5 short of their corner at (10, 10, 0)
+///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in
+///   common parted_corner    a plane square of 10, two sides of which end 0.5 short of their corner at (10, 10, 0)
 ///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
 ///   loose_shell      the shell of that box, inward, no solid
 ///   lone_sphere      the face of a sphere of radius 10, in no shell
 ///   nested_shells    shells of boxes of 60, 40 and 20 around one centre, no solid
 ///   off_pcurve       a wavy sheet, one trimming curve of which leaves its edge by about 0.5
-///   lost_fillet      a pin of radius 2 whose rounded end (a surface of revolution, radius 1.2) has its circles half a turn away in (u,v), vertices
+///   lost_fillet      a pin of radius 2 whose rounded end (a surface of revolution, radius 1.2) has its circles half a
+///   turn away in (u,v), vertices
 ///                    of tolerance 1
 ///   edges_elsewhere  the side of a cylinder of radius 2 whose edges are 20 away from it
-///   off_meridian     an eighth of a sphere of radius 10 across the seam, both sides of which leave their meridian by 0.3 on the way to
+///   off_meridian     an eighth of a sphere of radius 10 across the seam, both sides of which leave their meridian by
+///   0.3 on the way to
 ///                    the pole
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
 ///   sliver           a plane face of 100 x 0.001

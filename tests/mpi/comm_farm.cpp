@@ -1,5 +1,5 @@
-// comm_farm SCENARIO [ranks] [--np N]: one scenario of the task farm, checked by the program itself; exit code 0, that of the Error, or 1
-// for a failed check.
+// comm_farm SCENARIO [ranks] [--np N]: one scenario of the task farm, checked by the program itself; exit code 0, that
+// of the Error, or 1 for a failed check.
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "comm/communicator.h"
 #include "base/packer.h"
+#include "comm/communicator.h"
 
 namespace st {
 namespace {
@@ -63,7 +63,8 @@ Bytes answer(const Communicator& comm, std::int32_t task) {
 }
 
 /// Runs n tasks and checks every answer; returns how many tasks each rank did (rank 0 only).
-std::vector<int> run_and_check(const Communicator& comm, std::int32_t n, const std::function<void(std::int32_t)>& work = {}) {
+std::vector<int> run_and_check(const Communicator& comm, std::int32_t n,
+                               const std::function<void(std::int32_t)>& work = {}) {
   std::vector<int> n_seen(n, 0), n_done(comm.size(), 0);
   const auto main_thread = std::this_thread::get_id();
   comm.run_tasks(
@@ -117,7 +118,8 @@ void gathers_the_bytes_of_all_ranks(const Communicator& comm) {
     CHECK(all.size() == static_cast<std::size_t>(comm.is_root() ? comm.size() : 0));
     for (std::size_t rank = 0; rank < all.size(); ++rank) {
       CHECK(all[rank].size() == n * rank);
-      CHECK(std::all_of(all[rank].begin(), all[rank].end(), [&](std::byte b) { return b == static_cast<std::byte>(rank); }));
+      CHECK(std::all_of(all[rank].begin(), all[rank].end(),
+                        [&](std::byte b) { return b == static_cast<std::byte>(rank); }));
     }
   }
 }
@@ -125,7 +127,8 @@ void gathers_the_bytes_of_all_ranks(const Communicator& comm) {
 void finds_the_smallest_values_of_all_ranks(const Communicator& comm) {
   std::vector<std::uint64_t> values(1000000), none;
   const auto n = static_cast<std::uint64_t>(comm.size()), rank = static_cast<std::uint64_t>(comm.rank());
-  for (std::uint64_t i = 0; i < values.size(); ++i) values[i] = (i % n == rank ? 0 : std::uint64_t{1} << 63) + i % 7 + rank;
+  for (std::uint64_t i = 0; i < values.size(); ++i)
+    values[i] = (i % n == rank ? 0 : std::uint64_t{1} << 63) + i % 7 + rank;
   comm.reduce_min(none);
   comm.reduce_min(values);
   for (std::uint64_t i = 0; comm.is_root() && i < values.size(); ++i) CHECK(values[i] == i % n + i % 7);
@@ -136,7 +139,9 @@ void moves_large_results(const Communicator& comm) {
   int n_right = 0;
   comm.run_tasks(
       6, descending(6), [](std::int32_t task) { return Bytes(kBytes + task, static_cast<std::byte>(task)); },
-      [&](std::int32_t task, Bytes&& bytes) { n_right += bytes.size() == kBytes + task && bytes.back() == static_cast<std::byte>(task); });
+      [&](std::int32_t task, Bytes&& bytes) {
+        n_right += bytes.size() == kBytes + task && bytes.back() == static_cast<std::byte>(task);
+      });
   if (comm.is_root()) CHECK(n_right == 6);
 }
 
@@ -193,7 +198,8 @@ void idle_ranks_sleep(const Communicator& comm) {
   CHECK(used < 0.1 * 2 * kWait);
 }
 
-/// Both ranks take part in the work, in proportion. Measured in CPU time of tasks, so that a busy machine does not matter.
+/// Both ranks take part in the work, in proportion. Measured in CPU time of tasks, so that a busy machine does not
+/// matter.
 void keeps_both_ranks_computing(const Communicator& comm) {
   std::vector<int> n_done;
   const double seconds = wall_seconds([&] { n_done = run_and_check(comm, 100, [](std::int32_t) { burn(0.02); }); });

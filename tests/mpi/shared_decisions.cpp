@@ -1,5 +1,5 @@
-// shared_decisions SCENARIO: ranks that would decide differently, as processors of different makes do where sines round differently, must
-// make one whole mesh: rank 0 decides. Exit code 0, or 1 for a failed check.
+// shared_decisions SCENARIO: ranks that would decide differently, as processors of different makes do where sines round
+// differently, must make one whole mesh: rank 0 decides. Exit code 0, or 1 for a failed check.
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -11,7 +11,7 @@
 #include "comm/communicator.h"
 #include "mesh/checks.h"
 #include "mesh/merge.h"
-#include "meshing/model_mesher.h"
+#include "meshing/engine/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -49,7 +49,8 @@ void shares_merged_features(const Communicator& comm) {
   if (comm.is_root()) check_whole(mesher);
 }
 
-/// Walls that cross until they are refined, where every rank has slightly other lengths: as it would refine, and as the mesh needs to be.
+/// Walls that cross until they are refined, where every rank has slightly other lengths: as it would refine, and as the
+/// mesh needs to be.
 void shares_refinements(const Communicator& comm) {
   const Model model = test::make_model("thin_pipe");
   const UniformField field(comm.is_root() ? 2.0 : 2.0 + 0.3 * comm.rank());

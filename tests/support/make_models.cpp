@@ -44,10 +44,10 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <gp_Elips.hxx>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <gp_Elips.hxx>
 #include <stdexcept>
 #include <string>
 
@@ -59,14 +59,18 @@ void require(bool ok, const fs::path& path) {
   if (!ok) throw std::runtime_error("cannot write " + path.string());
 }
 
-void write_brep(const fs::path& path, const TopoDS_Shape& shape) { require(BRepTools::Write(shape, path.c_str()), path); }
+void write_brep(const fs::path& path, const TopoDS_Shape& shape) {
+  require(BRepTools::Write(shape, path.c_str()), path);
+}
 
 /// `unit` as OpenCASCADE spells it ("MM", "INCH", "M"); the shape's numbers are millimetres.
 void write_step(const fs::path& path, const TopoDS_Shape& shape, const char* unit) {
   STEPControl_Controller::Init();
   require(Interface_Static::SetCVal("write.step.unit", unit), path);
   STEPControl_Writer writer;
-  require(writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone, path);
+  require(
+      writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone,
+      path);
   Interface_Static::SetCVal("write.step.unit", "MM");
 }
 
@@ -113,14 +117,17 @@ TopoDS_Shape with_rod(const TopoDS_Shape& body, gp_Pnt from, gp_Dir along, doubl
 
 /// A thin nacelle: a tube with a rod inside, near its wall.
 TopoDS_Shape tube_with_rod() {
-  const TopoDS_Shape outer = BRepPrimAPI_MakeCylinder(10, 40).Shape(), inner = BRepPrimAPI_MakeCylinder(9.6, 40).Shape();
+  const TopoDS_Shape outer = BRepPrimAPI_MakeCylinder(10, 40).Shape(),
+                     inner = BRepPrimAPI_MakeCylinder(9.6, 40).Shape();
   return with_rod(BRepAlgoAPI_Cut(outer, inner).Shape(), gp_Pnt(8.9, 0, 17), gp_Dir(0, 0, 1), 6);
 }
 
 /// A block with a slot 0.6 wide along an arc of radius 15, open at both ends, that ends 4 above the ground.
 TopoDS_Shape curved_slot() {
   const gp_Ax2 axis(gp_Pnt(20, -5, 4), gp_Dir(0, 0, 1));
-  const TopoDS_Shape ring = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 15.3, 20).Shape(), BRepPrimAPI_MakeCylinder(axis, 14.7, 20).Shape()).Shape();
+  const TopoDS_Shape ring = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 15.3, 20).Shape(),
+                                            BRepPrimAPI_MakeCylinder(axis, 14.7, 20).Shape())
+                                .Shape();
   return BRepAlgoAPI_Cut(box(40, 20, 10), ring).Shape();
 }
 
@@ -134,7 +141,9 @@ TopoDS_Shape dome() {
   return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(profile.Wire()).Face(), gp_Ax1(centre, gp_Dir(0, 0, 1))).Shape();
 }
 
-void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
+void name(const TDF_Label& label, const char* text) {
+  TDataStd_Name::Set(label, TCollection_ExtendedString(text, true));
+}
 
 /// A wing element along y: a round nose of this radius at x, and straight sides to a blunt trailing edge.
 TopoDS_Shape wing_element(double x, double radius, double chord, double y, double span) {
@@ -173,7 +182,8 @@ void write_assembly(const fs::path& path) {
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const Handle(XCAFDoc_ColorTool) colors = XCAFDoc_DocumentTool::ColorTool(document->Main());
   const TopoDS_Shape block = box(60, 40, 20), pin = BRepPrimAPI_MakeCylinder(4, 15).Shape();
-  const TDF_Label assembly = shapes->NewShape(), block_label = shapes->AddShape(block, false), pin_label = shapes->AddShape(pin, false);
+  const TDF_Label assembly = shapes->NewShape(), block_label = shapes->AddShape(block, false),
+                  pin_label = shapes->AddShape(pin, false);
   name(assembly, "assembly");
   name(block_label, "block");
   name(pin_label, "pin");

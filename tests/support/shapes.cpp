@@ -1,4 +1,5 @@
 #include "support/shapes.h"
+#include "geometry/import/import.h"
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -69,7 +70,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "geometry/compound.h"
+#include "geometry/brep/compound.h"
 
 namespace st::test {
 namespace {
@@ -160,11 +161,13 @@ Knots periodic(int n_poles, double first) {
   return k;
 }
 
-Handle(Geom_BSplineSurface) wave(int nu, int nv, int degree_u, int degree_v, bool rational, int inner_multiplicity = 1) {
+Handle(Geom_BSplineSurface)
+    wave(int nu, int nv, int degree_u, int degree_v, bool rational, int inner_multiplicity = 1) {
   const Knots u = clamped(nu, degree_u, 3, inner_multiplicity), v = clamped(nv, degree_v, 2);
   const TColgp_Array2OfPnt poles = wave_poles(nu, nv, 30, 20);
   if (rational)
-    return new Geom_BSplineSurface(poles, wave_weights(nu, nv), u.knots, v.knots, u.multiplicities, v.multiplicities, degree_u, degree_v);
+    return new Geom_BSplineSurface(poles, wave_weights(nu, nv), u.knots, v.knots, u.multiplicities, v.multiplicities,
+                                   degree_u, degree_v);
   return new Geom_BSplineSurface(poles, u.knots, v.knots, u.multiplicities, v.multiplicities, degree_u, degree_v);
 }
 
@@ -207,7 +210,8 @@ Handle(Geom_BSplineCurve) wavy_curve() {
 
 TopoDS_Shape drilled_cylinder() {
   const gp_Ax2 across(gp_Pnt(0, 0, 15), gp_Dir(1, 0, 0));
-  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 30).Shape(), BRepPrimAPI_MakeCylinder(across, 3, 20).Shape()).Shape();
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 30).Shape(), BRepPrimAPI_MakeCylinder(across, 3, 20).Shape())
+      .Shape();
 }
 
 TopoDS_Shape mirrored(const TopoDS_Shape& s) {
@@ -242,7 +246,8 @@ TopoDS_Shape tapered_bar() {
   return loft.Shape();
 }
 
-/// Three faces between helices of eight turns with a pitch of 3: radii 10 and 10.3 at one height, and one 0.3 above the inner one.
+/// Three faces between helices of eight turns with a pitch of 3: radii 10 and 10.3 at one height, and one 0.3 above the
+/// inner one.
 TopoDS_Shape helical_ribbon() {
   const auto helix = [](double radius, double z) {
     constexpr int kTurns = 8, kPerTurn = 24;
@@ -263,8 +268,8 @@ TopoDS_Shape helical_ribbon() {
   return sewing.SewedShape();
 }
 
-/// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last coefficient, 0.1036 ends in
-/// a point, 0.1015 is 0.0252 thick at the end.
+/// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last
+/// coefficient, 0.1036 ends in a point, 0.1015 is 0.0252 thick at the end.
 Handle(Geom_BSplineCurve) aerofoil(double closing) {
   constexpr int kHalf = 30;
   Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 2 * kHalf + 1);
@@ -290,7 +295,8 @@ TopoDS_Shape wing(double closing) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
-/// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of length 40.
+/// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of
+/// length 40.
 TopoDS_Shape shallow_prism() {
   const gp_Pnt a(-1, 0, 0), b(1, 0, 0);
   const TopoDS_Edge arc = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, gp_Pnt(0, 0.1, 0), b).Value());
@@ -337,7 +343,8 @@ const std::map<std::string, Factory>& factories() {
       {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
       {"thin_pipe",
        [] {
-         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 20).Shape(), moved(BRepPrimAPI_MakeCylinder(9.95, 22).Shape(), 0, 0, -1))
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 20).Shape(),
+                                moved(BRepPrimAPI_MakeCylinder(9.95, 22).Shape(), 0, 0, -1))
              .Shape();
        }},
       {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
@@ -347,7 +354,8 @@ const std::map<std::string, Factory>& factories() {
       {"thin_crescent",
        [] {
          const auto circle = [](double x, double r) {
-           return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r))).Wire();
+           return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(x, 0, 0), gp_Dir(0, 0, 1)), r)))
+               .Wire();
          };
          BRepBuilderAPI_MakeFace face(gp_Pln(gp::XOY()), circle(0, 10), true);
          face.Add(TopoDS::Wire(circle(0.098, 9.9).Reversed()));
@@ -379,13 +387,16 @@ const std::map<std::string, Factory>& factories() {
       {"l_face",
        [] {
          BRepBuilderAPI_MakePolygon corners;
-         for (const gp_Pnt& p : {gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(10, 4, 0), gp_Pnt(4, 4, 0), gp_Pnt(4, 10, 0), gp_Pnt(0, 10, 0)})
+         for (const gp_Pnt& p : {gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(10, 4, 0), gp_Pnt(4, 4, 0), gp_Pnt(4, 10, 0),
+                                 gp_Pnt(0, 10, 0)})
            corners.Add(p);
          corners.Close();
          return BRepBuilderAPI_MakeFace(corners.Wire(), true).Shape();
        }},
       {"plate_with_hole",
-       [] { return BRepAlgoAPI_Cut(rectangle(60, 40), moved(BRepPrimAPI_MakeCylinder(8, 10).Shape(), 30, 20, -5)).Shape(); }},
+       [] {
+         return BRepAlgoAPI_Cut(rectangle(60, 40), moved(BRepPrimAPI_MakeCylinder(8, 10).Shape(), 30, 20, -5)).Shape();
+       }},
       {"cone_side", [] { return nth_face(BRepPrimAPI_MakeCone(kZ, 10, 0, 20).Shape(), 1); }},
       {"sphere_octant", [] { return nth_face(BRepPrimAPI_MakeSphere(kZ, 10, 0, M_PI / 2, M_PI / 2).Shape(), 1); }},
       {"wave", [] { return face_of(wave(10, 8, 3, 3, false)); }},
@@ -398,10 +409,12 @@ const std::map<std::string, Factory>& factories() {
       {"periodic_tube", [] { return face_of(periodic_tube()); }},
       {"closed_tube", [] { return face_of(closed_tube()); }},
       {"tube_window", [] { return face_of(periodic_tube(), 7.1, 12.3, 0.2, 1.9); }},
-      {"rational_torus", [] { return face_of(GeomConvert::SurfaceToBSplineSurface(new Geom_ToroidalSurface(gp_Ax3(kZ), 20, 6))); }},
+      {"rational_torus",
+       [] { return face_of(GeomConvert::SurfaceToBSplineSurface(new Geom_ToroidalSurface(gp_Ax3(kZ), 20, 6))); }},
       {"thin_tube", [] { return nth_face(BRepPrimAPI_MakeCylinder(0.05, 30).Shape(), 1); }},
       {"revolution", [] { return face_of(new Geom_SurfaceOfRevolution(wavy_curve(), gp::OZ()), 0, 2.5, 0, 1); }},
-      {"extrusion", [] { return face_of(new Geom_SurfaceOfLinearExtrusion(wavy_curve(), gp_Dir(0.2, 1, 0)), 0, 1, -2, 7); }},
+      {"extrusion",
+       [] { return face_of(new Geom_SurfaceOfLinearExtrusion(wavy_curve(), gp_Dir(0.2, 1, 0)), 0, 1, -2, 7); }},
       {"offset", [] { return face_of(new Geom_OffsetSurface(wave(6, 6, 3, 3, false), 0.25), 0.1, 2.9, 0.1, 1.9); }},
       {"loose_box", [] { return occt::compound_of(loose_faces()); }},
       {"wire", [] { return circle(10, false); }},
@@ -435,7 +448,9 @@ struct TemporaryFile {
 
 void be_quiet() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
 
-void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, TCollection_ExtendedString(text, true)); }
+void name(const TDF_Label& label, const char* text) {
+  TDataStd_Name::Set(label, TCollection_ExtendedString(text, true));
+}
 
 /// An XCAF document that is written and closed.
 struct Document {
@@ -461,7 +476,8 @@ struct Document {
     writer.SetNameMode(true);
     writer.SetColorMode(true);
     writer.SetLayerMode(true);
-    require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone, "cannot write " + path);
+    require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone,
+            "cannot write " + path);
   }
 };
 
@@ -478,7 +494,9 @@ std::vector<std::string> all_shapes() {
   return names;
 }
 
-void write_brep(const std::string& shape, const std::string& path) { require(BRepTools::Write(make_shape(shape), path.c_str()), path); }
+void write_brep(const std::string& shape, const std::string& path) {
+  require(BRepTools::Write(make_shape(shape), path.c_str()), path);
+}
 
 void write_binary_brep(const std::string& shape, const std::string& path) {
   require(BinTools::Write(make_shape(shape), path.c_str()), path);
@@ -489,8 +507,8 @@ void write_step(const std::string& shape, const std::string& path, const std::st
   STEPControl_Controller::Init();
   require(Interface_Static::SetCVal("write.step.unit", unit.c_str()), "unit " + unit);
   STEPControl_Writer writer;
-  const bool ok =
-      writer.Transfer(make_shape(shape), STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone;
+  const bool ok = writer.Transfer(make_shape(shape), STEPControl_AsIs) == IFSelect_RetDone &&
+                  writer.Write(path.c_str()) == IFSelect_RetDone;
   Interface_Static::SetCVal("write.step.unit", "MM");
   require(ok, "cannot write " + path);
 }

@@ -1,4 +1,5 @@
-// Small B-Reps for the unit tests, made by OpenCASCADE and read back through import_model(). No OpenCASCADE type is visible.
+// Small B-Reps for the unit tests, made by OpenCASCADE and read back through import_model(). No OpenCASCADE type is
+// visible.
 #pragma once
 
 #include <cstddef>
@@ -6,20 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 
 namespace st::test {
 
 /// Shapes of one or more faces, by name. make_shape() knows them all; an unknown name throws std::runtime_error.
-///   solids   box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes thin_cylinder
-///            thin_pipe (radius 10, wall 0.05) spindle_torus (crosses itself on its axis)
-///            drilled_block stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
-///            sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
-///   faces    square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees) l_face plate_with_hole cone_side sphere_octant
-///   sheets   wave rational_wave high_degree_wave bezier rational_bezier stretched kinked
-///   tubes    periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)
-///   others   revolution extrusion offset loose_box (six faces that share nothing) wire (no face) t_junction (an edge of three faces)
-///            baffled_box (a cube of 10 with a sheet of 4 x 4 standing on the middle of its floor, outside)
+/// - Solids: box sphere cylinder cone torus drilled_cylinder (hole across the seam) mirrored_cylinder two_boxes
+///   thin_cylinder thin_pipe (radius 10, wall 0.05) spindle_torus (crosses itself on its axis) drilled_block
+///   stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
+///   sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
+/// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
+///   l_face plate_with_hole cone_side sphere_octant
+/// - Sheets: wave rational_wave high_degree_wave bezier rational_bezier stretched kinked
+/// - Tubes: periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)
+/// - Others: revolution extrusion offset loose_box (six faces that share nothing) wire (no face)
+///   t_junction (an edge of three faces)
+///   baffled_box (a cube of 10 with a sheet of 4 x 4 standing on the middle of its floor, outside)
 std::vector<std::string> all_shapes();
 
 void write_brep(const std::string& shape, const std::string& path);
@@ -28,8 +32,8 @@ void write_binary_brep(const std::string& shape, const std::string& path);
 void write_step(const std::string& shape, const std::string& path, const std::string& unit);
 /// loose_box as STEP: each face a part of its own, named after the side it is ("x_min" ... "z_max").
 void write_named_loose_box(const std::string& path);
-/// A box with names on its faces ("wing", "symmetry", "Far Field"), a red one, a layer; and two instances of a part "pin" at x = 100 and
-/// 150.
+/// A box with names on its faces ("wing", "symmetry", "Far Field"), a red one, a layer; and two instances of a part
+/// "pin" at x = 100 and 150.
 void write_named_assembly(const std::string& path);
 
 /// The shape through a BREP file and import_model().

@@ -3,6 +3,7 @@
 #include <exception>
 #include <string>
 
+#include "io/export/export.h"
 #include "unit/io/sample_artifacts.h"
 
 int main(int argc, char** argv) {
@@ -11,7 +12,8 @@ int main(int argc, char** argv) {
   try {
     const st::MeshArtifact mesh = st::sample_mesh();
     st::write_mesh(directory + "mesh.hdf", mesh);
-    for (const char* name : {"mesh.vtu", "mesh.stl", "mesh.obj", "mesh.ply", "mesh.ascii.stl"}) st::export_mesh(directory + name, mesh.mesh);
+    for (const char* name : {"mesh.vtu", "mesh.stl", "mesh.obj", "mesh.ply", "mesh.ascii.stl"})
+      st::export_mesh(directory + name, mesh.mesh);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

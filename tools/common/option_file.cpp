@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/option_file_lists.h"
+#include "io/toml/option_file_lists.h"
 
 namespace st {
 namespace {
@@ -22,9 +22,13 @@ const std::set<std::string> kTools = {"st-import", "st-edit",  "st-raster", "st-
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
 const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) { throw Error(ExitCode::kUsage, where + ": " + what); }
+[[noreturn]] void fail(const std::string& where, const std::string& what) {
+  throw Error(ExitCode::kUsage, where + ": " + what);
+}
 
-std::string position(const std::string& path, const toml::source_region& source) { return path + ":" + std::to_string(source.begin.line); }
+std::string position(const std::string& path, const toml::source_region& source) {
+  return path + ":" + std::to_string(source.begin.line);
+}
 
 toml::table parse_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -77,7 +81,8 @@ std::string known_keys(const CLI::App& app) {
   return keys;
 }
 
-void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool, CLI::App& app) {
+void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool,
+           CLI::App& app) {
   const std::string where = position(path, node.source());
   CLI::Option* option = kCommandLineOnly.contains(key) ? nullptr : app.get_option_no_throw("--" + key);
   if (!option) fail(where, "unknown option '" + key + "'; " + tool + " knows " + known_keys(app));

@@ -10,7 +10,8 @@
 #include "base/log.h"
 #include "comm/communicator.h"
 #include "common/tool_main.h"
-#include "io/artifact.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 namespace {
@@ -27,7 +28,8 @@ std::vector<std::string> arguments_without_np(int argc, char** argv) {
   return arguments;
 }
 
-/// Most errors strike all ranks at once. The first rank speaks for all; another speaks only when the job is still alive after this time.
+/// Most errors strike all ranks at once. The first rank speaks for all; another speaks only when the job is still alive
+/// after this time.
 void wait_for_lower_ranks(int rank) {
   if (rank > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1000 + 200 * std::min(rank, 20)));
 }
@@ -51,7 +53,9 @@ std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& argumen
 
 int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage) {
   begin(argc, argv);
-  app_.add_option("--np", n_ranks_, "number of MPI ranks; starts itself under mpirun")->type_name("INTEGER")->capture_default_str();
+  app_.add_option("--np", n_ranks_, "number of MPI ranks; starts itself under mpirun")
+      ->type_name("INTEGER")
+      ->capture_default_str();
   std::optional<std::string> text;
   std::optional<int> job_code;  // of ranks that were started here
   std::exception_ptr usage_error;

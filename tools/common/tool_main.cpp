@@ -14,14 +14,16 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "common/option_file.h"
-#include "io/artifact.h"
+#include "io/file/temporary_file.h"
+#include "io/hdf5/artifact.h"
 
 namespace st {
 namespace {
 
 constexpr const char* kFooter =
     "Lengths: 3 (model unit), 0.25mm, 2in, 0.1% (of the model's diagonal).\n"
-    "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong together, 70 internal.";
+    "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong "
+    "together, 70 internal.";
 
 extern "C" void end_on_signal(int signal) {
   remove_temporaries();
@@ -103,10 +105,12 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.footer(kFooter);
   app_.set_help_flag("-h,--help", "print this help and exit");
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
-  app_.add_option("--options", options_file_, "option file (TOML: long option names without dashes); the command line wins")
+  app_.add_option("--options", options_file_,
+                  "option file (TOML: long option names without dashes); the command line wins")
       ->type_name("FILE");
   app_.add_flag_function(
-      "--print-options", [](std::int64_t) {}, "print an option file with every option at its default, commented out, and exit");
+      "--print-options", [](std::int64_t) {},
+      "print an option file with every option at its default, commented out, and exit");
   app_.add_flag_function(
       "--print-inputs", [](std::int64_t) {}, "print the input files that the options name, one per line, and exit");
   auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
@@ -156,9 +160,12 @@ void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths,
   output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
 }
 
-void ToolMain::length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help) {
-  file_options_.push_back(
-      app_.add_option(flag, value, help)->type_name("LENGTH")->default_str(value.empty() ? default_text : value)->check(a_length(flag)));
+void ToolMain::length(const std::string& flag, std::string& value, const std::string& default_text,
+                      const std::string& help) {
+  file_options_.push_back(app_.add_option(flag, value, help)
+                              ->type_name("LENGTH")
+                              ->default_str(value.empty() ? default_text : value)
+                              ->check(a_length(flag)));
 }
 
 void ToolMain::unit(const std::string& flag, std::string& value, const std::string& help) {
@@ -178,18 +185,22 @@ void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, 
 }
 
 void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
+  file_options_.push_back(
+      app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
 }
 
 void ToolMain::number(const std::string& flag, int& value, const std::string& interval, const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval)));
+  file_options_.push_back(
+      app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval)));
 }
 
-void ToolMain::number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help) {
+void ToolMain::number(const std::string& flag, std::optional<double>& value, const std::string& interval,
+                      const std::string& help) {
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->check(in_interval(interval)));
 }
 
-void ToolMain::number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help) {
+void ToolMain::number(const std::string& flag, std::optional<int>& value, const std::string& interval,
+                      const std::string& help) {
   file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->check(in_interval(interval)));
 }
 
@@ -244,7 +255,8 @@ std::vector<std::string> ToolMain::output_paths() const {
   std::vector<std::string> outputs;
   for (const CLI::Option* option : output_options_) {
     auto paths = option->results();
-    if (paths.empty() && !is_replaced(option) && !option->get_default_str().empty()) paths.push_back(option->get_default_str());
+    if (paths.empty() && !is_replaced(option) && !option->get_default_str().empty())
+      paths.push_back(option->get_default_str());
     outputs.insert(outputs.end(), paths.begin(), paths.end());
   }
   return outputs;
@@ -287,7 +299,8 @@ void ToolMain::print_error(ExitCode code, const std::string& message) const {
   std::fflush(stderr);
 }
 
-ExitCode ToolMain::guard(const std::function<ExitCode()>& action, const std::function<void(ExitCode, const std::string&)>& report) {
+ExitCode ToolMain::guard(const std::function<ExitCode()>& action,
+                         const std::function<void(ExitCode, const std::string&)>& report) {
   const auto fail = [&](ExitCode code, const std::string& message) {
     report(code, message);
     return code;
@@ -316,7 +329,8 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
     print_summary(summary);
     return summary.code;
   };
-  return static_cast<int>(guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
+  return static_cast<int>(
+      guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
 }
 
 }  // namespace st

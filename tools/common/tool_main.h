@@ -13,7 +13,8 @@ namespace st {
 
 class Communicator;
 
-/// One command-line tool. main declares its arguments, binding them to the stage's option struct, and hands over to run():
+/// One command-line tool. main declares its arguments, binding them to the stage's option struct, and hands over to
+/// run():
 ///
 ///   ProlongStageOptions o;
 ///   ToolMain tool("st-prolong", "Makes the mesh size specification from a raster.");
@@ -53,20 +54,22 @@ class ToolMain {
   /// Free text, shown as `type` in --help.
   void text(const std::string& flag, std::string& value, const std::string& type, const std::string& help);
   /// The same, repeatable.
-  void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type, const std::string& help);
+  void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
+             const std::string& help);
   /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
   void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
   void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);
   /// The same for what is off unless it is given.
-  void number(const std::string& flag, std::optional<double>& value, const std::string& interval, const std::string& help);
+  void number(const std::string& flag, std::optional<double>& value, const std::string& interval,
+              const std::string& help);
   /// A whole number that may be left out.
   void number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help);
   void flag(const std::string& flag, bool& value, const std::string& help);
 
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.
   int run(int argc, char** argv, const std::function<StageSummary()>& stage);
-  /// The same for an MPI tool, with --np: ranks but the first are quiet, and an error on any rank ends the job with one message.
-  /// Collective when a launcher started the process.
+  /// The same for an MPI tool, with --np: ranks but the first are quiet, and an error on any rank ends the job with one
+  /// message. Collective when a launcher started the process.
   int run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage);
 
  private:
@@ -86,8 +89,10 @@ class ToolMain {
   /// Prints the summary to stdout. Throws Error(kOutput) when stdout takes nothing.
   void print_summary(const StageSummary& summary) const;
   void print_error(ExitCode code, const std::string& message) const;
-  /// Runs `action` and catches everything it throws: the one catch of the program. `report` is told the code and the message.
-  static ExitCode guard(const std::function<ExitCode()>& action, const std::function<void(ExitCode, const std::string&)>& report);
+  /// Runs `action` and catches everything it throws: the one catch of the program. `report` is told the code and the
+  /// message.
+  static ExitCode guard(const std::function<ExitCode()>& action,
+                        const std::function<void(ExitCode, const std::string&)>& report);
 
   std::string name_;
   Kind kind_;

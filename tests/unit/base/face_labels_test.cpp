@@ -6,16 +6,17 @@ namespace st {
 namespace {
 
 TEST(RoleOfName, knows_whole_words_whatever_their_case_and_separators) {
-  for (const char* name :
-       {"sym", "SYM", "symm", "symmetry", "Symmetry_1", "symmetry_plane", "SymmetryPlane", "symm-y0", "wing symmetry", "symplane", "2sym"})
+  for (const char* name : {"sym", "SYM", "symm", "symmetry", "Symmetry_1", "symmetry_plane", "SymmetryPlane", "symm-y0",
+                           "wing symmetry", "symplane", "2sym"})
     EXPECT_EQ(role_of_name(name), "symmetry") << name;
-  for (const char* name : {"farfield", "far_field", "Far Field", "FARFIELD", "FarField", "far-field 2", "outer farfield sphere"})
+  for (const char* name :
+       {"farfield", "far_field", "Far Field", "FARFIELD", "FarField", "far-field 2", "outer farfield sphere"})
     EXPECT_EQ(role_of_name(name), "farfield") << name;
 }
 
 TEST(RoleOfName, does_not_take_parts_of_words) {
-  for (const char* name :
-       {"asymmetry", "symbol", "symmetric", "Asymmetry plane", "farfields", "nearfarfield", "far", "field far", "", "wall", "ésym"})
+  for (const char* name : {"asymmetry", "symbol", "symmetric", "Asymmetry plane", "farfields", "nearfarfield", "far",
+                           "field far", "", "wall", "ésym"})
     EXPECT_EQ(role_of_name(name), "wall") << name;
 }
 
@@ -64,7 +65,8 @@ TEST(FaceLabels, of_two_models_keep_parts_apart_and_join_groups_of_one_name) {
   second.tables[0].group_name = {"cold", "new"};
   second.tables[0].group_role = {"inlet", "wall"};
   const FaceLabels both = append_labels(labels(), 4, second, 4);
-  EXPECT_EQ(both.part_path, (std::vector<std::string>{"as/bolt#1", "as/bolt#2", "as/plate", "as/bolt#1#2", "as/bolt#2#2", "as/plate#2"}));
+  EXPECT_EQ(both.part_path, (std::vector<std::string>{"as/bolt#1", "as/bolt#2", "as/plate", "as/bolt#1#2",
+                                                      "as/bolt#2#2", "as/plate#2"}));
   EXPECT_EQ(both.face_part, (std::vector<std::int32_t>{0, 1, 2, kNone, 3, 4, 5, kNone}));
   EXPECT_EQ(both.tables[0].group_name, (std::vector<std::string>{"hot", "cold", "new"}));
   EXPECT_EQ(both.tables[0].face_group, (std::vector<std::int32_t>{1, kNone, 0, 0, 2, kNone, 1, 1}));

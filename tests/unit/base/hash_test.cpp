@@ -20,7 +20,8 @@ TEST(Hash, does_not_depend_on_how_the_bytes_arrive) {
   std::vector<unsigned char> bytes(100000);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i * 131 + (i >> 8));
   Hasher pieces;
-  for (std::size_t i = 0; i < bytes.size(); i += 777) pieces.add(bytes.data() + i, std::min<std::size_t>(777, bytes.size() - i));
+  for (std::size_t i = 0; i < bytes.size(); i += 777)
+    pieces.add(bytes.data() + i, std::min<std::size_t>(777, bytes.size() - i));
   EXPECT_EQ(pieces.hex(), hash_hex(bytes.data(), bytes.size()));
 }
 

@@ -26,7 +26,9 @@ TEST(Length, plain_number_is_in_the_model_unit) {
   EXPECT_EQ(resolve_length(spec, 100, std::nullopt, "--lmin"), 3.5);
 }
 
-TEST(Length, per_cent_is_of_the_diagonal) { EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.1%", "--lmin"), 250, 0.001, "--lmin"), 0.25); }
+TEST(Length, per_cent_is_of_the_diagonal) {
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.1%", "--lmin"), 250, 0.001, "--lmin"), 0.25);
+}
 
 TEST(Length, unit_is_converted_to_the_model_unit) {
   EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.25mm", "--lmin"), 1, 1.0, "--lmin"), 0.00025);
@@ -46,7 +48,8 @@ TEST(Length, unit_needs_a_model_with_a_unit_and_the_message_names_the_remedy) {
 }
 
 TEST(Length, anything_else_is_a_usage_error_that_names_the_option) {
-  for (const char* text : {"", " ", "x", "mm", "-1", "0", "0%", "1e999", "nan", "inf", "1,5", "3 4", "3pt", "1mm2", "%", "1%%"})
+  for (const char* text :
+       {"", " ", "x", "mm", "-1", "0", "0%", "1e999", "nan", "inf", "1,5", "3 4", "3pt", "1mm2", "%", "1%%"})
     EXPECT_EQ(code_of([&] { parse_length(text, "--lmax"); }), ExitCode::kUsage) << "'" << text << "'";
   try {
     parse_length("3pt", "--lmax");

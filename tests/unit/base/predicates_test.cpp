@@ -78,7 +78,8 @@ int oracle3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     return std::array<Int512, 3>{Int512(p.x) - Int512(q.x), Int512(p.y) - Int512(q.y), Int512(p.z) - Int512(q.z)};
   };
   const auto p = minus(b, a), q = minus(c, a), r = minus(d, a);
-  return ((p[1] * q[2] - p[2] * q[1]) * r[0] + (p[2] * q[0] - p[0] * q[2]) * r[1] + (p[0] * q[1] - p[1] * q[0]) * r[2]).sign();
+  return ((p[1] * q[2] - p[2] * q[1]) * r[0] + (p[2] * q[0] - p[0] * q[2]) * r[1] + (p[0] * q[1] - p[1] * q[0]) * r[2])
+      .sign();
 }
 
 int oracle_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -87,7 +88,8 @@ int oracle_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     return std::array<Int512, 3>{x, y, x * x + y * y};
   };
   const auto p = row(a), q = row(b), r = row(c);
-  return ((p[0] * q[1] - p[1] * q[0]) * r[2] + (q[0] * r[1] - q[1] * r[0]) * p[2] + (r[0] * p[1] - r[1] * p[0]) * q[2]).sign();
+  return ((p[0] * q[1] - p[1] * q[0]) * r[2] + (q[0] * r[1] - q[1] * r[0]) * p[2] + (r[0] * p[1] - r[1] * p[0]) * q[2])
+      .sign();
 }
 
 /// Coordinates that make trouble: near 1 with the last bits set, huge beside tiny, and grids.
@@ -96,7 +98,8 @@ class Trouble {
   double small() { return static_cast<double>(static_cast<int>(random_() % 9) - 4); }
   double near_one() { return 0.5 + std::ldexp(small(), -20); }
   double mixed() {
-    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random_() % 2001) - 1000), static_cast<int>(random_() % 70) - 20);
+    return std::ldexp(static_cast<double>(static_cast<std::int64_t>(random_() % 2001) - 1000),
+                      static_cast<int>(random_() % 70) - 20);
   }
   double grid() { return std::ldexp(static_cast<double>(random_() % 33), -5) * 12; }
   double any() {

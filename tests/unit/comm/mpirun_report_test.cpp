@@ -58,7 +58,8 @@ TEST(MpirunReport, drops_what_several_aborting_ranks_repeat) {
   EXPECT_EQ(filtered(report,
                      "[vm:17] 2 more processes have sent help message help-mpi-api.txt / mpi-abort\n"
                      "[vm:17] Set MCA parameter \"orte_base_help_aggregate\" to 0 to see all help / error messages\n"
-                             "[vm:17] [[21004,0],0] ORTE_ERROR_LOG: Data unpack had inadequate space in file orte/util/show_help.c at line 513\n"),
+                     "[vm:17] [[21004,0],0] ORTE_ERROR_LOG: Data unpack had inadequate space in file "
+                     "orte/util/show_help.c at line 513\n"),
             "");
 }
 

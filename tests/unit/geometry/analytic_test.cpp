@@ -1,4 +1,4 @@
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ TEST(AxialSurface, lies_where_its_equation_says) {
         EXPECT_NEAR(cylinder.z, 5 + v, 1e-14);
         const Vec3 cone = AxialSurface(SurfaceType::kCone, frame, 4, 0.3, 0, 6, -2, 2).point({u, v});
         EXPECT_NEAR(axis_distance(cone), 4 + (cone.z - 5) * std::tan(0.3), 1e-14);
-        EXPECT_NEAR(distance(AxialSurface(SurfaceType::kSphere, frame, 4, 0, 0, 6, -2, 2).point({u, v}), frame.origin), 4, 1e-14);
+        EXPECT_NEAR(distance(AxialSurface(SurfaceType::kSphere, frame, 4, 0, 0, 6, -2, 2).point({u, v}), frame.origin),
+                    4, 1e-14);
         const Vec3 torus = AxialSurface(SurfaceType::kTorus, frame, 4, 1.5, 0, 6, -2, 2).point({u, v});
         EXPECT_NEAR(std::hypot(axis_distance(torus) - 4, torus.z - 5), 1.5, 1e-14);
       }

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "broken/broken_shapes.h"
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st::test {

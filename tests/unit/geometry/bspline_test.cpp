@@ -1,4 +1,4 @@
-#include "geometry/bspline.h"
+#include "geometry/shape/bspline.h"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,15 @@ TEST(KnotSpans, basis_functions_sum_to_one) {
     const KnotSpans k(degree, clamped_knots(degree, {0.1, 0.5, 0.5, 2}, 3), 0);
     ASSERT_EQ(k.n_spans(), 4);
     for (int span = 0; span < k.n_spans(); ++span)
-      for (double s : {-1.0, -0.3, 0.0, 0.8, 1.0}) EXPECT_NEAR(basis_sum(k, span, s), 1, 1e-13 * std::pow(2.5, degree)) << degree;
+      for (double s : {-1.0, -0.3, 0.0, 0.8, 1.0})
+        EXPECT_NEAR(basis_sum(k, span, s), 1, 1e-13 * std::pow(2.5, degree)) << degree;
   }
 }
 
 TEST(KnotSpans, finds_the_span_whatever_it_was_before) {
   const KnotSpans k(2, clamped_knots(2, {1, 1.5, 4}, 6), 0);
-  const std::pair<double, int> expected[] = {{0, 0}, {0.99, 0}, {1, 1}, {1.5, 2}, {3.9, 2}, {4, 3}, {6, 3}, {7, 3}, {-1, 0}};
+  const std::pair<double, int> expected[] = {{0, 0}, {0.99, 0}, {1, 1}, {1.5, 2}, {3.9, 2},
+                                             {4, 3}, {6, 3},    {7, 3}, {-1, 0}};
   for (int before = 0; before < 4; ++before)
     for (const auto& [t, span] : expected) {
       int last = before;
@@ -140,7 +142,8 @@ TEST(BsplineCurve, of_equally_spaced_poles_is_a_line_of_constant_speed) {
 
 TEST(BsplineCurve, of_rational_quarter_is_a_circle) {
   const double w = std::sqrt(0.5);
-  const BsplineCurve c(KnotSpans(2, clamped_knots(2, {}, 1), 0), {pole({5, 0, 0}), pole({5, 5, 0}, w), pole({0, 5, 0})}, true, 0, 1);
+  const BsplineCurve c(KnotSpans(2, clamped_knots(2, {}, 1), 0), {pole({5, 0, 0}), pole({5, 5, 0}, w), pole({0, 5, 0})},
+                       true, 0, 1);
   for (double t = 0; t <= 1; t += 0.05) {
     const CurvePoint p = c.evaluate(t);
     EXPECT_NEAR(norm(p.x), 5, 1e-14);

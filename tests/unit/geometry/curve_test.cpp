@@ -1,8 +1,9 @@
-#include "geometry/curve.h"
+#include "geometry/shape/curve.h"
+#include "geometry/import/import.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -10,7 +11,9 @@ namespace {
 
 const Frame kFrame{{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-TEST(ArcLength, of_a_circle_is_two_pi_r) { EXPECT_NEAR(arc_length(EllipseCurve(kFrame, 7, 7, 0, 2 * kPi), 0, 2 * kPi), 14 * kPi, 1e-12); }
+TEST(ArcLength, of_a_circle_is_two_pi_r) {
+  EXPECT_NEAR(arc_length(EllipseCurve(kFrame, 7, 7, 0, 2 * kPi), 0, 2 * kPi), 14 * kPi, 1e-12);
+}
 
 TEST(ArcLength, of_an_ellipse_is_its_elliptic_integral) {
   EXPECT_NEAR(arc_length(EllipseCurve(kFrame, 2, 1, 0, 2 * kPi), 0, 2 * kPi, 32), 9.688448220547675, 1e-11);
@@ -26,7 +29,8 @@ TEST(ArcLength, is_additive) {
 }
 
 TEST(ArcLength, of_all_edges_is_as_opencascade_says) {
-  for (const char* shape : {"box", "drilled_cylinder", "wave", "rational_wave", "periodic_tube", "revolution", "offset", "stretched"}) {
+  for (const char* shape :
+       {"box", "drilled_cylinder", "wave", "rational_wave", "periodic_tube", "revolution", "offset", "stretched"}) {
     const ImportResult r = test::import_shape(shape);
     const test::Oracle oracle(r.brep);
     for (EdgeId e = 0; e < r.tables.n_edges(); ++e) {

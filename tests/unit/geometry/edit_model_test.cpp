@@ -1,4 +1,5 @@
-#include "geometry/edit_model.h"
+#include "geometry/model/edit_model.h"
+#include "geometry/import/import.h"
 
 #include <gtest/gtest.h>
 
@@ -11,20 +12,23 @@
 namespace st {
 namespace {
 
-const char* const kShapes[] = {"box",           "sphere",        "drilled_cylinder", "cone",       "torus",     "wave",
-                               "rational_wave", "periodic_tube", "plate_with_hole",  "revolution", "extrusion", "offset",
-                               "bezier",        "tube_window",   "two_boxes"};
+const char* const kShapes[] = {
+    "box",           "sphere",        "drilled_cylinder", "cone",       "torus",     "wave",
+    "rational_wave", "periodic_tube", "plate_with_hole",  "revolution", "extrusion", "offset",
+    "bezier",        "tube_window",   "two_boxes"};
 
-/// Every table as long as it must be, and evaluators that fit it: curves end at their vertices, trimming curves lie on them, loops close.
+/// Every table as long as it must be, and evaluators that fit it: curves end at their vertices, trimming curves lie on
+/// them, loops close.
 void expect_consistent(const Model& model) {
   const ModelTables& t = model.tables();
   const auto n_faces = static_cast<std::size_t>(t.n_faces()), n_edges = static_cast<std::size_t>(t.n_edges());
-  for (const std::size_t n : {t.face_type.size(), t.face_uv_bounds.size() / 4, t.face_tolerance.size(), t.face_area.size(),
-                              t.face_width.size(), t.face_box.size(), t.face_name.size(), t.face_color.size(), t.face_layer.size(),
-                              t.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
-    ASSERT_EQ(n, n_faces);
   for (const std::size_t n :
-       {t.edge_vertices.size() / 2, t.edge_range.size() / 2, t.edge_tolerance.size(), t.edge_is_degenerate.size(), t.edge_name.size()})
+       {t.face_type.size(), t.face_uv_bounds.size() / 4, t.face_tolerance.size(), t.face_area.size(),
+        t.face_width.size(), t.face_box.size(), t.face_name.size(), t.face_color.size(), t.face_layer.size(),
+        t.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
+    ASSERT_EQ(n, n_faces);
+  for (const std::size_t n : {t.edge_vertices.size() / 2, t.edge_range.size() / 2, t.edge_tolerance.size(),
+                              t.edge_is_degenerate.size(), t.edge_name.size()})
     ASSERT_EQ(n, n_edges);
   ASSERT_EQ(t.vertex_tolerance.size(), t.vertex_xyz.size());
   ASSERT_EQ(t.face_loop_offsets.back(), t.n_loops());
@@ -34,7 +38,8 @@ void expect_consistent(const Model& model) {
     if (t.edge_is_degenerate[e]) continue;
     const auto c = model.curve(e);
     for (int end = 0; end < 2; ++end)
-      EXPECT_LE(distance(c->point(t.edge_range[2 * e + end]), t.vertex_xyz[t.edge_vertices[2 * e + end]]), slack) << "edge " << e;
+      EXPECT_LE(distance(c->point(t.edge_range[2 * e + end]), t.vertex_xyz[t.edge_vertices[2 * e + end]]), slack)
+          << "edge " << e;
     EXPECT_NEAR(arc_length(*c, c->t_min(), c->t_max(), 32), t.edge_length[e], slack);
   }
   for (FaceId f = 0; f < t.n_faces(); ++f) {
@@ -45,13 +50,15 @@ void expect_consistent(const Model& model) {
       for (CoedgeId c = first; c < end; ++c) {
         const EdgeId e = t.coedge_edge[c];
         const CoedgeId next = c + 1 < end ? c + 1 : first;
-        EXPECT_EQ(t.edge_vertices[2 * e + !t.coedge_is_reversed[c]], t.edge_vertices[2 * t.coedge_edge[next] + t.coedge_is_reversed[next]]);
+        EXPECT_EQ(t.edge_vertices[2 * e + !t.coedge_is_reversed[c]],
+                  t.edge_vertices[2 * t.coedge_edge[next] + t.coedge_is_reversed[next]]);
         if (t.edge_is_degenerate[e]) continue;
         const auto curve = model.curve(e);
         const auto uv = model.pcurve(f, c);
         for (double share : {0.0, 0.3, 1.0}) {
           const double at = t.edge_range[2 * e] + share * (t.edge_range[2 * e + 1] - t.edge_range[2 * e]);
-          EXPECT_LE(distance(s->point(uv->point(at)), curve->point(at)), t.edge_tolerance[e] + slack) << "face " << f << " edge " << e;
+          EXPECT_LE(distance(s->point(uv->point(at)), curve->point(at)), t.edge_tolerance[e] + slack)
+              << "face " << f << " edge " << e;
         }
       }
     }
@@ -77,7 +84,9 @@ void expect_same_face(const Model& part, FaceId f, const Model& whole, FaceId g)
   EXPECT_EQ(s->u_min(), t->u_min());
   const Vec2 uv{0.3 * s->u_min() + 0.7 * s->u_max(), 0.6 * s->v_min() + 0.4 * s->v_max()};
   EXPECT_LE(distance(s->point(uv), t->point(uv)), 1e-13 * b.box().diagonal());
-  const auto n_loops = [](const ModelTables& m, FaceId i) { return m.face_loop_offsets[i + 1] - m.face_loop_offsets[i]; };
+  const auto n_loops = [](const ModelTables& m, FaceId i) {
+    return m.face_loop_offsets[i + 1] - m.face_loop_offsets[i];
+  };
   EXPECT_EQ(n_loops(a, f), n_loops(b, g));
 }
 
@@ -102,7 +111,8 @@ TEST(Extract, gives_faces_with_their_edges_and_vertices_only) {
       EXPECT_TRUE(is_used[part.edges[e]]);
       EXPECT_EQ(part.model.tables().edge_length[e], t.edge_length[part.edges[e]]);
       for (int end = 0; end < 2; ++end)
-        EXPECT_EQ(part.vertices[part.model.tables().edge_vertices[2 * e + end]], t.edge_vertices[2 * part.edges[e] + end]);
+        EXPECT_EQ(part.vertices[part.model.tables().edge_vertices[2 * e + end]],
+                  t.edge_vertices[2 * part.edges[e] + end]);
     }
   }
 }
@@ -147,7 +157,8 @@ TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
       ASSERT_EQ(a.n_edges(), b.n_edges());
       expect_consistent(after);
       EXPECT_EQ(a.face_group, b.face_group);
-      for (VertexId v = 0; v < b.n_vertices(); ++v) EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
+      for (VertexId v = 0; v < b.n_vertices(); ++v)
+        EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
       for (EdgeId e = 0; e < b.n_edges(); ++e) EXPECT_NEAR(a.edge_length[e], scale * b.edge_length[e], 1e-6 * size);
       for (FaceId f = 0; f < b.n_faces(); ++f) {
         EXPECT_EQ(a.face_type[f], b.face_type[f]);

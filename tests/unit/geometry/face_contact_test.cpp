@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/edit_model.h"
-#include "geometry/model.h"
+#include "geometry/model/edit_model.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -39,7 +39,8 @@ TEST(FaceContact, passes_through_where_a_plane_cuts_a_cylinder) {
   const auto found = model.contacts(side, square);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].passes_through);
-  const auto [low, high] = std::minmax_element(found[0].points.begin(), found[0].points.end(), [](Vec3 p, Vec3 q) { return p.z < q.z; });
+  const auto [low, high] =
+      std::minmax_element(found[0].points.begin(), found[0].points.end(), [](Vec3 p, Vec3 q) { return p.z < q.z; });
   EXPECT_NEAR(low->z, 0, 1e-6);  // up to the rims, which the faces do not share
   EXPECT_NEAR(high->z, 10, 1e-6);
   for (const Vec3 p : found[0].points) EXPECT_LE(std::hypot(p.x - 6, p.y - 8), 1e-6);
@@ -54,7 +55,8 @@ TEST(FaceContact, is_none_between_faces_apart) {
 TEST(FaceContact, does_not_count_what_faces_share) {
   const Model model = test::make_model("cylinder");
   for (FaceId a = 0; a < model.tables().n_faces(); ++a)
-    for (FaceId b = a + 1; b < model.tables().n_faces(); ++b) EXPECT_TRUE(model.contacts(a, b).empty()) << a << " " << b;
+    for (FaceId b = a + 1; b < model.tables().n_faces(); ++b)
+      EXPECT_TRUE(model.contacts(a, b).empty()) << a << " " << b;
 }
 
 }  // namespace

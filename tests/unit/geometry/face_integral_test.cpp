@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -31,9 +32,9 @@ TEST_P(WholeSurface, has_the_area_of_a_fine_grid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(FaceIntegral, WholeSurface,
-                         testing::Values("wave", "rational_wave", "high_degree_wave", "kinked", "bezier", "stretched", "periodic_tube",
-                                         "closed_tube", "tube_window", "rational_torus", "revolution", "extrusion", "offset", "cone_side",
-                                         "sphere_octant"),
+                         testing::Values("wave", "rational_wave", "high_degree_wave", "kinked", "bezier", "stretched",
+                                         "periodic_tube", "closed_tube", "tube_window", "rational_torus", "revolution",
+                                         "extrusion", "offset", "cone_side", "sphere_octant"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(FaceIntegral, volumes_are_exact_to_six_digits_wherever_the_solid_lies) {

@@ -1,5 +1,5 @@
 // Reading and writing of FLITE text.
-#include "geometry/flite_file.h"
+#include "geometry/flite/flite_file.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,10 @@ void expect_refused(const std::string& text, const std::string& why) {
 }
 
 constexpr const char* kTriangle =
-    "title 5 7\n 3 1\nCurves\n 1 1\n 2\n 0 0 0 99\n +1.0D+00 0.0 0.0\n 2 1\n 2\n 1 0 0\n 0 1+0 0\n 4 1\n 2\n 0 1 0\n 0 0 0\n"
-    "Surfaces  \n 1 1\n 2 2\n -2 -2 0\n 2 -2 0\n -2 2 0\n 2 2 0\nMesh Generation\n 3 1 0 0\nSegments\n 1 1 1\n 2 2 1\n 3 4 1\n"
+    "title 5 7\n 3 1\nCurves\n 1 1\n 2\n 0 0 0 99\n +1.0D+00 0.0 0.0\n 2 1\n 2\n 1 0 0\n 0 1+0 0\n 4 1\n 2\n 0 1 0\n 0 "
+    "0 0\n"
+    "Surfaces  \n 1 1\n 2 2\n -2 -2 0\n 2 -2 0\n -2 2 0\n 2 2 0\nMesh Generation\n 3 1 0 0\nSegments\n 1 1 1\n 2 2 1\n "
+    "3 4 1\n"
     "Surfaces\n 9 1 1 1\n 3\n 3\n -1 2\n\n";
 
 TEST(FliteFile, survives_writing_and_reading_without_loss) {
@@ -77,8 +79,10 @@ TEST(FliteFile, refuses_what_is_damaged_with_its_line) {
   expect_refused(replaced(good, "3 1\nCurves", "3 x\nCurves"), "line 2: '3 x' where curves and surfaces should be");
   expect_refused(replaced(good, "3 1\nCurves", "0 1\nCurves"), "0 curves and surfaces should be positive");
   expect_refused(replaced(good, "3 1\nCurves", "2000000000 1\nCurves"), "cut off or damaged");
-  expect_refused(replaced(good, " 2\n 0 0 0 99", " 1\n 0 0 0 99"), "line 5: curve 1 of 3: 1 points; a curve has at least 2");
-  expect_refused(replaced(good, "0 0 0 99", "0 zero 0 99"), "line 6: curve 1 of 3: '0 zero 0 99' where the coordinates x y z should be");
+  expect_refused(replaced(good, " 2\n 0 0 0 99", " 1\n 0 0 0 99"),
+                 "line 5: curve 1 of 3: 1 points; a curve has at least 2");
+  expect_refused(replaced(good, "0 0 0 99", "0 zero 0 99"),
+                 "line 6: curve 1 of 3: '0 zero 0 99' where the coordinates x y z should be");
   expect_refused(replaced(good, "0 0 0 99", "0 nan 0 99"), "where the coordinates");
   expect_refused(replaced(good, "0 0 0 99", "0 1e300 0 99"), "where the coordinates");
   expect_refused(replaced(good, " 4 1\n", " 2 1\n"), "curve 3 of 3: the number 2 comes twice");

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/flite_file.h"
+#include "geometry/flite/flite_file.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st::test {
@@ -16,8 +16,8 @@ inline std::vector<Vec3> on_line(Vec3 a, Vec3 b, int n) {
   return points;
 }
 
-/// The unit box: corner k is at (k & 1, k >> 1 & 1, k >> 2); six grids of n x m points, twelve curves, the segments of each region in no
-/// order, every second curve from end to start.
+/// The unit box: corner k is at (k & 1, k >> 1 & 1, k >> 2); six grids of n x m points, twelve curves, the segments of
+/// each region in no order, every second curve from end to start.
 inline FliteFile box_file(int n = 3, int m = 4) {
   FliteFile file;
   const auto corner = [](int k) { return Vec3{double(k & 1), double(k >> 1 & 1), double(k >> 2 & 1)}; };
@@ -27,7 +27,8 @@ inline FliteFile box_file(int n = 3, int m = 4) {
       if (!(a & bit)) {
         const int id = static_cast<int>(ends.size()) + 1;
         const bool is_backward = id % 2 == 0;
-        file.curves.push_back({id, 0, on_line(corner(is_backward ? a | bit : a), corner(is_backward ? a : a | bit), 4)});
+        file.curves.push_back(
+            {id, 0, on_line(corner(is_backward ? a | bit : a), corner(is_backward ? a : a | bit), 4)});
         file.segments.push_back({id, 0, id - 1});
         ends.emplace_back(a, a | bit);
       }
@@ -48,7 +49,8 @@ inline FliteFile box_file(int n = 3, int m = 4) {
   return file;
 }
 
-inline std::string write_text(const TemporaryDirectory& dir, const std::string& text, const std::string& name = "model.dat") {
+inline std::string write_text(const TemporaryDirectory& dir, const std::string& text,
+                              const std::string& name = "model.dat") {
   std::ofstream(dir / name, std::ios::binary) << text;
   return dir / name;
 }

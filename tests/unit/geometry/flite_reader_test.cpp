@@ -7,7 +7,8 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 #include "unit/geometry/flite_models.h"
 
@@ -29,7 +30,9 @@ void expect_refused(const FliteFile& file, const std::string& why) {
   }
 }
 
-double max_edge_tolerance(const ModelTables& t) { return *std::max_element(t.edge_tolerance.begin(), t.edge_tolerance.end()); }
+double max_edge_tolerance(const ModelTables& t) {
+  return *std::max_element(t.edge_tolerance.begin(), t.edge_tolerance.end());
+}
 
 /// The box with every number rounded to seven digits away from where it was.
 FliteFile rounded_box() {
@@ -80,7 +83,8 @@ FliteFile box_with_hole() {
     const int id = 13 + half;
     FliteCurve c{id, 0, {}};
     for (int k = 0; k <= 16; ++k)
-      c.points.push_back({0.5 + 0.3 * std::cos(kPi * (half + k / 16.0)), 0.5 + 0.3 * std::sin(kPi * (half + k / 16.0)), 0});
+      c.points.push_back(
+          {0.5 + 0.3 * std::cos(kPi * (half + k / 16.0)), 0.5 + 0.3 * std::sin(kPi * (half + k / 16.0)), 0});
     file.curves.push_back(c);
     file.segments.push_back({id, 0, id - 1});
     file.regions[4].segments.insert(file.regions[4].segments.begin() + 1, id - 1);
@@ -110,7 +114,9 @@ FliteFile octant(bool with_point) {
   for (int side = 0; side < (with_point ? 4 : 3); ++side) {
     FliteCurve c{side + 1, 0, {}};
     for (int k = 0; k < kN; ++k)
-      c.points.push_back(side == 0 ? at(a(k), 0) : side == 3 ? Vec3{0, 0, 1} : surface.points[k * kN + (side == 1 ? kN - 1 : 0)]);
+      c.points.push_back(side == 0   ? at(a(k), 0)
+                         : side == 3 ? Vec3{0, 0, 1}
+                                     : surface.points[k * kN + (side == 1 ? kN - 1 : 0)]);
     file.curves.push_back(c);
     file.segments.push_back({side + 1, 0, side});
   }

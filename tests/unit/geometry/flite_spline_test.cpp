@@ -1,4 +1,4 @@
-#include "geometry/flite_spline.h"
+#include "geometry/flite/flite_spline.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,8 @@ TEST(FergusonCurve, passes_its_points_with_continuous_curvature_and_ends_without
     const auto curve = ferguson_curve(points);
     EXPECT_EQ(curve->t_max(), n - 1);
     for (int k = 0; k < n; ++k) EXPECT_LE(distance(curve->point(k), points[k]), 1e-14 * n);
-    for (int k = 1; k + 1 < n; ++k) EXPECT_LE(distance(curve->evaluate(k - 1e-9).d2, curve->evaluate(k + 1e-9).d2), 1e-6);
+    for (int k = 1; k + 1 < n; ++k)
+      EXPECT_LE(distance(curve->evaluate(k - 1e-9).d2, curve->evaluate(k + 1e-9).d2), 1e-6);
     EXPECT_LE(norm(curve->evaluate(0).d2), 1e-13);
     EXPECT_LE(norm(curve->evaluate(n - 1).d2), 1e-12);
   }
@@ -54,13 +55,16 @@ TEST(FergusonSurface, has_the_twists_of_the_spline_of_its_derivatives) {
     std::vector<Vec3> du;
     for (int j = 0; j < kV; ++j) du.push_back(surface->evaluate({double(i), double(j)}).du);
     const auto along_v = ferguson_curve(du);
-    for (int j = 0; j < kV; ++j) EXPECT_LE(distance(surface->evaluate2({double(i), double(j)}).duv, along_v->evaluate(j).d1), 1e-12);
+    for (int j = 0; j < kV; ++j)
+      EXPECT_LE(distance(surface->evaluate2({double(i), double(j)}).duv, along_v->evaluate(j).d1), 1e-12);
   }
 }
 
 TEST(FergusonSurface, of_two_by_two_points_is_bilinear) {
   const std::vector<Vec3> p{{0, 0, 0}, {2, 0, 1}, {0, 3, 0}, {2, 3, 5}};
-  EXPECT_LE(distance(ferguson_surface(2, 2, p)->point({0.25, 0.5}), 0.375 * p[0] + 0.125 * p[1] + 0.375 * p[2] + 0.125 * p[3]), 1e-15);
+  EXPECT_LE(distance(ferguson_surface(2, 2, p)->point({0.25, 0.5}),
+                     0.375 * p[0] + 0.125 * p[1] + 0.375 * p[2] + 0.125 * p[3]),
+            1e-15);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Models to FLITE and back.
-#include "geometry/flite_writer.h"
+#include "geometry/flite/flite_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "geometry/flite_sampling.h"
-#include "geometry/flite_spline.h"
+#include "geometry/flite/flite_sampling.h"
+#include "geometry/flite/flite_spline.h"
+#include "geometry/import/import.h"
 #include "support/shapes.h"
 #include "unit/geometry/flite_models.h"
 
@@ -53,7 +54,8 @@ TEST_P(FliteRoundTrip, keeps_shells_areas_and_volume_within_the_tolerance) {
   const double diagonal = a.tables.reference_diagonal();
   EXPECT_NEAR(b.area, a.area, 10 * kTolerance * diagonal * diagonal);
   EXPECT_NEAR(free_length(b.tables), free_length(a.tables), 1e-3 * free_length(a.tables));
-  EXPECT_LE(*std::max_element(b.tables.edge_tolerance.begin(), b.tables.edge_tolerance.end()), 5 * kTolerance * diagonal);
+  EXPECT_LE(*std::max_element(b.tables.edge_tolerance.begin(), b.tables.edge_tolerance.end()),
+            5 * kTolerance * diagonal);
   EXPECT_EQ(b.n_nonmanifold_edges, a.n_nonmanifold_edges);
   if (a.is_closed) {
     EXPECT_TRUE(b.is_closed);
@@ -67,9 +69,10 @@ TEST_P(FliteRoundTrip, keeps_shells_areas_and_volume_within_the_tolerance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(shapes, FliteRoundTrip,
-                         testing::Values("box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "two_boxes", "drilled_block",
-                                         "blunt_wing", "annulus", "l_face", "sphere_octant", "wave", "stretched", "kinked", "periodic_tube",
-                                         "closed_tube", "rational_torus", "tube_window", "revolution", "t_junction"),
+                         testing::Values("box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "two_boxes",
+                                         "drilled_block", "blunt_wing", "annulus", "l_face", "sphere_octant", "wave",
+                                         "stretched", "kinked", "periodic_tube", "closed_tube", "rational_torus",
+                                         "tube_window", "revolution", "t_junction"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(FliteWriter, divides_closed_faces_and_says_how_many) {
@@ -117,8 +120,9 @@ TEST(FliteRoundTripOfTheCorpus, keeps_the_wing_closed_and_the_fli_files_as_they_
   const char* corpus = std::getenv("ST_CORPUS");
   const std::string folder = corpus ? corpus : "";
   if (!std::filesystem::exists(folder + "/flite_zju_cylinders.fli")) GTEST_SKIP() << "LOUD: no corpus; set ST_CORPUS";
-  for (const auto& [name, tolerance] : {std::pair("flite_zju_cylinders.fli", 1e-6), std::pair("flite_zju_trefoil.fli", 1e-9),
-                                        std::pair("aero_d150_wing_body_half.brep", 1e-4)}) {
+  for (const auto& [name, tolerance] :
+       {std::pair("flite_zju_cylinders.fli", 1e-6), std::pair("flite_zju_trefoil.fli", 1e-9),
+        std::pair("aero_d150_wing_body_half.brep", 1e-4)}) {
     const RoundTrip trip = round_trip(import_model(folder + "/" + name, {}));
     EXPECT_TRUE(trip.after.is_closed) << name;
     EXPECT_EQ(trip.after.tables.n_faces(), trip.before.tables.n_faces()) << name;

@@ -1,9 +1,9 @@
-#include "geometry/groups.h"
+#include "geometry/model/groups.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "geometry/model.h"
+#include "geometry/model/model.h"
 
 namespace st {
 namespace {
@@ -37,7 +37,9 @@ GroupRule rule(const std::string& name) {
   return r;
 }
 
-BoxSpec box(double x0, double x1) { return {{{x0, false}, {0, false}, {0, false}, {x1, false}, {1, false}, {0, false}}}; }
+BoxSpec box(double x0, double x1) {
+  return {{{x0, false}, {0, false}, {0, false}, {x1, false}, {1, false}, {0, false}}};
+}
 
 /// Faces (from 1) of the group "x" that one rule makes.
 std::vector<int> chosen(GroupRule r) {
@@ -109,7 +111,8 @@ TEST(Groups, keep_the_groups_of_the_file_where_no_rule_speaks_and_count_by_first
   r.faces = {"2", "6"};
   ModelTables t = six_faces();
   EXPECT_TRUE(apply_groups({r}, t).empty());
-  EXPECT_EQ(t.group_name, (std::vector<std::string>{"wing", "tips", "bolt"})) << "the group symmetry has no face any more";
+  EXPECT_EQ(t.group_name, (std::vector<std::string>{"wing", "tips", "bolt"}))
+      << "the group symmetry has no face any more";
   EXPECT_EQ(t.group_role, (std::vector<std::string>{"wall", "wall", "wall"}));
   EXPECT_EQ(t.face_group, (std::vector<std::int32_t>{0, 1, 2, 2, 2, 1}));
 }
@@ -153,7 +156,8 @@ TEST(Groups, of_further_tables_leave_the_main_ones_alone) {
 
 TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
   GroupRule r = rule("x");
-  EXPECT_NE(message_of({r}).find("g.toml:1: group \"x\": the CAD file has no group of this name"), std::string::npos) << message_of({r});
+  EXPECT_NE(message_of({r}).find("g.toml:1: group \"x\": the CAD file has no group of this name"), std::string::npos)
+      << message_of({r});
   r.parts = {"bolt", "nut*"};
   EXPECT_NE(message_of({r}).find("parts: 'nut*' matches nothing"), std::string::npos);
   r.parts = {"bolt"};
@@ -164,7 +168,8 @@ TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
   EXPECT_EQ(apply_groups({r}, t), (std::vector<EmptyGroup>{{"x", EntityDim::kFace}}));
   EXPECT_EQ(t.group_name, six_faces().group_name);
   r.faces = {"7"};
-  EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos) << "an id is never optional";
+  EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos)
+      << "an id is never optional";
   r.faces = {"5-3"};
   EXPECT_NE(message_of({r}), "");
 }
@@ -203,7 +208,7 @@ TEST(Groups, of_the_outside_are_left_out_of_the_reference_diagonal) {
 }
 
 // --- edges and vertices
-// ------------------------------------------------------------------------------------------------------------------
+// --------------------------------------------------------------------------------
 
 /// Two unit squares side by side, faces 1 and 2 of groups "left" and "right": edges 1 to 3 around the left one, 4
 /// between them, 5 to 7 around the right one, 8 a pole; vertex 1 to 3 at y = 0, 4 to 6 at y = 1.

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
 
@@ -49,8 +50,10 @@ TEST_P(FlowDomain, full_one_is_the_outer_volume_without_the_body) {
   EXPECT_NEAR(fluid.volume, outer - body.volume, 1e-5 * outer);
   EXPECT_NEAR(area_of_role(fluid.tables, "wall"), body.area, 1e-6 * body.area);
   for (FaceId f = 0; f < body.tables.n_faces(); ++f) {
-    EXPECT_NE(fluid.tables.face_is_reversed[f], body.tables.face_is_reversed[f]) << "normals of the fluid point into the body";
-    EXPECT_NEAR(fluid.tables.face_area[f], body.tables.face_area[f], 1e-9 * body.area) << "face " << f + 1 << " is another one";
+    EXPECT_NE(fluid.tables.face_is_reversed[f], body.tables.face_is_reversed[f])
+        << "normals of the fluid point into the body";
+    EXPECT_NEAR(fluid.tables.face_area[f], body.tables.face_area[f], 1e-9 * body.area)
+        << "face " << f + 1 << " is another one";
   }
 }
 
@@ -70,8 +73,9 @@ TEST_P(FlowDomain, half_one_has_half_the_walls_and_a_plane_with_the_section_cut_
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, FlowDomain,
-                         testing::Values(DomainCase{"sphere", "box:3"}, DomainCase{"box", "sphere:3"}, DomainCase{"torus", "sphere:3"},
-                                         DomainCase{"two_boxes", "box:3"}, DomainCase{"cylinder", "box:3"}),
+                         testing::Values(DomainCase{"sphere", "box:3"}, DomainCase{"box", "sphere:3"},
+                                         DomainCase{"torus", "sphere:3"}, DomainCase{"two_boxes", "box:3"},
+                                         DomainCase{"cylinder", "box:3"}),
                          [](const auto& i) { return i.param.shape; });
 
 TEST(HalfModel, that_was_cut_before_is_taken_as_it_is) {
@@ -107,7 +111,8 @@ TEST(HalfModel, open_elsewhere_or_away_from_the_plane_is_an_error_with_places) {
 }
 
 TEST(HalfModel, wrong_values_are_usage_errors) {
-  for (const char* bad : {"y", "y=", "w=0", "y=0x", "y=+-", "y=nan", "=0"}) expect_error(ExitCode::kUsage, "--symmetry", "box", bad, "");
+  for (const char* bad : {"y", "y=", "w=0", "y=0x", "y=+-", "y=nan", "=0"})
+    expect_error(ExitCode::kUsage, "--symmetry", "box", bad, "");
   for (const char* bad : {"box", "box:", "box:0.5", "ball:20", "sphere:1e9", "box:20x", ":3"})
     expect_error(ExitCode::kUsage, "--farfield", "box", "", bad);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/import/import.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
 
@@ -160,7 +161,8 @@ TEST(ImportReport, recovers_loops_of_broken_faces_head_to_tail) {
     for (std::int32_t l = 0; l < t.n_loops(); ++l) {
       const std::int32_t first = t.loop_coedge_offsets[l], n = t.loop_coedge_offsets[l + 1] - first;
       for (std::int32_t k = 0; k < n; ++k)
-        EXPECT_LE(norm(ends(model, 0, first + k).second - ends(model, 0, first + (k + 1) % n).first), 1e-5) << shape << " coedge " << k;
+        EXPECT_LE(norm(ends(model, 0, first + k).second - ends(model, 0, first + (k + 1) % n).first), 1e-5)
+            << shape << " coedge " << k;
     }
   }
 }
@@ -191,13 +193,16 @@ TEST(ImportReport, boxes_touch_the_faces_and_not_their_poles) {
     const auto s = model.surface(0);
     for (int i = 0; i <= 200; ++i)
       for (int j = 0; j <= 200; ++j)
-        samples.add(s->point({s->u_min() + 0.005 * i * (s->u_max() - s->u_min()), s->v_min() + 0.005 * j * (s->v_max() - s->v_min())}));
+        samples.add(s->point(
+            {s->u_min() + 0.005 * i * (s->u_max() - s->u_min()), s->v_min() + 0.005 * j * (s->v_max() - s->v_min())}));
     const Box3 box = r.tables.face_box[0];
     const double slack = 0.02 * samples.diagonal(), rounding = 1e-6 * samples.diagonal();
     for (const auto& [outer, inner] : {std::pair{box, samples}}) {
-      EXPECT_TRUE(outer.lo.x <= inner.lo.x + rounding && outer.lo.y <= inner.lo.y + rounding && outer.lo.z <= inner.lo.z + rounding)
+      EXPECT_TRUE(outer.lo.x <= inner.lo.x + rounding && outer.lo.y <= inner.lo.y + rounding &&
+                  outer.lo.z <= inner.lo.z + rounding)
           << shape;
-      EXPECT_TRUE(outer.hi.x >= inner.hi.x - rounding && outer.hi.y >= inner.hi.y - rounding && outer.hi.z >= inner.hi.z - rounding)
+      EXPECT_TRUE(outer.hi.x >= inner.hi.x - rounding && outer.hi.y >= inner.hi.y - rounding &&
+                  outer.hi.z >= inner.hi.z - rounding)
           << shape;
     }
     EXPECT_LE(distance(box.lo, samples.lo), slack) << shape;

@@ -8,7 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
 
@@ -36,7 +37,7 @@ std::vector<FaceId> faces_of_group(const ModelTables& t, const std::string& name
   return faces;
 }
 
-// --- units -------------------------------------------------------------------------------------------------------------------------
+// --- units ---
 
 struct UnitCase {
   const char *step, *name;
@@ -54,7 +55,8 @@ TEST_P(ImportUnit, gives_lengths_in_the_unit_of_the_file) {
   EXPECT_LE(distance(extent(r.tables.box()), Vec3{60, 40, 20} / c.in_mm), 1e-5 * 60 / c.in_mm);
   EXPECT_NEAR(r.area, 8800 / (c.in_mm * c.in_mm), 1e-9 * r.area);
   EXPECT_NEAR(r.volume, 48000 / std::pow(c.in_mm, 3), 1e-9 * r.volume);
-  EXPECT_NEAR(*std::max_element(r.tables.edge_length.begin(), r.tables.edge_length.end()), 60 / c.in_mm, 1e-9 * 60 / c.in_mm);
+  EXPECT_NEAR(*std::max_element(r.tables.edge_length.begin(), r.tables.edge_length.end()), 60 / c.in_mm,
+              1e-9 * 60 / c.in_mm);
   const Model model(r.tables, r.brep);  // the B-Rep is scaled, too
   Box3 corners;
   for (EdgeId e = 0; e < r.tables.n_edges(); ++e) corners.add(model.curve(e)->point(r.tables.edge_range[2 * e]));
@@ -63,8 +65,8 @@ TEST_P(ImportUnit, gives_lengths_in_the_unit_of_the_file) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ImportUnit,
-                         testing::Values(UnitCase{"MM", "mm", 1}, UnitCase{"INCH", "in", 25.4}, UnitCase{"M", "m", 1000},
-                                         UnitCase{"FT", "ft", 304.8}),
+                         testing::Values(UnitCase{"MM", "mm", 1}, UnitCase{"INCH", "in", 25.4},
+                                         UnitCase{"M", "m", 1000}, UnitCase{"FT", "ft", 304.8}),
                          [](const auto& info) { return std::string(info.param.step); });
 
 TEST(Import, converts_to_the_unit_asked_for) {
@@ -95,7 +97,7 @@ TEST(Import, refuses_an_unknown_unit) {
   EXPECT_ERROR(import_model(dir / "box.brep", options), kUsage, "parsec");
 }
 
-// --- names, groups, instances ------------------------------------------------------------------------------------------------------
+// --- names, groups, instances ---
 
 TEST(Import, groups_faces_by_their_name_else_by_their_part) {
   const ModelTables t = import_assembly().tables;
@@ -126,10 +128,12 @@ TEST(Import, finds_roles_in_whole_words_only) {
   step << in.rdbuf();
   std::string text = step.str();
   const std::map<std::string, std::pair<std::string, std::string>> renamed = {
-      {"x_min", {"symbol", "wall"}},        {"x_max", {"Sym-1", "symmetry"}}, {"y_min", {"SYMM", "symmetry"}},
-      {"y_max", {"far_field", "farfield"}}, {"z_min", {"gasym", "wall"}},     {"z_max", {"SymmetryPlane2", "symmetry"}}};
+      {"x_min", {"symbol", "wall"}},   {"x_max", {"Sym-1", "symmetry"}},
+      {"y_min", {"SYMM", "symmetry"}}, {"y_max", {"far_field", "farfield"}},
+      {"z_min", {"gasym", "wall"}},    {"z_max", {"SymmetryPlane2", "symmetry"}}};
   for (const auto& [old_name, now] : renamed)
-    for (std::size_t at; (at = text.find("'" + old_name + "'")) != std::string::npos;) text.replace(at + 1, old_name.size(), now.first);
+    for (std::size_t at; (at = text.find("'" + old_name + "'")) != std::string::npos;)
+      text.replace(at + 1, old_name.size(), now.first);
   std::ofstream(dir / "box.step") << text;
   const ModelTables t = import_model(dir / "box.step", {}).tables;
   for (const auto& [old_name, now] : renamed) {
@@ -169,7 +173,7 @@ TEST(Import, makes_instances_faces_of_their_own_in_their_place) {
   EXPECT_NEAR(r.volume, 48000 + 2 * kPi * 16 * 15, 1e-6 * r.volume);
 }
 
-// --- sewing, closed and open -------------------------------------------------------------------------------------------------------
+// --- sewing, closed and open ---
 
 TEST(Import, sews_loose_faces_to_a_solid_and_says_so) {
   const ImportResult r = test::import_shape("loose_box");
@@ -179,8 +183,8 @@ TEST(Import, sews_loose_faces_to_a_solid_and_says_so) {
   EXPECT_EQ(r.tables.n_solids, 1);
   EXPECT_NEAR(r.volume, 48000, 1e-6);
   EXPECT_GE(r.n_repairs, 1);
-  EXPECT_TRUE(
-      std::any_of(r.findings.begin(), r.findings.end(), [](const ImportFinding& f) { return f.is_repair && f.what.find("sewn") == 0; }));
+  EXPECT_TRUE(std::any_of(r.findings.begin(), r.findings.end(),
+                          [](const ImportFinding& f) { return f.is_repair && f.what.find("sewn") == 0; }));
 }
 
 TEST(Import, keeps_names_and_ids_of_sewn_faces) {
@@ -200,7 +204,8 @@ TEST(Import, keeps_names_and_ids_of_sewn_faces) {
 }
 
 TEST(Import, does_not_touch_a_closed_model) {
-  for (const char* shape : {"box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "mirrored_cylinder", "two_boxes"}) {
+  for (const char* shape :
+       {"box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "mirrored_cylinder", "two_boxes"}) {
     const ImportResult r = test::import_shape(shape);
     EXPECT_EQ(r.n_repairs, 0) << shape;
     EXPECT_TRUE(r.is_closed) << shape;
@@ -243,7 +248,7 @@ TEST(Import, refuses_an_open_model_where_a_closed_one_is_required) {
   EXPECT_TRUE(import_model(dir / "closed.brep", options).is_closed);
 }
 
-// --- topology and loops ------------------------------------------------------------------------------------------------------------
+// --- topology and loops ---
 
 struct Counts {
   const char* shape;
@@ -265,11 +270,13 @@ TEST_P(ImportCounts, are_those_of_the_shape) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, ImportCounts,
-                         testing::Values(Counts{"box", 6, 12, 8, 6, 8800, 48000}, Counts{"sphere", 1, 3, 2, 1, 400 * kPi, 4000 * kPi / 3},
+                         testing::Values(Counts{"box", 6, 12, 8, 6, 8800, 48000},
+                                         Counts{"sphere", 1, 3, 2, 1, 400 * kPi, 4000 * kPi / 3},
                                          Counts{"cylinder", 3, 3, 2, 3, 800 * kPi, 3000 * kPi},
                                          Counts{"cone", 2, 3, 2, 2, 100 * kPi*(1 + std::sqrt(5.0)), 2000 * kPi / 3},
                                          Counts{"torus", 1, 2, 1, 1, 480 * kPi* kPi, 1440 * kPi* kPi},
-                                         Counts{"disc", 1, 1, 1, 1, 100 * kPi, 0}, Counts{"annulus", 1, 2, 2, 2, 84 * kPi, 0},
+                                         Counts{"disc", 1, 1, 1, 1, 100 * kPi, 0},
+                                         Counts{"annulus", 1, 2, 2, 2, 84 * kPi, 0},
                                          Counts{"plate_with_hole", 1, 5, 5, 2, 2400 - 64 * kPi, 0}),
                          [](const auto& info) { return std::string(info.param.shape); });
 
@@ -341,7 +348,8 @@ TEST_P(Loops, lie_on_their_edges) {
         for (double s : {0.0, 0.13, 0.5, 0.77, 1.0}) {
           const double p = t().edge_range[2 * e] + s * (t().edge_range[2 * e + 1] - t().edge_range[2 * e]);
           const Vec3 x = curve ? curve->point(p) : t().vertex_xyz[t().edge_vertices[2 * e]];
-          EXPECT_LE(distance(surface->point(pcurve->point(p)), x), t().edge_tolerance[e] + 1e-6) << "face " << f << " edge " << e;
+          EXPECT_LE(distance(surface->point(pcurve->point(p)), x), t().edge_tolerance[e] + 1e-6)
+              << "face " << f << " edge " << e;
         }
         for (int end = 0; end < 2 && curve; ++end)
           EXPECT_LE(distance(curve->point(t().edge_range[2 * e + end]), t().vertex_xyz[t().edge_vertices[2 * e + end]]),
@@ -367,9 +375,10 @@ TEST_P(Loops, stay_within_the_bounds_of_the_face) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Loops,
-                         testing::Values("box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "mirrored_cylinder", "disc",
-                                         "annulus", "plate_with_hole", "periodic_tube", "closed_tube", "rational_torus", "tube_window",
-                                         "sphere_octant", "loose_box", "revolution", "offset"),
+                         testing::Values("box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder",
+                                         "mirrored_cylinder", "disc", "annulus", "plate_with_hole", "periodic_tube",
+                                         "closed_tube", "rational_torus", "tube_window", "sphere_octant", "loose_box",
+                                         "revolution", "offset"),
                          [](const auto& info) { return info.param; });
 
 TEST(Import, uses_a_seam_twice_and_a_pole_once) {
@@ -409,7 +418,7 @@ TEST(Import, mirrored_part_has_the_volume_of_its_original) {
   EXPECT_LT(b.tables.box().lo.x, -9);
 }
 
-// --- files -------------------------------------------------------------------------------------------------------------------------
+// --- files ---
 
 TEST(Import, reads_binary_brep_like_the_text) {
   const TemporaryDirectory dir;

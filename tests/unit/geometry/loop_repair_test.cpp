@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/import/import.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
 

@@ -1,4 +1,5 @@
-#include "geometry/model.h"
+#include "geometry/model/model.h"
+#include "geometry/import/import.h"
 
 #include <gtest/gtest.h>
 
@@ -36,11 +37,12 @@ TEST(Model, evaluators_have_the_bounds_of_the_tables) {
 }
 
 TEST(Model, has_the_kinds_of_its_surfaces) {
-  const std::pair<const char*, SurfaceType> kinds[] = {{"square", SurfaceType::kPlane},        {"thin_tube", SurfaceType::kCylinder},
-                                                       {"cone_side", SurfaceType::kCone},      {"sphere", SurfaceType::kSphere},
-                                                       {"torus", SurfaceType::kTorus},         {"bezier", SurfaceType::kBezier},
-                                                       {"wave", SurfaceType::kBspline},        {"revolution", SurfaceType::kRevolution},
-                                                       {"extrusion", SurfaceType::kExtrusion}, {"offset", SurfaceType::kOffset}};
+  const std::pair<const char*, SurfaceType> kinds[] = {
+      {"square", SurfaceType::kPlane},        {"thin_tube", SurfaceType::kCylinder},
+      {"cone_side", SurfaceType::kCone},      {"sphere", SurfaceType::kSphere},
+      {"torus", SurfaceType::kTorus},         {"bezier", SurfaceType::kBezier},
+      {"wave", SurfaceType::kBspline},        {"revolution", SurfaceType::kRevolution},
+      {"extrusion", SurfaceType::kExtrusion}, {"offset", SurfaceType::kOffset}};
   for (const auto& [shape, kind] : kinds) EXPECT_EQ(test::import_shape(shape).tables.face_type[0], kind) << shape;
 }
 

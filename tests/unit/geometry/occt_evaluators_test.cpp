@@ -8,7 +8,8 @@
 #include <iostream>
 #include <set>
 
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -37,8 +38,8 @@ struct Difference {
   double point = 0;  // of the model's size
   double slope = 0, bend = 0;
 
-  /// `n` places of a face; the first four are the corners of the bounds, one in eight lies outside by half a per cent of the outermost
-  /// piece.
+  /// `n` places of a face; the first four are the corners of the bounds, one in eight lies outside by half a per cent
+  /// of the outermost piece.
   void add_face(const Model& model, const test::Oracle& oracle, FaceId f, double size, int n) {
     const auto s = model.surface(f);
     const double u0 = s->u_min(), du = s->u_max() - u0, v0 = s->v_min(), dv = s->v_max() - v0;
@@ -53,10 +54,12 @@ struct Difference {
   }
 
   void add_place(const Surface& s, const test::Oracle& oracle, FaceId f, Vec2 uv, double size) {
-    const double du = piece_length(s.u_knots(), s.u_min(), s.u_max(), uv.x), dv = piece_length(s.v_knots(), s.v_min(), s.v_max(), uv.y);
+    const double du = piece_length(s.u_knots(), s.u_min(), s.u_max(), uv.x),
+                 dv = piece_length(s.v_knots(), s.v_min(), s.v_max(), uv.y);
     const SurfacePoint2 want = oracle.surface(f, uv), have = s.evaluate2(uv);
     const SurfacePoint first = s.evaluate(uv);
-    point = std::max({point, distance(want.x, have.x) / size, distance(want.x, first.x) / size, distance(want.x, s.point(uv)) / size});
+    point = std::max({point, distance(want.x, have.x) / size, distance(want.x, first.x) / size,
+                      distance(want.x, s.point(uv)) / size});
     const auto is_near = [](double a, double b, double range) { return std::abs(a - b) <= 1e-12 * range; };
     const auto is_kink = [&](const std::vector<double>& breaks, double period, double lo, double hi, double t) {
       return (period > 0 && (is_near(t, lo, period) || is_near(t, hi, period))) ||
@@ -65,10 +68,10 @@ struct Difference {
     if (is_kink(s.u_breaks(), s.u_period(), s.u_min(), s.u_max(), uv.x)) return;  // either side is right
     if (is_kink(s.v_breaks(), s.v_period(), s.v_min(), s.v_max(), uv.y)) return;
     const auto relative = [&](Vec3 a, Vec3 b, double range) { return distance(a, b) / (size / range + norm(a)); };
-    slope = std::max({slope, relative(want.du, have.du, du), relative(want.dv, have.dv, dv), relative(want.du, first.du, du),
-                      relative(want.dv, first.dv, dv)});
-    bend = std::max(
-        {bend, relative(want.duu, have.duu, du * du), relative(want.duv, have.duv, du * dv), relative(want.dvv, have.dvv, dv * dv)});
+    slope = std::max({slope, relative(want.du, have.du, du), relative(want.dv, have.dv, dv),
+                      relative(want.du, first.du, du), relative(want.dv, first.dv, dv)});
+    bend = std::max({bend, relative(want.duu, have.duu, du * du), relative(want.duv, have.duv, du * dv),
+                     relative(want.dvv, have.dvv, dv * dv)});
   }
 
   void add_edge(const Model& model, const test::Oracle& oracle, EdgeId e, double size, int n) {
@@ -142,8 +145,8 @@ TEST_P(EvaluatorsOf, derivatives_are_those_of_their_points) {
                    s->v_min() + rv * (0.01 + 0.98 * spread(k, 0.5698402909980532))};
       if (near_break(s->u_breaks(), p.x, a) || near_break(s->v_breaks(), p.y, b)) continue;
       const SurfacePoint2 d = s->evaluate2(p);
-      const SurfacePoint l = s->evaluate({p.x - a, p.y}), r = s->evaluate({p.x + a, p.y}), o = s->evaluate({p.x, p.y - b}),
-                         t = s->evaluate({p.x, p.y + b});
+      const SurfacePoint l = s->evaluate({p.x - a, p.y}), r = s->evaluate({p.x + a, p.y}),
+                         o = s->evaluate({p.x, p.y - b}), t = s->evaluate({p.x, p.y + b});
       EXPECT_LE(distance(d.du, (r.x - l.x) / (2 * a)) * ru, 1e-4 * (size + norm(d.du) * ru));
       EXPECT_LE(distance(d.dv, (t.x - o.x) / (2 * b)) * rv, 1e-4 * (size + norm(d.dv) * rv));
       // third derivatives may jump at a knot: a difference across it is first order
@@ -160,7 +163,8 @@ std::vector<std::string> shapes_with_faces() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(, EvaluatorsOf, testing::ValuesIn(shapes_with_faces()), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(, EvaluatorsOf, testing::ValuesIn(shapes_with_faces()),
+                         [](const auto& info) { return info.param; });
 
 TEST(Evaluators, wrap_around_the_period) {
   const ImportResult r = test::import_shape("periodic_tube");
@@ -206,8 +210,9 @@ TEST(Evaluators, agree_with_opencascade_on_every_type_of_surface_of_real_files) 
   const char* given = std::getenv("ST_CORPUS");
   const fs::path folder = given && *given ? fs::path(given) : fs::path(ST_SOURCE_DIR) / "../shared/corpus";
   if (!fs::is_directory(folder)) {
-    std::cout << "SKIPPED: Evaluators.agree_with_opencascade_on_every_type_of_surface_of_real_files: corpus not found at " << folder
-              << "; set ST_CORPUS" << std::endl;
+    std::cout
+        << "SKIPPED: Evaluators.agree_with_opencascade_on_every_type_of_surface_of_real_files: corpus not found at "
+        << folder << "; set ST_CORPUS" << std::endl;
     GTEST_SKIP() << "no corpus";
   }
   std::vector<fs::path> files;

@@ -1,4 +1,4 @@
-#include "geometry/patch_kernels.h"
+#include "geometry/shape/patch_kernels.h"
 
 #include <gtest/gtest.h>
 

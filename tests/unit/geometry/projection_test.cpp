@@ -1,11 +1,11 @@
-#include "geometry/projection.h"
+#include "geometry/shape/projection.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -38,7 +38,8 @@ TEST_P(ClosestPointOf, is_within_the_bounds_and_no_sample_is_closer) {
     for (int k = 0; k < 25; ++k) {
       const Vec3 target = point_about(model.tables().face_box[f], k);
       const SurfaceFoot foot = closest_point(*s, target);
-      EXPECT_TRUE(foot.uv.x >= s->u_min() && foot.uv.x <= s->u_max() && foot.uv.y >= s->v_min() && foot.uv.y <= s->v_max());
+      EXPECT_TRUE(foot.uv.x >= s->u_min() && foot.uv.x <= s->u_max() && foot.uv.y >= s->v_min() &&
+                  foot.uv.y <= s->v_max());
       EXPECT_LE(distance(foot.x, s->point(foot.uv)), 1e-14 * size);
       EXPECT_NEAR(foot.distance, distance(foot.x, target), 1e-14 * size);
       double least = 1e300;
@@ -53,21 +54,23 @@ TEST_P(ClosestPointOf, returns_points_of_the_surface_itself) {
   const auto s = model.surface(0);
   const double du = s->u_max() - s->u_min(), dv = s->v_max() - s->v_min(), size = model.tables().box().diagonal();
   for (int k = 0; k < 25; ++k) {
-    const Vec3 x = s->point({s->u_min() + du * spread(k, 0.7548776662466927), s->v_min() + dv * spread(k, 0.5698402909980532)});
+    const Vec3 x =
+        s->point({s->u_min() + du * spread(k, 0.7548776662466927), s->v_min() + dv * spread(k, 0.5698402909980532)});
     EXPECT_LE(closest_point(*s, x).distance, 1e-9 * size) << k;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(, ClosestPointOf,
-                         testing::Values("square", "sphere", "cylinder", "cone", "torus", "wave", "rational_wave", "high_degree_wave",
-                                         "bezier", "stretched", "kinked", "periodic_tube", "rational_torus", "tube_window", "revolution",
-                                         "extrusion", "offset"),
+                         testing::Values("square", "sphere", "cylinder", "cone", "torus", "wave", "rational_wave",
+                                         "high_degree_wave", "bezier", "stretched", "kinked", "periodic_tube",
+                                         "rational_torus", "tube_window", "revolution", "extrusion", "offset"),
                          [](const auto& info) { return info.param; });
 
 TEST(ExactFoot, is_as_close_as_mathematics_says) {
   const double nan = std::nan("");
   const AxialSurface cylinder(SurfaceType::kCylinder, kFrame, 5, 0, 0, 2 * kPi, 0, 20),
-      sphere(SurfaceType::kSphere, kFrame, 5, 0, -kPi, kPi, -2, 2), torus(SurfaceType::kTorus, kFrame, 5, 2, 0, 2 * kPi, 0, 2 * kPi),
+      sphere(SurfaceType::kSphere, kFrame, 5, 0, -kPi, kPi, -2, 2),
+      torus(SurfaceType::kTorus, kFrame, 5, 2, 0, 2 * kPi, 0, 2 * kPi),
       cone(SurfaceType::kCone, kFrame, 5, 0.4, 0, 2 * kPi, -30, 30);
   const PlaneSurface plane(kFrame, 0, 1, 0, 1);
   for (int k = 1; k < 200; ++k) {  // 0 is on the axis
@@ -89,7 +92,8 @@ TEST(ExactFoot, is_as_close_as_mathematics_says) {
 
 TEST(ExactFoot, lies_in_the_turn_of_the_bounds) {
   const AxialSurface turned(SurfaceType::kCylinder, kFrame, 5, 0, 4 * kPi, 6 * kPi, 0, 20);
-  for (double u = 4 * kPi + 0.1; u < 6 * kPi; u += 0.3) EXPECT_NEAR(turned.exact_foot(turned.point({u, 3}))->x, u, 1e-12);
+  for (double u = 4 * kPi + 0.1; u < 6 * kPi; u += 0.3)
+    EXPECT_NEAR(turned.exact_foot(turned.point({u, 3}))->x, u, 1e-12);
   EXPECT_FALSE(turned.exact_foot({1, 2, 9}));  // on the axis
 }
 
@@ -125,7 +129,9 @@ TEST(ProjectNear, finds_the_foot_on_a_curve) {
   }
 }
 
-TEST(ProjectNear, gives_up_on_a_curve_that_is_a_point) { EXPECT_FALSE(project_near(EllipseCurve(kFrame, 0, 0, 0, 1), {0, 0, 0}, 0.5)); }
+TEST(ProjectNear, gives_up_on_a_curve_that_is_a_point) {
+  EXPECT_FALSE(project_near(EllipseCurve(kFrame, 0, 0, 0, 1), {0, 0, 0}, 0.5));
+}
 
 }  // namespace
 }  // namespace st

@@ -1,6 +1,7 @@
 // Faces that share no edges are joined; nothing else is.
 #include <gtest/gtest.h>
 
+#include "geometry/import/import.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
 

@@ -1,4 +1,5 @@
-// Loops of the faces that break meshers, as polygons in (u,v): each encloses exactly its face, once and counter-clockwise.
+// Loops of the faces that break meshers, as polygons in (u,v): each encloses exactly its face, once and
+// counter-clockwise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 #include <ostream>
 
 #include "broken/broken_shapes.h"
-#include "geometry/model.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
 
@@ -122,7 +124,8 @@ TEST_P(SpecialLoops, enclose_their_face_once_and_nothing_else) {
   for (int i = -5; i < 45; ++i)
     for (int j = -5; j < 45; ++j) {
       const Vec2 p{b[0] + (b[1] - b[0]) * (i + 0.317) / 40, b[2] + (b[3] - b[2]) * (j + 0.419) / 40};
-      const bool in_bounds = i >= 0 && i < 40 && j >= 0 && j < 40, is_inside = in_bounds && !wanted.is_cut_out(surface->point(p));
+      const bool in_bounds = i >= 0 && i < 40 && j >= 0 && j < 40,
+                 is_inside = in_bounds && !wanted.is_cut_out(surface->point(p));
       EXPECT_EQ(winding(loops, p), is_inside) << p.x << ' ' << p.y;
       n_inside += is_inside;
     }
@@ -142,25 +145,27 @@ TEST_P(SpecialLoops, run_along_a_seam_once_up_and_once_down_a_period_apart) {
     const auto up = coedge_points(model, 0, coedges[0]), down = coedge_points(model, 0, coedges[1]);
     for (int k = 0; k <= kSteps; ++k) {
       const Vec2 apart = up[k] - down[kSteps - k];
-      EXPECT_NEAR(std::max(std::abs(apart.x) / (b[1] - b[0]), std::abs(apart.y) / (b[3] - b[2])), 1, 1e-6) << "edge " << edge;
+      EXPECT_NEAR(std::max(std::abs(apart.x) / (b[1] - b[0]), std::abs(apart.y) / (b[3] - b[2])), 1, 1e-6)
+          << "edge " << edge;
       EXPECT_NEAR(std::min(std::abs(apart.x), std::abs(apart.y)), 0, 1e-6) << "edge " << edge;
     }
   }
 }
 
 const double kPi2 = kPi * kPi;
-INSTANTIATE_TEST_SUITE_P(, SpecialLoops,
-                         testing::Values(SpecialFace{"sphere", 1, 4, 2 * kPi2}, SpecialFace{"cone_side", 1, 4, 2 * kPi* std::sqrt(500.0)},
-                                         SpecialFace{"torus", 1, 4, 4 * kPi2}, SpecialFace{"closed_tube", 1, 4, 0},
-                                         SpecialFace{"periodic_tube", 1, 4, 0},
-                                         SpecialFace{"disc", 1, 1, 100 * kPi, [](Vec3 x) { return x.x * x.x + x.y * x.y > 100; }},
-                                         SpecialFace{"annulus", 2, 2, 84 * kPi,
-                                                     [](Vec3 x) {
-                                                       const double rr = x.x * x.x + x.y * x.y;
-                                                       return rr > 100 || rr < 16;
-                                                     }},
-                                         SpecialFace{"drilled_cylinder", 1, 8, 60 * kPi - bore_area(), in_bore}),
-                         [](const auto& info) { return std::string(info.param.shape); });
+INSTANTIATE_TEST_SUITE_P(
+    , SpecialLoops,
+    testing::Values(SpecialFace{"sphere", 1, 4, 2 * kPi2}, SpecialFace{"cone_side", 1, 4, 2 * kPi* std::sqrt(500.0)},
+                    SpecialFace{"torus", 1, 4, 4 * kPi2}, SpecialFace{"closed_tube", 1, 4, 0},
+                    SpecialFace{"periodic_tube", 1, 4, 0},
+                    SpecialFace{"disc", 1, 1, 100 * kPi, [](Vec3 x) { return x.x * x.x + x.y * x.y > 100; }},
+                    SpecialFace{"annulus", 2, 2, 84 * kPi,
+                                [](Vec3 x) {
+                                  const double rr = x.x * x.x + x.y * x.y;
+                                  return rr > 100 || rr < 16;
+                                }},
+                    SpecialFace{"drilled_cylinder", 1, 8, 60 * kPi - bore_area(), in_bore}),
+    [](const auto& info) { return std::string(info.param.shape); });
 
 TEST(BrokenLoops, of_a_face_without_area_go_there_and_back) {
   const Model model = broken_model("flat");

@@ -1,10 +1,10 @@
-#include "geometry/surface.h"
+#include "geometry/shape/surface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -54,7 +54,8 @@ TEST(PrincipalCurvature, of_a_cylinder_is_one_over_r_and_none) {
 }
 
 TEST(PrincipalCurvature, of_a_torus_changes_sign_inside) {
-  const Curvature out = principal_curvature(kTorus.evaluate2({2, 0})), in = principal_curvature(kTorus.evaluate2({2, kPi}));
+  const Curvature out = principal_curvature(kTorus.evaluate2({2, 0})),
+                  in = principal_curvature(kTorus.evaluate2({2, kPi}));
   EXPECT_NEAR(std::abs(out.k1), 1.0 / 2, 1e-12);
   EXPECT_NEAR(std::abs(out.k2), 1.0 / 7, 1e-12);
   EXPECT_GT(out.k1 * out.k2, 0);
@@ -67,7 +68,8 @@ TEST(PrincipalCurvature, does_not_depend_on_the_parametrisation) {
   SurfacePoint2 p = kTorus.evaluate2({2, 1});
   const Curvature before = principal_curvature(p);
   // u' = u/1000, v' = v + 3u
-  const SurfacePoint2 q{p.x, 1000 * (p.du - 3 * p.dv), p.dv, 1e6 * (p.duu - 6 * p.duv + 9 * p.dvv), 1000 * (p.duv - 3 * p.dvv), p.dvv};
+  const SurfacePoint2 q{
+      p.x, 1000 * (p.du - 3 * p.dv), p.dv, 1e6 * (p.duu - 6 * p.duv + 9 * p.dvv), 1000 * (p.duv - 3 * p.dvv), p.dvv};
   const Curvature after = principal_curvature(q);
   EXPECT_NEAR(before.k1, after.k1, 1e-10);
   EXPECT_NEAR(before.k2, after.k2, 1e-10);
@@ -114,7 +116,8 @@ TEST(ProjectNear, works_on_free_form_surfaces) {
     for (double a : {0.2, 0.45, 0.8})
       for (double b : {0.15, 0.5, 0.85}) {
         const Vec2 foot{s->u_min() + a * ru, s->v_min() + b * rv};
-        const auto found = project_near(*s, s->point(foot) + 0.01 * surface_normal(*s, foot), {foot.x + 0.004 * ru, foot.y - 0.004 * rv});
+        const auto found = project_near(*s, s->point(foot) + 0.01 * surface_normal(*s, foot),
+                                        {foot.x + 0.004 * ru, foot.y - 0.004 * rv});
         ASSERT_TRUE(found) << shape;
         EXPECT_LE(distance(s->point(*found), s->point(foot)), 1e-8) << shape;
       }
@@ -135,9 +138,10 @@ TEST(ProjectNear, gives_up_where_the_surface_has_no_tangent_plane) {
   EXPECT_FALSE(project_near(needle, {2, 2, 3}, {1, 0.5}));
 }
 
-const char* const kManyShapes[] = {"square",        "sphere",    "cylinder",    "cone",           "torus",       "wave",
-                                   "rational_wave", "stretched", "kinked",      "periodic_tube",  "revolution",  "extrusion",
-                                   "offset",        "bezier",    "closed_tube", "rational_torus", "tube_window", "high_degree_wave"};
+const char* const kManyShapes[] = {"square",         "sphere",        "cylinder",        "cone",   "torus",
+                                   "wave",           "rational_wave", "stretched",       "kinked", "periodic_tube",
+                                   "revolution",     "extrusion",     "offset",          "bezier", "closed_tube",
+                                   "rational_torus", "tube_window",   "high_degree_wave"};
 
 TEST(BoundingBox, holds_the_surface_and_little_more) {
   for (const char* shape : kManyShapes) {
@@ -147,7 +151,8 @@ TEST(BoundingBox, holds_the_surface_and_little_more) {
     Box3 samples;
     for (int i = 0; i <= 97; ++i)
       for (int j = 0; j <= 97; ++j)
-        samples.add(s->point({s->u_min() + (s->u_max() - s->u_min()) * i / 97, s->v_min() + (s->v_max() - s->v_min()) * j / 97}));
+        samples.add(s->point(
+            {s->u_min() + (s->u_max() - s->u_min()) * i / 97, s->v_min() + (s->v_max() - s->v_min()) * j / 97}));
     Box3 both = box;
     both.add(samples);
     EXPECT_LE(both.diagonal() - box.diagonal(), 1e-12 * box.diagonal()) << shape;
@@ -200,7 +205,8 @@ TEST(EvaluateBatch, is_evaluate_at_each_point) {
     const auto s = model.surface(0);
     std::vector<Vec2> uv;
     for (int k = 0; k < 20; ++k)
-      uv.push_back({s->u_min() + (s->u_max() - s->u_min()) * k / 19.0, s->v_max() + (s->v_min() - s->v_max()) * (k * k % 20) / 19.0});
+      uv.push_back({s->u_min() + (s->u_max() - s->u_min()) * k / 19.0,
+                    s->v_max() + (s->v_min() - s->v_max()) * (k * k % 20) / 19.0});
     std::vector<SurfacePoint> out(uv.size());
     s->evaluate_batch(uv, out);
     for (std::size_t k = 0; k < uv.size(); ++k) {

@@ -1,4 +1,5 @@
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
+#include "io/file/temporary_file.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -11,7 +12,7 @@
 #include <map>
 #include <set>
 
-#include "io/hdf5_file.h"
+#include "io/hdf5/hdf5_file.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -31,15 +32,16 @@ struct Kind {
   std::function<std::string(const std::string&)> write;
   std::function<std::string(const std::string& from, const std::string& to)> rewrite;
 };
-const std::map<std::string, Kind> kKinds = {{"geometry",
-                                             {[](const auto& path) { return write_geometry(path, sample_geometry()); },
-                                              [](const auto& from, const auto& to) { return write_geometry(to, read_geometry(from)); }}},
-                                            {"patches",
-                                             {[](const auto& path) { return write_patches(path, sample_patches()); },
-                                              [](const auto& from, const auto& to) { return write_patches(to, read_patches(from)); }}},
-                                            {"mesh",
-                                             {[](const auto& path) { return write_mesh(path, sample_mesh()); },
-                                              [](const auto& from, const auto& to) { return write_mesh(to, read_mesh(from)); }}}};
+const std::map<std::string, Kind> kKinds = {
+    {"geometry",
+     {[](const auto& path) { return write_geometry(path, sample_geometry()); },
+      [](const auto& from, const auto& to) { return write_geometry(to, read_geometry(from)); }}},
+    {"patches",
+     {[](const auto& path) { return write_patches(path, sample_patches()); },
+      [](const auto& from, const auto& to) { return write_patches(to, read_patches(from)); }}},
+    {"mesh",
+     {[](const auto& path) { return write_mesh(path, sample_mesh()); },
+      [](const auto& from, const auto& to) { return write_mesh(to, read_mesh(from)); }}}};
 
 class Artifact : public testing::TestWithParam<std::string> {
  protected:
@@ -47,7 +49,8 @@ class Artifact : public testing::TestWithParam<std::string> {
   std::string file(const std::string& name = "a.hdf") const { return dir_ / name; }
   TemporaryDirectory dir_;
 };
-INSTANTIATE_TEST_SUITE_P(Kinds, Artifact, testing::Values("geometry", "patches", "mesh"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Kinds, Artifact, testing::Values("geometry", "patches", "mesh"),
+                         [](const auto& info) { return info.param; });
 
 TEST_P(Artifact, is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = kind().write(file());
@@ -371,14 +374,15 @@ TEST(MeshArtifact, of_no_triangle_can_be_written_and_read) {
 
 TEST(MeshArtifact, has_a_hash_that_follows_every_array) {
   TemporaryDirectory dir;
-  const std::vector<std::function<void(MeshArtifact&)>> changes = {[](auto&) {},
-                                                                   [](auto& m) { m.mesh.node_xyz[1].y = 1e-16; },
-                                                                   [](auto& m) { std::swap(m.mesh.triangles[0], m.mesh.triangles[1]); },
-                                                                   [](auto& m) { m.mesh.node_t[0] = -0.0; },
-                                                                   [](auto& m) { m.mesh.face_name[1].push_back('x'); },
-                                                                   [](auto& m) { m.mesh.corner_uv[11].y = 0; },
-                                                                   [](auto& m) { m.is_complete = false; },
-                                                                   [](auto& m) { m.header.unit.pop_back(); }};
+  const std::vector<std::function<void(MeshArtifact&)>> changes = {
+      [](auto&) {},
+      [](auto& m) { m.mesh.node_xyz[1].y = 1e-16; },
+      [](auto& m) { std::swap(m.mesh.triangles[0], m.mesh.triangles[1]); },
+      [](auto& m) { m.mesh.node_t[0] = -0.0; },
+      [](auto& m) { m.mesh.face_name[1].push_back('x'); },
+      [](auto& m) { m.mesh.corner_uv[11].y = 0; },
+      [](auto& m) { m.is_complete = false; },
+      [](auto& m) { m.header.unit.pop_back(); }};
   std::set<std::string> hashes;
   for (const auto& change : changes) {
     MeshArtifact m = sample_mesh();

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "io/inspect.h"
-#include "io/sizing_artifact.h"
+#include "io/hdf5/inspect.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -59,7 +59,8 @@ std::map<std::string, Section> read_document() {
   return sections;
 }
 
-/// "k*symbol+c" with the symbol's value from `known`, which learns it at its first appearance; nullopt when it does not fit `extent`.
+/// "k*symbol+c" with the symbol's value from `known`, which learns it at its first appearance; nullopt when it does not
+/// fit `extent`.
 bool fits(const std::string& expression, std::int64_t extent, std::map<std::string, std::int64_t>& known) {
   std::smatch m;
   if (std::regex_match(expression, std::regex("[0-9]+"))) return std::stoll(expression) == extent;
@@ -114,7 +115,8 @@ SizingArtifact sample_sizing() {
 }
 
 class ArtifactsDocument : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument, testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh", "Failures"),
+INSTANTIATE_TEST_SUITE_P(Sections, ArtifactsDocument,
+                         testing::Values("Geometry", "Raster", "Sizing", "Patches", "Mesh", "Failures"),
                          [](const auto& info) { return info.param; });
 
 void write_sample(const std::string& section, const std::string& path) {

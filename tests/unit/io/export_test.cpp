@@ -2,7 +2,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "io/artifact.h"
+#include "io/export/export.h"
+#include "io/hdf5/artifact.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -106,7 +107,8 @@ TEST(Export, writes_every_division_of_the_faces_as_physical_surfaces_of_msh) {
           "1 8 \"te\"\n1 9 \"group_table:root\"\n0 10 \"tip\"\n$End"),
       std::string::npos)
       << text;
-  EXPECT_NE(text.find("2 0 0 0 1 0.2 1 3 1 3 7 0\n"), std::string::npos) << "face 2 is of body, the first part and Öl: " << text;
+  EXPECT_NE(text.find("2 0 0 0 1 0.2 1 3 1 3 7 0\n"), std::string::npos)
+      << "face 2 is of body, the first part and Öl: " << text;
 }
 
 TEST(Export, writes_the_cad_face_of_each_triangle_into_fro) {

@@ -1,11 +1,11 @@
-#include "io/failure_artifact.h"
+#include "io/hdf5/failure_artifact.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/hdf5_file.h"
+#include "io/hdf5/hdf5_file.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 

@@ -1,4 +1,4 @@
-#include "io/groups_file.h"
+#include "io/toml/groups_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-#include "io/hdf5_file.h"
+#include "io/hdf5/hdf5_file.h"
+#include "io/file/temporary_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

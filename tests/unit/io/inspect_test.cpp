@@ -1,4 +1,4 @@
-#include "io/inspect.h"
+#include "io/hdf5/inspect.h"
 
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
@@ -28,7 +28,8 @@ TEST(Inspect, finds_a_flipped_byte) {
   EXPECT_ERROR(describe_artifact(dir / "g.hdf"), kInput, "/st/face/name: does not fit its checksum");
 }
 
-std::vector<std::string> differences(const TemporaryDirectory& dir, const MeshArtifact& a, const MeshArtifact& b, double tolerance = 0) {
+std::vector<std::string> differences(const TemporaryDirectory& dir, const MeshArtifact& a, const MeshArtifact& b,
+                                     double tolerance = 0) {
   write_mesh(dir / "a.hdf", a);
   write_mesh(dir / "b.hdf", b);
   return compare_artifacts(dir / "a.hdf", dir / "b.hdf", tolerance);
@@ -54,7 +55,8 @@ TEST(Compare, says_where_and_how_much) {
   const std::vector<std::string> found = differences(dir, one, other);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0], "/VTKHDF/CellData/face: 1 of 4 values differ, first in row 2: 3 against 1");
-  EXPECT_EQ(found[1], "/VTKHDF/PointData/size: 2 of 4 values differ, first in row 1: 1.5 against 1.75; largest difference 0.5");
+  EXPECT_EQ(found[1],
+            "/VTKHDF/PointData/size: 2 of 4 values differ, first in row 1: 1.5 against 1.75; largest difference 0.5");
 }
 
 TEST(Compare, sees_flags_names_units_and_shapes) {
@@ -69,8 +71,9 @@ TEST(Compare, sees_flags_names_units_and_shapes) {
   other.mesh.corner_uv.resize(9);
   std::string all;
   for (const std::string& difference : differences(dir, sample_mesh(), other, 0.5)) all += difference + "\n";
-  for (const char* expected : {"/st@is_complete: 1 against 0", "/st@unit: 'mm' against 'cm'", "/st/face/name: 1 of 4",
-                               "/VTKHDF/Types: shape (4) against (3)", "/st/triangle/corner_uv: shape (12, 2) against (9, 2)"})
+  for (const char* expected :
+       {"/st@is_complete: 1 against 0", "/st@unit: 'mm' against 'cm'", "/st/face/name: 1 of 4",
+        "/VTKHDF/Types: shape (4) against (3)", "/st/triangle/corner_uv: shape (12, 2) against (9, 2)"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
 }
 

@@ -1,8 +1,8 @@
 // Small artifacts with every field filled, for the tests of io: a tetrahedron-like mesh of four faces.
 #pragma once
 
-#include "io/artifact.h"
-#include "io/failure_artifact.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/failure_artifact.h"
 
 namespace st {
 

@@ -1,11 +1,11 @@
-#include "io/sizing_artifact.h"
+#include "io/hdf5/sizing_artifact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "io/octree_export.h"
+#include "io/export/octree_export.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -39,7 +39,8 @@ SizingArtifact sample_sizing() {
   sizing.numbers = raster.numbers;
   sizing.slope = 0.2;
   sizing.scale = 1.5;
-  sizing.lengths = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {0.2, 0.2});
+  sizing.lengths =
+      prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {0.2, 0.2});
   sizing.face_weight = {12.5, 0};
   sizing.names = raster.names;
   sizing.names.source = {"wake"};
@@ -97,7 +98,8 @@ TEST_F(SizingArtifacts, mapped_field_answers_like_the_one_in_memory) {
   const SizingArtifact sizing = sample_sizing();
   write_sizing(file("a.hdf"), sizing);
   const MappedSizing mapped = map_sizing(file("a.hdf"));
-  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale}, nullptr);
+  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale},
+                          nullptr);
   EXPECT_EQ(mapped.field->min_size(), field.min_size());
   EXPECT_EQ(mapped.field->slope(), field.slope());
   EXPECT_EQ(mapped.face_weight, sizing.face_weight);

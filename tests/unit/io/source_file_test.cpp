@@ -1,4 +1,4 @@
-#include "io/source_file.h"
+#include "io/toml/source_file.h"
 
 #include <gtest/gtest.h>
 
@@ -117,7 +117,8 @@ TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = \"1 parsec\"", "parsec");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]", "needs a length");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nsize = 2", "unknown key 'size'");
-  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nradius = 2\ndoubling = 1", "larger than radius");
+  expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nradius = 2\ndoubling = 1",
+               "larger than radius");
   expect_error("[[source]]\ntype = \"line\"\npoints = [[0, 0, 0]]\nlength = 1", "2 points");
   expect_error("[[source]]\ntype = \"box\"\nlo = [0, 0, 0]\nhi = [1, 0, 1]\nlength = 1", "lo must be below hi");
   expect_error("slope = 3", "no table [[source]]");

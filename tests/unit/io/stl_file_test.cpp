@@ -1,5 +1,5 @@
 // STL: welded, in parts, binary or text.
-#include "io/stl_file.h"
+#include "io/foreign/stl_file.h"
 
 #include <gtest/gtest.h>
 

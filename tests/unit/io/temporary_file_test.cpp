@@ -1,5 +1,5 @@
 // Files that appear under their name only when they are complete.
-#include "io/temporary_file.h"
+#include "io/file/temporary_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

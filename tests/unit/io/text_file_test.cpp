@@ -1,5 +1,5 @@
 // Files read and written whole.
-#include "io/text_file.h"
+#include "io/file/text_file.h"
 
 #include <gtest/gtest.h>
 

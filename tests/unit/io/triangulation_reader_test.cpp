@@ -1,5 +1,6 @@
 // Triangulations of other programs: every format gives the same mesh, every damage a message.
-#include "io/triangulation_reader.h"
+#include "io/foreign/triangulation_reader.h"
+#include "io/export/export.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 #include <functional>
 
 #include "base/error.h"
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st {
@@ -49,8 +50,10 @@ std::string binary_stl() {
 
 /// Nodes are numbered 5, 10, 15, 20; a point and a line come first.
 std::string text_msh2() {
-  std::string s = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"$Nodes\"\n$EndPhysicalNames\n$Nodes\n4\n";
-  for (int n = 0; n < 4; ++n) s += std::to_string(5 * (n + 1)) + " " + text(kNodes[n].x) + text(kNodes[n].y) + text(kNodes[n].z) + "\n";
+  std::string s =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"$Nodes\"\n$EndPhysicalNames\n$Nodes\n4\n";
+  for (int n = 0; n < 4; ++n)
+    s += std::to_string(5 * (n + 1)) + " " + text(kNodes[n].x) + text(kNodes[n].y) + text(kNodes[n].z) + "\n";
   s += "$EndNodes\n$Elements\n6\n1 15 2 0 1 5\n2 1 2 0 1 5 10\n";
   for (int t = 0; t < 4; ++t) {
     s += std::to_string(t + 3) + " 2 2 0 " + std::to_string(kSurface[t]);
@@ -78,8 +81,8 @@ std::string binary_msh2() {
 }
 
 std::string text_msh4() {
-  std::string s =
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 1 4\n0 1 0 1\n1\n" + text(0) + text(0) + text(0) + "\n2 7 1 3\n2\n3\n4\n";
+  std::string s = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 1 4\n0 1 0 1\n1\n" + text(0) + text(0) + text(0) +
+                  "\n2 7 1 3\n2\n3\n4\n";
   for (int n = 1; n < 4; ++n) s += text(kNodes[n].x) + text(kNodes[n].y) + text(kNodes[n].z) + "0.5 0.5\n";
   s += "$EndNodes\n$Elements\n3 5 1 5\n0 1 15 1\n1 1\n";
   for (int b = 0; b < 2; ++b) {
@@ -96,7 +99,8 @@ std::string text_msh4() {
 std::string fro() {
   std::string s = "  4 4 1 0 0 2 0 0\n";
   for (int n = 0; n < 4; ++n)
-    s += std::to_string(n + 1) + " " + text(kNodes[n].x) + text(kNodes[n].y) + " " + std::to_string(kNodes[n].z) + "D+00 0 0\n";
+    s += std::to_string(n + 1) + " " + text(kNodes[n].x) + text(kNodes[n].y) + " " + std::to_string(kNodes[n].z) +
+         "D+00 0 0\n";
   for (int t = 0; t < 4; ++t) {
     s += std::to_string(t + 1);
     for (const int n : kTriangles[t]) s.append(1, ' ').append(std::to_string(n + 1));
@@ -107,8 +111,10 @@ std::string fro() {
 
 std::string ascii_vtu() {
   std::string s =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n";
-  s += "<Piece NumberOfPoints=\"4\" NumberOfCells=\"4\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">\n";
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\"><UnstructuredGrid>\n";
+  s += "<Piece NumberOfPoints=\"4\" NumberOfCells=\"4\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+       "format=\"ascii\">\n";
   for (const Vec3 x : kNodes) s += text(x.x) + text(x.y) + text(x.z);
   s += "</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">";
   for (const auto& t : kTriangles)
@@ -165,7 +171,8 @@ TEST_F(TriangulationReader, reads_the_same_mesh_from_every_format_whatever_the_s
     ASSERT_EQ(m.n_triangles(), 4) << sample.name;
     ASSERT_EQ(m.n_nodes(), 4) << sample.name;
     for (int t = 0; t < 4; ++t)
-      for (int k = 0; k < 3; ++k) EXPECT_TRUE(m.node_xyz[m.triangles[t].n[k]] == kNodes[kTriangles[t][k]]) << sample.name;
+      for (int k = 0; k < 3; ++k)
+        EXPECT_TRUE(m.node_xyz[m.triangles[t].n[k]] == kNodes[kTriangles[t][k]]) << sample.name;
     const std::vector<FaceId> face = sample.has_surfaces ? std::vector<FaceId>{1, 1, 0, 0} : std::vector<FaceId>(4, 0);
     EXPECT_EQ(m.triangle_face, face) << sample.name;
     EXPECT_EQ(m.corner_uv.size(), 12u);

@@ -18,10 +18,18 @@ Found find_all(const SurfaceMesh& m, const CadEdges& cad = {}) {
   const TopologyReport t = check_topology(m, cad);
   const ShapeReport s = check_shape(m);
   const CrossingReport c = check_crossings(m);
-  Found found{{"boundary", t.boundary_edges.count}, {"nonmanifold", t.nonmanifold_edges.count},  {"misoriented", t.misoriented_edges.count},
-              {"repeated", t.repeated_nodes.count}, {"duplicate", t.duplicate_triangles.count},  {"pinched", t.pinched_nodes.count},
-              {"zero_area", s.zero_area.count},     {"duplicate_node", s.duplicate_nodes.count}, {"fold", s.folds.count},
-              {"crossing", c.crossings.count},      {"overlap", c.overlapping_neighbours.count}, {"contact", c.contacts.count}};
+  Found found{{"boundary", t.boundary_edges.count},
+              {"nonmanifold", t.nonmanifold_edges.count},
+              {"misoriented", t.misoriented_edges.count},
+              {"repeated", t.repeated_nodes.count},
+              {"duplicate", t.duplicate_triangles.count},
+              {"pinched", t.pinched_nodes.count},
+              {"zero_area", s.zero_area.count},
+              {"duplicate_node", s.duplicate_nodes.count},
+              {"fold", s.folds.count},
+              {"crossing", c.crossings.count},
+              {"overlap", c.overlapping_neighbours.count},
+              {"contact", c.contacts.count}};
   std::erase_if(found, [](const auto& entry) { return entry.second == 0; });
   return found;
 }
@@ -131,7 +139,9 @@ TEST(Checks, find_a_triangle_without_area) {
   points.push_back(0.5 * (points[common[0]] + points[common[1]]));
   // first is split at the middle, second is not: the gap between them is a triangle without area.
   int k = 0;
-  while (!(std::count(common.begin(), common.end(), first.n[k]) && std::count(common.begin(), common.end(), first.n[(k + 1) % 3]))) ++k;
+  while (!(std::count(common.begin(), common.end(), first.n[k]) &&
+           std::count(common.begin(), common.end(), first.n[(k + 1) % 3])))
+    ++k;
   const NodeId a = first.n[k], b = first.n[(k + 1) % 3], c = first.n[(k + 2) % 3];
   triangles[0] = {{a, middle, c}};
   triangles.push_back({{middle, b, c}});
@@ -160,12 +170,14 @@ TEST(Checks, find_two_nodes_at_one_place) {
   points.push_back(points[original]);
   const auto copy = static_cast<NodeId>(points.size() - 1);
   std::vector<Triangle> triangles = m.triangles;
-  const auto user = std::find_if(triangles.begin(), triangles.end(), [&](const Triangle& t) { return std::count(t.n, t.n + 3, original); });
+  const auto user = std::find_if(triangles.begin(), triangles.end(),
+                                 [&](const Triangle& t) { return std::count(t.n, t.n + 3, original); });
   std::replace(user->n, user->n + 3, original, copy);
   const Found found = find_all(shapes::from(points, triangles, m.triangle_face));
   EXPECT_EQ(found.at("duplicate_node"), 1);
   EXPECT_EQ(found.at("boundary"), 4) << "the slit";
-  EXPECT_EQ(found.count("nonmanifold") + found.count("misoriented") + found.count("fold") + found.count("zero_area"), 0u);
+  EXPECT_EQ(found.count("nonmanifold") + found.count("misoriented") + found.count("fold") + found.count("zero_area"),
+            0u);
 }
 
 TEST(Checks, ignore_nodes_of_different_parts_at_one_place) {
@@ -186,36 +198,41 @@ TEST(Checks, find_parts_that_hang_together_by_one_node) {
 
 TEST(Checks, find_a_fold) {
   SurfaceMesh m = shapes::cube(8);
-  // A node of a flat side pulled across its neighbours' far edge in the same plane, and a little up so that nothing is exactly flat.
+  // A node of a flat side pulled across its neighbours' far edge in the same plane, and a little up so that nothing is
+  // exactly flat.
   const NodeId n = node_at(m, {0.5, 0.5, 1});
   m.node_xyz[n] = {0.5 + 0.19, 0.5 + 0.03, 1 + 1e-3};
   const Found found = find_all(m);
   ASSERT_EQ(found.count("fold"), 1u);
   EXPECT_EQ(check_shape(m).folds.first[0].face_a, 5);
-  for (const char* other :
-       {"boundary", "nonmanifold", "misoriented", "repeated", "duplicate", "pinched", "zero_area", "duplicate_node", "contact"})
+  for (const char* other : {"boundary", "nonmanifold", "misoriented", "repeated", "duplicate", "pinched", "zero_area",
+                            "duplicate_node", "contact"})
     EXPECT_EQ(found.count(other), 0u) << other;
 }
 
 TEST(Checks, do_not_take_a_sharp_edge_of_the_cad_for_a_fold) {
   SurfaceMesh m = shapes::cube(4);
-  for (Vec3& p : m.node_xyz) p.z = p.x * (p.z - 0.5) * 0.05;  // a wedge with an edge of 3 degrees, which collapses at x = 0
+  for (Vec3& p : m.node_xyz)
+    p.z = p.x * (p.z - 0.5) * 0.05;  // a wedge with an edge of 3 degrees, which collapses at x = 0
   const ShapeReport s = check_shape(m);
   EXPECT_EQ(s.folds.count, 0);
 }
 
 TEST(Checks, do_not_take_a_sharp_seam_for_a_fold) {
   // one face about a thin wedge, closed at a seam from node 0 to node 1
-  SurfaceMesh m = shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
+  SurfaceMesh m =
+      shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
   m.node_entity_dim = {1, 1, 2, 2};
   m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {1, 0}, {1, 1}, {0.6, 0.5}};
   EXPECT_EQ(check_shape(m).folds.count, 0);
-  m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {0, 0}, {0, 1}, {0.6, 0.5}};  // no seam: the same place of (u,v) on both sides
+  m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1},
+                 {0, 0}, {0, 1},     {0.6, 0.5}};  // no seam: the same place of (u,v) on both sides
   EXPECT_EQ(check_shape(m).folds.count, 1);
 }
 
 TEST(Checks, do_not_take_a_sharp_seam_that_ends_at_a_pole_for_a_fold) {
-  SurfaceMesh m = shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
+  SurfaceMesh m =
+      shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
   m.node_entity_dim = {0, 1, 2, 2};
   m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {0, 0}, {1, 1}, {0.6, 0.5}};  // node 0 has one (u,v) on both sides
   EXPECT_EQ(check_shape(m).folds.count, 0);
@@ -268,7 +285,8 @@ TEST(Checks, find_neighbours_that_lie_on_each_other) {
 
 TEST(Checks, allow_open_and_nonmanifold_edges_only_where_the_cad_has_them) {
   // One quad of two triangles on the vertices 0-3 and the nodes of edge 0 = (0, 1).
-  SurfaceMesh m = shapes::from({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0, 0}}, {{{0, 4, 3}}, {{4, 2, 3}}, {{4, 1, 2}}});
+  SurfaceMesh m =
+      shapes::from({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0, 0}}, {{{0, 4, 3}}, {{4, 2, 3}}, {{4, 1, 2}}});
   m.node_entity_dim = {0, 0, 0, 0, 1};
   m.node_entity = {0, 1, 2, 3, 0};
   const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 0};
@@ -283,8 +301,10 @@ TEST(Checks, allow_open_and_nonmanifold_edges_only_where_the_cad_has_them) {
 }
 
 TEST(Checks, do_not_allow_a_hole_between_two_open_edges_of_the_cad) {
-  // A square cut off at a corner: nodes 3 and 4 lie inside the open edges 1 and 2, but nothing of the CAD runs from one to the other.
-  SurfaceMesh m = shapes::from({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 1, 0}, {1, 2, 0}}, {{{0, 1, 3}}, {{0, 3, 4}}, {{0, 4, 2}}});
+  // A square cut off at a corner: nodes 3 and 4 lie inside the open edges 1 and 2, but nothing of the CAD runs from one
+  // to the other.
+  SurfaceMesh m =
+      shapes::from({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 1, 0}, {1, 2, 0}}, {{{0, 1, 3}}, {{0, 3, 4}}, {{0, 4, 2}}});
   m.node_entity_dim = {0, 0, 0, 1, 1};
   m.node_entity = {0, 1, 3, 1, 2};
   const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 0};

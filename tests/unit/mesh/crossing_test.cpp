@@ -36,27 +36,41 @@ TEST(Crossing, finds_an_edge_through_the_middle_of_a_triangle) {
 TEST(Crossing, ignores_a_triangle_whose_plane_is_cut_outside) {
   EXPECT_FALSE(cross_points(kFlat, {Vec3{3, 3, -1}, Vec3{3, 3, 1}, Vec3{9, 9, 1}}));
 }
-TEST(Crossing, counts_a_corner_that_touches_from_above) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1, 1, 1}, Vec3{9, 9, 1}})); }
+TEST(Crossing, counts_a_corner_that_touches_from_above) {
+  EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1, 1, 1}, Vec3{9, 9, 1}}));
+}
 TEST(Crossing, ignores_a_corner_that_hovers_by_one_rounding_error) {
   EXPECT_FALSE(cross_points(kFlat, {Vec3{1, 1, 1e-300}, Vec3{1, 1, 1}, Vec3{9, 9, 1}}));
 }
-TEST(Crossing, counts_edges_that_touch_in_a_point) { EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 0, -1}, Vec3{1, 0, 1}, Vec3{1, -5, 0}})); }
-TEST(Crossing, counts_coplanar_overlap) { EXPECT_TRUE(cross_points(kFlat, {Vec3{3, 3, 0}, Vec3{-1, 3, 0}, Vec3{-1, -1, 0}})); }
+TEST(Crossing, counts_edges_that_touch_in_a_point) {
+  EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 0, -1}, Vec3{1, 0, 1}, Vec3{1, -5, 0}}));
+}
+TEST(Crossing, counts_coplanar_overlap) {
+  EXPECT_TRUE(cross_points(kFlat, {Vec3{3, 3, 0}, Vec3{-1, 3, 0}, Vec3{-1, -1, 0}}));
+}
 TEST(Crossing, counts_a_coplanar_triangle_inside_another) {
   EXPECT_TRUE(cross_points(kFlat, {Vec3{1, 1, 0}, Vec3{1.5, 1, 0}, Vec3{1, 1.5, 0}}));
 }
-TEST(Crossing, ignores_coplanar_triangles_apart) { EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, 1, 0}})); }
-TEST(Crossing, ignores_coplanar_triangles_in_line) { EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, -1, 0}})); }
+TEST(Crossing, ignores_coplanar_triangles_apart) {
+  EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, 1, 0}}));
+}
+TEST(Crossing, ignores_coplanar_triangles_in_line) {
+  EXPECT_FALSE(cross_points(kFlat, {Vec3{5, 0, 0}, Vec3{6, 0, 0}, Vec3{5, -1, 0}}));
+}
 TEST(Crossing, decides_overlap_in_an_oblique_plane) {
   const auto tilt = [](Vec3 p) { return Vec3{p.x, p.y, 3 * p.x + 5 * p.y + 1}; };
-  EXPECT_TRUE(cross_points({tilt(kFlat[0]), tilt(kFlat[1]), tilt(kFlat[2])}, {tilt({3, 3, 0}), tilt({-1, 3, 0}), tilt({-1, -1, 0})}));
-  EXPECT_FALSE(cross_points({tilt(kFlat[0]), tilt(kFlat[1]), tilt(kFlat[2])}, {tilt({3, 3, 0}), tilt({4, 3, 0}), tilt({3, 4, 0})}));
+  EXPECT_TRUE(cross_points({tilt(kFlat[0]), tilt(kFlat[1]), tilt(kFlat[2])},
+                           {tilt({3, 3, 0}), tilt({-1, 3, 0}), tilt({-1, -1, 0})}));
+  EXPECT_FALSE(cross_points({tilt(kFlat[0]), tilt(kFlat[1]), tilt(kFlat[2])},
+                            {tilt({3, 3, 0}), tilt({4, 3, 0}), tilt({3, 4, 0})}));
 }
 
 TEST(Crossing, of_triangles_with_one_common_node_needs_a_second_common_point) {
   const std::vector<Vec3> points{{0, 0, 0},   {4, 0, 0},   {0, 4, 0},   {1, 1, -1}, {1, 1, 1},
                                  {-1, -1, 2}, {-3, -1, 0}, {-1, -3, 0}, {1, 2, 0},  {2, 1, 0}};
-  const auto crosses = [&](Triangle t) { return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty(); };
+  const auto crosses = [&](Triangle t) {
+    return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty();
+  };
   EXPECT_TRUE(crosses({{0, 3, 4}})) << "the opposite edge pierces";
   EXPECT_TRUE(crosses({{0, 8, 9}})) << "flat on the other";
   EXPECT_FALSE(crosses({{0, 4, 5}})) << "only the node is common";
@@ -72,7 +86,9 @@ TEST(Crossing, of_flat_triangles_with_one_common_node_sees_a_narrow_angle_in_a_w
 
 TEST(Crossing, of_triangles_with_a_common_edge_means_folded_flat) {
   const std::vector<Vec3> points{{0, 0, 0}, {4, 1, 3}, {0, 4, 1}, {1, 1.25, 1}, {4, -3, 2}, {0, 4, 1.5}};
-  const auto crosses = [&](Triangle t) { return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty(); };
+  const auto crosses = [&](Triangle t) {
+    return !find_crossing_triangles(points, std::vector<Triangle>{{{0, 1, 2}}, t}).empty();
+  };
   EXPECT_TRUE(crosses({{1, 0, 3}})) << "folded flat";
   EXPECT_FALSE(crosses({{1, 0, 4}})) << "flat, beside each other";
   EXPECT_FALSE(crosses({{1, 0, 5}})) << "a thin wedge";

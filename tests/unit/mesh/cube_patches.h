@@ -8,7 +8,8 @@
 
 namespace st::shapes {
 
-/// What a mesher hands over: edges, vertices and patches of a unit cube with two segments per edge and a node in each face.
+/// What a mesher hands over: edges, vertices and patches of a unit cube with two segments per edge and a node in each
+/// face.
 struct CubePatches {
   EdgeMesh edges;
   std::vector<Vec3> vertices;
@@ -36,7 +37,8 @@ struct CubePatches {
   }
   EdgeId edge_between(VertexId a, VertexId b) const {
     for (std::size_t e = 0; 2 * e < edge_vertices.size(); ++e)
-      if (std::minmax(edge_vertices[2 * e], edge_vertices[2 * e + 1]) == std::minmax(a, b)) return static_cast<EdgeId>(e);
+      if (std::minmax(edge_vertices[2 * e], edge_vertices[2 * e + 1]) == std::minmax(a, b))
+        return static_cast<EdgeId>(e);
     return kNone;
   }
   /// Face 2*axis + end, a fan of eight triangles around its middle.

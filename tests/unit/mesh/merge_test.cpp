@@ -34,7 +34,8 @@ TEST(Merge, welds_the_patches_of_a_cube_to_a_closed_mesh) {
 TEST(Merge, orders_nodes_by_dimension_entity_and_index_and_triangles_by_face) {
   const SurfaceMesh m = CubePatches().merge();
   for (std::int64_t n = 1; n < m.n_nodes(); ++n)
-    EXPECT_LT(std::pair(m.node_entity_dim[n - 1], m.node_entity[n - 1]), std::pair(m.node_entity_dim[n], m.node_entity[n]));
+    EXPECT_LT(std::pair(m.node_entity_dim[n - 1], m.node_entity[n - 1]),
+              std::pair(m.node_entity_dim[n], m.node_entity[n]));
   EXPECT_TRUE(std::is_sorted(m.triangle_face.begin(), m.triangle_face.end()));
   for (std::int64_t t = 0; t < m.n_triangles(); ++t) EXPECT_EQ(m.triangle_group[t], m.triangle_face[t] / 2);
 }
@@ -50,7 +51,8 @@ TEST(Merge, keeps_the_uv_of_each_corner_and_the_parameter_and_size_of_each_node)
   const CubePatches c;
   const SurfaceMesh m = c.merge();
   for (std::int64_t t = 0; t < m.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(m.corner_uv[3 * t + k], (Vec2{double(m.triangle_face[t]), double(3 * (t % 8) + k)}));
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(m.corner_uv[3 * t + k], (Vec2{double(m.triangle_face[t]), double(3 * (t % 8) + k)}));
   for (std::int64_t n = 0; n < m.n_nodes(); ++n) {
     EXPECT_EQ(m.node_t[n], m.node_entity_dim[n] == 1 ? 0.5 : 0);
     EXPECT_GE(m.node_size[n], 0.25);
@@ -65,7 +67,8 @@ TEST(Merge, welds_by_ids_and_never_by_coordinates) {
 
 TEST(Merge, gives_a_vertex_the_request_of_the_edge_of_lowest_id_at_the_end_that_is_there) {
   CubePatches c;
-  for (std::size_t i = 0; i < c.edges.node_xyz.size(); ++i) c.edges.node_request.push_back(100 + static_cast<double>(i));
+  for (std::size_t i = 0; i < c.edges.node_xyz.size(); ++i)
+    c.edges.node_request.push_back(100 + static_cast<double>(i));
   const SurfaceMesh m = c.merge();
   for (NodeId n = 0; n < 8; ++n) {
     ASSERT_EQ(m.node_entity_dim[n], 0);
@@ -73,7 +76,8 @@ TEST(Merge, gives_a_vertex_the_request_of_the_edge_of_lowest_id_at_the_end_that_
     const std::size_t end = std::find(c.edge_vertices.begin(), c.edge_vertices.end(), v) - c.edge_vertices.begin();
     EXPECT_EQ(m.node_size[n], 100 + static_cast<double>(3 * (end / 2) + (end % 2 ? 2 : 0)));
   }
-  for (NodeId n = 8; n < 20; ++n) EXPECT_EQ(m.node_size[n], 100 + 3 * m.node_entity[n] + 1) << "requests, not the lengths it was made for";
+  for (NodeId n = 8; n < 20; ++n)
+    EXPECT_EQ(m.node_size[n], 100 + 3 * m.node_entity[n] + 1) << "requests, not the lengths it was made for";
 }
 
 TEST(Merge, keeps_triangles_with_a_repeated_node) {

@@ -12,11 +12,12 @@ namespace {
 
 /// A mesh with its triangles by face, one shell unless said otherwise.
 struct Patches {
-  explicit Patches(SurfaceMesh m, std::vector<std::int32_t> shell = {}) : mesh(std::move(m)), face_shell(std::move(shell)) {
+  explicit Patches(SurfaceMesh m, std::vector<std::int32_t> shell = {})
+      : mesh(std::move(m)), face_shell(std::move(shell)) {
     if (face_shell.empty()) face_shell.assign(mesh.face_name.size(), 0);
     for (FaceId f = 0; f <= static_cast<FaceId>(face_shell.size()); ++f)
-      face_begin.push_back(static_cast<std::int32_t>(std::lower_bound(mesh.triangle_face.begin(), mesh.triangle_face.end(), f) -
-                                                     mesh.triangle_face.begin()));
+      face_begin.push_back(static_cast<std::int32_t>(
+          std::lower_bound(mesh.triangle_face.begin(), mesh.triangle_face.end(), f) - mesh.triangle_face.begin()));
   }
   std::vector<TrianglePair> find(std::span<const char> dirty = {}) const {
     return find_crossing_patches({mesh.node_xyz, mesh.triangles, face_begin, face_shell, dirty});
@@ -29,8 +30,9 @@ struct Patches {
 };
 
 bool same(const std::vector<TrianglePair>& x, const std::vector<TrianglePair>& y) {
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                    [](const TrianglePair& p, const TrianglePair& q) { return p.a == q.a && p.b == q.b && p.n_shared == q.n_shared; });
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const TrianglePair& p, const TrianglePair& q) {
+    return p.a == q.a && p.b == q.b && p.n_shared == q.n_shared;
+  });
 }
 
 /// Height field z(x, y) over the unit square, n x n quads, one face.
@@ -80,11 +82,14 @@ TEST(PatchCrossing, finds_what_the_full_test_finds_in_a_soup_of_triangles) {
       faces.push_back(static_cast<FaceId>(i * n_faces / 500));
     }
     const Patches p(shapes::from(points, triangles, faces));
-    const auto is_between_faces = [&](const TrianglePair& q) { return p.mesh.triangle_face[q.a] != p.mesh.triangle_face[q.b]; };
+    const auto is_between_faces = [&](const TrianglePair& q) {
+      return p.mesh.triangle_face[q.a] != p.mesh.triangle_face[q.b];
+    };
     const auto expected = p.find_all(), found = p.find();
     EXPECT_GT(expected.size(), 1000u);
-    EXPECT_TRUE(std::includes(expected.begin(), expected.end(), found.begin(), found.end(),
-                              [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); }))
+    EXPECT_TRUE(std::includes(
+        expected.begin(), expected.end(), found.begin(), found.end(),
+        [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); }))
         << "a pair that does not cross";
     EXPECT_EQ(std::count_if(found.begin(), found.end(), is_between_faces),
               std::count_if(expected.begin(), expected.end(), is_between_faces));
@@ -102,7 +107,8 @@ TEST(PatchCrossing, finds_every_folded_triangle_in_a_large_smooth_face) {
     const auto node = [&](int k) { return m.node_xyz[m.triangles[t].n[k]]; };
     if (cross(node(1) - node(0), node(2) - node(0)).z >= 0) continue;
     ++n_folded;
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const TrianglePair& q) { return q.a == t || q.b == t; })) << t;
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const TrianglePair& q) { return q.a == t || q.b == t; }))
+        << t;
   }
   EXPECT_GT(n_folded, 0);
 }
@@ -143,7 +149,8 @@ TEST(PatchCrossing, leaves_different_shells_alone_but_not_loose_faces) {
 }
 
 TEST(PatchCrossing, with_a_mask_lists_exactly_the_pairs_with_a_dirty_face) {
-  const Patches p(shapes::join(shapes::join(shapes::cube(6), shapes::cube(5, {0.55, 0.5, 0.45})), shapes::sphere(6, {1, 1, 0}, 0.6)));
+  const Patches p(shapes::join(shapes::join(shapes::cube(6), shapes::cube(5, {0.55, 0.5, 0.45})),
+                               shapes::sphere(6, {1, 1, 0}, 0.6)));
   const auto all = p.find();
   for (FaceId dirty = 0; dirty < static_cast<FaceId>(p.face_shell.size()); ++dirty) {
     std::vector<char> mask(p.face_shell.size(), 0);
@@ -175,8 +182,8 @@ TEST(PatchCrossing, survives_many_triangles_in_the_same_place) {
 
 TEST(PatchCrossing, finds_faces_whose_boxes_only_touch) {
   // face 0 ends in a corner at x = 1, which lies on face 1, all of which lies at x = 1
-  const Patches p(
-      shapes::from({{-9, 0, 0}, {1, 0.3, 0}, {-9, 0.2, 0.1}, {1, 0, -1}, {1, 1, -1}, {1, 0.3, 1}}, {{{0, 1, 2}}, {{3, 4, 5}}}, {0, 1}));
+  const Patches p(shapes::from({{-9, 0, 0}, {1, 0.3, 0}, {-9, 0.2, 0.1}, {1, 0, -1}, {1, 1, -1}, {1, 0.3, 1}},
+                               {{{0, 1, 2}}, {{3, 4, 5}}}, {0, 1}));
   EXPECT_EQ(p.find_all().size(), 1u);
   EXPECT_TRUE(same(p.find(), p.find_all()));
 }

@@ -50,7 +50,9 @@ TEST(Quality, of_faces_adds_up_to_the_model) {
 TEST(Quality, histograms_hold_every_angle_triangle_pair_and_edge_once) {
   const SurfaceMesh m = shapes::sphere(6);
   const QualityReport q = measure_quality(m);
-  const auto sum = [](const auto& histogram) { return std::accumulate(histogram.begin(), histogram.end(), std::int64_t{0}); };
+  const auto sum = [](const auto& histogram) {
+    return std::accumulate(histogram.begin(), histogram.end(), std::int64_t{0});
+  };
   EXPECT_EQ(sum(q.model.angle_histogram), 3 * m.n_triangles());
   EXPECT_EQ(sum(q.jumps.histogram), m.n_triangles() * 3 / 2);
   EXPECT_EQ(sum(measure_conformity(m, [](Vec3) { return 0.3; }).model.histogram), m.n_triangles() * 3 / 2);
@@ -108,20 +110,23 @@ TEST(Conformity, follows_a_length_that_varies_along_the_edge) {
 }
 
 TEST(Conformity, tells_edges_inside_faces_from_those_the_cad_forces) {
-  SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}}, {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}});
+  SurfaceMesh m =
+      shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}}, {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}});
   m.node_entity_dim = {0, 0, 0, 2};
   const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
   EXPECT_EQ(r.model.n_edges, 6);
   EXPECT_EQ(r.inner.n_edges, 3);
 }
 
-/// A strip 10 x 0.2 of one face in 20 steps of 0.5: vertices at its corners, CAD edges 0 (lower), 1 (right), 2 (upper), 3 (left).
+/// A strip 10 x 0.2 of one face in 20 steps of 0.5: vertices at its corners, CAD edges 0 (lower), 1 (right), 2 (upper),
+/// 3 (left).
 SurfaceMesh strip() {
   constexpr int kSteps = 20;
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   for (int i = 0; i <= kSteps; ++i) points.push_back({0.5 * i, 0, 0}), points.push_back({0.5 * i, 0.2, 0});
-  for (NodeId i = 0; i < 2 * kSteps; i += 2) triangles.push_back({{i, i + 2, i + 3}}), triangles.push_back({{i, i + 3, i + 1}});
+  for (NodeId i = 0; i < 2 * kSteps; i += 2)
+    triangles.push_back({{i, i + 2, i + 3}}), triangles.push_back({{i, i + 3, i + 1}});
   SurfaceMesh m = shapes::from(points, triangles);
   for (NodeId n = 0; n < m.n_nodes(); ++n) {
     const bool is_corner = n < 2 || n >= 2 * kSteps;
@@ -129,7 +134,8 @@ SurfaceMesh strip() {
     m.node_entity[n] = is_corner ? n % 4 : n % 2 ? 2 : 0;
   }
   for (std::size_t t = 0; t < m.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) m.corner_uv[3 * t + k] = {m.node_xyz[m.triangles[t].n[k]].x, m.node_xyz[m.triangles[t].n[k]].y};
+    for (int k = 0; k < 3; ++k)
+      m.corner_uv[3 * t + k] = {m.node_xyz[m.triangles[t].n[k]].x, m.node_xyz[m.triangles[t].n[k]].y};
   return m;
 }
 
@@ -166,7 +172,8 @@ TEST(Conformity, takes_a_seam_for_a_boundary) {
   SurfaceMesh m = strip();
   for (std::size_t c = 0; c < m.corner_uv.size(); c += 6)
     for (int k = 0; k < 3; ++k) m.corner_uv[c + k].x += 100;  // no two triangles have a common (u,v)
-  for (const ForcedPlace& p : measure_conformity(m, [](Vec3) { return 0.5; }).forced) EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
+  for (const ForcedPlace& p : measure_conformity(m, [](Vec3) { return 0.5; }).forced)
+    EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
 }
 
 TEST(Conformity, excuses_short_edges_of_a_curve_of_three_segments_but_not_of_four) {
@@ -201,7 +208,8 @@ TEST(Conformity, percentiles_have_one_of_a_hundred_edges_beyond_them) {
 TEST(Quality, first_percentile_has_one_of_a_hundred_triangles_below_it) {
   const SurfaceMesh m = shapes::sphere(8);
   std::vector<double> quality;
-  for (const Triangle& t : m.triangles) quality.push_back(triangle_quality(m.node_xyz[t.n[0]], m.node_xyz[t.n[1]], m.node_xyz[t.n[2]]));
+  for (const Triangle& t : m.triangles)
+    quality.push_back(triangle_quality(m.node_xyz[t.n[0]], m.node_xyz[t.n[1]], m.node_xyz[t.n[2]]));
   std::sort(quality.begin(), quality.end());
   ASSERT_LT(quality[quality.size() / 100], quality[quality.size() / 10]) << "a shape whose percentiles differ";
   EXPECT_EQ(measure_quality(m).model.p1, quality[quality.size() / 100]);

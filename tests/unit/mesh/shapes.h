@@ -104,8 +104,8 @@ inline void turn(SurfaceMesh& m, FaceId face = kNone) {
 
 /// Equal to the last bit.
 inline bool same(const SurfaceMesh& a, const SurfaceMesh& b) {
-  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity && a.node_t == b.node_t &&
-         a.node_size == b.node_size &&
+  return a.node_xyz == b.node_xyz && a.node_entity_dim == b.node_entity_dim && a.node_entity == b.node_entity &&
+         a.node_t == b.node_t && a.node_size == b.node_size &&
          std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(),
                     [](const Triangle& x, const Triangle& y) { return std::equal(x.n, x.n + 3, y.n); }) &&
          a.triangle_face == b.triangle_face && a.triangle_group == b.triangle_group && a.corner_uv == b.corner_uv;

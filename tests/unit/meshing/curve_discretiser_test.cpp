@@ -1,11 +1,11 @@
-#include "meshing/curve_discretiser.h"
+#include "meshing/topology/curve_discretiser.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "geometry/analytic.h"
-#include "geometry/bspline.h"
+#include "geometry/shape/analytic.h"
+#include "geometry/shape/bspline.h"
 #include "unit/meshing/faces.h"
 
 namespace st {
@@ -36,8 +36,8 @@ void expect_ends_and_order(const Curve& c, const CurveNodes& n, const SizeField&
 
 TEST(DiscretiseCurve, cuts_a_line_into_as_many_equal_segments_as_its_length_asks_for) {
   const LineCurve line({1, 1, 1}, {0, 3, 4}, 1, 3);  // length 10
-  for (const auto& [h, n] :
-       std::vector<std::pair<double, std::size_t>>{{1, 10}, {0.7, 14}, {0.6, 17}, {6.5, 2}, {7, 1}, {100, 1}, {0.01, 1000}}) {
+  for (const auto& [h, n] : std::vector<std::pair<double, std::size_t>>{
+           {1, 10}, {0.7, 14}, {0.6, 17}, {6.5, 2}, {7, 1}, {100, 1}, {0.01, 1000}}) {
     const UniformField field(h);
     const CurveNodes nodes = discretise_curve(line, field, {});
     expect_ends_and_order(line, nodes, field);
@@ -100,7 +100,8 @@ TEST(DiscretiseCurve, stays_near_arcs_far_smaller_than_the_length) {
 BsplineCurve hook(double length, double radius, double angle_deg, double rest) {
   const double a = radians(angle_deg), w = std::cos(0.5 * a);
   const Vec3 corner{length + radius * std::tan(0.5 * a), 0, 0}, on{std::cos(a), std::sin(a), 0};
-  const Vec3 end = corner + radius * std::tan(0.5 * a) * on, last = end + rest * on, first{0, 0, 0}, start{length, 0, 0};
+  const Vec3 end = corner + radius * std::tan(0.5 * a) * on, last = end + rest * on, first{0, 0, 0},
+             start{length, 0, 0};
   const auto pole = [](Vec3 x, double weight) { return Pole{{weight * x.x, weight * x.y, weight * x.z, weight}}; };
   const double s = length / (length + rest);
   return BsplineCurve(KnotSpans(2, {0, 0, 0, 0.9 * s, 0.9 * s, 0.9 * s + 0.1, 0.9 * s + 0.1, 1, 1, 1}, 0),
@@ -113,7 +114,8 @@ TEST(DiscretiseCurve, keeps_arcs_round_that_are_far_smaller_than_the_length) {
   for (double radius : {1e-4, 0.01, 0.1})
     for (double angle : {90.0, 180.0, 270.0, 360.0}) {
       const EllipseCurve arc(kFrame, radius, radius, 0, radians(angle));
-      EXPECT_GE(static_cast<double>(discretise_curve(arc, UniformField(1), {}).t.size()) - 1, angle / 52) << radius << " " << angle;
+      EXPECT_GE(static_cast<double>(discretise_curve(arc, UniformField(1), {}).t.size()) - 1, angle / 52)
+          << radius << " " << angle;
     }
 }
 

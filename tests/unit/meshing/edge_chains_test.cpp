@@ -1,8 +1,8 @@
 // Chains of mesh edges along CAD edges.
-#include "meshing/edge_chains.h"
+#include "meshing/associate/edge_chains.h"
 
 #include "base/error.h"
-#include "meshing/hole_mesh.h"
+#include "meshing/hole/hole_mesh.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {

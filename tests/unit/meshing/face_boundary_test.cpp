@@ -1,4 +1,4 @@
-#include "meshing/face_boundary.h"
+#include "meshing/face/face_boundary.h"
 
 #include <gtest/gtest.h>
 
@@ -65,9 +65,10 @@ TEST_P(Boundary, joins_coedges_in_one_node) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Boundary,
-                         testing::Values("square", "disc", "annulus", "sphere", "torus", "cone_side", "cylinder", "drilled_cylinder",
-                                         "mirrored_cylinder", "periodic_tube", "closed_tube", "tube_window", "rational_torus",
-                                         "plate_with_hole", "sphere_octant", "revolution"),
+                         testing::Values("square", "disc", "annulus", "sphere", "torus", "cone_side", "cylinder",
+                                         "drilled_cylinder", "mirrored_cylinder", "periodic_tube", "closed_tube",
+                                         "tube_window", "rational_torus", "plate_with_hole", "sphere_octant",
+                                         "revolution"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(FaceBoundary, cuts_a_pole_into_nodes_of_one_point) {
@@ -138,7 +139,8 @@ TEST(MinSegments, are_three_for_a_closed_edge_two_for_a_pair_one_else) {
   const Model cylinder = test::make_model("cylinder");
   const ModelTables& t = cylinder.tables();
   const std::vector<int> least = min_segments_per_edge(t);
-  for (EdgeId e = 0; e < t.n_edges(); ++e) EXPECT_EQ(least[e], t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1] ? 3 : 1);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    EXPECT_EQ(least[e], t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1] ? 3 : 1);
   const Model sphere = test::make_model("sphere");
   for (EdgeId e = 0; e < 3; ++e)
     if (!sphere.tables().edge_is_degenerate[e]) {

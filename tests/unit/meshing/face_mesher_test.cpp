@@ -1,4 +1,4 @@
-#include "meshing/face_mesher.h"
+#include "meshing/face/face_mesher.h"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,8 @@ TEST_P(MeshedFace, is_a_pure_function) {
   const FaceMesh b = face.mesh(test::RestlessField(c.length));
   EXPECT_EQ(a.corners, b.corners);
   ASSERT_EQ(a.inner.size(), b.inner.size());
-  for (std::size_t i = 0; i < a.inner.size(); ++i) EXPECT_TRUE(a.inner[i].x == b.inner[i].x && a.inner[i].uv == b.inner[i].uv);
+  for (std::size_t i = 0; i < a.inner.size(); ++i)
+    EXPECT_TRUE(a.inner[i].x == b.inner[i].x && a.inner[i].uv == b.inner[i].uv);
 }
 
 TEST_P(MeshedFace, keeps_boundary_nodes_and_puts_inner_ones_on_the_surface) {
@@ -79,7 +80,8 @@ TEST_P(MeshedFace, keeps_boundary_nodes_and_puts_inner_ones_on_the_surface) {
     ASSERT_TRUE(corner >= 0 && corner < n_nodes);
     used[corner] = 1;
   }
-  for (std::size_t i = face.boundary.nodes.size(); i < used.size(); ++i) EXPECT_TRUE(used[i]) << "inner node without a triangle";
+  for (std::size_t i = face.boundary.nodes.size(); i < used.size(); ++i)
+    EXPECT_TRUE(used[i]) << "inner node without a triangle";
 }
 
 TEST_P(MeshedFace, follows_a_linear_field) {
@@ -95,17 +97,20 @@ TEST_P(MeshedFace, follows_a_linear_field) {
   EXPECT_GE(view.conformity(field), c.conformity - 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , MeshedFace,
-    testing::Values(Case{"square", "square", 0.5, 1, 1e-12, 0.97, 0.97}, Case{"disc", "disc", 1, 1, 0.01, 0.96, 0.95},
-                    Case{"annulus", "annulus", 0.7, 0, 0.01, 0.96, 0.95}, Case{"sphere", "sphere", 1.2, 2, 0.01, 0.95, 0.95},
-                    Case{"cone_apex", "cone_side", 1, 1, 0.01, 0.95, 0.95}, Case{"torus", "torus", 1.5, 0, 0.02, 0.95, 0.95},
-                    Case{"stretched", "stretched", 0.4, 1, 0.01, 0.95, 0.95}, Case{"wave", "wave", 0.8, 1, 0.02, 0.95, 0.9},
-                    Case{"periodic_tube", "periodic_tube", 1.2, 0, 0.02, 0.95, 0.95},
-                    Case{"rational_torus", "rational_torus", 1.5, 0, 0.02, 0.95, 0.95},
-                    Case{"drilled", "drilled_cylinder", 1, -1, 0.02, 0.95, 0.95},
-                    Case{"plate", "plate_with_hole", 1.5, 0, 0.005, 0.95, 0.95}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(, MeshedFace,
+                         testing::Values(Case{"square", "square", 0.5, 1, 1e-12, 0.97, 0.97},
+                                         Case{"disc", "disc", 1, 1, 0.01, 0.96, 0.95},
+                                         Case{"annulus", "annulus", 0.7, 0, 0.01, 0.96, 0.95},
+                                         Case{"sphere", "sphere", 1.2, 2, 0.01, 0.95, 0.95},
+                                         Case{"cone_apex", "cone_side", 1, 1, 0.01, 0.95, 0.95},
+                                         Case{"torus", "torus", 1.5, 0, 0.02, 0.95, 0.95},
+                                         Case{"stretched", "stretched", 0.4, 1, 0.01, 0.95, 0.95},
+                                         Case{"wave", "wave", 0.8, 1, 0.02, 0.95, 0.9},
+                                         Case{"periodic_tube", "periodic_tube", 1.2, 0, 0.02, 0.95, 0.95},
+                                         Case{"rational_torus", "rational_torus", 1.5, 0, 0.02, 0.95, 0.95},
+                                         Case{"drilled", "drilled_cylinder", 1, -1, 0.02, 0.95, 0.95},
+                                         Case{"plate", "plate_with_hole", 1.5, 0, 0.005, 0.95, 0.95}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 /// A field too coarse for the face: no quality to be had, but a valid mesh.
 class MeshThinFace : public testing::TestWithParam<std::pair<const char*, double>> {};
@@ -119,8 +124,8 @@ TEST_P(MeshThinFace, is_valid) {
 
 INSTANTIATE_TEST_SUITE_P(, MeshThinFace,
                          testing::Values(std::pair{"strip", 1.0}, std::pair{"strip", 10.0}, std::pair{"thin_tube", 1.0},
-                                         std::pair{"disc", 50.0}, std::pair{"annulus", 30.0},
-                                         std::pair{"torus", 40.0}, std::pair{"cone_side", 30.0}));
+                                         std::pair{"disc", 50.0}, std::pair{"annulus", 30.0}, std::pair{"torus", 40.0},
+                                         std::pair{"cone_side", 30.0}));
 
 TEST(MeshFace, says_where_a_sphere_needs_more_nodes_when_its_seam_has_hardly_any) {
   const UniformField field(40);
@@ -166,7 +171,8 @@ TEST(MeshFace, says_where_loops_cross) {
 }
 
 TEST(MeshFace, finds_no_fault_in_good_loops) {
-  EXPECT_TRUE(check_boundary(kPlane, polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{4, 4}, {4, 6}, {6, 6}}}, 1.0)).empty());
+  EXPECT_TRUE(
+      check_boundary(kPlane, polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{4, 4}, {4, 6}, {6, 6}}}, 1.0)).empty());
 }
 
 TEST(MeshFace, refuses_a_loop_of_two_nodes) {
@@ -204,7 +210,8 @@ TEST(MeshFace, reports_neighbours_folded_onto_each_other) {
 
 TEST(MeshFace, leaves_no_edge_far_longer_than_its_size_and_hardly_a_node_with_four_neighbours) {
   std::ptrdiff_t n_of_four = 0, n_inner = 0;
-  for (const char* shape : {"square", "disc", "sphere", "torus", "wave", "stretched", "periodic_tube", "drilled_cylinder"}) {
+  for (const char* shape :
+       {"square", "disc", "sphere", "torus", "wave", "stretched", "periodic_tube", "drilled_cylinder"}) {
     const double size = test::make_model(shape).tables().reference_diagonal();
     for (const double share : {0.02, 0.04}) {
       const UniformField uniform(share * size);
@@ -219,7 +226,8 @@ TEST(MeshFace, leaves_no_edge_far_longer_than_its_size_and_hardly_a_node_with_fo
         for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
           const std::int32_t a = mesh.corners[i], b = mesh.corners[i % 3 == 2 ? i - 2 : i + 1];
           if (std::min(a, b) < view.n_boundary()) continue;
-          const double ratio = distance(view.x(a), view.x(b)) / (0.5 * (field->size(view.x(a)) + field->size(view.x(b))));
+          const double ratio =
+              distance(view.x(a), view.x(b)) / (0.5 * (field->size(view.x(a)) + field->size(view.x(b))));
           most = std::max(most, ratio);
         }
         n_of_four += std::count_if(degree.begin() + view.n_boundary(), degree.end(), [](int d) { return d <= 4; });

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "meshing/front.h"
+#include "meshing/face/front.h"
 #include "unit/meshing/faces.h"
 
 namespace st::test {

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "base/predicates.h"
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "mesh/quality.h"
-#include "meshing/curve_discretiser.h"
-#include "meshing/face_boundary.h"
-#include "meshing/face_mesher.h"
+#include "meshing/face/face_boundary.h"
+#include "meshing/face/face_mesher.h"
+#include "meshing/topology/curve_discretiser.h"
 #include "support/shapes.h"
 
 namespace st::test {
@@ -75,7 +75,9 @@ struct FaceCase {
     boundary = make_face_boundary(model, *surface, face, BoundaryNumbering(MeshTopology(model.tables()), edges));
   }
   double area() const { return model.tables().face_area[id]; }
-  FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options = {}) const { return mesh_face(*surface, boundary, field, options); }
+  FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options = {}) const {
+    return mesh_face(*surface, boundary, field, options);
+  }
 };
 
 /// A hand-made boundary on kPlane: loops counter-clockwise, holes clockwise.
@@ -105,7 +107,9 @@ struct MeshView {
   Vec2 uv(std::int32_t c) const { return c < n_boundary() ? boundary.nodes[c].uv : mesh.inner[c - n_boundary()].uv; }
   double h(std::int32_t c) const { return c < n_boundary() ? boundary.nodes[c].h : mesh.inner[c - n_boundary()].h; }
   /// The node outside the face: seam twins and nodes of a pole are one.
-  std::int64_t key(std::int32_t c) const { return c < n_boundary() ? boundary.nodes[c].id : (std::int64_t{1} << 32) + c; }
+  std::int64_t key(std::int32_t c) const {
+    return c < n_boundary() ? boundary.nodes[c].id : (std::int64_t{1} << 32) + c;
+  }
 
   double area() const {
     double sum = 0;
@@ -132,7 +136,8 @@ struct MeshView {
   /// How often each directed edge occurs.
   Uses directed_edges() const {
     Uses uses;
-    for (std::size_t i = 0; i < mesh.corners.size(); ++i) ++uses[{key(mesh.corners[i]), key(mesh.corners[i % 3 == 2 ? i - 2 : i + 1])}];
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+      ++uses[{key(mesh.corners[i]), key(mesh.corners[i % 3 == 2 ? i - 2 : i + 1])}];
     return uses;
   }
   std::int64_t euler() const {
@@ -142,7 +147,8 @@ struct MeshView {
       nodes.insert(edge.first);
       edges.insert(std::minmax(edge.first, edge.second));
     }
-    return static_cast<std::int64_t>(nodes.size()) - static_cast<std::int64_t>(edges.size()) + static_cast<std::int64_t>(n_triangles());
+    return static_cast<std::int64_t>(nodes.size()) - static_cast<std::int64_t>(edges.size()) +
+           static_cast<std::int64_t>(n_triangles());
   }
   /// Share of the edges with an inner node whose length is within [0.7, 1.4] of the field's length at their middle.
   double conformity(const SizeField& field) const {
@@ -155,8 +161,8 @@ struct MeshView {
   }
 };
 
-/// What holds of every mesh of a face: complete, no repeated node, positive in (u,v), every boundary segment used once and in its
-/// direction, every other edge once each way.
+/// What holds of every mesh of a face: complete, no repeated node, positive in (u,v), every boundary segment used once
+/// and in its direction, every other edge once each way.
 inline void expect_valid(const FaceBoundary& boundary, const FaceMesh& mesh) {
   ASSERT_EQ(mesh.cause, "");
   EXPECT_EQ(mesh.n_folds, 0);
@@ -165,7 +171,8 @@ inline void expect_valid(const FaceBoundary& boundary, const FaceMesh& mesh) {
   for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
     const std::int32_t* c = &mesh.corners[i];
     EXPECT_GT(orient2d(view.uv(c[0]), view.uv(c[1]), view.uv(c[2])), 0) << "triangle " << i / 3;
-    EXPECT_TRUE(view.key(c[0]) != view.key(c[1]) && view.key(c[1]) != view.key(c[2]) && view.key(c[2]) != view.key(c[0]));
+    EXPECT_TRUE(view.key(c[0]) != view.key(c[1]) && view.key(c[1]) != view.key(c[2]) &&
+                view.key(c[2]) != view.key(c[0]));
   }
   MeshView::Uses uses = view.directed_edges(), wanted;
   for (const auto& [a, b] : boundary.segments)

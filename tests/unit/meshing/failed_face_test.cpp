@@ -1,5 +1,5 @@
 // What is kept of a face that could not be meshed.
-#include "meshing/failed_face.h"
+#include "meshing/face/failed_face.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/log.h"
-#include "meshing/model_mesher.h"
+#include "meshing/engine/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -46,7 +46,8 @@ TEST(FailedFace, has_every_segment_of_its_loops_with_loop_and_edge) {
   EXPECT_EQ(std::set<EdgeId>(f.segment_edge.begin(), f.segment_edge.end()).size(), 5u);
   for (std::size_t s = 0; s < f.segment_loop.size(); ++s) {
     const double t = m.model.tables().edge_length[f.segment_edge[s]];
-    EXPECT_LT(distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]), t) << "a segment of another edge";
+    EXPECT_LT(distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]), t)
+        << "a segment of another edge";
   }
   for (std::size_t i = 0; i < f.xyz.size(); ++i) EXPECT_LT(distance(surface->point(f.uv[i]), f.xyz[i]), 1e-6);
 }
@@ -56,7 +57,8 @@ TEST(FailedFace, has_a_seam_twice) {
   for (FaceId face = 0; face < 3; ++face) {
     const auto surface = m.model.surface(face);
     if (surface->type() != SurfaceType::kCylinder) continue;
-    const FailedFace f = describe_failure(m.numbering, face, make_face_boundary(m.model, *surface, face, m.numbering), {});
+    const FailedFace f =
+        describe_failure(m.numbering, face, make_face_boundary(m.model, *surface, face, m.numbering), {});
     EXPECT_NEAR(length_of(f), 2 * 30 + 2 * 20 * kPi, 2);
   }
 }
@@ -80,7 +82,8 @@ TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) 
   const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh);
   ASSERT_EQ(f.triangles.size(), n_triangles);
   double area = 0;
-  for (const Triangle& t : f.triangles) area += 0.5 * norm(cross(f.xyz[t.n[1]] - f.xyz[t.n[0]], f.xyz[t.n[2]] - f.xyz[t.n[0]]));
+  for (const Triangle& t : f.triangles)
+    area += 0.5 * norm(cross(f.xyz[t.n[1]] - f.xyz[t.n[0]], f.xyz[t.n[2]] - f.xyz[t.n[0]]));
   EXPECT_NEAR(area, 100, 1e-9);
   ASSERT_EQ(f.places.size(), 1u);
   EXPECT_TRUE(f.places[0] == (Vec3{1, 2, 3}));

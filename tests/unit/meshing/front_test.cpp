@@ -1,9 +1,9 @@
 // The advancing front alone: what it leaves to the enhancer.
-#include "meshing/front.h"
+#include "meshing/face/front.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "unit/meshing/face_work.h"
 
 namespace st::test {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "meshing/hole_curves.h"
-#include "meshing/hole_filler.h"
+#include "meshing/hole/hole_curves.h"
+#include "meshing/hole/hole_filler.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {

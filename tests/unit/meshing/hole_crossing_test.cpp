@@ -1,5 +1,5 @@
 // Crossings of new triangles with others, new or old.
-#include "meshing/hole_crossing.h"
+#include "meshing/hole/hole_crossing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Runs of segments done again between nodes that stay.
-#include "meshing/hole_curves.h"
+#include "meshing/hole/hole_curves.h"
 
 #include "unit/meshing/shape_mesh.h"
 
@@ -30,8 +30,9 @@ TEST(HoleCurves, keep_the_nodes_at_the_ends_of_a_run_to_the_bit_and_give_them_th
   EXPECT_TRUE(fresh[0].t.front() == holes.edges.node_t[first] && fresh[0].t.back() == holes.edges.node_t[last]);
 
   const EdgeUpdate u = update_edges(holes, runs, fresh);
-  ASSERT_EQ(u.edges.edge_offsets[1] - u.edges.edge_offsets[0],
-            holes.edges.edge_offsets[1] - holes.edges.edge_offsets[0] - 2 + static_cast<std::int32_t>(fresh[0].t.size()) - 1);
+  ASSERT_EQ(
+      u.edges.edge_offsets[1] - u.edges.edge_offsets[0],
+      holes.edges.edge_offsets[1] - holes.edges.edge_offsets[0] - 2 + static_cast<std::int32_t>(fresh[0].t.size()) - 1);
   EXPECT_EQ(u.old_to_new[first + 1], kNone) << "inside the run";
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(holes.edges.node_t.size()); ++i) {
     const std::int32_t n = u.old_to_new[i];
@@ -42,7 +43,8 @@ TEST(HoleCurves, keep_the_nodes_at_the_ends_of_a_run_to_the_bit_and_give_them_th
     EXPECT_EQ(u.edges.node_request[n], holes.edges.node_size[i]);
     EXPECT_EQ(u.edges.node_size[n], i == first || i == last ? fine.min_size() : holes.edges.node_size[i]);
   }
-  for (std::int32_t n = u.old_to_new[first] + 1; n < u.old_to_new[last]; ++n) EXPECT_EQ(u.edges.node_previous[n], kNone);
+  for (std::int32_t n = u.old_to_new[first] + 1; n < u.old_to_new[last]; ++n)
+    EXPECT_EQ(u.edges.node_previous[n], kNone);
 }
 
 }  // namespace

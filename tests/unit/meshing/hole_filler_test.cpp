@@ -1,5 +1,5 @@
 // Holes: their boundaries in (u,v), their fills, and what of the mesh stays as it was.
-#include "meshing/hole_filler.h"
+#include "meshing/hole/hole_filler.h"
 
 #include "base/error.h"
 #include "mesh/checks.h"

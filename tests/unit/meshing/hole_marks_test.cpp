@@ -1,5 +1,5 @@
 // Marks: where the request changed, and only there.
-#include "meshing/hole_marks.h"
+#include "meshing/hole/hole_marks.h"
 
 #include "unit/meshing/shape_mesh.h"
 
@@ -17,7 +17,8 @@ TEST(HoleMarks, with_half_the_size_mark_everything) {
   const HoleMesh holes(box.mesh, box.model.tables());
   const HoleMarks marks = mark_holes(holes, box.wanted(UniformField(0.5 * box.field.min_size())), {});
   EXPECT_EQ(marks.n_triangles(), box.mesh.n_triangles());
-  EXPECT_EQ(std::count(marks.segment.begin(), marks.segment.end(), 1), static_cast<std::ptrdiff_t>(holes.segments.size()));
+  EXPECT_EQ(std::count(marks.segment.begin(), marks.segment.end(), 1),
+            static_cast<std::ptrdiff_t>(holes.segments.size()));
 }
 
 TEST(HoleMarks, leave_kept_faces_and_their_edges) {
@@ -53,7 +54,8 @@ TEST(HoleMarks, leave_no_triangle_alone_among_marked_ones) {
   for (TriangleId t = 0; t < box.mesh.n_triangles(); t += 17) options.redo.push_back(t);
   const HoleMarks marks = mark_holes(holes, box.wanted(box.field), options);
   ASSERT_LT(marks.n_triangles(), box.mesh.n_triangles());
-  for (TriangleId t = 0; t < box.mesh.n_triangles(); ++t) EXPECT_TRUE(marks.triangle[t] || !is_enclosed(holes, marks, t)) << t;
+  for (TriangleId t = 0; t < box.mesh.n_triangles(); ++t)
+    EXPECT_TRUE(marks.triangle[t] || !is_enclosed(holes, marks, t)) << t;
 }
 
 TEST(HoleMarks, take_along_a_segment_between_two_marked_ones) {
@@ -62,7 +64,8 @@ TEST(HoleMarks, take_along_a_segment_between_two_marked_ones) {
   const std::int32_t first = holes.edges.edge_offsets[0];
   ASSERT_GT(holes.edges.edge_offsets[1] - first, 8);
   std::vector<double> wanted = box.wanted(box.field);
-  for (const int i : {2, 5}) wanted[holes.edge_node[first + i]] *= 0.2;  // 2-3 and 4-5 are too long for that, 3-4 is as it was
+  for (const int i : {2, 5})
+    wanted[holes.edge_node[first + i]] *= 0.2;  // 2-3 and 4-5 are too long for that, 3-4 is as it was
   const HoleMarks marks = mark_holes(holes, wanted, {});
   for (int i = 0; i < 8; ++i) EXPECT_EQ(marks.segment[first + i] != 0, i >= 1 && i <= 5) << i;
 }
@@ -75,7 +78,8 @@ TEST(HoleMarks, leave_the_edges_of_closed_strips) {
   box.mesh.merged.strip_is_opposed = {1};
   const HoleMesh holes(box.mesh, box.model.tables());
   const HoleMarks marks = mark_holes(holes, box.wanted(UniformField(0.5 * box.field.min_size())), {});
-  for (const CadSegment& s : holes.segments) EXPECT_EQ(marks.segment[s.index] != 0, s.edge != 0 && s.edge != 2) << s.edge;
+  for (const CadSegment& s : holes.segments)
+    EXPECT_EQ(marks.segment[s.index] != 0, s.edge != 0 && s.edge != 2) << s.edge;
 }
 
 TEST(HoleMarks, of_a_change_below_the_threshold_are_none_whatever_the_lengths) {
@@ -100,8 +104,9 @@ TEST(HoleMarks, grow_by_the_triangles_around_within_the_face) {
   grow_hole(holes, 3, hole, 1, marks);
   const Triangle& t = box.mesh.triangles[hole[0]];
   for (TriangleId i = 0; i < box.mesh.n_triangles(); ++i) {
-    const bool touches =
-        std::any_of(t.n, t.n + 3, [&](NodeId n) { return std::count(box.mesh.triangles[i].n, box.mesh.triangles[i].n + 3, n) > 0; });
+    const bool touches = std::any_of(t.n, t.n + 3, [&](NodeId n) {
+      return std::count(box.mesh.triangles[i].n, box.mesh.triangles[i].n + 3, n) > 0;
+    });
     EXPECT_EQ(marks.triangle[i] != 0, touches && box.mesh.triangle_face[i] == 3) << i;
   }
 }
@@ -114,7 +119,8 @@ TEST(HoleMarks, leave_the_segments_of_kept_edges_and_redo_the_triangles_beside_t
   options.keep_edge[3] = 1;
   const HoleMarks marks = mark_holes(holes, box.wanted(UniformField(0.5 * box.field.min_size())), options);
   EXPECT_EQ(marks.n_triangles(), box.mesh.n_triangles());
-  for (const CadSegment& s : holes.segments) EXPECT_EQ(marks.segment[s.index] != 0, s.edge != 3) << "edge " << s.edge + 1;
+  for (const CadSegment& s : holes.segments)
+    EXPECT_EQ(marks.segment[s.index] != 0, s.edge != 3) << "edge " << s.edge + 1;
 }
 
 }  // namespace

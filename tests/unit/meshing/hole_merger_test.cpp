@@ -1,5 +1,5 @@
 // The mesh with its holes filled: what merging the patches of all faces would give.
-#include "meshing/hole_merger.h"
+#include "meshing/hole/hole_merger.h"
 
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/hole_case.h"

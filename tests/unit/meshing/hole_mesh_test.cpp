@@ -1,5 +1,5 @@
 // A merged mesh seen from the CAD again.
-#include "meshing/hole_mesh.h"
+#include "meshing/hole/hole_mesh.h"
 
 #include "base/error.h"
 #include "unit/meshing/shape_mesh.h"

@@ -1,8 +1,8 @@
 // A mesh put onto its geometry moved.
-#include "meshing/hole_reprojector.h"
+#include "meshing/hole/hole_reprojector.h"
 
 #include "base/error.h"
-#include "geometry/edit_model.h"
+#include "geometry/model/edit_model.h"
 #include "mesh/checks.h"
 #include "unit/meshing/shape_mesh.h"
 
@@ -20,7 +20,8 @@ TEST_P(MovedSolid, stays_as_it_was_where_nothing_moved) {
     EXPECT_LE(distance(moved.mesh.node_xyz[n], solid.mesh.node_xyz[n]), 1e-9 * size);
     EXPECT_EQ(moved.mesh.node_t[n], solid.mesh.node_t[n]);
   }
-  for (std::size_t c = 0; c < solid.mesh.corner_uv.size(); ++c) EXPECT_TRUE(moved.mesh.corner_uv[c] == solid.mesh.corner_uv[c]) << c;
+  for (std::size_t c = 0; c < solid.mesh.corner_uv.size(); ++c)
+    EXPECT_TRUE(moved.mesh.corner_uv[c] == solid.mesh.corner_uv[c]) << c;
 }
 
 TEST_P(MovedSolid, takes_all_its_nodes_along) {
@@ -31,11 +32,13 @@ TEST_P(MovedSolid, takes_all_its_nodes_along) {
   const MovedMesh moved = move_mesh(solid.mesh, there);
   EXPECT_TRUE(moved.spoilt.empty());
   const double size = there.tables().reference_diagonal();
-  for (NodeId n = 0; n < solid.mesh.n_nodes(); ++n) EXPECT_LE(distance(moved.mesh.node_xyz[n], at(solid.mesh.node_xyz[n])), 1e-6 * size);
+  for (NodeId n = 0; n < solid.mesh.n_nodes(); ++n)
+    EXPECT_LE(distance(moved.mesh.node_xyz[n], at(solid.mesh.node_xyz[n])), 1e-6 * size);
   EXPECT_TRUE(check_topology(moved.mesh).passes());
 }
 
-INSTANTIATE_TEST_SUITE_P(, MovedSolid, testing::ValuesIn(kSolids), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(, MovedSolid, testing::ValuesIn(kSolids),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(MoveMesh, lists_what_the_move_distorts) {
   const ShapeMesh thick("cylinder");

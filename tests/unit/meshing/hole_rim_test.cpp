@@ -1,5 +1,5 @@
 // Outlines of holes.
-#include "meshing/hole_rim.h"
+#include "meshing/hole/hole_rim.h"
 
 #include "unit/meshing/shape_mesh.h"
 

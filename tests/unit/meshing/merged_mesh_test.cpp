@@ -1,5 +1,6 @@
-// Steps, strips and edges far below the sizes: merged for meshing, the mesh closed and without the small triangles they would force.
-#include "meshing/small_features.h"
+// Steps, strips and edges far below the sizes: merged for meshing, the mesh closed and without the small triangles they
+// would force.
+#include "meshing/topology/small_features.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 #include "mesh/checks.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
-#include "meshing/model_mesher.h"
+#include "meshing/engine/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -42,10 +43,13 @@ struct Meshed {
   double shortest_side() const {
     double shortest = 1e300;
     for (const Triangle& t : mesh.triangles)
-      for (int k = 0; k < 3; ++k) shortest = std::min(shortest, distance(mesh.node_xyz[t.n[k]], mesh.node_xyz[t.n[(k + 1) % 3]]));
+      for (int k = 0; k < 3; ++k)
+        shortest = std::min(shortest, distance(mesh.node_xyz[t.n[k]], mesh.node_xyz[t.n[(k + 1) % 3]]));
     return shortest;
   }
-  std::size_t n_closed() const { return closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size(); }
+  std::size_t n_closed() const {
+    return closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size();
+  }
 };
 
 void expect_sound(const Meshed& m, std::int64_t euler) {
@@ -137,7 +141,9 @@ TEST(SmallFeatures, short_edges_that_form_a_ring_are_kept) {
 TEST(SmallFeatures, short_edges_beside_each_other_are_merged_together) {
   const Model plate = test::make_model("thin_plate");
   ModelTables t = plate.tables();
-  const auto middle = [&](EdgeId e) { return plate.curve(e)->point(0.5 * (t.edge_range[2 * e] + t.edge_range[2 * e + 1])); };
+  const auto middle = [&](EdgeId e) {
+    return plate.curve(e)->point(0.5 * (t.edge_range[2 * e] + t.edge_range[2 * e + 1]));
+  };
   EdgeId first = 0, beside = 1;
   while (beside == first || distance(middle(first), middle(beside)) > 0.05 || t.edge_length[first] < 1) {
     if (++beside < t.n_edges()) continue;
@@ -148,8 +154,10 @@ TEST(SmallFeatures, short_edges_beside_each_other_are_merged_together) {
   t.vertex_xyz[t.edge_vertices[2 * first + 1]] = t.vertex_xyz[t.edge_vertices[2 * first]];
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (e != first && e != beside) t.edge_length[e] = 1e9;
-  const MergedFeatures merged = find_merged_features(Model(t, plate.brep()), UniformField(100 * t.edge_length[first]), 0.05);
-  EXPECT_EQ(merged.edge, (std::vector<EdgeId>{std::min(first, beside), std::max(first, beside)})) << "a hole that just reaches the rim";
+  const MergedFeatures merged =
+      find_merged_features(Model(t, plate.brep()), UniformField(100 * t.edge_length[first]), 0.05);
+  EXPECT_EQ(merged.edge, (std::vector<EdgeId>{std::min(first, beside), std::max(first, beside)}))
+      << "a hole that just reaches the rim";
 }
 
 TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {

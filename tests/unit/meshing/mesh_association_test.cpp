@@ -1,11 +1,11 @@
 // A triangulation of another program on a CAD model: what lies where.
-#include "meshing/mesh_association.h"
+#include "meshing/associate/mesh_association.h"
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "meshing/hole_mesh.h"
-#include "meshing/part_matching.h"
+#include "meshing/associate/part_matching.h"
+#include "meshing/hole/hole_mesh.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {
@@ -164,7 +164,8 @@ TEST_P(AssociatedSolid, has_the_entities_and_parameters_it_was_made_with) {
 TEST_P(AssociatedSolid, is_the_same_when_some_of_its_triangles_were_turned) {
   const ShapeMesh solid(GetParam(), 0.05);
   SurfaceMesh foreign = bare(solid.mesh);
-  for (std::size_t t = 0; t < foreign.triangles.size(); t += 5) std::swap(foreign.triangles[t].n[1], foreign.triangles[t].n[2]);
+  for (std::size_t t = 0; t < foreign.triangles.size(); t += 5)
+    std::swap(foreign.triangles[t].n[1], foreign.triangles[t].n[2]);
   const AssociatedMesh a = associate_mesh(foreign, solid.model, {});
   EXPECT_EQ(a.report.n_turned, (solid.mesh.n_triangles() + 4) / 5);
   expect_entities(a, solid.mesh);
@@ -191,7 +192,8 @@ TEST(AssociatedMesh, that_lies_elsewhere_or_has_a_node_on_no_face_is_refused) {
   EXPECT_NE(message(dented).find("lie on no face"), std::string::npos) << message(dented);
 }
 
-INSTANTIATE_TEST_SUITE_P(, AssociatedSolid, testing::ValuesIn(kSolids), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(, AssociatedSolid, testing::ValuesIn(kSolids),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace st::test

@@ -1,5 +1,5 @@
 // Triangles that a mesh lacks.
-#include "meshing/mesh_gaps.h"
+#include "meshing/hole/mesh_gaps.h"
 
 #include "unit/meshing/shape_mesh.h"
 

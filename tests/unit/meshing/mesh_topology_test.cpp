@@ -1,4 +1,4 @@
-#include "meshing/mesh_topology.h"
+#include "meshing/topology/mesh_topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Whole models through ModelMesher at one rank: what is merged from its patches is the closed model.
-#include "meshing/model_mesher.h"
+#include "meshing/engine/model_mesher.h"
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,8 @@ TEST_P(MeshedSolid, has_the_area_and_volume_of_the_cad_and_points_outward) {
   EXPECT_NEAR(measure.volume, s.volume, s.error * s.volume);
   EXPECT_NEAR(measure.area, s.area, s.error * s.area);
   for (FaceId f = 0; f < m.model.tables().n_faces(); ++f)
-    EXPECT_NEAR(measure.face_area[f], m.model.tables().face_area[f], 1.5 * s.error * m.model.tables().face_area[f]) << "face " << f;
+    EXPECT_NEAR(measure.face_area[f], m.model.tables().face_area[f], 1.5 * s.error * m.model.tables().face_area[f])
+        << "face " << f;
 }
 
 TEST_P(MeshedSolid, keeps_the_nodes_of_edges_and_vertices_on_them) {
@@ -96,15 +97,15 @@ TEST_P(MeshedSolid, is_the_same_every_time) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(a.mesh.triangles[i].n[k], b.mesh.triangles[i].n[k]);
 }
 
-INSTANTIATE_TEST_SUITE_P(, MeshedSolid,
-                         testing::Values(Solid{"box", 4, 8800, 48000, 1e-12, 2}, Solid{"loose_box", 4, 8800, 48000, 1e-12, 2},
-                                         Solid{"two_boxes", 2, 1200, 2000, 1e-12, 4},
-                                         Solid{"sphere", 1, 400 * kPi, 4000 * kPi / 3, 0.01, 2},
-                                         Solid{"cylinder", 1, 800 * kPi, 3000 * kPi, 0.01, 2},
-                                         Solid{"cone", 1, 100 * kPi*(1 + std::sqrt(5.0)), 2000 * kPi / 3, 0.01, 2},
-                                         Solid{"torus", 1, 480 * kPi* kPi, 1440 * kPi* kPi, 0.01, 0},
-                                         Solid{"drilled_block", 2, 8800 - 32 * kPi + 160 * kPi, 48000 - 320 * kPi, 0.02, 0}),
-                         [](const auto& info) { return std::string(info.param.shape); });
+INSTANTIATE_TEST_SUITE_P(
+    , MeshedSolid,
+    testing::Values(Solid{"box", 4, 8800, 48000, 1e-12, 2}, Solid{"loose_box", 4, 8800, 48000, 1e-12, 2},
+                    Solid{"two_boxes", 2, 1200, 2000, 1e-12, 4}, Solid{"sphere", 1, 400 * kPi, 4000 * kPi / 3, 0.01, 2},
+                    Solid{"cylinder", 1, 800 * kPi, 3000 * kPi, 0.01, 2},
+                    Solid{"cone", 1, 100 * kPi*(1 + std::sqrt(5.0)), 2000 * kPi / 3, 0.01, 2},
+                    Solid{"torus", 1, 480 * kPi* kPi, 1440 * kPi* kPi, 0.01, 0},
+                    Solid{"drilled_block", 2, 8800 - 32 * kPi + 160 * kPi, 48000 - 320 * kPi, 0.02, 0}),
+    [](const auto& info) { return std::string(info.param.shape); });
 
 TEST(ModelMesher, turns_a_mirrored_part_outward) {
   set_verbosity(Verbosity::kQuiet);
@@ -241,7 +242,8 @@ TEST(ModelMesher, redoes_one_face_on_the_nodes_its_neighbours_keep) {
   }
   OrientationReport report;
   const ModelTables& t = m.model.tables();
-  EXPECT_TRUE(check_topology(merge_patches({again.edges, t.vertex_xyz, t.edge_vertices, again.patches, {}}, report)).passes());
+  EXPECT_TRUE(
+      check_topology(merge_patches({again.edges, t.vertex_xyz, t.edge_vertices, again.patches, {}}, report)).passes());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The nearest of many points.
-#include "meshing/nearest_node.h"
+#include "meshing/associate/nearest_node.h"
 
 #include <gtest/gtest.h>
 

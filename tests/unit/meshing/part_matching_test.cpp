@@ -1,5 +1,5 @@
 // Which part of a mesh is which part of a model.
-#include "meshing/part_matching.h"
+#include "meshing/associate/part_matching.h"
 
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/shape_mesh.h"

@@ -1,4 +1,4 @@
-#include "meshing/refinements.h"
+#include "meshing/face/refinements.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,8 @@ TEST(RefinedField, finds_the_same_length_to_the_bit_as_a_visit_of_all_places) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(0, 10), length(0.01, 2);
   std::vector<Refinement> places;
-  for (int i = 0; i < 1000; ++i) places.push_back(at({coordinate(random), coordinate(random), 0.1 * coordinate(random)}, length(random)));
+  for (int i = 0; i < 1000; ++i)
+    places.push_back(at({coordinate(random), coordinate(random), 0.1 * coordinate(random)}, length(random)));
   for (int i = 0; i < 50; ++i) places.push_back(places[0]);  // many at one place
   const UniformField base(3);
   const RefinedField f(base, places);

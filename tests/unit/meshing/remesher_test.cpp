@@ -1,5 +1,5 @@
 // Marks, holes, fills and growth of a whole mesh at one rank.
-#include "meshing/remesher.h"
+#include "meshing/engine/remesher.h"
 
 #include <gtest/gtest.h>
 

@@ -68,6 +68,7 @@ struct BoxMesh : ShapeMesh {
 };
 
 /// With solids whose surfaces have seams, poles and an apex.
-inline const char* const kSolids[] = {"box", "cylinder", "sphere", "cone", "torus", "drilled_cylinder", "mirrored_cylinder"};
+inline const char* const kSolids[] = {"box",   "cylinder",         "sphere",           "cone",
+                                      "torus", "drilled_cylinder", "mirrored_cylinder"};
 
 }  // namespace st::test

@@ -1,5 +1,5 @@
 // What may be merged for meshing, at any size.
-#include "meshing/small_features.h"
+#include "meshing/topology/small_features.h"
 
 #include "unit/meshing/shape_mesh.h"
 
@@ -31,13 +31,15 @@ TEST_P(MergedSolid, moves_no_vertex_further_than_the_bound) {
   for (double size = t.reference_diagonal(); size < 20 * t.reference_diagonal(); size *= 1.3) {
     const ModelTables meshed = MeshTopology(t, find_merged_features(model, UniformField(size), 0.2)).tables();
     std::map<VertexId, Box3> cluster;
-    for (std::size_t i = 0; i < t.edge_vertices.size(); ++i) cluster[meshed.edge_vertices[i]].add(t.vertex_xyz[t.edge_vertices[i]]);
+    for (std::size_t i = 0; i < t.edge_vertices.size(); ++i)
+      cluster[meshed.edge_vertices[i]].add(t.vertex_xyz[t.edge_vertices[i]]);
     for (const auto& [v, box] : cluster) EXPECT_LE(box.diagonal(), 0.2 * size) << "vertex " << v << " at " << size;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(, MergedSolid,
-                         testing::Values("box", "cylinder", "drilled_block", "stepped_box", "thin_plate", "wedge_strip", "sharp_triangle"),
+                         testing::Values("box", "cylinder", "drilled_block", "stepped_box", "thin_plate", "wedge_strip",
+                                         "sharp_triangle"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(MergedEdges, are_none_when_nothing_is_to_be_merged) {

@@ -1,4 +1,4 @@
-#include "meshing/triangulation.h"
+#include "meshing/face/triangulation.h"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,8 @@ double inside_area(const Triangulation& m) {
   return sum;
 }
 
-/// Counter-clockwise triangles that fill the box, neighbours that know each other, edges marked from both sides, a triangle at every node.
+/// Counter-clockwise triangles that fill the box, neighbours that know each other, edges marked from both sides, a
+/// triangle at every node.
 void expect_valid(const Triangulation& m) {
   double sum = 0;
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {
@@ -188,7 +189,8 @@ TEST(Triangulation, reports_segments_that_cross) {
   Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
   const auto conflicts = m.build({{0, 1}, {1, 3}, {3, 2}, {2, 0}});
   ASSERT_EQ(conflicts.size(), 1u);
-  const std::set<std::int32_t> named{conflicts[0].node_a, conflicts[0].node_b, conflicts[0].other_a, conflicts[0].other_b};
+  const std::set<std::int32_t> named{conflicts[0].node_a, conflicts[0].node_b, conflicts[0].other_a,
+                                     conflicts[0].other_b};
   EXPECT_EQ(named, (std::set<std::int32_t>{0, 1, 2, 3}));
 }
 
@@ -234,13 +236,15 @@ TEST(Triangulation, locates_points_but_not_across_a_segment) {
     const std::int32_t t = m.locate(p, start);
     if (t == kNone) continue;
     ++n_found;
-    for (int k = 0; k < 3; ++k) EXPECT_GE(orient2d(m.nodes[m.triangles[t].v[k]].p, m.nodes[m.triangles[t].v[(k + 1) % 3]].p, p), 0);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GE(orient2d(m.nodes[m.triangles[t].v[k]].p, m.nodes[m.triangles[t].v[(k + 1) % 3]].p, p), 0);
     EXPECT_TRUE(is_inside);
   }
   EXPECT_GT(n_found, 10);
 }
 
-/// Random inner nodes in the square with a hole, by cavities in metrics, in turn, that have nothing to do with the plane or each other.
+/// Random inner nodes in the square with a hole, by cavities in metrics, in turn, that have nothing to do with the
+/// plane or each other.
 void insert_nodes(Triangulation& m, int n, unsigned seed, const std::vector<Metric>& metrics) {
   for (Vec2 q : random_points(n, seed)) {
     const Vec2 p = 4 * q;
@@ -269,7 +273,8 @@ Triangulation with_inner_nodes(int n, const std::vector<Metric>& metrics) {
 
 TEST(Triangulation, stays_valid_under_insertion_in_any_metric) {
   const Metric plain, flat{1e6, 0, 1}, sheared{2, 1.4, 1}, singular{1, 0, 1e-9};
-  for (const std::vector<Metric>& metrics : {std::vector{plain}, {flat}, {sheared}, {singular}, {plain, flat, sheared, singular}}) {
+  for (const std::vector<Metric>& metrics :
+       {std::vector{plain}, {flat}, {sheared}, {singular}, {plain, flat, sheared, singular}}) {
     const Triangulation m = with_inner_nodes(300, metrics);
     EXPECT_GT(m.nodes.size(), 200u);
     expect_valid(m);
@@ -318,7 +323,8 @@ TEST(Triangulation, stays_valid_under_insertion_where_nothing_is_delaunay) {
 }
 
 TEST(Triangulation, refuses_to_swap_where_the_quadrilateral_is_not_convex) {
-  Triangulation m = with_nodes({{0, 0}, {4, 0}, {1, 1}, {0, 4}});  // an arrow head: the diagonal 0-2 is the only one inside
+  Triangulation m = with_nodes({{0, 0}, {4, 0}, {1, 1}, {0, 4}});  // an arrow head: the diagonal 0-2 is the only one
+                                                                   // inside
   ASSERT_TRUE(m.build(ring(0, 4)).empty());
   int n_tried = 0;
   for (std::size_t i = 0; i < m.triangles.size(); ++i)
@@ -360,7 +366,8 @@ TEST(Triangulation, stays_valid_under_collapses) {
       bool is_valid = true;
       for (int k = 0; k < n; ++k)
         if (k != c && (k + 1) % n != c)
-          is_valid = is_valid && orient2d(m.nodes[around[c]].p, m.nodes[around[k]].p, m.nodes[around[(k + 1) % n]].p) > 0;
+          is_valid =
+              is_valid && orient2d(m.nodes[around[c]].p, m.nodes[around[k]].p, m.nodes[around[(k + 1) % n]].p) > 0;
       if (!is_valid) continue;
       m.collapse(i, c, around, tris);
       EXPECT_EQ(m.triangle_at(i), kNone);

@@ -56,15 +56,18 @@ struct Sized {
 
 constexpr double kLargest = 0.5, kSlope = 0.2;
 
-std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const Surface* surface, BlankSide side = BlankSide::kInside) {
+std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const Surface* surface,
+                                 BlankSide side = BlankSide::kInside) {
   auto s = std::make_unique<Sized>();
   s->raster = build_octree(test::kUnitBox, boxes);
   const OctreeView octree = s->raster.shape.view();
   if (surface) s->blanking = blank_cells(octree, Neighbours(octree), surface->view(), side);
-  s->lengths = prolong(octree, s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest}, surface ? &s->blanking : nullptr);
-  s->field = std::make_unique<OctreeField>(OctreeFieldData{octree, s->lengths.cells, s->lengths.cause, kSlope, 1, s->blanking.split_leaf,
-                                                           s->blanking.split, s->lengths.second_cells, s->lengths.second_cause},
-                                           nullptr);
+  s->lengths = prolong(octree, s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest},
+                       surface ? &s->blanking : nullptr);
+  s->field = std::make_unique<OctreeField>(
+      OctreeFieldData{octree, s->lengths.cells, s->lengths.cause, kSlope, 1, s->blanking.split_leaf, s->blanking.split,
+                      s->lengths.second_cells, s->lengths.second_cause},
+      nullptr);
   return s;
 }
 
@@ -91,8 +94,8 @@ TEST(Blanking, colours_what_lies_inside_outside_and_between) {
       const Vec3 c = octree.leaf_center(leaf);
       const double h = 0.5 * octree.cell_edge(octree.leaf_levels[leaf]);
       const auto is_between = [&](double margin) {
-        return c.x > lo.x - margin && c.x < hi.x + margin && c.y > lo.y - margin && c.y < hi.y + margin && c.z > lo.z - margin &&
-               c.z < hi.z + margin;
+        return c.x > lo.x - margin && c.x < hi.x + margin && c.y > lo.y - margin && c.y < hi.y + margin &&
+               c.z > lo.z - margin && c.z < hi.z + margin;
       };
       const bool is_in = is_between(-h), is_out = !is_between(h);
       const CellColour in = side == BlankSide::kInside ? CellColour::kBlanked : CellColour::kFlow;
@@ -173,9 +176,14 @@ TEST(Blanking, thin_curved_shell_blocks) {
     const auto base = static_cast<NodeId>(shell.points.size());
     for (int i = 0; i <= kRings; ++i)
       for (int j = 0; j < kSectors; ++j) {
-        const double theta = kPi * (i + (i == 0 ? 0.001 : i == kRings ? -0.001 : 0)) / kRings, phi = 2 * kPi * j / kSectors;
-        shell.points.push_back(Vec3{0.5, 0.5, 0.5} +
-                               radius * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+        const double theta = kPi *
+                             (i + (i == 0        ? 0.001
+                                   : i == kRings ? -0.001
+                                                 : 0)) /
+                             kRings,
+                     phi = 2 * kPi * j / kSectors;
+        shell.points.push_back(Vec3{0.5, 0.5, 0.5} + radius * Vec3{std::sin(theta) * std::cos(phi),
+                                                                   std::sin(theta) * std::sin(phi), std::cos(theta)});
       }
     const auto add = [&](NodeId a, NodeId b, NodeId c) {
       if (radius > 0.395)
@@ -201,14 +209,16 @@ TEST(Blanking, thin_curved_shell_blocks) {
   int n = 0, n_right = 0, n_inner = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3 d = normalized({uniform(random), uniform(random), uniform(random)});
-    const Vec3 outer = Vec3{0.5, 0.5, 0.5} + 0.4001 * d, inner = Vec3{0.5, 0.5, 0.5} + 0.389 * d, far = Vec3{0.5, 0.5, 0.5} + 0.48 * d;
+    const Vec3 outer = Vec3{0.5, 0.5, 0.5} + 0.4001 * d, inner = Vec3{0.5, 0.5, 0.5} + 0.389 * d,
+               far = Vec3{0.5, 0.5, 0.5} + 0.48 * d;
     ++n;
     n_right += size_at(*blocked, outer) == kLargest;
     n_inner += size_at(*blocked, inner) < size_at(*open, inner) + 0.03;
     ASSERT_EQ(size_at(*blocked, far), kLargest);
   }
   EXPECT_EQ(n_inner, n);        // never coarser than asked for
-  EXPECT_GT(n_right, 0.5 * n);  // nor finer than needed, but for corners of cells where the shell bends by more than its thickness
+  EXPECT_GT(n_right, 0.5 * n);  // nor finer than needed, but for corners of cells where the shell bends by more than
+                                // its thickness
 }
 
 TEST(WindingNumber, is_exact_where_rays_meet_edges_and_corners) {

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "sizing/octree_nodes.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"

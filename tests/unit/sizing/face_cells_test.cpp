@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "sizing/prolong.h"
 #include "unit/sizing/cases.h"
 
@@ -38,7 +38,8 @@ TEST(FaceCells, put_each_part_where_it_lies) {
 TEST(FaceCells, respect_the_loops) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
   const PlaneSurface plane(kFrame, 0, 1, 0, 1);
-  const LoopPolygons half(std::vector<LoopSide>{{{0, 0}, {0.5, 0}}, {{0.5, 0}, {0.5, 1}}, {{0.5, 1}, {0, 1}}, {{0, 1}, {0, 0}}});
+  const LoopPolygons half(
+      std::vector<LoopSide>{{{0, 0}, {0.5, 0}}, {{0.5, 0}, {0.5, 1}}, {{0.5, 1}, {0, 1}}, {{0, 1}, {0, 0}}});
   const std::vector<CellArea> cells = locate_face(plane, half, raster.shape.view(), 0);
   EXPECT_NEAR(total(cells), 0.5, 0.03);
   for (const CellArea& c : cells) EXPECT_LT(raster.shape.view().leaf_center(c.leaf).x, 0.6);
@@ -48,8 +49,8 @@ TEST(FaceCells, give_a_sliver_its_whole_area) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(100));
   const PlaneSurface plane(kFrame, 0, 1, 0, 1);
   const double v = 0.123456;
-  const LoopPolygons sliver(
-      std::vector<LoopSide>{{{0, v}, {1, v}}, {{1, v}, {1, v + 1e-9}}, {{1, v + 1e-9}, {0, v + 1e-9}}, {{0, v + 1e-9}, {0, v}}});
+  const LoopPolygons sliver(std::vector<LoopSide>{
+      {{0, v}, {1, v}}, {{1, v}, {1, v + 1e-9}}, {{1, v + 1e-9}, {0, v + 1e-9}}, {{0, v + 1e-9}, {0, v}}});
   EXPECT_NEAR(total(locate_face(plane, sliver, raster.shape.view(), 1e-9)), 1e-9, 1e-13);
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 #include "sizing/raster_face.h"
 
 namespace st {
@@ -22,8 +22,8 @@ SamplingLimits limits(double max_length, double min_length, int gap_cells = 4) {
 enum class Normals { kAlong, kAgainst };
 
 /// Adds the patches of a surface, with normals along or against du x dv; `cause` tells surfaces apart.
-void add_patches(const Surface& surface, Normals normals, const SamplingLimits& own, std::vector<GapPatch>& patches, std::int32_t cause = 0,
-                 const LoopPolygons& loops = {}) {
+void add_patches(const Surface& surface, Normals normals, const SamplingLimits& own, std::vector<GapPatch>& patches,
+                 std::int32_t cause = 0, const LoopPolygons& loops = {}) {
   std::vector<RasterBox> boxes;
   std::vector<GapPatch> found;
   raster_face(surface, loops, own, cause, boxes, &found);
@@ -122,8 +122,8 @@ TEST(GapSizes, of_a_curved_wall_are_its_thickness) {
 
 TEST(GapSizes, of_a_sphere_in_a_box_follow_the_distance_along_the_normal) {
   const double radius = 4, distance = 0.5;  // from the bottom of the sphere to a plane
-  const AxialSurface sphere(SurfaceType::kSphere, {{5, 5, radius + distance}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, radius, 0, 0, 2 * kPi,
-                            -kPi / 2, kPi / 2);
+  const AxialSurface sphere(SurfaceType::kSphere, {{5, 5, radius + distance}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, radius,
+                            0, 0, 2 * kPi, -kPi / 2, kPi / 2);
   std::vector<GapPatch> patches;
   add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
   add_patches(sphere, Normals::kAlong, limits(1, 0.01), patches, 1);
@@ -142,8 +142,8 @@ TEST(GapSizes, of_a_sphere_in_a_box_follow_the_distance_along_the_normal) {
 }
 
 TEST(GapSizes, of_a_small_body_above_a_large_wall_are_found_from_both) {
-  const AxialSurface ball(SurfaceType::kSphere, {{5.3, 5.2, 0.35}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.25, 0, 0, 2 * kPi, -kPi / 2,
-                          kPi / 2);
+  const AxialSurface ball(SurfaceType::kSphere, {{5.3, 5.2, 0.35}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.25, 0, 0,
+                          2 * kPi, -kPi / 2, kPi / 2);
   std::vector<GapPatch> patches;
   add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
   add_patches(ball, Normals::kAlong, limits(1, 0.01), patches, 1);

@@ -16,7 +16,9 @@ TEST(LoopPolygons, agree_with_the_winding_of_a_star) {
   // a star r(a) = 2 + cos 5a, and the circle r = 0.5 as a hole
   std::vector<LoopSide> sides;
   const int n = 1000;
-  const auto star = [](double a) { return Vec2{(2 + std::cos(5 * a)) * std::cos(a), (2 + std::cos(5 * a)) * std::sin(a)}; };
+  const auto star = [](double a) {
+    return Vec2{(2 + std::cos(5 * a)) * std::cos(a), (2 + std::cos(5 * a)) * std::sin(a)};
+  };
   const auto hole = [](double a) { return Vec2{0.5 * std::cos(a), 0.5 * std::sin(a)}; };
   for (int i = 0; i < n; ++i) {
     const double a = 2 * kPi * i / n, b = 2 * kPi * (i + 1) / n;

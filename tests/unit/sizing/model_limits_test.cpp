@@ -7,8 +7,8 @@ namespace {
 
 const SamplingLimits kWall{0.01, 0.5, radians(10), 2};
 
-/// Three faces in a row (wall, symmetry, far field) that share edges 0 (wall-symmetry) and 1 (symmetry-far field); edge 2 belongs to
-/// symmetry only, edge 3 to none, edge 4 is degenerate.
+/// Three faces in a row (wall, symmetry, far field) that share edges 0 (wall-symmetry) and 1 (symmetry-far field); edge
+/// 2 belongs to symmetry only, edge 3 to none, edge 4 is degenerate.
 ModelTables three_faces(const std::vector<std::string>& roles) {
   ModelTables t;
   t.group_role = roles;

@@ -19,7 +19,8 @@ TEST(Neighbours, are_exactly_the_cells_that_touch) {
     neighbours.for_each(a, [&](std::int32_t b, const CellStep&) { found.insert(b); });
     for (std::int32_t b = 0; b < octree.n_leaves(); ++b) {
       const Vec3 d = octree.leaf_center(a) - octree.leaf_center(b);
-      const double reach = 0.5000001 * (octree.cell_edge(octree.leaf_levels[a]) + octree.cell_edge(octree.leaf_levels[b]));
+      const double reach =
+          0.5000001 * (octree.cell_edge(octree.leaf_levels[a]) + octree.cell_edge(octree.leaf_levels[b]));
       if (a != b && std::abs(d.x) <= reach && std::abs(d.y) <= reach && std::abs(d.z) <= reach) expected.insert(b);
     }
     ASSERT_EQ(found, expected) << "leaf " << a;

@@ -66,7 +66,8 @@ TEST(OctreeField, answers_the_same_whatever_the_hint) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3 x{uniform(random), uniform(random), uniform(random)};
     const double expected = field->size(x);
-    for (int hint : {0, n - 1, n, -1, std::numeric_limits<int>::max(), static_cast<int>(random() % static_cast<unsigned>(n))})
+    for (int hint :
+         {0, n - 1, n, -1, std::numeric_limits<int>::max(), static_cast<int>(random() % static_cast<unsigned>(n))})
       ASSERT_EQ(field->size(x, hint), expected);
     ASSERT_EQ(field->size(x, coherent), expected);
     ASSERT_EQ(field->size(x, coherent), expected);
@@ -94,7 +95,8 @@ TEST(OctreeField, interpolates_growth_from_a_wall) {
   const OctreeView view = storage->raster.shape.view();
   storage->lengths = prolong(view, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, 10});
   const OctreeField field({view, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage);
-  for (double x = 0.05; x < 0.7; x += 0.01) EXPECT_NEAR(field.size(Vec3{x, 0.5, 0.5}), 0.02 + kSlope * x, 0.15 * (0.02 + kSlope * x));
+  for (double x = 0.05; x < 0.7; x += 0.01)
+    EXPECT_NEAR(field.size(Vec3{x, 0.5, 0.5}), 0.02 + kSlope * x, 0.15 * (0.02 + kSlope * x));
 }
 
 }  // namespace

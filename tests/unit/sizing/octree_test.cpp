@@ -26,7 +26,8 @@ RasterBox box_at(Vec3 center, float length, std::int32_t cause = pack_cause(Caus
 bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, double margin) {
   const Vec3 c = octree.shape.view().leaf_center(leaf);
   const double reach = 0.5 * octree.shape.view().cell_edge(octree.shape.leaf_levels[leaf]) + box.half + margin;
-  return std::abs(c.x - box.center.x) < reach && std::abs(c.y - box.center.y) < reach && std::abs(c.z - box.center.z) < reach;
+  return std::abs(c.x - box.center.x) < reach && std::abs(c.y - box.center.y) < reach &&
+         std::abs(c.z - box.center.z) < reach;
 }
 
 TEST(Octree, is_one_empty_cell_without_boxes) {
@@ -75,7 +76,8 @@ TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
     const std::int32_t cause = octree.stored_cause[leaf];
     ASSERT_EQ(std::isinf(stored), cause == kNone);
     if (cause == kNone) continue;
-    ASSERT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const RasterBox& b) { return b.length == stored && b.cause == cause; }));
+    ASSERT_TRUE(std::any_of(boxes.begin(), boxes.end(),
+                            [&](const RasterBox& b) { return b.length == stored && b.cause == cause; }));
   }
 }
 
@@ -99,7 +101,8 @@ std::vector<RasterBox> mixed_boxes(std::mt19937& random, int n) {
   std::vector<RasterBox> boxes;
   for (int i = 0; i < n; ++i) {
     const float length = 0.004F * static_cast<float>(1 << (random() % 6));
-    boxes.push_back(box_at({uniform(random), uniform(random), 0.3 * uniform(random)}, length, pack_cause(CauseKind::kFace, i % 7)));
+    boxes.push_back(
+        box_at({uniform(random), uniform(random), 0.3 * uniform(random)}, length, pack_cause(CauseKind::kFace, i % 7)));
   }
   return boxes;
 }
@@ -115,7 +118,8 @@ TEST(Octree, stores_in_every_cell_the_smallest_length_of_all_boxes_that_meet_it)
       if (meets(octree, leaf, box, 1e-5)) perhaps = std::min(perhaps, {box.length, box.cause});
     }
     const std::pair<float, std::int32_t> stored{octree.stored_length[leaf], octree.stored_cause[leaf]};
-    ASSERT_TRUE(stored == surely || stored == perhaps) << "leaf " << leaf << " stores " << stored.first << " of " << stored.second;
+    ASSERT_TRUE(stored == surely || stored == perhaps)
+        << "leaf " << leaf << " stores " << stored.first << " of " << stored.second;
   }
 }
 
@@ -141,7 +145,8 @@ TEST(Octree, of_parts_of_the_boxes_is_that_of_all_boxes) {
 }
 
 TEST(Octree, ignores_boxes_outside_and_clips_boxes_that_stick_out) {
-  const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({9, 0.5, 0.5}, 0.01F), box_at({-5, -5, -5}, 0.01F)});
+  const RasterOctree octree =
+      build_octree(kUnitBox, std::vector<RasterBox>{box_at({9, 0.5, 0.5}, 0.01F), box_at({-5, -5, -5}, 0.01F)});
   EXPECT_EQ(octree.shape.leaf_keys.size(), 1u);
   const RasterOctree clipped = build_octree(kUnitBox, std::vector<RasterBox>{box_at({1.05, 0.5, 0.5}, 0.1F)});
   EXPECT_STREQ(octree_defect(clipped.shape.view()), "");
@@ -184,7 +189,8 @@ TEST(Octree, finds_the_leaf_whose_box_holds_the_point) {
 TEST(Morton, round_trips) {
   std::mt19937 random(5);
   for (int i = 0; i < 1000; ++i) {
-    const GridPoint p{static_cast<std::uint32_t>(random()) % kCoordinateEnd, static_cast<std::uint32_t>(random()) % kCoordinateEnd,
+    const GridPoint p{static_cast<std::uint32_t>(random()) % kCoordinateEnd,
+                      static_cast<std::uint32_t>(random()) % kCoordinateEnd,
                       static_cast<std::uint32_t>(random()) % kCoordinateEnd};
     const GridPoint q = morton::decode(morton::encode(p));
     ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z);

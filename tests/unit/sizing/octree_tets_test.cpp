@@ -41,7 +41,9 @@ TEST(OctreeTets, fill_the_cube_without_overlap_and_conform) {
   EXPECT_NEAR(border, 6 * edge * edge, 1e-9);  // only the cube's own sides are used once
 }
 
-TEST(OctreeTets, of_a_single_leaf_are_twelve) { EXPECT_EQ(octree_tets(build_octree(test::kUnitBox, {}).shape.view()).tets.size(), 12u); }
+TEST(OctreeTets, of_a_single_leaf_are_twelve) {
+  EXPECT_EQ(octree_tets(build_octree(test::kUnitBox, {}).shape.view()).tets.size(), 12u);
+}
 
 }  // namespace
 }  // namespace st

@@ -33,7 +33,8 @@ TEST(Prolong, never_exceeds_stored_lengths_nor_the_largest_length) {
 }
 
 TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
-  // between neighbours: never more than the slope; and each cell is either at its own bound, or exactly at a neighbour's limit
+  // between neighbours: never more than the slope; and each cell is either at its own bound, or exactly at a
+  // neighbour's limit
   const Case c = make_case(2000);
   const Neighbours neighbours(c.view());
   int n_limited = 0;
@@ -96,8 +97,8 @@ TEST(Prolong, gradient_never_exceeds_the_slope_nor_leaves_the_neighbours_range) 
       hi = std::max(hi, c.cells.cells[b].length);
     });
     const float* g = c.cells.cells[i].gradient;
-    const float reach =
-        0.5F * static_cast<float>(c.view().cell_edge(c.view().leaf_levels[i])) * (std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]));
+    const float reach = 0.5F * static_cast<float>(c.view().cell_edge(c.view().leaf_levels[i])) *
+                        (std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]));
     ASSERT_LE(std::hypot(g[0], g[1], g[2]), kSlope * 1.000001);
     ASSERT_EQ(c.cells.cells[i].upper, hi);
     ASSERT_GE(c.cells.cells[i].length - reach, lo * 0.999999F);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 
 namespace st {
 namespace {
@@ -41,7 +41,8 @@ class CornerCurve : public Curve {
   CurvePoint evaluate(double t) const override { return {point(t), t < 0 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, {}}; }
 };
 
-/// A nearly straight curve with a bend of radius 0.02 in the middle: straight, arc of 90 degrees, straight; by arc length.
+/// A nearly straight curve with a bend of radius 0.02 in the middle: straight, arc of 90 degrees, straight; by arc
+/// length.
 class BendCurve : public Curve {
  public:
   BendCurve() { t_min_ = -1, t_max_ = 1; }
@@ -134,8 +135,8 @@ TEST(RasterCurve, finds_a_small_bend_between_straight_legs) {
   const BendCurve bend;
   const SamplingLimits limits{0.001, 0.1, radians(10), 2};
   const std::vector<RasterBox> boxes = raster(bend, limits);
-  const auto smallest =
-      std::min_element(boxes.begin(), boxes.end(), [](const RasterBox& a, const RasterBox& b) { return a.length < b.length; });
+  const auto smallest = std::min_element(boxes.begin(), boxes.end(),
+                                         [](const RasterBox& a, const RasterBox& b) { return a.length < b.length; });
   EXPECT_NEAR(smallest->length, BendCurve::kRadius * limits.alpha, 0.1 * BendCurve::kRadius * limits.alpha);
   EXPECT_NEAR(boxes.front().length, 0.1, 1e-6);
   expect_covered(bend, boxes);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/analytic.h"
+#include "geometry/shape/analytic.h"
 
 namespace st {
 namespace {
@@ -74,12 +74,14 @@ Sampling sample(const Surface& surface, const LoopPolygons& loops = {}, const Sa
 template <class F>
 void for_grid(const Surface& s, int n, F&& f) {
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) f(Vec2{s.u_min() + (s.u_max() - s.u_min()) * i / n, s.v_min() + (s.v_max() - s.v_min()) * j / n});
+    for (int i = 0; i <= n; ++i)
+      f(Vec2{s.u_min() + (s.u_max() - s.u_min()) * i / n, s.v_min() + (s.v_max() - s.v_min()) * j / n});
 }
 
 void expect_everywhere(const Surface& surface, const Sampling& sampling, double length, double tolerance) {
-  for_grid(surface, 60,
-           [&](Vec2 uv) { ASSERT_NEAR(sampling.length_at(surface.point(uv)), length, tolerance * length) << uv.x << " " << uv.y; });
+  for_grid(surface, 60, [&](Vec2 uv) {
+    ASSERT_NEAR(sampling.length_at(surface.point(uv)), length, tolerance * length) << uv.x << " " << uv.y;
+  });
 }
 
 LoopPolygons polygon(const std::vector<std::vector<Vec2>>& loops) {
@@ -181,7 +183,11 @@ TEST(RasterFace, gives_what_is_too_small_for_alpha_the_smallest_length) {
 
 TEST(RasterFace, has_no_spike_at_the_pole_of_a_revolution) {
   // the paraboloid z = r^2 / 2: radius 1 at its pole, where all u are one point
-  const FormulaSurface bowl([](double u, double v) { return Vec3{v * std::cos(u), v * std::sin(u), 0.5 * v * v}; }, 0, 2 * kPi, 0, 2);
+  const FormulaSurface bowl(
+      [](double u, double v) {
+        return Vec3{v * std::cos(u), v * std::sin(u), 0.5 * v * v};
+      },
+      0, 2 * kPi, 0, 2);
   const Sampling s = sample(bowl);
   for_grid(bowl, 41, [&](Vec2 uv) {
     const double expected = std::sqrt(1 + uv.y * uv.y) * kLimits.alpha;  // across the meridian the smaller radius
@@ -259,7 +265,11 @@ TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {
 
 TEST(RasterFace, takes_no_length_from_outside_the_loops) {
   // the surface bends sharply where it is trimmed away
-  const FormulaSurface bend([](double u, double v) { return Vec3{u, v, u > 3 ? 0.2 * std::pow(u - 3, 3) * 40 : 0.0}; }, 0, 4, 0, 2);
+  const FormulaSurface bend(
+      [](double u, double v) {
+        return Vec3{u, v, u > 3 ? 0.2 * std::pow(u - 3, 3) * 40 : 0.0};
+      },
+      0, 4, 0, 2);
   const LoopPolygons loops = polygon({{{0, 0}, {2.5, 0}, {2.5, 2}, {0, 2}}});
   EXPECT_NEAR(sample(bend, loops).smallest(), kLimits.max_length, 1e-6);
 }

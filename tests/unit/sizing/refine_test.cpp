@@ -58,7 +58,8 @@ Refined refine_and_prolong(const RasterOctree& raster, const std::vector<std::un
   Refined r;
   r.octree = refine(raster, sources);
   r.lengths = prolong(r.octree.shape.view(), r.octree.stored_length, r.octree.stored_cause, {kSlope, kMaxLength});
-  r.field = std::make_unique<OctreeField>(OctreeFieldData{r.octree.shape.view(), r.lengths.cells, r.lengths.cause, kSlope, 1}, nullptr);
+  r.field = std::make_unique<OctreeField>(
+      OctreeFieldData{r.octree.shape.view(), r.lengths.cells, r.lengths.cause, kSlope, 1}, nullptr);
   return r;
 }
 
@@ -90,7 +91,8 @@ TEST(RefineOctree, follows_the_sources_in_space) {
   double worst = 0;
   for (int i = 0; i < 100000; ++i) {
     const Vec3 x{uniform(random), uniform(random), uniform(random)};
-    const double wanted = std::min({size_at(*sources[0], x), size_at(*sources[1], x), kMaxLength}), h = size_at(*r.field, x);
+    const double wanted = std::min({size_at(*sources[0], x), size_at(*sources[1], x), kMaxLength}),
+                 h = size_at(*r.field, x);
     worst = std::max(worst, h / wanted);
     ASSERT_GT(h, 0.5 * wanted);
   }
@@ -114,7 +116,8 @@ TEST(RefineOctree, takes_the_smaller_of_raster_and_source) {
   const RasterOctree fine = refine(raster, make_all({sphere_source({0.5, 0.5, 0.1}, 0.1, 0.02)}));
   std::size_t from = 0, n_sources = 0;
   for (std::size_t i = 0; i < fine.shape.leaf_keys.size(); ++i) {
-    while (from + 1 < raster.shape.leaf_keys.size() && raster.shape.leaf_keys[from + 1] <= fine.shape.leaf_keys[i]) ++from;
+    while (from + 1 < raster.shape.leaf_keys.size() && raster.shape.leaf_keys[from + 1] <= fine.shape.leaf_keys[i])
+      ++from;
     ASSERT_LE(fine.stored_length[i], raster.stored_length[from]);
     if (fine.stored_length[i] < raster.stored_length[from]) {
       ++n_sources;
@@ -126,9 +129,11 @@ TEST(RefineOctree, takes_the_smaller_of_raster_and_source) {
 
 TEST(RefineOctree, does_not_depend_on_the_order_of_sources) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(500));
-  const auto sources = make_all({line_source(), sphere_source({0.3, 0.7, 0.7}, 0.1, 0.004), sphere_source({0.4, 0.7, 0.7}, 0.1, 0.004)});
+  const auto sources =
+      make_all({line_source(), sphere_source({0.3, 0.7, 0.7}, 0.1, 0.004), sphere_source({0.4, 0.7, 0.7}, 0.1, 0.004)});
   std::vector<NamedSource> named;
-  for (int i = 0; i < 3; ++i) named.push_back({sources[static_cast<std::size_t>(i)].get(), pack_cause(CauseKind::kSource, i)});
+  for (int i = 0; i < 3; ++i)
+    named.push_back({sources[static_cast<std::size_t>(i)].get(), pack_cause(CauseKind::kSource, i)});
   const RasterOctree a = refine_octree(raster, named, {kMaxLength, 2});
   std::reverse(named.begin(), named.end());
   const RasterOctree b = refine_octree(raster, named, {kMaxLength, 2});

@@ -20,7 +20,8 @@ struct Prolonged {
   ProlongedLengths lengths;
 };
 
-/// Samples about one length apart on a sphere of radius 0.4: `finest` at the top, growing by `growth` per distance from there.
+/// Samples about one length apart on a sphere of radius 0.4: `finest` at the top, growing by `growth` per distance from
+/// there.
 std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_per_length) {
   std::vector<RasterBox> boxes;
   for (double theta = 0; theta <= kPi;) {
@@ -28,7 +29,8 @@ std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_p
     const int n = std::max(1, static_cast<int>(2 * kPi * 0.4 * std::sin(theta) / length));
     for (int i = 0; i < n; ++i) {
       const double phi = 2 * kPi * i / n;
-      const Vec3 x = Vec3{0.5, 0.5, 0.5} + 0.4 * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+      const Vec3 x = Vec3{0.5, 0.5, 0.5} +
+                     0.4 * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
       boxes.push_back({x, static_cast<float>(0.5 * cell_per_length * length), static_cast<float>(length), 1});
     }
     theta += length / 0.4;
@@ -43,7 +45,8 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, con
   seed_lengths(samples, kSlope, p->raster);
   p->lengths = prolong(p->raster.shape.view(), p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
   hold_samples(p->raster.shape.view(), samples, {}, p->lengths);
-  return std::make_unique<OctreeField>(OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSlope, 1}, p);
+  return std::make_unique<OctreeField>(
+      OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSlope, 1}, p);
 }
 
 /// Mean of |log(length / exact length)| at the samples.
@@ -84,7 +87,8 @@ TEST(SampleSeeds, never_let_a_sample_have_more_than_its_length) {
   std::vector<RasterBox> boxes = test::sphere_boxes(3000);
   for (RasterBox& b : boxes) b.half *= 3;
   const auto field = make_field(boxes, sorted_samples(boxes));
-  for (const RasterBox& b : boxes) ASSERT_LE(static_cast<const SizeField&>(*field).size(b.center), b.length * (1 + 1e-4));
+  for (const RasterBox& b : boxes)
+    ASSERT_LE(static_cast<const SizeField&>(*field).size(b.center), b.length * (1 + 1e-4));
 }
 
 TEST(SampleSeeds, do_not_depend_on_the_order_of_boxes) {
@@ -106,7 +110,8 @@ TEST(SampleSeeds, leave_the_lengths_of_sources_alone) {
   RasterOctree octree = build_octree(test::kUnitBox, boxes);
   forget_samples(octree);
   seed_lengths(sorted_samples({boxes.data(), 1}), kSlope, octree);
-  const std::int32_t leaf = octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
+  const std::int32_t leaf =
+      octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
   EXPECT_EQ(octree.stored_length[leaf], 0.01F);
   EXPECT_EQ(octree.stored_cause[leaf], pack_cause(CauseKind::kSource, 3));
 }

@@ -30,7 +30,8 @@ TEST(SizeOrigin, leads_back_to_the_sample_that_asked_for_it) {
 TEST(SizeOrigin, of_the_largest_length_is_the_cell_itself) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
   const ProlongedLengths lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {0.2, 1});
-  const SizeOrigin origin = find_origin({raster.shape.view(), lengths.cells, lengths.cause, 0.2, 3}, Neighbours(raster.shape.view()), 0);
+  const SizeOrigin origin =
+      find_origin({raster.shape.view(), lengths.cells, lengths.cause, 0.2, 3}, Neighbours(raster.shape.view()), 0);
   EXPECT_EQ(origin.leaf, 0);
   EXPECT_EQ(origin.length, 3);
 }

@@ -10,7 +10,8 @@ namespace {
 
 const SamplingLimits kWall{0.01, 0.5, radians(10), 2};
 
-/// Faces 0 WING (wall), 1 BODY (wall), 2 SYM (symmetry), 3 FAR (far field). Edges: 0 wing only, 1 wing-body, 2 body-symmetry, 3 degenerate.
+/// Faces 0 WING (wall), 1 BODY (wall), 2 SYM (symmetry), 3 FAR (far field). Edges: 0 wing only, 1 wing-body, 2
+/// body-symmetry, 3 degenerate.
 ModelTables wing_body() {
   ModelTables t;
   t.group_name = {"WING", "BODY", "SYM", "FAR"};
@@ -126,7 +127,8 @@ TEST(SizeRules, apply_in_order_and_keep_what_they_do_not_name) {
 TEST(SizeRules, that_select_nothing_or_contradict_themselves_are_refused) {
   SizeRule rule = rule_of({}, 0.2);
   rule.groups = {"FLAP"};
-  EXPECT_NE(message_of(rule).find("sizes.toml:3: groups: no group or part matches 'FLAP'"), std::string::npos) << message_of(rule);
+  EXPECT_NE(message_of(rule).find("sizes.toml:3: groups: no group or part matches 'FLAP'"), std::string::npos)
+      << message_of(rule);
   rule.groups.clear();
   rule.edges = {"5"};
   EXPECT_NE(message_of(rule).find("edges: 5 does not exist, there are 4"), std::string::npos) << message_of(rule);

@@ -23,8 +23,8 @@ double size_at(const SourceSpec& spec, Vec3 x, double slope = kSlope) {
 
 std::vector<SourceSpec> one_of_each_kind() {
   std::vector<SourceSpec> all;
-  for (const SourceKind kind : {SourceKind::kPoint, SourceKind::kLine, SourceKind::kTriangle, SourceKind::kBox, SourceKind::kCylinder,
-                                SourceKind::kSphere, SourceKind::kDisc}) {
+  for (const SourceKind kind : {SourceKind::kPoint, SourceKind::kLine, SourceKind::kTriangle, SourceKind::kBox,
+                                SourceKind::kCylinder, SourceKind::kSphere, SourceKind::kDisc}) {
     SourceSpec s;
     s.kind = kind;
     s.point = {{{0.1, 0.2, 0.3}, {1.1, 0.3, -0.2}, {0.2, 0.9, 0.1}}};
@@ -49,7 +49,9 @@ TEST(Source, grows_no_faster_than_the_slope) {
   EXPECT_NEAR(size_at(steep, {1, 0, 0}), 0.01 + kSlope, 1e-12);
 }
 
-TEST(Source, without_doubling_grows_by_the_slope) { EXPECT_NEAR(size_at(point_source({0.01, 0.5, 0}), {1.5, 0, 0}), 0.21, 1e-12); }
+TEST(Source, without_doubling_grows_by_the_slope) {
+  EXPECT_NEAR(size_at(point_source({0.01, 0.5, 0}), {1.5, 0, 0}), 0.21, 1e-12);
+}
 
 TEST(Source, line_interpolates_between_its_ends) {
   SourceSpec s;
@@ -99,7 +101,8 @@ TEST(Source, range_bounds_the_length_in_the_cube) {
       const Vec3 c = 2.0 * Vec3{uniform(random), uniform(random), uniform(random)};
       const double half = std::pow(10, -2 + 2 * std::abs(uniform(random)));
       const SizeRange range = source->range(c, half);
-      const double h = static_cast<const SizeField&>(*source).size(c + half * Vec3{uniform(random), uniform(random), uniform(random)});
+      const double h = static_cast<const SizeField&>(*source).size(
+          c + half * Vec3{uniform(random), uniform(random), uniform(random)});
       ASSERT_LE(range.lo, h * (1 + 1e-12)) << static_cast<int>(spec.kind);
       ASSERT_GE(range.hi, h * (1 - 1e-12)) << static_cast<int>(spec.kind);
       ASSERT_GE(range.lo, source->min_size());

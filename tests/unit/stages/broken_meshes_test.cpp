@@ -1,5 +1,5 @@
-// st-check is proven by meshes that are broken on purpose, one defect each: it finds each of them, and says no other thing of it than is
-// listed here.
+// st-check is proven by meshes that are broken on purpose, one defect each: it finds each of them, and says no other
+// thing of it than is listed here.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -11,10 +11,11 @@
 #include <set>
 
 #include "base/log.h"
-#include "io/artifact.h"
+#include "geometry/import/import.h"
+#include "io/hdf5/artifact.h"
 #include "mesh/merge.h"
+#include "meshing/engine/model_mesher.h"
 #include "stages/check_stage.h"
-#include "meshing/model_mesher.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -31,7 +32,8 @@ SurfaceMesh good_mesh(const Model& model) {
   mesher.run();
   OrientationReport orientation;
   const ModelTables& t = mesher.tables();
-  SurfaceMesh m = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, t.face_group}, orientation);
+  SurfaceMesh m =
+      merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, t.face_group}, orientation);
   m.face_name = t.face_name;
   m.group_name = t.group_name;
   m.merged = mesher.merged();
@@ -65,7 +67,8 @@ NodeId copy_node(SurfaceMesh& m, NodeId n) {
 TriangleId inner_triangle(const SurfaceMesh& m, FaceId face = 0) {
   for (TriangleId t = 0; t < m.n_triangles(); ++t) {
     const auto& n = m.triangles[t].n;
-    if (m.triangle_face[t] == face && std::all_of(n, n + 3, [&](NodeId i) { return m.node_entity_dim[i] == 2; })) return t;
+    if (m.triangle_face[t] == face && std::all_of(n, n + 3, [&](NodeId i) { return m.node_entity_dim[i] == 2; }))
+      return t;
   }
   return kNone;
 }
@@ -79,11 +82,12 @@ Vec3 normal_of(const SurfaceMesh& m, TriangleId t) {
 void move_in_plane(SurfaceMesh& m, TriangleId t, Vec3 to) {
   const NodeId moved = m.triangles[t].n[0];
   const auto& n = m.triangles[t].n;
-  const Vec3 a = m.node_xyz[n[1]] - m.node_xyz[n[0]], b = m.node_xyz[n[2]] - m.node_xyz[n[0]], d = to - m.node_xyz[n[0]];
+  const Vec3 a = m.node_xyz[n[1]] - m.node_xyz[n[0]], b = m.node_xyz[n[2]] - m.node_xyz[n[0]],
+             d = to - m.node_xyz[n[0]];
   const Vec3 normal = cross(a, b);
   const double s = dot(cross(d, b), normal) / norm2(normal), r = dot(cross(a, d), normal) / norm2(normal);
-  const Vec2 uv =
-      m.corner_uv[3 * t] + s * (m.corner_uv[3 * t + 1] - m.corner_uv[3 * t]) + r * (m.corner_uv[3 * t + 2] - m.corner_uv[3 * t]);
+  const Vec2 uv = m.corner_uv[3 * t] + s * (m.corner_uv[3 * t + 1] - m.corner_uv[3 * t]) +
+                  r * (m.corner_uv[3 * t + 2] - m.corner_uv[3 * t]);
   for (TriangleId i = 0; i < m.n_triangles(); ++i)
     for (int k = 0; k < 3; ++k)
       if (m.triangles[i].n[k] == moved) m.corner_uv[3 * i + k] = uv;
@@ -190,11 +194,15 @@ const std::vector<Defect>& defects() {
       {"node_off_surface",
        [](SurfaceMesh& m) { m.node_xyz[m.triangles[inner_triangle(m)].n[0]] += 2.0 * normal_of(m, inner_triangle(m)); },
        {"off-surface"}},
-      {"wrong_face_id_of_one_triangle", [](SurfaceMesh& m) { m.triangle_face[inner_triangle(m, 0)] = 4; }, {"off-surface"}},
+      {"wrong_face_id_of_one_triangle",
+       [](SurfaceMesh& m) { m.triangle_face[inner_triangle(m, 0)] = 4; },
+       {"off-surface"}},
       {"wrong_face_ids_of_two_faces", swap_face_ids, {"off-surface"}},
       {"inward_shell", turn_the_shell, {"volume", "cad-volume"}},
       {"no_triangles",
-       [](SurfaceMesh& m) { m.triangles.clear(), m.triangle_face.clear(), m.triangle_group.clear(), m.corner_uv.clear(); },
+       [](SurfaceMesh& m) {
+         m.triangles.clear(), m.triangle_face.clear(), m.triangle_group.clear(), m.corner_uv.clear();
+       },
        {"complete", "faces", "volume", "cad-volume"}},
   };
   return list;
@@ -254,7 +262,8 @@ TEST_P(BrokenMesh, is_found) {
   EXPECT_EQ(failed, GetParam().failed);
 }
 
-INSTANTIATE_TEST_SUITE_P(, BrokenMesh, testing::ValuesIn(defects()), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(, BrokenMesh, testing::ValuesIn(defects()),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace st

@@ -8,11 +8,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "geometry/model.h"
-#include "io/artifact.h"
+#include "geometry/import/import.h"
+#include "geometry/model/model.h"
+#include "io/hdf5/artifact.h"
+#include "judge/chord_error.h"
+#include "judge/surface_deviation.h"
 #include "stages/check_stage.h"
-#include "stages/chord_error.h"
-#include "stages/surface_deviation.h"
 
 namespace st {
 namespace {
@@ -147,13 +148,16 @@ class CheckCad : public testing::Test {
   /// Face whose surface has this type and, for planes, this height.
   FaceId face(SurfaceType type, double z = -1) const {
     for (FaceId f = 0; f < geometry_.tables.n_faces(); ++f)
-      if (geometry_.tables.face_type[f] == type && (z < 0 || std::fabs(geometry_.tables.face_box[f].center().z - z) < 1e-3)) return f;
+      if (geometry_.tables.face_type[f] == type &&
+          (z < 0 || std::fabs(geometry_.tables.face_box[f].center().z - z) < 1e-3))
+        return f;
     return kNone;
   }
   /// The circle at height z.
   EdgeId circle(const Model& model, double z) const {
     for (EdgeId e = 0; e < geometry_.tables.n_edges(); ++e)
-      if (std::fabs(model.curve(e)->point(1).z - z) < 1e-9 && std::fabs(model.curve(e)->point(2).z - z) < 1e-9) return e;
+      if (std::fabs(model.curve(e)->point(1).z - z) < 1e-9 && std::fabs(model.curve(e)->point(2).z - z) < 1e-9)
+        return e;
     return kNone;
   }
 
@@ -163,7 +167,8 @@ class CheckCad : public testing::Test {
     MeshArtifact a;
     SurfaceMesh& m = a.mesh;
     for (int ring = 0; ring < 2; ++ring) add_ring(model, ring * kHeight, n, m);
-    const FaceId side = face(SurfaceType::kCylinder), bottom = face(SurfaceType::kPlane, 0), top = face(SurfaceType::kPlane, kHeight);
+    const FaceId side = face(SurfaceType::kCylinder), bottom = face(SurfaceType::kPlane, 0),
+                 top = face(SurfaceType::kPlane, kHeight);
     for (int i = 0; i < n; ++i) {
       const NodeId j = (i + 1) % n;
       const double u = 2 * kPi * i / n, w = 2 * kPi * (i + 1) / n;

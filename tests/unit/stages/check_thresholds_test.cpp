@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
 #include "stages/check_stage.h"
 #include "unit/mesh/shapes.h"
 
@@ -27,7 +27,8 @@ class CheckThreshold : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  StageSummary check(const SurfaceMesh& mesh, const CheckThresholds& thresholds, std::vector<std::string> reports = {}) const {
+  StageSummary check(const SurfaceMesh& mesh, const CheckThresholds& thresholds,
+                     std::vector<std::string> reports = {}) const {
     MeshArtifact a;
     a.header.schema = "mesh";
     a.header.tool = "test";

@@ -1,4 +1,5 @@
 #include "stages/edit_stage.h"
+#include "geometry/import/import.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
 #include "stages/edit_names.h"
 #include "stages/edit_provenance.h"
 #include "support/shapes.h"
@@ -189,8 +190,8 @@ TEST_F(EditStage, extracts_by_number_range_group_and_name_of_face) {
   EXPECT_EQ(faces("floor,l?d", ""), (std::vector<int>{5, 6}));
   EXPECT_EQ(faces("", "floor"), (std::vector<int>{1, 2, 3, 4, 6}));
   EXPECT_EQ(faces("1-3", "2"), (std::vector<int>{1, 3}));
-  EXPECT_EQ(read_geometry(path("out.hdf")).tables.group_name,
-            (std::vector<std::string>{"default"}));  // the floor is gone
+  EXPECT_EQ(read_geometry(path("out.hdf")).tables.group_name, (std::vector<std::string>{"default"}));  // the floor is
+                                                                                                       // gone
   EXPECT_ERROR(faces("flor", ""), kUsage, "did you mean 'floor'");
   EXPECT_ERROR(faces("7", ""), kUsage, "faces 1 to 6");
   EXPECT_ERROR(faces("0-2", ""), kUsage, "faces 1 to 6");

@@ -19,7 +19,8 @@ TEST(InfoStage, counts_what_is_in_each_kind) {
             Json::parse(R"({"faces":2,"edges":4,"vertices":3,"loops":2,"groups":2,"findings":2})"));
   EXPECT_EQ(Json::parse(run_info(dir / "p.hdf").json)["counts"],
             Json::parse(R"({"triangles":5,"faces":2,"patches":2,"failures":1,"groups":1})"));
-  EXPECT_EQ(Json::parse(run_info(dir / "m.hdf").json)["counts"], Json::parse(R"({"triangles":4,"nodes":4,"faces":4,"groups":2})"));
+  EXPECT_EQ(Json::parse(run_info(dir / "m.hdf").json)["counts"],
+            Json::parse(R"({"triangles":4,"nodes":4,"faces":4,"groups":2})"));
 }
 
 TEST(InfoStage, says_where_an_artifact_comes_from) {
@@ -72,7 +73,8 @@ TEST(DiffStage, is_ok_for_equal_and_incomplete_for_different_artifacts) {
   EXPECT_EQ(run_diff({dir / "a.hdf", dir / "b.hdf", 1e-8}).code, ExitCode::kOk);
   const StageSummary different = run_diff({dir / "a.hdf", dir / "b.hdf", 0});
   EXPECT_EQ(different.code, ExitCode::kIncomplete);
-  EXPECT_NE(different.line.find("/VTKHDF/PointData/size: 1 of 4 values differ, first in row 2"), std::string::npos) << different.line;
+  EXPECT_NE(different.line.find("/VTKHDF/PointData/size: 1 of 4 values differ, first in row 2"), std::string::npos)
+      << different.line;
   EXPECT_EQ(Json::parse(different.json)["equal"], false);
   EXPECT_EQ(Json::parse(different.json)["differences"].size(), 1u);
 }
@@ -85,7 +87,8 @@ TEST(ExportStage, exports_meshes_and_refuses_what_has_no_export) {
   EXPECT_EQ(read_bytes(dir / "m.stl").size(), 84u + 4 * 50);
   EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.xyz"}), kUsage, "unknown suffix");
   EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "none/m.stl"}), kOutput, "create it first");
-  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.stl"}), kInput, "is a patches artifact, which has no export");
+  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.stl"}), kInput,
+               "is a patches artifact, which has no export");
   EXPECT_EQ(dir.files().size(), 3u);
 }
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "io/artifact.h"
+#include "io/hdf5/artifact.h"
 #include "stages/check_stage.h"
 #include "stages/merge_stage.h"
 #include "unit/mesh/cube_patches.h"
@@ -51,7 +51,8 @@ class MergeCheck : public testing::Test {
   /// Keeps the patches of some faces.
   static PatchesArtifact part(std::vector<FaceId> faces) {
     PatchesArtifact a = artifact({});
-    std::erase_if(a.patches, [&](const FacePatch& p) { return std::find(faces.begin(), faces.end(), p.face) == faces.end(); });
+    std::erase_if(a.patches,
+                  [&](const FacePatch& p) { return std::find(faces.begin(), faces.end(), p.face) == faces.end(); });
     a.is_complete = false;
     a.failures.push_back({5, "its loop crosses itself", "", {}});
     return a;

@@ -5,10 +5,10 @@
 #include <thread>
 
 #include "base/log.h"
-#include "io/artifact.h"
-#include "io/mesh_part.h"
-#include "io/sizing_artifact.h"
-#include "meshing/hole_marks.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/mesh_part.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "meshing/hole/hole_marks.h"
 #include "stages/import_stage.h"
 #include "stages/merge_stage.h"
 #include "stages/mesh_stage.h"
@@ -122,7 +122,8 @@ TEST_F(MeshShares, mark_what_one_rank_marks) {
   const HoleMesh holes(whole, t);
   const std::vector<double> wanted = finer_at_one_end(whole);
   HoleMarkOptions options;
-  options.redo = {0, static_cast<TriangleId>(whole.triangles.size()) - 1, static_cast<TriangleId>(whole.triangles.size()) / 2};
+  options.redo = {0, static_cast<TriangleId>(whole.triangles.size()) - 1,
+                  static_cast<TriangleId>(whole.triangles.size()) / 2};
   const HoleMarks expected = mark_holes(holes, wanted, options);
   ASSERT_GT(expected.n_triangles(), whole.n_triangles() / 10);
   ASSERT_LT(expected.n_triangles(), whole.n_triangles() * 9 / 10);
@@ -135,15 +136,17 @@ TEST_F(MeshShares, mark_what_one_rank_marks) {
     const auto work = [&](int k) {
       const MeshPart& part = parts[k];
       const HoleMesh own(part.artifact.mesh, t);
-      const MeshShare share{0, static_cast<TriangleId>(part.artifact.mesh.triangles.size()), part.first_triangle, part.inner_shift};
-      const HoleMarks m = mark_share(own, share, share_of_lengths(wanted, part, own.inner_begin[0]), options, [&](const auto& mine) {
-        touched[k] = mine;
-        all.arrive_and_wait();
-        std::vector<TouchedNode> together;
-        for (const auto& some : touched) together.insert(together.end(), some.begin(), some.end());
-        all.arrive_and_wait();
-        return together;
-      });
+      const MeshShare share{0, static_cast<TriangleId>(part.artifact.mesh.triangles.size()), part.first_triangle,
+                            part.inner_shift};
+      const HoleMarks m =
+          mark_share(own, share, share_of_lengths(wanted, part, own.inner_begin[0]), options, [&](const auto& mine) {
+            touched[k] = mine;
+            all.arrive_and_wait();
+            std::vector<TouchedNode> together;
+            for (const auto& some : touched) together.insert(together.end(), some.begin(), some.end());
+            all.arrive_and_wait();
+            return together;
+          });
       std::copy(m.triangle.begin(), m.triangle.end(), marks.begin() + part.first_triangle);
       EXPECT_TRUE(m.segment == expected.segment);
     };

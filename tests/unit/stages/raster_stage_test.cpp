@@ -1,6 +1,7 @@
 // What st-raster and st-prolong do at their limits: parts that cannot be sampled, octrees that would be too large or
 // too deep.
 #include "stages/raster_stage.h"
+#include "geometry/import/import.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.h"
-#include "io/artifact.h"
-#include "io/sizing_artifact.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "stages/prolong_stage.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
@@ -45,7 +46,8 @@ class RasterStage : public testing::Test {
     ModelTables& t = import.tables;
     for (FaceId f = 0; f < t.n_faces(); ++f) {
       if (t.face_type[f] != SurfaceType::kCylinder) continue;
-      const CoedgeId first = t.loop_coedge_offsets[t.face_loop_offsets[f]], last = t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
+      const CoedgeId first = t.loop_coedge_offsets[t.face_loop_offsets[f]],
+                     last = t.loop_coedge_offsets[t.face_loop_offsets[f + 1]];
       const auto begin = t.coedge_edge.begin() + first, end = t.coedge_edge.begin() + last;
       EdgeId elsewhere = 0;
       while (std::find(begin, end, elsewhere) != end) ++elsewhere;

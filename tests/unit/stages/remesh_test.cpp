@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "base/log.h"
-#include "io/artifact.h"
-#include "io/sizing_artifact.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "mesh/checks.h"
 #include "stages/import_stage.h"
 #include "stages/merge_stage.h"
@@ -41,7 +41,8 @@ class Remesh : public testing::Test {
     o.output = dir_ / geometry;
     run_import(o);
   }
-  void size(const std::string& geometry, const std::string& sizing, double alpha_deg, double scale = 1, const std::string& lmin = "") {
+  void size(const std::string& geometry, const std::string& sizing, double alpha_deg, double scale = 1,
+            const std::string& lmin = "") {
     RasterStageOptions r;
     r.geometry = dir_ / geometry;
     r.output = dir_ / "raster.hdf";
@@ -124,13 +125,15 @@ TEST_F(Remesh, with_smaller_sizes_at_the_hole_redoes_only_what_they_reach) {
   size("geometry.hdf", "finer.hdf", 6);
   RemeshStageOptions o = options("finer.hdf");
   EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
-  const auto before = triangles_by_face(read_mesh(o.mesh).mesh), after = triangles_by_face(merge("remeshed.hdf", "finer_mesh.hdf").mesh);
+  const auto before = triangles_by_face(read_mesh(o.mesh).mesh),
+             after = triangles_by_face(merge("remeshed.hdf", "finer_mesh.hdf").mesh);
   ASSERT_EQ(before.size(), 7u);
   ASSERT_EQ(after.size(), 7u);
   int n_mostly_kept = 0, n_finer = 0;
   for (const auto& [face, triangles] : before) {
     auto common = triangles;
-    common.erase(std::set_intersection(triangles.begin(), triangles.end(), after.at(face).begin(), after.at(face).end(), common.begin()),
+    common.erase(std::set_intersection(triangles.begin(), triangles.end(), after.at(face).begin(), after.at(face).end(),
+                                       common.begin()),
                  common.end());
     n_mostly_kept += 2 * common.size() > triangles.size();
     n_finer += after.at(face).size() > 2 * triangles.size();
@@ -152,7 +155,8 @@ TEST_F(Remesh, with_larger_sizes_makes_fewer_triangles) {
   prepare();
   size("geometry.hdf", "coarser.hdf", 20, 2.5);
   EXPECT_EQ(run_remesh(options("coarser.hdf"), one_rank()).code, ExitCode::kOk);
-  EXPECT_LT(merge("remeshed.hdf", "coarser_mesh.hdf").mesh.n_triangles(), read_mesh(dir_ / "mesh.hdf").mesh.n_triangles() / 3);
+  EXPECT_LT(merge("remeshed.hdf", "coarser_mesh.hdf").mesh.n_triangles(),
+            read_mesh(dir_ / "mesh.hdf").mesh.n_triangles() / 3);
 }
 
 TEST_F(Remesh, refuses_sizes_and_meshes_of_another_geometry) {
@@ -194,7 +198,8 @@ TEST_F(Remesh, limits_decide_what_is_redone) {
   EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 7);
 }
 
-/// Old nodes inside a face that bound the holes of a remeshing: of triangles that stay and of such that go. `rest`: those of triangles that stay only.
+/// Old nodes inside a face that bound the holes of a remeshing: of triangles that stay and of such that go. `rest`:
+/// those of triangles that stay only.
 std::vector<NodeId> nodes_around_holes(const SurfaceMesh& old, const SurfaceMesh& remeshed, std::vector<NodeId>& rest) {
   std::vector<char> stays(old.triangles.size(), 0), at_kept(old.node_xyz.size(), 0), at_gone(old.node_xyz.size(), 0);
   for (TriangleId t : remeshed.triangle_previous)
@@ -203,7 +208,8 @@ std::vector<NodeId> nodes_around_holes(const SurfaceMesh& old, const SurfaceMesh
     for (NodeId n : old.triangles[i].n) (stays[i] ? at_kept : at_gone)[n] = 1;
   std::vector<NodeId> around;
   for (std::size_t n = 0; n < at_kept.size(); ++n)
-    if (at_kept[n] && old.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace)) (at_gone[n] ? around : rest).push_back(static_cast<NodeId>(n));
+    if (at_kept[n] && old.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace))
+      (at_gone[n] ? around : rest).push_back(static_cast<NodeId>(n));
   return around;
 }
 
@@ -219,7 +225,8 @@ TEST_F(Remesh, grows_a_hole_that_cannot_be_filled) {
   ASSERT_FALSE(around.empty());
   ASSERT_FALSE(rest.empty());
   for (std::size_t c = 0; c < old.mesh.corner_uv.size(); ++c)  // the loop around the hole crosses itself
-    if (old.mesh.triangles[c / 3].n[c % 3] == around[0]) old.mesh.corner_uv[c] = old.mesh.corner_uv[c] + 1.5 * (old.mesh.corner_uv[c] - Vec2{30, 20});
+    if (old.mesh.triangles[c / 3].n[c % 3] == around[0])
+      old.mesh.corner_uv[c] = old.mesh.corner_uv[c] + 1.5 * (old.mesh.corner_uv[c] - Vec2{30, 20});
   write_mesh(o.mesh, old);
   const StageSummary s = run_remesh(o, one_rank());
   EXPECT_GT(facts(s.json).at("holes_grown"), 0);
@@ -265,7 +272,8 @@ TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
   for (std::size_t i = 0; i < merged.mesh.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k)
       if (const TriangleId t = merged.mesh.triangle_previous[i]; t != kNone) {
-        EXPECT_TRUE(merged.mesh.node_xyz[merged.mesh.triangles[i].n[k]] == old.node_xyz[old.triangles[t].n[k]]) << "triangle " << t;
+        EXPECT_TRUE(merged.mesh.node_xyz[merged.mesh.triangles[i].n[k]] == old.node_xyz[old.triangles[t].n[k]])
+            << "triangle " << t;
       }
 }
 

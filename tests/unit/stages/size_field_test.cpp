@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/log.h"
-#include "io/sizing_artifact.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "sizing/neighbours.h"
 #include "stages/import_stage.h"
 #include "stages/prolong_stage.h"
@@ -42,7 +42,8 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
     prolong.raster = dir_ / "r.hdf";
     prolong.output = dir_ / "s.hdf";
     if (GetParam().has_source) {
-      std::ofstream(dir_ / "s.toml") << "[[source]]\ntype = \"point\"\nat = [1, 2, 3]\nlength = \"0.1%\"\nradius = \"2%\"\n";
+      std::ofstream(dir_ / "s.toml")
+          << "[[source]]\ntype = \"point\"\nat = [1, 2, 3]\nlength = \"0.1%\"\nradius = \"2%\"\n";
       prolong.sources = {dir_ / "s.toml"};
     }
     run_prolong(prolong);
@@ -54,9 +55,11 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
   Vec3 random_point() {
     std::uniform_real_distribution<double> uniform(0, 1);
     const OctreeView octree = sizing_.shape.view();
-    const auto leaf = static_cast<std::int32_t>(random_() % sizing_.shape.leaf_keys.size());  // as many in fine cells as in coarse ones
+    const auto leaf = static_cast<std::int32_t>(random_() % sizing_.shape.leaf_keys.size());  // as many in fine cells
+                                                                                              // as in coarse ones
     const double edge = edge_at(leaf);
-    return octree.leaf_center(leaf) + edge * Vec3{uniform(random_) - 0.5, uniform(random_) - 0.5, uniform(random_) - 0.5};
+    return octree.leaf_center(leaf) +
+           edge * Vec3{uniform(random_) - 0.5, uniform(random_) - 0.5, uniform(random_) - 0.5};
   }
 
   TemporaryDirectory dir_;
@@ -66,7 +69,8 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Models, SizeFieldOfModel,
-                         testing::Values(FieldCase{"torus", false}, FieldCase{"drilled_block", true}, FieldCase{"thin_plate", false}));
+                         testing::Values(FieldCase{"torus", false}, FieldCase{"drilled_block", true},
+                                         FieldCase{"thin_plate", false}));
 
 TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -105,7 +109,8 @@ TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
   const OctreeView octree = raster.octree.shape.view();
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
-    ASSERT_LE(static_cast<const SizeField&>(*field_).size(octree.leaf_center(leaf)), raster.octree.stored_length[leaf] * (1 + 1e-6));
+    ASSERT_LE(static_cast<const SizeField&>(*field_).size(octree.leaf_center(leaf)),
+              raster.octree.stored_length[leaf] * (1 + 1e-6));
   }
 }
 

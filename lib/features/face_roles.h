@@ -1,0 +1,26 @@
+// What a face is to the flow: body, outer boundary, symmetry plane.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model/model.h"
+
+namespace st {
+
+enum class FaceRole : unsigned char { kWall, kFarfield, kSymmetry };
+
+struct FaceRoles {
+  std::vector<FaceRole> role;   ///< [n_faces]
+  std::vector<FaceId> guessed;  ///< faces taken as outer boundary by their extent, because no group is named far field
+                                ///< or symmetry
+  double reference_diagonal = 0;  ///< of the box of all walls, model unit: what default lengths and per cents refer to
+};
+
+/// Roles from the names of groups; all faces are walls when none is. Where no name says anything, a body in a domain is
+/// recognised by its extent: when every face is either large (its box's diagonal at least 1/4 of the model's) or
+/// belongs to a rest that fits into a box of 1/20 of the model's diagonal and lies in the box of the large ones, the
+/// large ones are the outer boundary. Those that share an edge with the body count as symmetry planes - they have to be
+/// planes, no two of them opposite - the others as far field.
+FaceRoles face_roles(const ModelTables& tables);
+
+}  // namespace st

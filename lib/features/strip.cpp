@@ -1,0 +1,98 @@
+#include "features/strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "features/arc_table.h"
+#include "geometry/shape/projection.h"
+
+namespace st {
+namespace {
+
+constexpr int kMinStations = 32;  // intervals of a strip
+constexpr int kMaxStations = 2048;
+constexpr double kStationTurning = radians(10);  // of a strip's edge, between two stations
+constexpr int kTurningSamples = 512;             // of an edge
+constexpr double kNarrow = 0.25;                 // of its length: wider faces are no strips
+constexpr double kShortEnd = 0.5;                // of the long edges: all other edges of a strip together are shorter
+
+/// How often each edge is used by coedges of any face.
+std::vector<int> count_uses(const ModelTables& t) {
+  std::vector<int> uses(t.n_edges(), 0);
+  for (const EdgeId e : t.coedge_edge) ++uses[e];
+  return uses;
+}
+
+/// The two long edges of a face with one loop; false when there are no such two.
+bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, Strip& strip) {
+  if (t.loops(f).size() != 1) return false;
+  std::vector<EdgeId> edges(t.edges_of(f).begin(), t.edges_of(f).end());
+  if (edges.size() < 2) return false;
+  std::stable_sort(edges.begin(), edges.end(), [&](EdgeId a, EdgeId b) { return t.edge_length[a] > t.edge_length[b]; });
+  double rest = 0;
+  for (std::size_t i = 2; i < edges.size(); ++i) rest += t.edge_length[edges[i]];
+  for (const EdgeId e : {edges[0], edges[1]})
+    if (t.edge_is_degenerate[e] || t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1] || uses[e] != 2) return false;
+  if (edges[0] == edges[1] || rest > kShortEnd * t.edge_length[edges[1]] ||
+      t.edge_length[edges[1]] < 0.8 * t.edge_length[edges[0]])
+    return false;
+  strip.face = f;
+  strip.edges[0] = std::min(edges[0], edges[1]);
+  strip.edges[1] = std::max(edges[0], edges[1]);
+  strip.length = t.edge_length[strip.edges[0]];
+  return t.face_area[f] < kNarrow * strip.length * strip.length;
+}
+
+/// So many intervals that each turns little.
+int count_stations(const Curve& curve) {
+  double turning = 0;
+  Vec3 last = curve.evaluate(curve.t_min()).d1;
+  for (int i = 1; i <= kTurningSamples; ++i) {
+    const Vec3 d1 = curve.evaluate(curve.t_min() + (curve.t_max() - curve.t_min()) * i / kTurningSamples).d1;
+    turning += angle_between(last, d1);
+    last = d1;
+  }
+  return std::clamp(static_cast<int>(std::ceil(turning / kStationTurning)), kMinStations, kMaxStations);
+}
+
+/// From x to the curve, near the parameter where its other edge is as long so far.
+double width_at(Vec3 x, const Curve& other, double t) {
+  const double facing = distance(x, other.point(t));
+  const std::optional<double> foot = project_near(other, x, t);
+  return foot ? std::min(facing, distance(x, other.point(std::clamp(*foot, other.t_min(), other.t_max())))) : facing;
+}
+
+void measure_strip(const Model& model, Strip& strip) {
+  const ModelTables& t = model.tables();
+  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
+  const auto end = [&](EdgeId e, int k) { return t.vertex_xyz[t.edge_vertices[2 * e + k]]; };
+  strip.is_opposed = distance(end(strip.edges[0], 0), end(strip.edges[1], 1)) +
+                         distance(end(strip.edges[0], 1), end(strip.edges[1], 0)) <
+                     distance(end(strip.edges[0], 0), end(strip.edges[1], 0)) +
+                         distance(end(strip.edges[0], 1), end(strip.edges[1], 1));
+  const ArcTable a(*kept), b(*closed);
+  const int n = count_stations(*kept);
+  for (int i = 0; i <= n; ++i) {
+    const double share = static_cast<double>(i) / n;
+    const Vec3 x = kept->point(a.parameter_at(share));
+    strip.stations.push_back({x, width_at(x, *closed, b.parameter_at(strip.is_opposed ? 1 - share : share))});
+  }
+}
+
+}  // namespace
+
+std::vector<Strip> find_strips(const Model& model) {
+  const ModelTables& t = model.tables();
+  const std::vector<int> uses = count_uses(t);
+  std::vector<Strip> strips;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    Strip strip;
+    if (!long_edges(t, f, uses, strip)) continue;
+    measure_strip(model, strip);
+    strips.push_back(std::move(strip));
+  }
+  return strips;
+}
+
+}  // namespace st

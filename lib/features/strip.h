@@ -1,0 +1,29 @@
+// Faces between two long edges: trailing edges, thin walls' rims, chamfers. Their width asks for sizes that no
+// curvature shows.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model/model.h"
+
+namespace st {
+
+/// A face with one loop of two long edges, measured at equal shares of their lengths, closely enough to follow the
+/// turns of a helix.
+struct Strip {
+  FaceId face = kNone;
+  EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
+  bool is_opposed = false;           ///< they run against each other
+  double length = 0;                 ///< of the first, model unit
+  struct Station {
+    Vec3 x;            ///< on the first edge
+    double width = 0;  ///< to the other edge, model unit
+  };
+  std::vector<Station> stations;  ///< from the start of the first edge to its end
+};
+
+/// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer
+/// than the face is wide on average, ascending. Local.
+std::vector<Strip> find_strips(const Model& model);
+
+}  // namespace st

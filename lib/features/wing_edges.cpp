@@ -1,0 +1,267 @@
+#include "features/wing_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "features/strip.h"
+
+namespace st {
+namespace {
+
+constexpr int kStations = 9;
+constexpr int kAgreeing = 6;                                         // of the stations
+constexpr double kSharpest = radians(60);                            // material of a sharp trailing edge at most
+constexpr double kSmooth = radians(30);                              // kink at a leading edge at most
+constexpr double kBluntMin = radians(50), kBluntMax = radians(140);  // material at either edge of a blunt trailing edge
+constexpr double kLookAway = -0.5;         // cosine between normals on both sides of a blunt trailing edge at most
+constexpr double kBluntWidth = 0.05;       // of its length, at most
+constexpr double kNoseTurn = radians(45);  // of the normal to either side of a leading edge, at least
+constexpr double kFlattened = 0.7;  // curvature there over the largest, at most: a circle stays at 1, a parabola falls
+                                    // to 0.35
+constexpr double kLargestNose = 0.02;        // of the reference diagonal: radius
+constexpr double kNosePerLength = 0.25;      // radius of a leading edge over its length, at most
+constexpr double kStep = 0.125, kReach = 4;  // of the nose radius: steps and way to either side
+constexpr double kShortestChain = 0.005;     // of the reference diagonal
+
+/// Where a coedge runs, and which way its face lies.
+struct Side {
+  FaceId face;
+  Vec2 uv;
+  Vec3 normal;  // unit, out of the material
+  Vec3 inward;  // unit, tangent to the face, away from the edge
+};
+
+/// Both sides of an edge at one place.
+struct Station {
+  Vec3 x;
+  std::array<Side, 2> sides;
+  double angle = kPi;  // of the material, radians in (0, 2 pi)
+};
+
+class WingEdgeFinder {
+ public:
+  WingEdgeFinder(const Model& model, const FaceRoles& roles) : model_(model), t_(model.tables()), roles_(roles) {
+    const bool is_domain =
+        std::any_of(roles.role.begin(), roles.role.end(), [](FaceRole r) { return r == FaceRole::kFarfield; });
+    const bool has_walls =
+        std::any_of(roles.role.begin(), roles.role.end(), [](FaceRole r) { return r == FaceRole::kWall; });
+    is_turned_ = (is_domain && has_walls) || (t_.volume && *t_.volume < 0);
+    uses_.resize(static_cast<std::size_t>(t_.n_edges()));
+    for (FaceId f = 0; f < t_.n_faces(); ++f)
+      for (const LoopId l : t_.loops(f))
+        for (const CoedgeId c : t_.loop_coedges(l)) uses_[t_.coedge_edge[c]].push_back({f, c});
+  }
+
+  std::vector<WingEdge> run() {
+    std::vector<std::optional<WingEdge>> found(uses_.size());
+    for (const Strip& strip : find_strips(model_)) try_blunt(strip, found);
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (!found[e] && is_candidate(e)) found[e] = classify(e);
+    drop_short_chains(found);
+    std::vector<WingEdge> result;
+    for (const auto& w : found)
+      if (w) result.push_back(*w);
+    return result;
+  }
+
+ private:
+  struct Use {
+    FaceId face;
+    CoedgeId coedge;
+  };
+
+  bool is_candidate(EdgeId e) const {
+    if (t_.edge_is_degenerate[e] || uses_[e].size() != 2) return false;
+    return std::all_of(uses_[e].begin(), uses_[e].end(),
+                       [&](const Use& u) { return roles_.role[u.face] == FaceRole::kWall; });
+  }
+
+  Side side_at(const Surface& surface, const Use& use, Vec2 uv, Vec3 tangent) const {
+    const Vec3 n = surface_normal(surface, uv);
+    const Vec3 along = t_.coedge_is_reversed[use.coedge] ? -tangent : tangent;
+    return {use.face, uv, (t_.face_is_reversed[use.face] != 0) != is_turned_ ? -n : n, normalized(cross(n, along))};
+  }
+
+  std::vector<Station> stations(EdgeId e, const std::array<std::unique_ptr<Surface>, 2>& surfaces) const {
+    const auto curve = model_.curve(e);
+    std::array<std::unique_ptr<Curve2d>, 2> pcurves;
+    for (std::size_t k = 0; k < 2; ++k) pcurves[k] = model_.pcurve(uses_[e][k].face, uses_[e][k].coedge);
+    std::vector<Station> result;
+    for (int i = 0; i < kStations; ++i) {
+      const double t = curve->t_min() + (curve->t_max() - curve->t_min()) * (i + 0.5) / kStations;
+      const CurvePoint p = curve->evaluate(t);
+      Station s{p.x, {}, kPi};
+      for (std::size_t k = 0; k < 2; ++k)
+        s.sides[k] = side_at(*surfaces[k], uses_[e][k], pcurves[k]->point(t), normalized(p.d1));
+      const double between = angle_between(s.sides[0].inward, s.sides[1].inward);
+      s.angle = dot(s.sides[0].inward, s.sides[1].normal) < 0 ? between : 2 * kPi - between;
+      result.push_back(s);
+    }
+    return result;
+  }
+
+  std::array<std::unique_ptr<Surface>, 2> surfaces_of(EdgeId e) const {
+    return {model_.surface(uses_[e][0].face), model_.surface(uses_[e][1].face)};
+  }
+
+  static double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0 : values[values.size() / 2];
+  }
+
+  WingEdge make(EdgeId e, WingEdgeKind kind, const std::vector<Station>& stations, double size) const {
+    std::vector<double> angles;
+    for (const Station& s : stations) angles.push_back(s.angle);
+    return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size};
+  }
+
+  std::optional<WingEdge> classify(EdgeId e) const {
+    const auto surfaces = surfaces_of(e);
+    const std::vector<Station> places = stations(e, surfaces);
+    int n_sharp = 0;
+    std::vector<double> radii;
+    for (const Station& s : places) {
+      n_sharp += s.angle <= kSharpest;
+      if (std::abs(s.angle - kPi) > kSmooth) continue;
+      const double radius = nose_radius(s, surfaces);
+      if (radius > 0 && radius <= kNosePerLength * t_.edge_length[e]) radii.push_back(radius);
+    }
+    if (n_sharp >= kAgreeing) return make(e, WingEdgeKind::kSharpTrailing, places, 0);
+    if (static_cast<int>(radii.size()) >= kAgreeing) return make(e, WingEdgeKind::kLeading, places, median(radii));
+    return std::nullopt;
+  }
+
+  // --- noses
+
+  /// Curvature of the surface in a direction along it, positive where it bends away from `normal`.
+  static double bend(const SurfacePoint2& p, Vec3 normal, Vec2 direction) {
+    const double a = direction.x, b = direction.y;
+    return -dot(a * a * p.duu + 2 * a * b * p.duv + b * b * p.dvv, normal);
+  }
+
+  /// Rates of u and v for a way along `direction`, tangent to the surface; zero at a singular point.
+  static Vec2 rates(const SurfacePoint2& p, Vec3 direction) {
+    return tangent_step(p.du, p.dv, direction, 1e-20).value_or(Vec2{});
+  }
+
+  /// Smallest radius of the nose at the edge; 0: no nose.
+  double nose_radius(const Station& s, const std::array<std::unique_ptr<Surface>, 2>& surfaces) const {
+    double largest = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const SurfacePoint2 p = surfaces[k]->evaluate2(s.sides[k].uv);
+      largest = std::max(largest, bend(p, s.sides[k].normal, rates(p, s.sides[k].inward)));
+    }
+    if (!(largest * kLargestNose * roles_.reference_diagonal > 1)) return 0;
+    std::array<double, 2> flattened;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::optional<double> end = walk(*surfaces[k], s.sides[k], 1 / largest, largest);
+      if (!end) return 0;
+      flattened[k] = *end;
+    }
+    return std::max(flattened[0], flattened[1]) <= kFlattened * largest ? 1 / largest : 0;
+  }
+
+  /// Walks away from the edge, raises `largest` to the largest curvature met, and returns the curvature where the
+  /// normal has turned by kNoseTurn; nullopt when it never does, or the face ends before.
+  static std::optional<double> walk(const Surface& surface, const Side& side, double radius, double& largest) {
+    Vec2 uv = side.uv;
+    Vec3 direction = side.inward, normal = side.normal;
+    const double over_u = 1e-6 * (surface.u_max() - surface.u_min()),
+                 over_v = 1e-6 * (surface.v_max() - surface.v_min());
+    for (int i = 0; i < static_cast<int>(kReach / kStep); ++i) {
+      const SurfacePoint2 p = surface.evaluate2(uv);
+      const Vec3 n = normalized(cross(p.du, p.dv));
+      normal = dot(n, normal) < 0 ? -n : n;
+      direction = normalized(direction - dot(direction, normal) * normal);
+      const Vec2 step = rates(p, direction);
+      if (step == Vec2{}) return std::nullopt;
+      const double curvature = bend(p, normal, step);
+      largest = std::max(largest, curvature);
+      if (angle_between(normal, side.normal) >= kNoseTurn) return curvature;
+      uv = uv + kStep * radius * step;
+      if (uv.x < surface.u_min() - over_u || uv.x > surface.u_max() + over_u || uv.y < surface.v_min() - over_v ||
+          uv.y > surface.v_max() + over_v)
+        return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  // --- blunt trailing edges
+
+  /// Both long edges of a strip, where the faces beyond look away from each other.
+  void try_blunt(const Strip& strip, std::vector<std::optional<WingEdge>>& found) const {
+    std::array<std::vector<Station>, 2> places;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_candidate(strip.edges[k])) return;
+      places[k] = stations(strip.edges[k], surfaces_of(strip.edges[k]));
+    }
+    std::vector<double> widths;
+    for (const auto& station : strip.stations) widths.push_back(station.width);
+    const double width = median(widths);
+    if (width > kBluntWidth * strip.length) return;
+    int n_agree = 0;
+    for (int i = 0; i < kStations; ++i) {
+      const Station &a = places[0][i], &b = places[1][strip.is_opposed ? kStations - 1 - i : i];
+      const auto beyond = [&](const Station& s) { return s.sides[s.sides[0].face == strip.face ? 1 : 0].normal; };
+      const auto is_corner = [](const Station& s) { return s.angle >= kBluntMin && s.angle <= kBluntMax; };
+      n_agree += is_corner(a) && is_corner(b) && dot(beyond(a), beyond(b)) <= kLookAway;
+    }
+    if (n_agree < kAgreeing) return;
+    for (std::size_t k = 0; k < 2; ++k)
+      found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width);
+  }
+
+  // --- chains
+
+  void drop_short_chains(std::vector<std::optional<WingEdge>>& found) const {
+    constexpr std::size_t kKinds = 2;  // trailing, leading
+    const auto chain_kind = [](const WingEdge& w) {
+      return w.kind == WingEdgeKind::kLeading ? std::size_t{1} : std::size_t{0};
+    };
+    std::vector<std::size_t> parent(kKinds * static_cast<std::size_t>(t_.n_vertices()));
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::size_t i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    const auto node = [&](const WingEdge& w, std::size_t end) {
+      return root(chain_kind(w) * static_cast<std::size_t>(t_.n_vertices()) +
+                  static_cast<std::size_t>(t_.edge_vertices[2 * static_cast<std::size_t>(w.edge) + end]));
+    };
+    for (const auto& w : found)
+      if (w) parent[node(*w, 0)] = node(*w, 1);
+    std::vector<double> length(parent.size(), 0.0);
+    for (const auto& w : found)
+      if (w) length[node(*w, 0)] += w->length;
+    for (auto& w : found)
+      if (w && length[node(*w, 0)] < kShortestChain * roles_.reference_diagonal) w.reset();
+  }
+
+  const Model& model_;
+  const ModelTables& t_;
+  const FaceRoles& roles_;
+  bool is_turned_ = false;  // normals point into the material
+  std::vector<std::vector<Use>> uses_;
+};
+
+}  // namespace
+
+const char* name_of(WingEdgeKind kind) {
+  switch (kind) {
+    case WingEdgeKind::kSharpTrailing:
+      return "sharp trailing edge";
+    case WingEdgeKind::kBluntTrailing:
+      return "blunt trailing edge";
+    default:
+      return "leading edge";
+  }
+}
+
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles) {
+  return WingEdgeFinder(model, roles).run();
+}
+
+}  // namespace st

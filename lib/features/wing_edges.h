@@ -1,0 +1,38 @@
+// Edges that look like trailing and leading edges of wings, blades and nacelle lips.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "features/face_roles.h"
+#include "geometry/model/model.h"
+
+namespace st {
+
+enum class WingEdgeKind : unsigned char {
+  kSharpTrailing,  ///< two faces meet at 60 degrees of material or less
+  kBluntTrailing,  ///< a long edge of a narrow face between two faces that look away from each other
+  kLeading  ///< inside a rounded nose: the normal turns by 45 degrees and more to either side, and the bend flattens
+            ///< out
+};
+
+/// "sharp trailing edge", "blunt trailing edge", "leading edge".
+const char* name_of(WingEdgeKind kind);
+
+struct WingEdge {
+  EdgeId edge = kNone;
+  WingEdgeKind kind = WingEdgeKind::kSharpTrailing;
+  Vec3 middle;        ///< on the edge, model unit
+  double length = 0;  ///< model unit
+  double angle = 0;   ///< of the material between the faces, radians; median over the edge
+  double size = 0;    ///< model unit: width of a blunt edge, median nose radius of a leading edge; 0 for a sharp edge
+};
+
+/// Ascending by edge. Dihedral angle and curvature decide, at nine places along each edge, most of which must agree;
+/// edges of one kind that hang together count only when they are at least 1/200 of the reference diagonal long
+/// altogether. A sharp leading edge cannot be told from a trailing edge and counts as one. Material is where the
+/// normals point away from, except in a model with a far field, where it is outside of the domain. Edges of symmetry
+/// planes and far fields are left out. Local. Cost: some hundred evaluations per edge of a nose.
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles);
+
+}  // namespace st

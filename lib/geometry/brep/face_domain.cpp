@@ -1,0 +1,156 @@
+#include "geometry/brep/face_domain.h"
+
+#include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/brep/shape_queries.h"
+
+namespace st::occt {
+namespace {
+
+constexpr int kSamples = 16;        // of a curved coedge, at least
+constexpr int kSamplesPerSpan = 4;  // of a B-spline
+constexpr int kMaxSamples = 256;
+
+CoedgeUv make_coedge(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  CoedgeUv c;
+  c.edge = edge;
+  double t0 = 0, t1 = 0;
+  c.curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  const bool reversed = edge.Orientation() == TopAbs_REVERSED;
+  c.t_start = reversed ? t1 : t0;
+  c.t_end = reversed ? t0 : t1;
+  if (c.curve.IsNull()) return c;
+  const Geom2dAdaptor_Curve adaptor(c.curve, t0, t1);
+  c.is_line = adaptor.GetType() == GeomAbs_Line;
+  int n = c.is_line ? 1 : kSamples;
+  if (adaptor.GetType() == GeomAbs_BSplineCurve)
+    n = adaptor.Degree() == 1 ? std::max(n, 2 * adaptor.NbKnots())
+                              : std::clamp(kSamplesPerSpan * adaptor.NbKnots(), n, kMaxSamples);
+  for (int k = 0; k < n; ++k) {
+    const gp_Pnt2d p = adaptor.Value(c.t_start + (c.t_end - c.t_start) * k / n);
+    c.polygon.push_back({p.X(), p.Y()});
+  }
+  return c;
+}
+
+std::vector<double> inside(const TColStd_Array1OfReal& knots, double low, double high) {
+  std::vector<double> result;
+  for (const double t : knots)
+    if (t > low && t < high) result.push_back(t);
+  return result;
+}
+
+double polygon_area(const LoopUv& loop) {
+  const std::vector<Vec2> p = loop.polygon();
+  double area = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) area += 0.5 * cross(p[k] - p[0], p[(k + 1) % p.size()] - p[0]);
+  return area;
+}
+
+void enlarge(Box3& box, Vec3 by) {
+  if (box.is_empty()) return;
+  box.lo = box.lo - by;
+  box.hi = box.hi + by;
+}
+
+/// Adds to `sag` how far a parabola through three neighbours leaves their chords.
+void add_sag(Vec3& sag, Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 d = (a - 2.0 * b + c) / 8;
+  sag = {std::max(sag.x, std::fabs(d.x)), std::max(sag.y, std::fabs(d.y)), std::max(sag.z, std::fabs(d.z))};
+}
+
+/// Where the sampled loops cross the line of constant v, ascending.
+std::vector<double> row_crossings(const FaceDomain& d, double v) {
+  std::vector<double> u;
+  for (const LoopUv& loop : d.loops) {
+    const std::vector<Vec2> p = loop.polygon();
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Vec2 a = p[k], b = p[(k + 1) % p.size()];
+      if ((a.y < v) != (b.y < v)) u.push_back(a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y));
+    }
+  }
+  std::sort(u.begin(), u.end());
+  return u;
+}
+
+}  // namespace
+
+std::vector<Vec2> LoopUv::polygon() const {
+  std::vector<Vec2> p;
+  for (const CoedgeUv& c : coedges) p.insert(p.end(), c.polygon.begin(), c.polygon.end());
+  return p;
+}
+
+FaceDomain make_domain(const TopoDS_Face& face) {
+  FaceDomain d;
+  BRepTools::UVBounds(face, d.bounds.u_min, d.bounds.u_max, d.bounds.v_min, d.bounds.v_max);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  d.surface = make_surface(surface, d.bounds);
+  d.u_knots = d.surface->u_breaks();
+  d.v_knots = d.surface->v_breaks();
+  if (const GeomAdaptor_Surface adaptor(surface); adaptor.GetType() == GeomAbs_BSplineSurface) {
+    const Handle(Geom_BSplineSurface) spline = adaptor.BSpline();
+    d.n_u = std::clamp(2 * spline->NbUKnots(), d.n_u, kMaxSamples);
+    d.n_v = std::clamp(2 * spline->NbVKnots(), d.n_v, kMaxSamples);
+    d.u_knots = inside(spline->UKnots(), d.bounds.u_min, d.bounds.u_max);
+    d.v_knots = inside(spline->VKnots(), d.bounds.v_min, d.bounds.v_max);
+  }
+  for (TopoDS_Iterator w(face); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
+    LoopUv loop;
+    for (BRepTools_WireExplorer e(TopoDS::Wire(w.Value()), face); e.More(); e.Next())
+      if (!is_constraint(e.Current())) loop.coedges.push_back(make_coedge(e.Current(), face));
+    if (loop.coedges.empty()) continue;
+    loop.area = polygon_area(loop);
+    d.loops.push_back(std::move(loop));
+  }
+  std::stable_sort(d.loops.begin(), d.loops.end(), [](const LoopUv& a, const LoopUv& b) { return a.area > b.area; });
+  return d;
+}
+
+Box3 sampled_box(const Curve& curve) {
+  constexpr int kSteps = 32;
+  std::vector<Vec3> x;
+  for (int k = 0; k <= kSteps; ++k)
+    x.push_back(curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * k / kSteps));
+  Box3 box;
+  Vec3 sag;
+  for (int k = 0; k <= kSteps; ++k) {
+    box.add(x[k]);
+    if (k > 0 && k < kSteps) add_sag(sag, x[k - 1], x[k], x[k + 1]);
+  }
+  enlarge(box, sag);
+  return box;
+}
+
+Box3 sampled_box(const FaceDomain& d) {
+  Box3 box;
+  if (d.surface->is_planar()) return box;
+  const double du = (d.bounds.u_max - d.bounds.u_min) / d.n_u, dv = (d.bounds.v_max - d.bounds.v_min) / d.n_v;
+  Vec3 sag;
+  for (int j = 1; j < d.n_v; ++j) {
+    const double v = d.bounds.v_min + j * dv;
+    const std::vector<double> crossings = row_crossings(d, v);
+    for (int i = 1; i < d.n_u; ++i) {
+      const double u = d.bounds.u_min + i * du;
+      if ((std::upper_bound(crossings.begin(), crossings.end(), u) - crossings.begin()) % 2 == 0) continue;
+      const Vec3 x = d.surface->point({u, v});
+      box.add(x);
+      add_sag(sag, d.surface->point({u - du, v}), x, d.surface->point({u + du, v}));
+      add_sag(sag, d.surface->point({u, v - dv}), x, d.surface->point({u, v + dv}));
+    }
+  }
+  enlarge(box, 2.0 * sag);  // along u and along v
+  return box;
+}
+
+}  // namespace st::occt

@@ -1,0 +1,97 @@
+#include "geometry/brep/pcurve_fit.h"
+
+#include <Geom2dAPI_Interpolate.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <Standard_Failure.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
+#include <iterator>
+#include <map>
+
+namespace st::occt {
+namespace {
+
+using Points = std::map<double, Vec2>;  // by parameter
+
+Handle(Geom2d_Curve) interpolated(const Points& points) {
+  const int n = static_cast<int>(points.size());
+  Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
+  Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
+  int i = 1;
+  for (const auto& [t, uv] : points) {
+    poles->SetValue(i, {uv.x, uv.y});
+    parameters->SetValue(i++, t);
+  }
+  try {
+    Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-12);
+    maker.Perform();
+    Handle(Geom2d_Curve) curve;
+    if (maker.IsDone()) curve = maker.Curve();
+    return curve;
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+}
+
+Handle(Geom2d_Curve) straight(const Points& points) {
+  const auto& [t0, a] = *points.begin();
+  const auto& [t1, b] = *points.rbegin();
+  TColgp_Array1OfPnt2d poles(1, 2);
+  TColStd_Array1OfReal knots(1, 2);
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  poles(1) = {a.x, a.y}, poles(2) = {b.x, b.y};
+  knots(1) = t0, knots(2) = t1;
+  multiplicities(1) = multiplicities(2) = 2;
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
+}
+
+double distance_at(const CurveRange& range, const Surface& surface, const Handle(Geom2d_Curve) & curve, double t) {
+  const gp_Pnt2d uv = curve->Value(t);
+  const gp_Pnt p = range.curve->Value(t);
+  return distance(surface.point({uv.X(), uv.Y()}), Vec3{p.X(), p.Y(), p.Z()});
+}
+
+/// Parameters in the middle between two points where the curve is too far off.
+std::vector<double> too_far(const CurveRange& range, const Surface& surface, const Handle(Geom2d_Curve) & curve,
+                            const Points& points, double target) {
+  std::vector<double> found;
+  for (auto p = points.begin(); std::next(p) != points.end(); ++p) {
+    const double t = 0.5 * (p->first + std::next(p)->first);
+    if (distance_at(range, surface, curve, t) > target) found.push_back(t);
+  }
+  return found;
+}
+
+}  // namespace
+
+Handle(Geom2d_Curve) fit_pcurve(const CurveRange& range, const Surface& surface,
+                                const std::function<Vec2(double)>& guess, double target) {
+  constexpr int kFirstPoints = 33, kMaxPoints = 1000, kRounds = 8;
+  Points points;
+  const auto add = [&](double t) {
+    const gp_Pnt p = range.curve->Value(t);
+    const auto uv = project_near(surface, {p.X(), p.Y(), p.Z()}, guess(t));
+    if (uv) points[t] = *uv;
+    return uv.has_value();
+  };
+  for (int k = 0; k < kFirstPoints; ++k)
+    if (!add(range.t0 + (range.t1 - range.t0) * k / (kFirstPoints - 1))) return {};
+  Handle(Geom2d_Curve) curve = straight(points);
+  bool is_straight = too_far(range, surface, curve, points, target).empty();
+  for (const auto& [t, uv] : points) is_straight &= distance_at(range, surface, curve, t) <= target;
+  if (is_straight) return curve;
+  for (int round = 0; round < kRounds; ++round) {
+    curve = interpolated(points);
+    if (curve.IsNull() || points.size() > kMaxPoints) return curve;
+    const std::vector<double> finer = too_far(range, surface, curve, points, target);
+    if (finer.empty()) break;
+    for (double t : finer)
+      if (!add(t)) return curve;
+  }
+  return curve;
+}
+
+}  // namespace st::occt

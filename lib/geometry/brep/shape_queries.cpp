@@ -1,0 +1,62 @@
+#include "geometry/brep/shape_queries.h"
+
+#include <BRepBndLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <sstream>
+
+namespace st::occt {
+
+Box3 rough_box(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  Box3 result;
+  if (box.IsVoid()) return result;
+  result.add(vec(box.CornerMin()));
+  result.add(vec(box.CornerMax()));
+  return result;
+}
+
+bool is_constraint(const TopoDS_Shape& edge) {
+  return edge.Orientation() == TopAbs_INTERNAL || edge.Orientation() == TopAbs_EXTERNAL;
+}
+
+std::vector<int> edge_uses(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& edges) {
+  edges.Clear();
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  std::vector<int> uses(edges.Extent(), 0);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (TopExp_Explorer e(faces(f).Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next())
+      if (!is_constraint(e.Current())) ++uses[edges.FindIndex(e.Current()) - 1];
+  return uses;
+}
+
+int count_free_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape edges;
+  const std::vector<int> uses = edge_uses(shape, edges);
+  int n = 0;
+  for (int i = 0; i < edges.Extent(); ++i) n += uses[i] == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(edges(i + 1)));
+  return n;
+}
+
+double max_edge_tolerance(const TopoDS_Shape& shape) {
+  double tolerance = 0;
+  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(e.Current())));
+  return tolerance;
+}
+
+std::string format_number(double x) {
+  std::ostringstream s;
+  s.precision(4);
+  s << x;
+  return s.str();
+}
+
+}  // namespace st::occt

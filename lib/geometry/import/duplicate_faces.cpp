@@ -1,0 +1,111 @@
+#include "geometry/import/duplicate_faces.h"
+
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <cmath>
+
+#include "geometry/brep/face_integral.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/import/import.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // of the diagonal
+constexpr double kSameArea = 1e-4;   // relative
+
+struct Candidate {
+  int id;
+  TopoDS_Face face;
+  Box3 box;
+  double tolerance;
+  bool is_loose;  ///< in no solid
+};
+
+/// All faces in the order of their boxes; none when all belong to solids.
+std::vector<Candidate> candidates(const ImportedShape& model) {
+  std::vector<char> is_loose(model.faces.Extent() + 1, 0);
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next())
+    is_loose[model.faces.FindIndex(e.Current())] = 1;
+  std::vector<Candidate> result;
+  if (std::find(is_loose.begin(), is_loose.end(), 1) == is_loose.end()) return result;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Shape& face = model.faces(i);
+    result.push_back(
+        {i, TopoDS::Face(face.Oriented(TopAbs_FORWARD)), rough_box(face), max_edge_tolerance(face), is_loose[i] != 0});
+  }
+  std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
+    return a.box.lo.x != b.box.lo.x ? a.box.lo.x < b.box.lo.x : a.id < b.id;
+  });
+  return result;
+}
+
+std::vector<Vec3> vertices(const TopoDS_Face& face) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(face, TopAbs_VERTEX, map);
+  std::vector<Vec3> result;
+  for (int i = 1; i <= map.Extent(); ++i) result.push_back(vec(BRep_Tool::Pnt(TopoDS::Vertex(map(i)))));
+  return result;
+}
+
+bool same_name(const ImportedShape& model, int a, int b) {
+  const FaceAttributes &x = model.attributes[a - 1], &y = model.attributes[b - 1];
+  return x.name == y.name && x.part == y.part;
+}
+
+bool all_near(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double tolerance) {
+  return std::all_of(a.begin(), a.end(), [&](Vec3 p) {
+    return std::any_of(b.begin(), b.end(), [&](Vec3 q) { return distance(p, q) <= tolerance; });
+  });
+}
+
+bool same_surface(const FaceDomain& a, const TopoDS_Face& b, double tolerance) {
+  const Vec3 p = a.surface->point({0.5 * (a.bounds.u_min + a.bounds.u_max), 0.5 * (a.bounds.v_min + a.bounds.v_max)});
+  GeomAPI_ProjectPointOnSurf projection(gp_Pnt(p.x, p.y, p.z), BRep_Tool::Surface(b));
+  return projection.NbPoints() > 0 && projection.LowerDistance() <= tolerance;
+}
+
+bool coincide(const Candidate& a, const Candidate& b, double tolerance) {
+  if (distance(a.box.lo, b.box.lo) > 2 * tolerance || distance(a.box.hi, b.box.hi) > 2 * tolerance) return false;
+  const std::vector<Vec3> va = vertices(a.face), vb = vertices(b.face);
+  if (va.size() != vb.size() || !all_near(va, vb, tolerance) || !all_near(vb, va, tolerance)) return false;
+  const FaceDomain da = make_domain(a.face);
+  const double area_a = std::fabs(integrate_face(da, {}).area),
+               area_b = std::fabs(integrate_face(make_domain(b.face), {}).area);
+  return std::fabs(area_a - area_b) <= kSameArea * area_a && same_surface(da, b.face, tolerance);
+}
+
+}  // namespace
+
+void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const std::vector<Candidate> faces = candidates(model);
+  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  std::vector<char> is_removed(faces.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t k = i + 1; k < faces.size(); ++k) {
+      const double tolerance = std::max({place, faces[i].tolerance, faces[k].tolerance});
+      if (faces[k].box.lo.x - faces[i].box.lo.x > 2 * tolerance) break;
+      if (!faces[i].is_loose && !faces[k].is_loose) continue;
+      if (is_removed[i] || is_removed[k] || !same_name(model, faces[i].id, faces[k].id) ||
+          !coincide(faces[i], faces[k], tolerance))
+        continue;
+      const bool keep_i = faces[i].is_loose == faces[k].is_loose ? faces[i].id < faces[k].id : !faces[i].is_loose;
+      const Candidate& gone = keep_i ? faces[k] : faces[i];
+      is_removed[keep_i ? k : i] = 1;
+      reshape->Remove(gone.face);
+      findings.push_back({"duplicated face, removed: it lies on face " +
+                              std::to_string(keep_i ? faces[i].id : faces[k].id) + " of the file",
+                          std::string("face ").append(std::to_string(gone.id)).append(" of the file"),
+                          gone.box.center(), gone.box.diagonal(), true});
+    }
+  if (std::find(is_removed.begin(), is_removed.end(), 1) == is_removed.end()) return;
+  model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); });
+}
+
+}  // namespace st::occt

@@ -1,0 +1,408 @@
+#include "geometry/import/half_model.h"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepClass_FaceClassifier.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <ShapeAnalysis_FreeBounds.hxx>
+#include <ShapeFix_Shell.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_HSequenceOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <cmath>
+#include <gp_Ax2.hxx>
+#include <gp_Pln.hxx>
+#include <map>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/brep/compound.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/import/import.h"
+
+namespace st::occt {
+namespace {
+
+constexpr const char* kSymmetryName = "symmetry";
+constexpr const char* kFarFieldName = "farfield";
+constexpr double kInPlane = 1e-5;    ///< of the diagonal: an edge or a face this near is in the plane
+constexpr double kBothSides = 1e-4;  ///< of the diagonal: reaching less far beyond the plane is no other side
+constexpr int kPlacesShown = 5;
+
+using Faces = std::vector<TopoDS_Face>;
+
+double coordinate(const gp_Pnt& p, int axis) { return p.Coord(axis + 1); }
+double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+gp_Dir axis_direction(int axis, int sign) {
+  gp_XYZ d(0, 0, 0);
+  d.SetCoord(axis + 1, sign);
+  return gp_Dir(d);
+}
+
+/// A plane with the lengths that decide what is in it.
+struct Cut {
+  SymmetryPlane plane;
+  double diagonal = 0;
+
+  double beyond(double x) const { return plane.side * (x - plane.value); }
+  bool is_near(const gp_Pnt& p) const {
+    return std::fabs(coordinate(p, plane.axis) - plane.value) <= kInPlane * diagonal;
+  }
+};
+
+/// All of an edge, at 11 points.
+bool is_in_plane(const TopoDS_Edge& edge, const Cut& cut) {
+  if (BRep_Tool::Degenerated(edge)) return cut.is_near(BRep_Tool::Pnt(TopExp::FirstVertex(edge)));
+  const BRepAdaptor_Curve curve(edge);
+  for (int k = 0; k <= 10; ++k)
+    if (!cut.is_near(curve.Value(curve.FirstParameter() + 0.1 * k * (curve.LastParameter() - curve.FirstParameter()))))
+      return false;
+  return true;
+}
+
+/// All of a face, at 25 points, with its normal across the plane: a narrow strip that stands on the plane is near it,
+/// too.
+bool is_in_plane(const TopoDS_Face& face, const Cut& cut) {
+  const BRepAdaptor_Surface surface(face);
+  gp_Pnt middle;
+  gp_Vec du, dv;
+  surface.D1(0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
+             0.5 * (surface.FirstVParameter() + surface.LastVParameter()), middle, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  if (std::fabs(normal * gp_Vec(axis_direction(cut.plane.axis, 1))) < 0.9 * normal.Magnitude()) return false;
+  for (int i = 0; i <= 4; ++i)
+    for (int k = 0; k <= 4; ++k)
+      if (!cut.is_near(surface.Value(
+              surface.FirstUParameter() + 0.25 * i * (surface.LastUParameter() - surface.FirstUParameter()),
+              surface.FirstVParameter() + 0.25 * k * (surface.LastVParameter() - surface.FirstVParameter()))))
+        return false;
+  return true;
+}
+
+std::vector<TopoDS_Edge> free_edges(const Faces& faces) {
+  TopTools_IndexedMapOfShape edges;
+  const std::vector<int> uses = edge_uses(compound_of(faces), edges);
+  std::vector<TopoDS_Edge> result;
+  for (int i = 0; i < edges.Extent(); ++i)
+    if (const TopoDS_Edge e = TopoDS::Edge(edges(i + 1)); uses[i] == 1 && !BRep_Tool::Degenerated(e))
+      result.push_back(e);
+  return result;
+}
+
+std::string places(const std::vector<TopoDS_Edge>& edges) {
+  std::string text;
+  for (std::size_t i = 0; i < edges.size() && i < kPlacesShown; ++i) {
+    const BRepAdaptor_Curve curve(edges[i]);
+    const gp_Pnt p = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    text += (i ? ", (" : "(") + format_number(p.X()) + ", " + format_number(p.Y()) + ", " + format_number(p.Z()) + ")";
+  }
+  return text + (edges.size() > kPlacesShown ? " ..." : "");
+}
+
+// --- the body on one side ---
+
+/// Takes the kept side of every solid and loose face by a boolean; attributes follow the pieces.
+void cut_model(ImportedShape& model, const Cut& cut, const Box3& box, const std::string& path) {
+  gp_XYZ lo(box.lo.x, box.lo.y, box.lo.z), hi(box.hi.x, box.hi.y, box.hi.z);
+  const gp_XYZ margin(cut.diagonal, cut.diagonal, cut.diagonal);
+  lo -= margin;
+  hi += margin;
+  (cut.plane.side > 0 ? lo : hi).SetCoord(cut.plane.axis + 1, cut.plane.value);
+  const TopoDS_Shape half_space = BRepPrimAPI_MakeBox(gp_Pnt(lo), gp_Pnt(hi)).Shape();
+  TopTools_ListOfShape bodies, tools;
+  for (TopExp_Explorer e(model.shape, TopAbs_SOLID); e.More(); e.Next()) bodies.Append(e.Current());
+  for (TopExp_Explorer e(model.shape, TopAbs_SHELL, TopAbs_SOLID); e.More(); e.Next()) bodies.Append(e.Current());
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE, TopAbs_SHELL); e.More(); e.Next()) bodies.Append(e.Current());
+  tools.Append(half_space);
+  BRepAlgoAPI_Common common;
+  common.SetArguments(bodies);
+  common.SetTools(tools);
+  common.SetNonDestructive(true);
+  common.Build();
+  const auto image = [&](const TopoDS_Shape& face) -> TopoDS_Shape {
+    if (common.IsDeleted(face)) return {};
+    const TopTools_ListOfShape& pieces = common.Modified(face);
+    if (pieces.IsEmpty()) return face;
+    return compound_of(pieces);
+  };
+  if (!common.IsDone() || common.HasErrors() || !model.replace(common.Shape(), image))
+    throw Error(ExitCode::kGeometry,
+                path + ": OpenCASCADE cannot cut the model at the symmetry plane; cut it in the CAD system");
+}
+
+/// The side that the model is on; 0 when it is on both.
+int side_of(const Box3& box, const Cut& cut) {
+  const double tolerance = kBothSides * cut.diagonal;
+  const double below = cut.plane.value - component(box.lo, cut.plane.axis),
+               above = component(box.hi, cut.plane.axis) - cut.plane.value;
+  return below <= tolerance ? 1 : above <= tolerance ? -1 : 0;
+}
+
+void keep_one_side(ImportedShape& model, Cut& cut, const Box3& box, std::vector<ImportFinding>& findings,
+                   const std::string& path) {
+  const int side = side_of(box, cut), asked = cut.plane.side;
+  if (side != 0 && asked != 0 && side != asked)
+    throw Error(ExitCode::kGeometry,
+                path + ": all of the model is on the other side of the symmetry plane; give --symmetry the other sign");
+  cut.plane.side = asked != 0 ? asked : side != 0 ? side : 1;
+  if (side != 0) return;
+  cut_model(model, cut, box, path);
+  findings.push_back({"cut at the symmetry plane", "", box.center(), cut.diagonal, false});
+}
+
+// --- faces in the plane ---
+
+/// A closed wire in the plane, with the face that it bounds alone.
+struct PlaneLoop {
+  TopoDS_Wire wire;
+  TopoDS_Face face;
+  double area = 0;
+  int depth = 0;
+  int container = -1;
+};
+
+gp_Pln plane_of(const Cut& cut) {
+  gp_XYZ origin(0, 0, 0);
+  origin.SetCoord(cut.plane.axis + 1, cut.plane.value);
+  return gp_Pln(gp_Pnt(origin), axis_direction(cut.plane.axis, -cut.plane.side));
+}
+
+/// Bounded by `wires` whatever way they run: the first outside, the others holes.
+TopoDS_Face planar_face(const gp_Pln& plane, const std::vector<TopoDS_Wire>& wires) {
+  BRepBuilderAPI_MakeFace make(plane, wires[0], true);
+  TopoDS_Face face = make.Face();
+  for (std::size_t i = 1; i < wires.size(); ++i) {
+    // MakeFace turns an outer wire that runs clockwise; a hole must run against it.
+    const TopoDS_Face alone = BRepBuilderAPI_MakeFace(plane, wires[i], true).Face();
+    const TopoDS_Shape turned = TopExp_Explorer(alone, TopAbs_WIRE).Current().Reversed();
+    BRepBuilderAPI_MakeFace with_hole(face, TopoDS::Wire(turned));
+    face = with_hole.Face();
+  }
+  return face;
+}
+
+std::vector<PlaneLoop> loops_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
+  Handle(TopTools_HSequenceOfShape) sequence = new TopTools_HSequenceOfShape, wires;
+  for (const TopoDS_Edge& e : edges) sequence->Append(e);
+  ShapeAnalysis_FreeBounds::ConnectEdgesToWires(sequence, Precision::Confusion(), true, wires);
+  std::vector<PlaneLoop> loops;
+  for (int i = 1; i <= wires->Length(); ++i) {
+    const TopoDS_Wire wire = TopoDS::Wire(wires->Value(i));
+    BRepBuilderAPI_MakeFace make(plane_of(cut), wire, true);
+    if (!BRep_Tool::IsClosed(wire) || !make.IsDone())
+      throw Error(ExitCode::kGeometry, path + ": the edges in the symmetry plane do not close; free edges at " +
+                                           places(edges) + "; close the model there in the CAD system");
+    GProp_GProps area;
+    BRepGProp::SurfaceProperties(make.Face(), area);
+    loops.push_back({wire, make.Face(), std::fabs(area.Mass())});
+  }
+  return loops;
+}
+
+/// A point of `inner` in the face of `outer`.
+bool contains(const PlaneLoop& outer, const PlaneLoop& inner) {
+  if (outer.area <= inner.area) return false;
+  const BRepAdaptor_Curve curve(TopoDS::Edge(TopExp_Explorer(inner.wire, TopAbs_EDGE).Current()));
+  const gp_Pnt p = curve.Value(0.45 * curve.FirstParameter() + 0.55 * curve.LastParameter());
+  BRepClass_FaceClassifier classifier(outer.face, p, Precision::Confusion());
+  return classifier.State() == TopAbs_IN;
+}
+
+/// Every second region between nested loops: the outermost loop is the border of what is kept.
+Faces faces_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
+  std::vector<PlaneLoop> loops = loops_in_plane(edges, cut, path);
+  for (PlaneLoop& loop : loops)
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+      if (!contains(loops[k], loop)) continue;
+      ++loop.depth;
+      if (loop.container < 0 || loops[k].area < loops[loop.container].area) loop.container = static_cast<int>(k);
+    }
+  Faces faces;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].depth % 2 == 1) continue;
+    std::vector<TopoDS_Wire> wires{loops[i].wire};
+    for (const PlaneLoop& hole : loops)
+      if (hole.depth % 2 == 1 && hole.container == static_cast<int>(i)) wires.push_back(hole.wire);
+    faces.push_back(planar_face(plane_of(cut), wires));
+    BRepLib::SameParameter(faces.back(), Precision::Confusion(), true);
+  }
+  return faces;
+}
+
+// --- far field ---
+
+/// Faces of the outer boundary, without the one in the plane.
+Faces far_faces(const FarField& far, const Box3& box, const std::optional<Cut>& cut, double diagonal) {
+  const double r = far.size * diagonal;
+  gp_XYZ center(box.center().x, box.center().y, box.center().z);
+  if (cut) center.SetCoord(cut->plane.axis + 1, cut->plane.value);
+  TopoDS_Shape shape;
+  if (far.kind == FarField::Kind::kBox) {
+    gp_XYZ lo = center - gp_XYZ(r, r, r), hi = center + gp_XYZ(r, r, r);
+    if (cut) (cut->plane.side > 0 ? lo : hi).SetCoord(cut->plane.axis + 1, cut->plane.value);
+    shape = BRepPrimAPI_MakeBox(gp_Pnt(lo), gp_Pnt(hi)).Shape();
+  } else if (cut) {
+    shape =
+        BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(center), axis_direction(cut->plane.axis, cut->plane.side)), r, 0, M_PI / 2)
+            .Shape();
+  } else {
+    shape = BRepPrimAPI_MakeSphere(gp_Pnt(center), r).Shape();
+  }
+  Faces faces;
+  for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next())
+    if (const TopoDS_Face f = TopoDS::Face(e.Current()); !cut || !is_in_plane(f, *cut)) faces.push_back(f);
+  return faces;
+}
+
+// --- shells and solids ---
+
+/// The shell with its faces in the order that they have in `faces`.
+TopoDS_Shape in_order(const TopoDS_Shape& shell, const Faces& faces) {
+  TopTools_IndexedMapOfShape own;
+  TopExp::MapShapes(shell, TopAbs_FACE, own);
+  TopoDS_Shell result;
+  BRep_Builder builder;
+  builder.MakeShell(result);
+  for (const TopoDS_Face& f : faces)
+    if (const int i = own.FindIndex(f); i > 0) builder.Add(result, own(i));
+  return result;
+}
+
+/// Shells of faces that share edges, in the order of their first faces, each oriented alike.
+std::vector<TopoDS_Shape> shells_of(const Faces& faces) {
+  std::vector<int> parent(faces.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  TopTools_IndexedMapOfShape edges;
+  std::vector<int> owner;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (TopExp_Explorer e(faces[f], TopAbs_EDGE); e.More(); e.Next()) {
+      const std::size_t k = edges.Add(e.Current());
+      if (k > owner.size()) owner.push_back(static_cast<int>(f));
+      const int a = root(owner[k - 1]), b = root(static_cast<int>(f));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::map<int, TopoDS_Shell> shells;
+  BRep_Builder builder;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    TopoDS_Shell& shell = shells[root(static_cast<int>(f))];
+    if (shell.IsNull()) builder.MakeShell(shell);
+    builder.Add(shell, faces[f]);
+  }
+  std::vector<TopoDS_Shape> result;
+  for (auto& [first, shell] : shells) {
+    ShapeFix_Shell fix;
+    fix.FixFaceOrientation(shell);
+    for (TopExp_Explorer e(fix.Shape(), TopAbs_SHELL); e.More(); e.Next())
+      result.push_back(in_order(e.Current(), faces));
+  }
+  return result;
+}
+
+double volume_of(const TopoDS_Shape& shell) {
+  GProp_GProps volume;
+  BRepGProp::VolumeProperties(shell, volume);
+  return volume.Mass();
+}
+
+TopoDS_Shape oriented(const TopoDS_Shape& shell, bool outward) {
+  return (volume_of(shell) > 0) == outward ? shell : shell.Reversed();
+}
+
+/// One solid: the shell with `far` in it turned outward, all others inward.
+TopoDS_Shape fluid_of(const std::vector<TopoDS_Shape>& shells, const TopoDS_Face& far) {
+  TopoDS_Solid solid;
+  BRep_Builder builder;
+  builder.MakeSolid(solid);
+  for (const TopoDS_Shape& shell : shells) {
+    TopTools_IndexedMapOfShape faces;
+    TopExp::MapShapes(shell, TopAbs_FACE, faces);
+    builder.Add(solid, oriented(shell, faces.Contains(far)));
+  }
+  return solid;
+}
+
+/// Faces of the body in the order of their ids: with a far field not those of cavities inside a solid, which no flow
+/// reaches.
+Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool leave_cavities,
+                 std::vector<ImportFinding>& findings) {
+  TopTools_IndexedMapOfShape cavities;
+  for (TopExp_Explorer e(model.shape, TopAbs_SOLID); leave_cavities && e.More(); e.Next()) {
+    for (TopExp_Explorer s(e.Current(), TopAbs_SHELL); s.More(); s.Next())
+      if (volume_of(s.Current()) < 0) {
+        TopExp::MapShapes(s.Current(), TopAbs_FACE, cavities);
+        const Box3 box = rough_box(s.Current());
+        findings.push_back({"cavity inside a solid left out of the fluid", "", box.center(), box.diagonal(), false});
+      }
+  }
+  Faces faces;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Face f = TopoDS::Face(model.faces(i));
+    if (!cavities.Contains(f) && !(cut && is_in_plane(f, *cut))) faces.push_back(f);
+  }
+  return faces;
+}
+
+void require_free_edges_in_plane(const Faces& faces, const std::optional<Cut>& cut, const std::string& path) {
+  std::vector<TopoDS_Edge> open;
+  const std::vector<TopoDS_Edge> all = free_edges(faces);
+  for (const TopoDS_Edge& e : all)
+    if (!cut || !is_in_plane(e, *cut)) open.push_back(e);
+  if (!open.empty())
+    throw Error(ExitCode::kGeometry, path + ": the model is open" + (cut ? " away from the symmetry plane" : "") +
+                                         ": " + std::to_string(open.size()) + " free edges at " + places(open) +
+                                         (cut ? "; close it in the CAD system"
+                                              : "; close it in the CAD system, or give --symmetry where it ends"));
+  if (cut && all.empty())
+    throw Error(ExitCode::kGeometry,
+                path + ": the model does not touch the symmetry plane; check the axis and the value of --symmetry");
+}
+
+/// `shape` made of faces of `model` and of new ones with given names.
+void take(ImportedShape& model, const TopoDS_Shape& shape, const Faces& plane_faces, const Faces& far) {
+  model.replace(shape, [](const TopoDS_Shape& face) { return face; });
+  for (const auto& [faces, name] : {std::pair{&plane_faces, kSymmetryName}, std::pair{&far, kFarFieldName}})
+    for (const TopoDS_Face& f : *faces)
+      if (const int i = model.faces.FindIndex(f); i > 0) model.attributes[i - 1].name = name;
+}
+
+}  // namespace
+
+void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, const std::optional<SymmetryPlane>& plane,
+                      const std::optional<FarField>& far, std::vector<ImportFinding>& findings,
+                      const std::string& path) {
+  std::optional<Cut> cut;
+  if (plane) {
+    cut = Cut{*plane, diagonal};
+    keep_one_side(model, *cut, box, findings, path);
+  }
+  Faces faces = body_faces(model, cut, far.has_value(), findings);
+  require_free_edges_in_plane(faces, cut, path);
+  const Faces outer = far ? far_faces(*far, box, cut, diagonal) : Faces{};
+  Faces border = faces;
+  border.insert(border.end(), outer.begin(), outer.end());
+  const Faces symmetry = cut ? faces_in_plane(free_edges(border), *cut, path) : Faces{};
+  faces.insert(faces.end(), symmetry.begin(), symmetry.end());
+  faces.insert(faces.end(), outer.begin(), outer.end());
+  const std::vector<TopoDS_Shape> shells = shells_of(faces);
+  take(model, far ? fluid_of(shells, outer.front()) : TopoDS_Shape(compound_of(shells)), symmetry, outer);
+}
+
+}  // namespace st::occt

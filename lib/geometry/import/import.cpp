@@ -1,0 +1,237 @@
+// import_model(), step by step.
+#include <BRepBuilderAPI_Transform.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/length.h"
+#include "geometry/import/cad_reader.h"
+#include "geometry/import/duplicate_faces.h"
+#include "geometry/import/embedded_edges.h"
+#include "geometry/import/half_model.h"
+#include "geometry/import/import.h"
+#include "geometry/import/loop_repair.h"
+#include "geometry/import/pcurve_repair.h"
+#include "geometry/import/sewing.h"
+#include "geometry/import/shape_repair.h"
+#include "geometry/import/shell_repair.h"
+#include "geometry/import/topology_report.h"
+#include "geometry/model/imported_shape.h"
+#include "geometry/model/model.h"
+#include "geometry/model/model_impl.h"
+#include "geometry/model/model_tables.h"
+
+namespace st {
+namespace {
+
+using occt::CadFile;
+using occt::ImportedShape;
+
+struct ModelUnit {
+  std::string name;  ///< empty: none
+  std::optional<double> in_m;
+  double shape_units = 1;  ///< of the shape as it was read (mm, or the plain numbers) in one model unit
+};
+
+std::string unit_name(double in_mm) {
+  static const std::pair<double, const char*> kNames[] = {{1, "mm"},    {10, "cm"},    {1000, "m"},
+                                                          {25.4, "in"}, {304.8, "ft"}, {1e-3, "um"},
+                                                          {1e6, "km"},  {914.4, "yd"}, {0.0254, "mil"}};
+  for (const auto& [mm, name] : kNames)
+    if (std::abs(in_mm - mm) < 1e-6 * mm) return name;
+  return occt::format_number(in_mm) + "mm";
+}
+
+/// The unit asked for, else the file's own. A file without a unit is taken to be in the unit that --unit names: nothing
+/// to scale.
+ModelUnit choose_unit(const CadFile& file, const std::string& asked) {
+  ModelUnit unit;
+  if (!asked.empty()) {
+    unit.in_m = unit_in_metres(asked);
+    if (!unit.in_m)
+      throw Error(ExitCode::kUsage, "--unit: '" + asked + "' is not a unit of length; use mm, cm, m, in or ft");
+    unit.name = asked;
+    if (file.unit_in_mm) unit.shape_units = *unit.in_m * 1000;
+  } else if (file.unit_in_mm) {
+    unit.name = unit_name(*file.unit_in_mm);
+    unit.in_m = *file.unit_in_mm / 1000;
+    unit.shape_units = *file.unit_in_mm;
+  }
+  return unit;
+}
+
+/// Shape and findings from the unit they were read in to the model unit.
+void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<ImportFinding>& findings,
+                   const std::string& path) {
+  if (std::abs(unit.shape_units - 1.0) < 1e-12) return;
+  const double factor = 1.0 / unit.shape_units;
+  gp_Trsf scale;
+  scale.SetScaleFactor(factor);
+  BRepBuilderAPI_Transform transform(model.shape, scale, true);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(transform.Shape(), TopAbs_FACE, faces);
+  if (faces.Extent() != model.faces.Extent())
+    throw Error(ExitCode::kGeometry, path + ": the model cannot be scaled to its unit; give --unit mm");
+  for (auto& [edge, name] : model.edge_names) edge = transform.ModifiedShape(edge);
+  model.shape = transform.Shape();
+  model.faces = faces;
+  for (ImportFinding& f : findings) f.xyz = factor * f.xyz, f.size *= factor;
+}
+
+/// What --symmetry and --farfield ask for.
+struct FlowDomain {
+  std::optional<occt::SymmetryPlane> plane;
+  std::optional<occt::FarField> far;
+};
+
+FlowDomain parse_flow_domain(const ImportOptions& options) {
+  FlowDomain domain;
+  if (!options.symmetry.empty()) domain.plane = occt::parse_symmetry(options.symmetry);
+  if (!options.farfield.empty()) domain.far = occt::parse_farfield(options.farfield);
+  return domain;
+}
+
+/// Symmetry plane and far field, with tables made again; new faces need no word on their trimming curves and shells.
+void add_flow_domain(ImportedShape& model, occt::ModelOfFile& tables, const FlowDomain& domain,
+                     std::vector<ImportFinding>& findings, const std::string& path) {
+  if (!domain.plane && !domain.far) return;
+  std::vector<ImportFinding> own;
+  occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), domain.plane, domain.far,
+                         findings, path);
+  occt::repair_loops(model, own);
+  occt::repair_pcurves(model, own);
+  tables = occt::make_tables(model, path);
+  if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
+}
+
+void require_closed(const ImportResult& result, const std::string& path) {
+  if (!result.is_closed)
+    throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
+                                         " free edges; close it in the CAD system, or import without --require-closed");
+}
+
+/// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field gives anew.
+bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
+  if (options.symmetry.empty() && options.farfield.empty()) return false;
+  return std::any_of(rule.faces.begin(), rule.faces.end(), [](const std::string& item) {
+    return item.find_first_not_of("0123456789-") == std::string::npos;
+  });
+}
+
+/// Rules of faces that can be told before sewing, none of which has to match yet.
+std::vector<GroupRule> rules_before_sewing(const ImportOptions& options) {
+  std::vector<GroupRule> rules;
+  for (GroupRule rule : options.groups) {
+    if (rule.of != EntityDim::kFace || is_known_late(rule, options)) continue;
+    rule.is_optional = true;
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
+/// Tolerances of the faces' groups, unit of the shape; empty when no group has one, or nothing is to be sewn.
+std::vector<double> group_tolerances(const ImportedShape& model, const ModelUnit& unit, const ImportOptions& options) {
+  const auto has_tolerance = [](const GroupRule& rule) { return rule.tolerance.has_value(); };
+  if (std::none_of(options.groups.begin(), options.groups.end(), has_tolerance)) return {};
+  if (occt::count_free_edges(model.shape) == 0) return {};
+  ModelTables t = occt::make_face_tables(model, 1.0 / unit.shape_units);
+  t.unit_in_m = unit.in_m;
+  apply_groups(rules_before_sewing(options), t);
+  std::vector<double> tolerances = face_tolerances(t.group_names());
+  for (double& tolerance : tolerances) tolerance *= unit.shape_units;
+  return tolerances;
+}
+
+void say_what_is_not_sewn(const ImportOptions& options, std::vector<ImportFinding>& findings) {
+  for (const GroupRule& rule : options.groups)
+    if (rule.tolerance && is_known_late(rule, options))
+      findings.push_back(
+          {"tolerance not used for sewing: the faces are named by numbers, which --symmetry and "
+           "--farfield give anew",
+           "group \"" + rule.name + "\"",
+           {},
+           0,
+           false});
+}
+
+occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, const ImportedShape& model,
+                                 const ImportOptions& options) {
+  occt::SewingLimits limits{file.resolution_mm, std::nullopt, group_tolerances(model, unit, options)};
+  const std::string& sew = options.sew;
+  if (sew.empty()) return limits;
+  const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
+  limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), diagonal, unit.in_m, "--sew");
+  return limits;
+}
+
+/// Sewing and voids may put the faces in another order: a group that names them by number must not end with others than
+/// those that were sewn for it. With a flow domain such groups are not sewn.
+void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
+  if (!options.symmetry.empty() || !options.farfield.empty()) return;
+  const std::vector<double> tolerances = face_tolerances(tables.group_names());
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
+      throw Error(ExitCode::kUsage,
+                  tables.face_label(f) +
+                      " was sewn by the tolerance of a group that no longer holds it: repairs gave the faces other "
+                      "numbers; for groups with a tolerance select by place, part, layer or name");
+}
+
+std::string without_members(const EmptyGroup& group) {
+  const char* const member = group.of == EntityDim::kFace ? "face" : group.of == EntityDim::kEdge ? "edge" : "vertex";
+  return std::string("optional group without ") + (group.of == EntityDim::kEdge ? "an " : "a ") + member;
+}
+
+ImportResult run_import(const std::string& path, const ImportOptions& options) {
+  const FlowDomain domain = parse_flow_domain(options);
+  const CadFile file = occt::read_cad(path);
+  const ModelUnit unit = choose_unit(file, options.unit);
+  ImportResult result;
+  result.format = file.format;
+  ImportedShape model = occt::collect_parts(file, path);
+  occt::remove_duplicates(model, result.findings);
+  say_what_is_not_sewn(options, result.findings);
+  occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
+  occt::open_slits(model, result.findings);
+  occt::rebuild_lost_loops(model, result.findings);
+  occt::repair_loops(model, result.findings);
+  occt::repair_pcurves(model, result.findings);
+  scale_to_unit(model, unit, result.findings, path);
+  if (file.has_mixed_units)
+    result.findings.push_back(
+        {"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});
+  occt::ModelOfFile tables = occt::make_tables(model, path);
+  if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
+  add_flow_domain(model, tables, domain, result.findings, path);
+  result.tables = std::move(tables.tables);
+  result.tables.unit = unit.name;
+  result.tables.unit_in_m = unit.in_m;
+  for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
+    result.findings.push_back({without_members(group), "group \"" + group.name + "\"", {}, 0, false});
+  require_sewn_faces(model, result.tables, options);
+  const double small =
+      resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
+  occt::report_topology(model, tables.measures, small, result);
+  if (options.check_only) occt::report_validity(model, result);
+  if (options.require_closed) require_closed(result, path);
+  result.brep = occt::brep_bytes(model.shape);
+  for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
+  return result;
+}
+
+}  // namespace
+
+ImportResult import_model(const std::string& path, const ImportOptions& options) {
+  try {
+    return run_import(path, options);
+  } catch (const Standard_Failure& e) {
+    throw Error(ExitCode::kGeometry,
+                path + ": OpenCASCADE failed on this model (" +
+                    (e.GetMessageString() && *e.GetMessageString() ? e.GetMessageString() : e.DynamicType()->Name()) +
+                    "); repair it in the CAD system");
+  }
+}
+
+}  // namespace st

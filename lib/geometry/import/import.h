@@ -1,0 +1,39 @@
+// From a CAD file to a model: reading, repair, tables, and what was found on the way.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geometry/model/finding.h"
+#include "geometry/model/groups.h"
+#include "geometry/model/model.h"
+
+namespace st {
+
+struct ImportOptions {
+  std::string unit;             ///< target unit name; empty: the file's own
+  std::string small = "0.01%";  ///< length: edges shorter and faces narrower than this are listed
+  std::string sew;          ///< length: largest gap between free edges that sewing closes; empty: 0.01% of the diagonal
+  bool check_only = false;  ///< also run OpenCASCADE's checker
+  std::string symmetry;     ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
+  std::string farfield;     ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
+  bool require_closed = false;    ///< Error(kGeometry) for a model that is open after repairs
+  std::vector<GroupRule> groups;  ///< empty: those of the file
+};
+
+struct ImportResult {
+  ModelTables tables;
+  std::vector<std::byte> brep;
+  std::vector<ImportFinding> findings;
+  std::string format;      ///< "STEP", "IGES", "BREP"
+  bool is_closed = false;  ///< at least one shell and no free edge
+  int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
+  double area = 0, volume = 0;  ///< model unit squared, cubed (volume 0 when open)
+};
+
+/// Reads a STEP, IGES or BREP file (recognised by content). Throws Error(kInput) for a missing, empty or unreadable
+/// file or a directory, Error(kGeometry) when there is no face in it.
+ImportResult import_model(const std::string& path, const ImportOptions& options);
+
+}  // namespace st

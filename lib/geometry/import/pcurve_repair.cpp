@@ -1,0 +1,174 @@
+#include "geometry/import/pcurve_repair.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <ShapeConstruct_ProjectCurveOnSurface.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <cmath>
+
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/brep/pcurve_fit.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/import/import.h"
+
+namespace st::occt {
+namespace {
+
+constexpr int kFewSamples = 17, kManySamples = 1025;  // to look, to judge
+constexpr double kExcess = 2.0;                       // of the tolerance: readers leave distances just above it
+constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
+
+/// A use of an edge by a face, with what is needed to compare its curves.
+struct Use {
+  TopoDS_Edge edge;
+  TopoDS_Face face;
+  Handle(Geom_Curve) curve;
+  Handle(Geom_Surface) surface;
+  double t0 = 0, t1 = 0;
+};
+
+struct Gap {
+  double distance = 0;
+  Vec3 xyz;  ///< on the space curve
+};
+
+Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_samples) {
+  Gap gap;
+  for (int k = 0; k < n_samples; ++k) {
+    const double s = 0.5 - 0.5 * std::cos(kPi * k / (n_samples - 1));  // closer at the ends: there curves part
+    const double t = use.t0 + (use.t1 - use.t0) * s;
+    const gp_Pnt p = use.curve->Value(t);
+    const gp_Pnt2d uv = pcurve->Value(t);
+    const double d = p.Distance(use.surface->Value(uv.X(), uv.Y()));
+    if (d > gap.distance) gap = {d, vec(p)};
+  }
+  return gap;
+}
+
+/// The multiple of `period` that brings `from` nearest to `to`.
+double periods_between(double from, double to, bool is_periodic, double period) {
+  return is_periodic ? period * std::round((to - from) / period) : 0.0;
+}
+
+/// The candidate in the period of the old curve; null when one of its ends is elsewhere in (u,v) than the old one: at a
+/// pole any u lies on the edge, but only one closes the loop.
+Handle(Geom2d_Curve)
+    in_place(const Use& use, const Handle(Geom2d_Curve) & old, const Handle(Geom2d_Curve) & candidate) {
+  constexpr double kMaxShift = 0.01;  // of the face's range
+  if (candidate.IsNull()) return {};
+  UvBounds b{};
+  BRepTools::UVBounds(use.face, b.u_min, b.u_max, b.v_min, b.v_max);
+  const GeomAdaptor_Surface s(use.surface);
+  const double middle = 0.5 * (use.t0 + use.t1);
+  const gp_Pnt2d from = candidate->Value(middle), to = old->Value(middle);
+  const double u = periods_between(from.X(), to.X(), s.IsUPeriodic(), s.IsUPeriodic() ? s.UPeriod() : 0);
+  const double v = periods_between(from.Y(), to.Y(), s.IsVPeriodic(), s.IsVPeriodic() ? s.VPeriod() : 0);
+  const Handle(Geom2d_Curve) moved = Handle(Geom2d_Curve)::DownCast(candidate->Translated(gp_Vec2d(u, v)));
+  for (const double t : {use.t0, use.t1}) {
+    const gp_Pnt2d p = moved->Value(t), q = old->Value(t);
+    if (std::abs(p.X() - q.X()) > kMaxShift * (b.u_max - b.u_min) ||
+        std::abs(p.Y() - q.Y()) > kMaxShift * (b.v_max - b.v_min))
+      return {};
+  }
+  return moved;
+}
+
+/// Trimming curve by projection; null when that fails.
+Handle(Geom2d_Curve) projected(const Use& use) {
+  try {
+    ShapeConstruct_ProjectCurveOnSurface projector;
+    projector.Init(use.surface, 1e-7);
+    Handle(Geom_Curve) curve = use.curve;
+    Handle(Geom2d_Curve) result;
+    if (!projector.Perform(curve, use.t0, use.t1, result)) return {};
+    return result;
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+}
+
+/// Projected point by point from the old curve, which is near; null when a point has no projection there.
+Handle(Geom2d_Curve) resampled(const Use& use, const Handle(Geom2d_Curve) & old, double target) {
+  UvBounds bounds{};
+  BRepTools::UVBounds(use.face, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
+  const auto guess = [&](double t) {
+    const gp_Pnt2d uv = old->Value(t);
+    return Vec2{uv.X(), uv.Y()};
+  };
+  return fit_pcurve({use.curve, use.t0, use.t1}, *make_surface(use.surface, bounds), guess, target);
+}
+
+std::string entity(int edge, int face) { return "edge " + std::to_string(edge) + " in face " + std::to_string(face); }
+
+/// The edge's tolerance covers `distance`, its vertices' the edge's.
+void raise_tolerance(const TopoDS_Edge& edge, double distance) {
+  BRep_Builder builder;
+  builder.UpdateEdge(edge, distance);
+  for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next())
+    builder.UpdateVertex(TopoDS::Vertex(v.Current()), distance);
+}
+
+void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string& name,
+            std::vector<ImportFinding>& findings) {
+  const Gap before = largest_gap(use, old, kManySamples);
+  const bool is_seam = BRep_Tool::IsClosed(use.edge, use.face);
+  Handle(Geom2d_Curve) better;
+  Gap after = before;
+  const auto consider = [&](const Handle(Geom2d_Curve) & anywhere) {
+    const Handle(Geom2d_Curve) candidate = in_place(use, old, anywhere);
+    if (candidate.IsNull()) return;
+    const Gap gap = largest_gap(use, candidate, kManySamples);
+    if (gap.distance < 0.5 * after.distance) after = gap, better = candidate;
+  };
+  if (!is_seam) consider(projected(use));
+  if (!is_seam && after.distance > BRep_Tool::Tolerance(use.edge))
+    consider(resampled(use, old, 0.5 * BRep_Tool::Tolerance(use.edge)));
+  if (!better.IsNull()) {
+    BRep_Builder().UpdateEdge(use.edge, better, use.face, BRep_Tool::Tolerance(use.edge));
+    BRep_Builder().Range(use.edge, use.face, use.t0, use.t1);
+    findings.push_back({"trimming curve off its edge, projected anew (" +
+                            format_number(after.distance / before.distance) + " of the distance is left)",
+                        name, before.xyz, before.distance, true});
+  } else {
+    findings.push_back(
+        {"trimming curve off its edge, tolerance of the edge raised", name, before.xyz, before.distance, true});
+  }
+  const double left = std::min(before.distance, after.distance);
+  if (left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);
+}
+
+}  // namespace
+
+void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const double harmless = kHarmless * rough_box(model.shape).diagonal();
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  for (int f = 1; f <= model.faces.Extent(); ++f) {
+    Use use;
+    use.face = TopoDS::Face(model.faces(f).Oriented(TopAbs_FORWARD));
+    use.surface = BRep_Tool::Surface(use.face);
+    if (GeomAdaptor_Surface(use.surface).GetType() == GeomAbs_Plane) continue;
+    for (TopExp_Explorer e(use.face, TopAbs_EDGE); e.More(); e.Next()) {
+      use.edge = TopoDS::Edge(e.Current());
+      if (BRep_Tool::Degenerated(use.edge)) continue;
+      double p0 = 0, p1 = 0;
+      const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(use.edge, use.face, p0, p1);
+      use.curve = BRep_Tool::Curve(use.edge, use.t0, use.t1);
+      if (pcurve.IsNull() || use.curve.IsNull()) continue;
+      if (largest_gap(use, pcurve, kFewSamples).distance <=
+          std::max(harmless, kExcess * BRep_Tool::Tolerance(use.edge)))
+        continue;
+      repair(use, pcurve, entity(edges.FindIndex(use.edge), f), findings);
+    }
+  }
+}
+
+}  // namespace st::occt

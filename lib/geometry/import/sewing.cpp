@@ -1,0 +1,300 @@
+#include "geometry/import/sewing.h"
+
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <ShapeFix_ShapeTolerance.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "geometry/brep/compound.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/import/import.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kSewRelative[] = {1e-6, 1e-5, 1e-4};  // of the diagonal, first that closes the model wins
+
+constexpr double kToleranceGrowth = 10;  // of the sewing tolerance and of what the file had: edges further apart are no
+                                         // partners
+
+/// A sewn shape and the images in it of faces (first) and named edges of the original.
+struct Sewn {
+  TopoDS_Shape shape;
+  std::vector<TopoDS_Shape> images;
+  int n_free = 0;
+  double tolerance = 0;        ///< that it was sewn with
+  double group_tolerance = 0;  ///< that groups of it were sewn with before
+  double edge_tolerance = 0;   ///< largest of its edges
+};
+
+bool keeps_faces(const Sewn& sewn, int n_faces) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
+  if (faces.Extent() != n_faces) return false;
+  for (int i = 0; i < n_faces; ++i)
+    if (!faces.Contains(sewn.images[i])) return false;
+  return true;
+}
+
+/// Sews what `before` has; nothing when OpenCASCADE fails.
+std::optional<Sewn> sew(const Sewn& before, const std::vector<TopoDS_Shape>& parts, double tolerance) {
+  try {
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    for (const TopoDS_Shape& part : parts) sewing.Add(part);
+    sewing.Perform();
+    Sewn after = before;
+    after.shape = sewing.SewedShape();
+    after.tolerance = tolerance;
+    if (after.shape.IsNull()) return std::nullopt;
+    for (TopoDS_Shape& image : after.images)
+      if (sewing.IsModifiedSubShape(image)) image = sewing.ModifiedSubShape(image);
+    return after;
+  } catch (const Standard_Failure&) {
+    return std::nullopt;
+  }
+}
+
+/// Faces of one component: those of a part, and of single-face parts those of one name.
+std::vector<std::vector<int>> components(const ImportedShape& model) {
+  std::map<std::int32_t, int> part_faces;
+  for (const FaceAttributes& a : model.attributes) ++part_faces[a.part_index];
+  std::map<std::pair<std::int32_t, std::string>, std::vector<int>> groups;
+  for (std::size_t i = 0; i < model.attributes.size(); ++i) {
+    const FaceAttributes& a = model.attributes[i];
+    groups[{part_faces.size() > 1 && part_faces[a.part_index] > 1 ? a.part_index : -1,
+            a.name.empty() ? a.part : a.name}]
+        .push_back(static_cast<int>(i));
+  }
+  std::vector<std::vector<int>> result;
+  for (auto& [key, faces] : groups) result.push_back(std::move(faces));
+  return result;
+}
+
+/// Partners are sought inside each component first: coincident edges of two components are joined only where nothing
+/// else is left.
+std::optional<Sewn> sew_by_component(const ImportedShape& model, const Sewn& before, double tolerance) {
+  const std::vector<std::vector<int>> groups = components(model);
+  if (groups.size() < 2) return std::nullopt;
+  std::optional<Sewn> state = before;
+  std::vector<TopoDS_Shape> parts;
+  for (const std::vector<int>& group : groups) {
+    std::vector<TopoDS_Shape> members;
+    for (int i : group) members.push_back(state->images[i]);
+    state = sew(*state, members, tolerance);
+    if (!state) return std::nullopt;
+    parts.push_back(state->shape);
+  }
+  return sew(*state, parts, tolerance);
+}
+
+/// Faces with tolerances of their own, sewn among themselves: those of at least each tolerance with it, the smallest
+/// first. They and the other faces are in one compound, which is still to be sewn; the original where nothing is
+/// gained.
+Sewn sew_groups(const ImportedShape& model, const Sewn& original, const std::vector<double>& of_face) {
+  std::set<double> tolerances(of_face.begin(), of_face.end());
+  tolerances.erase(0);
+  Sewn state = original;
+  for (const double tolerance : tolerances) {
+    std::vector<TopoDS_Shape> members;
+    for (std::size_t f = 0; f < of_face.size(); ++f)
+      if (of_face[f] >= tolerance) members.push_back(state.images[f]);
+    std::optional<Sewn> sewn = sew(state, members, tolerance);
+    if (!sewn) continue;
+    std::vector<TopoDS_Shape> all = {sewn->shape};
+    for (std::size_t f = 0; f < of_face.size(); ++f)
+      if (of_face[f] < tolerance) all.push_back(sewn->images[f]);
+    sewn->shape = compound_of(all);
+    if (!keeps_faces(*sewn, model.faces.Extent())) continue;
+    sewn->n_free = count_free_edges(sewn->shape);
+    sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+    sewn->group_tolerance = tolerance;
+    if (sewn->n_free < state.n_free) state = *sewn;
+  }
+  return state;
+}
+
+/// Fewer free edges first, then smaller edge tolerance; a result whose tolerance has grown beyond reason only when
+/// there is no other.
+bool is_better(const Sewn& a, const Sewn& b, double reasonable) {
+  const bool wild_a = a.edge_tolerance > reasonable, wild_b = b.edge_tolerance > reasonable;
+  if (wild_a != wild_b) return wild_b;
+  if (a.n_free != b.n_free) return a.n_free < b.n_free;
+  return a.edge_tolerance < 0.5 * b.edge_tolerance;
+}
+
+/// The shell with its faces in ascending order of `rank(face)`.
+template <class Rank>
+TopoDS_Shape in_original_order(const TopoDS_Shape& shell, const Rank& rank) {
+  std::vector<std::pair<int, TopoDS_Shape>> members;
+  for (TopoDS_Iterator f(shell, false, false); f.More(); f.Next())
+    members.emplace_back(rank(f.Value().Located(shell.Location() * f.Value().Location())), f.Value());
+  std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  TopoDS_Shape ordered = shell.EmptyCopied();
+  BRep_Builder builder;
+  for (const auto& [first, face] : members) builder.Add(ordered, face);
+  ordered.Closed(shell.Closed());
+  return ordered;
+}
+
+/// Sewing permutes faces and drops solids: shells and faces in the order of their first original face.
+TopoDS_Shape in_order(const TopoDS_Shape& sewn, const std::vector<TopoDS_Shape>& images) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(sewn, TopAbs_FACE, faces);
+  std::vector<int> first_original(faces.Extent(), 0);
+  for (std::size_t i = 0; i < images.size(); ++i) first_original[faces.FindIndex(images[i]) - 1] = static_cast<int>(i);
+  struct Piece {
+    int first;
+    TopoDS_Shape shape;
+  };
+  std::vector<Piece> pieces;
+  TopTools_IndexedMapOfShape in_shell;
+  for (TopExp_Explorer e(sewn, TopAbs_SHELL); e.More(); e.Next()) {
+    TopTools_IndexedMapOfShape members;
+    TopExp::MapShapes(e.Current(), TopAbs_FACE, members);
+    int first = 1 << 30;
+    for (int i = 1; i <= members.Extent(); ++i) {
+      first = std::min(first, first_original[faces.FindIndex(members(i)) - 1]);
+      in_shell.Add(members(i));
+    }
+    const TopoDS_Shape piece =
+        in_original_order(e.Current(), [&](const TopoDS_Shape& f) { return first_original[faces.FindIndex(f) - 1]; });
+    pieces.push_back({first, piece});
+  }
+  for (int i = 1; i <= faces.Extent(); ++i)
+    if (!in_shell.Contains(faces(i))) pieces.push_back({first_original[i - 1], faces(i)});
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
+  BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const Piece& p : pieces) builder.Add(compound, p.shape);
+  return compound;
+}
+
+double vertex_gap(const TopoDS_Edge& edge, const TopoDS_Vertex& vertex) {
+  double t0 = 0, t1 = 0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+  if (curve.IsNull()) return 0;
+  const gp_Pnt p = BRep_Tool::Pnt(vertex);
+  return std::min(p.Distance(curve->Value(t0)), p.Distance(curve->Value(t1)));
+}
+
+/// Sewing measures at equal parameters: where partners run at different speeds it leaves tolerances as long as the
+/// edge. Edges above `limit` get the sewing tolerance, their vertices what their curves need; repair_pcurves() then
+/// compares, projects anew and raises what must be.
+void tighten_tolerances(const TopoDS_Shape& shape, double sewing_tolerance, double limit) {
+  const ShapeFix_ShapeTolerance setter;
+  TopTools_IndexedDataMapOfShapeListOfShape vertex_edges;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_VERTEX, TopAbs_EDGE, vertex_edges);
+  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
+    if (BRep_Tool::Tolerance(TopoDS::Edge(e.Current())) > limit)
+      setter.SetTolerance(e.Current(), sewing_tolerance, TopAbs_EDGE);
+  for (int i = 1; i <= vertex_edges.Extent(); ++i) {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(vertex_edges.FindKey(i));
+    if (BRep_Tool::Tolerance(vertex) <= limit) continue;
+    double needed = sewing_tolerance;
+    for (const TopoDS_Shape& edge : vertex_edges(i))
+      needed =
+          std::max({needed, BRep_Tool::Tolerance(TopoDS::Edge(edge)), 1.01 * vertex_gap(TopoDS::Edge(edge), vertex)});
+    setter.SetTolerance(vertex, needed, TopAbs_VERTEX);
+  }
+}
+
+/// The sewn shape takes the model's place.
+void take_over(ImportedShape& model, const Sewn& sewn) {
+  const int n_faces = model.faces.Extent();
+  const std::vector<TopoDS_Shape> face_images(sewn.images.begin(), sewn.images.begin() + n_faces);
+  for (std::size_t k = 0; k < model.edge_names.size(); ++k) model.edge_names[k].first = sewn.images[n_faces + k];
+  const TopTools_IndexedMapOfShape originals = model.faces;
+  model.replace(in_order(sewn.shape, face_images),
+                [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
+}
+
+ImportFinding sewn_finding(const std::string& how, const Sewn& before, const Sewn& after, double tolerance) {
+  const std::string numbers =
+      std::to_string(before.n_free) + " free edges before, " + std::to_string(after.n_free) + " after";
+  return {how + ": " + numbers, "", {}, tolerance, true};
+}
+
+/// Likewise; tolerances beyond reason are set back.
+void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
+  take_over(model, sewn);
+  const double tolerance = std::max(sewn.tolerance, sewn.group_tolerance);
+  const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
+  if (sewn.edge_tolerance <= reasonable) return;
+  tighten_tolerances(model.shape, tolerance, reasonable);
+  findings.push_back({"sewing left tolerances far above its own; trimming curves there are compared anew",
+                      "",
+                      {},
+                      sewn.edge_tolerance,
+                      true});
+}
+
+/// Ascending. `base`: what the first has to be at least. All lengths in the unit of the shape.
+std::vector<double> tolerances_to_try(double diagonal, double base, std::optional<double> largest) {
+  std::vector<double> list;
+  for (double relative : kSewRelative)
+    list.push_back(std::max(relative * diagonal, list.empty() ? std::min(base, 1e-4 * diagonal) : 0.0));
+  if (!largest) return list;
+  list.erase(std::remove_if(list.begin(), list.end(), [&](double t) { return t >= *largest; }), list.end());
+  list.push_back(*largest);
+  return list;
+}
+
+/// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
+/// none helps. After sew_groups() one that leaves as many will do: it makes shells.
+std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const std::vector<double>& tolerances) {
+  const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
+  std::optional<Sewn> best;
+  for (const double tolerance : tolerances) {
+    const double reasonable = kToleranceGrowth * std::max(tolerance, start.edge_tolerance);
+    for (const bool by_component : {false, true}) {
+      std::optional<Sewn> sewn =
+          by_component ? sew_by_component(model, start, tolerance) : sew(start, {start.shape}, tolerance);
+      if (!sewn || !keeps_faces(*sewn, model.faces.Extent())) continue;
+      sewn->n_free = count_free_edges(sewn->shape);
+      sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+      if (sewn->n_free <= n_allowed && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
+      if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) return best;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
+  Sewn original;
+  original.shape = model.shape;
+  original.n_free = count_free_edges(model.shape);
+  if (original.n_free == 0) return;
+  for (int i = 1; i <= model.faces.Extent(); ++i) original.images.push_back(model.faces(i));
+  for (const auto& [edge, name] : model.edge_names) original.images.push_back(edge);
+  original.edge_tolerance = max_edge_tolerance(model.shape);
+  const double diagonal = rough_box(model.shape).diagonal();
+  const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
+  const Sewn start = sew_groups(model, original, limits.of_face);
+  const bool is_group_sewn = start.n_free < original.n_free;
+  for (std::size_t f = 0; is_group_sewn && f < limits.of_face.size(); ++f)
+    model.attributes[f].is_sewn_by_group = limits.of_face[f] > 0;
+  if (is_group_sewn)
+    findings.push_back(sewn_finding("sewn by the tolerance of their group", original, start, start.group_tolerance));
+  const std::optional<Sewn> best = sew_all(model, start, tolerances_to_try(diagonal, base, limits.largest));
+  if (best && best->n_free < start.n_free) findings.push_back(sewn_finding("sewn", start, *best, best->tolerance));
+  if (best || is_group_sewn) adopt(model, original, best.value_or(start), findings);
+}
+
+}  // namespace st::occt

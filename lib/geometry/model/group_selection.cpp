@@ -1,0 +1,107 @@
+#include "geometry/model/group_selection.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "geometry/model/model.h"
+
+namespace st {
+namespace {
+
+constexpr double kBoxSlack = 1e-6;  // of the model's diagonal: bounding boxes are made of samples and tolerances
+constexpr const char* kWhereNamesAre = "; st-info geometry.hdf --groups lists names, or say optional = true";
+
+double coordinate(const GroupRule& rule, const CoordinateSpec& c, const ModelTables& t) {
+  if (!c.is_in_metres) return c.value;
+  if (!t.unit_in_m) fail_group(rule, "the model has no unit; give plain numbers, or --unit");
+  return c.value / *t.unit_in_m;
+}
+
+}  // namespace
+
+void fail_group(const GroupRule& rule, const std::string& what) {
+  const std::string group =
+      "group \"" + rule.name + "\"" + (rule.table.empty() ? "" : " of table \"" + rule.table + "\"");
+  throw Error(ExitCode::kUsage, rule.where + ": " + group + ": " + what);
+}
+
+void GroupSelection::keep(const std::function<bool(std::int32_t)>& is_wanted) {
+  has_selection_ = true;
+  for (std::size_t i = 0; i < chosen_.size(); ++i) chosen_[i] = chosen_[i] && is_wanted(static_cast<std::int32_t>(i));
+}
+
+void GroupSelection::keep(const Mask& wanted) {
+  keep([&](std::int32_t i) { return wanted[i] != 0; });
+}
+
+void GroupSelection::add_matches(const char* key, const std::string& item, const Name& name, Mask& wanted) const {
+  bool is_used = false;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (name_matches(item, name(static_cast<std::int32_t>(i)))) wanted[i] = is_used = true;
+  if (!is_used && !rule_.is_optional)
+    fail_group(rule_, std::string(key) + ": '" + item + "' matches nothing" + kWhereNamesAre);
+}
+
+void GroupSelection::select_names(const char* key, const std::vector<std::string>& items, const Name& name) {
+  if (items.empty()) return;
+  Mask wanted(chosen_.size(), 0);
+  for (const std::string& item : items) add_matches(key, item, name, wanted);
+  keep(wanted);
+}
+
+void GroupSelection::select_items(const char* key, const std::vector<std::string>& items,
+                                  const std::vector<std::string>& names) {
+  if (items.empty()) return;
+  const std::string plural = key;
+  const auto n = static_cast<std::int64_t>(chosen_.size());
+  Mask wanted(chosen_.size(), 0);
+  for (const std::string& item : items) {
+    const auto range = as_range(item);
+    if (!range) {
+      if (names.empty()) fail_group(rule_, plural + ": '" + item + "' is no number; " + plural + " have no names");
+      add_matches(
+          key, item, [&](std::int32_t i) -> const std::string& { return names[i]; }, wanted);
+      continue;
+    }
+    if (range->first < 1 || range->second > n || range->first > range->second)
+      fail_group(rule_, plural + ": " + item + " does not exist, there are " + plural + " 1 to " + std::to_string(n) +
+                            "; options such as --symmetry change numbers: take those of an import with the same ones");
+    std::fill(wanted.begin() + (range->first - 1), wanted.begin() + range->second, 1);
+  }
+  keep(wanted);
+}
+
+void GroupSelection::select_box(const BoxSpec& spec, std::span<const Box3> box,
+                                const std::function<bool(std::int32_t, Vec3, Vec3)>& fits) {
+  double c[6];
+  for (int i = 0; i < 6; ++i) c[i] = coordinate(rule_, spec[i], t_);
+  const double slack = kBoxSlack * t_.box().diagonal();
+  const Vec3 lo{c[0] - slack, c[1] - slack, c[2] - slack}, hi{c[3] + slack, c[4] + slack, c[5] + slack};
+  keep([&](std::int32_t i) { return !box[i].is_empty() && fits(i, lo, hi); });
+}
+
+void GroupSelection::select_boxes(std::span<const Box3> box, std::span<const double> tolerance) {
+  if (rule_.inside)
+    select_box(*rule_.inside, box, [&](std::int32_t i, Vec3 lo, Vec3 hi) {
+      const Box3& b = box[i];
+      const double out = tolerance[i];
+      return b.lo.x >= lo.x - out && b.lo.y >= lo.y - out && b.lo.z >= lo.z - out && b.hi.x <= hi.x + out &&
+             b.hi.y <= hi.y + out && b.hi.z <= hi.z + out;
+    });
+  if (rule_.touching)
+    select_box(*rule_.touching, box, [&](std::int32_t i, Vec3 lo, Vec3 hi) {
+      const Box3& b = box[i];
+      return b.hi.x >= lo.x && b.hi.y >= lo.y && b.hi.z >= lo.z && b.lo.x <= hi.x && b.lo.y <= hi.y && b.lo.z <= hi.z;
+    });
+}
+
+GroupSelection::Mask GroupSelection::take(const std::string& when_empty) {
+  const bool is_empty = std::find(chosen_.begin(), chosen_.end(), 1) == chosen_.end();
+  if (is_empty && !rule_.is_optional) fail_group(rule_, when_empty + kWhereNamesAre);
+  return std::move(chosen_);
+}
+
+}  // namespace st

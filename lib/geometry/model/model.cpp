@@ -1,0 +1,141 @@
+#include "geometry/model/model.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <cstring>
+#include <istream>
+#include <sstream>
+#include <streambuf>
+
+#include "base/assert.h"
+#include "base/error.h"
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/model/model_impl.h"
+
+namespace st {
+namespace {
+
+/// Reads a byte array as a stream without copying it.
+class ByteStream : public std::streambuf {
+ public:
+  explicit ByteStream(const std::vector<std::byte>& bytes) {
+    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override {
+    char* target = way == std::ios_base::beg   ? eback() + offset
+                   : way == std::ios_base::cur ? gptr() + offset
+                                               : egptr() + offset;
+    if (target < eback() || target > egptr()) return pos_type(off_type(-1));
+    setg(eback(), target, egptr());
+    return target - eback();
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
+    return seekoff(position, std::ios_base::beg, mode);
+  }
+};
+
+std::string label(const char* kind, int id, const std::string& name) {
+  std::string text = std::string(kind) + " " + std::to_string(id + 1);
+  if (!name.empty()) text += " \"" + name + "\"";
+  return text;
+}
+
+}  // namespace
+
+Box3 ModelTables::box() const {
+  Box3 b;
+  for (const Box3& f : face_box) b.add(f);
+  return b;
+}
+
+Box3 ModelTables::wall_box() const {
+  Box3 b;
+  for (FaceId f = 0; f < n_faces(); ++f)
+    if (!is_outer_role(group_role[face_group[f]])) b.add(face_box[f]);
+  return b.is_empty() ? box() : b;
+}
+
+std::string ModelTables::face_label(FaceId f) const { return label("face", f, face_name[f]); }
+std::string ModelTables::edge_label(EdgeId e) const { return label("edge", e, edge_name[e]); }
+
+void ModelTables::edge_faces(std::vector<std::int32_t>& offsets, std::vector<FaceId>& faces) const {
+  offsets.assign(n_edges() + 1, 0);
+  for (EdgeId e : coedge_edge) ++offsets[e + 1];
+  for (EdgeId e = 0; e < n_edges(); ++e) offsets[e + 1] += offsets[e];
+  faces.resize(coedge_edge.size());
+  std::vector<std::int32_t> next(offsets.begin(), offsets.end() - 1);
+  for (FaceId f = 0; f < n_faces(); ++f)
+    for (const LoopId l : loops(f))
+      for (const CoedgeId c : loop_coedges(l)) faces[next[coedge_edge[c]]++] = f;
+}
+
+std::vector<std::byte> occt::brep_bytes(const TopoDS_Shape& shape) {
+  std::ostringstream stream(std::ios::binary);
+  BinTools::Write(shape, stream);
+  const std::string bytes = stream.str();
+  std::vector<std::byte> result(bytes.size());
+  std::memcpy(result.data(), bytes.data(), bytes.size());
+  return result;
+}
+
+Model::Model(ModelTables tables, std::vector<std::byte> brep)
+    : tables_(std::move(tables)), brep_(std::move(brep)), impl_(std::make_unique<Impl>()) {
+  try {
+    ByteStream buffer(brep_);
+    std::istream stream(&buffer);
+    BinTools::Read(impl_->shape, stream);
+    if (!impl_->shape.IsNull()) {
+      TopExp::MapShapes(impl_->shape, TopAbs_FACE, impl_->faces);
+      TopExp::MapShapes(impl_->shape, TopAbs_EDGE, impl_->edges);
+    }
+  } catch (const Standard_Failure& e) {
+    throw Error(ExitCode::kInput, std::string("the B-Rep of the geometry artifact cannot be read (") +
+                                      e.GetMessageString() + "); run st-import again");
+  }
+  if (impl_->faces.Extent() != tables_.n_faces() || impl_->edges.Extent() != tables_.n_edges())
+    throw Error(ExitCode::kInput, "the B-Rep of the geometry artifact does not fit its tables; run st-import again");
+}
+
+Model::~Model() = default;
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(Model&&) noexcept = default;
+
+std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
+  ST_ASSERT(edge >= 0 && edge < tables_.n_edges() && !tables_.edge_is_degenerate[edge]);
+  double t0, t1;
+  const TopoDS_Edge e = TopoDS::Edge(impl_->edges(edge + 1));
+  const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
+  if (c.IsNull())
+    throw Error(ExitCode::kGeometry, tables_.edge_label(edge) + " has no space curve; repair the CAD model");
+  return occt::make_curve(c, t0, t1);
+}
+
+std::unique_ptr<Surface> Model::surface(FaceId face) const {
+  ST_ASSERT(face >= 0 && face < tables_.n_faces());
+  const double* b = &tables_.face_uv_bounds[4 * static_cast<std::size_t>(face)];
+  return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
+}
+
+std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {
+  ST_ASSERT(face >= 0 && face < tables_.n_faces() && coedge >= 0 && coedge < tables_.n_coedges());
+  const TopoDS_Face f = TopoDS::Face(impl_->faces(face + 1).Oriented(TopAbs_FORWARD));
+  const TopoDS_Shape e = impl_->edges(tables_.coedge_edge[coedge] + 1);
+  const auto orientation = tables_.coedge_is_reversed[coedge] ? TopAbs_REVERSED : TopAbs_FORWARD;
+  double t0, t1;
+  const Handle(Geom2d_Curve) c = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Oriented(orientation)), f, t0, t1);
+  if (c.IsNull())
+    throw Error(ExitCode::kGeometry, tables_.edge_label(tables_.coedge_edge[coedge]) + " has no trimming curve on " +
+                                         tables_.face_label(face) + "; repair the CAD model");
+  return occt::make_curve2d(c, t0, t1);
+}
+
+}  // namespace st

@@ -1,0 +1,259 @@
+#include "geometry/model/model_tables.h"
+
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "geometry/brep/face_integral.h"
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/brep/shape_queries.h"
+
+namespace st::occt {
+namespace {
+
+class TableWriter {
+ public:
+  TableWriter(const ImportedShape& model, const std::string& path)
+      : model_(model), path_(path), origin_(rough_box(model.shape).center()) {}
+
+  ModelOfFile run() {
+    TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+    TopExp::MapShapes(model_.shape, TopAbs_VERTEX, vertices_);
+    fill_vertices();
+    fill_edges();
+    fill_faces();
+    fill_shells_and_solids();
+    fill_parts();
+    fill_groups();
+    measures_.edge_box = std::move(edge_box_);
+    return {std::move(tables_), std::move(measures_)};
+  }
+
+  ModelTables faces_alone(double scale) {
+    ModelTables& t = tables_;
+    for (int i = 0; i < model_.faces.Extent(); ++i) {
+      const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1));
+      const Box3 box = early_box(TopoDS::Face(f.Oriented(TopAbs_FORWARD)));
+      t.face_box.push_back({scale * box.lo, scale * box.hi});
+      t.face_tolerance.push_back(scale * BRep_Tool::Tolerance(f));
+      t.face_is_reversed.push_back(0);
+      t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
+      fill_labels(i);
+    }
+    fill_parts();
+    fill_groups();
+    return std::move(tables_);
+  }
+
+ private:
+  void fill_vertices() {
+    ModelTables& t = tables_;
+    for (int i = 1; i <= vertices_.Extent(); ++i) {
+      t.vertex_xyz.push_back(vec(BRep_Tool::Pnt(TopoDS::Vertex(vertices_(i)))));
+      t.vertex_tolerance.push_back(BRep_Tool::Tolerance(TopoDS::Vertex(vertices_(i))));
+    }
+  }
+
+  void fill_edges() {
+    ModelTables& t = tables_;
+    t.edge_name.resize(edges_.Extent());
+    for (const auto& [edge, name] : model_.edge_names)
+      if (const int i = edges_.FindIndex(edge); i > 0) t.edge_name[i - 1] = name;
+    for (int i = 1; i <= edges_.Extent(); ++i) {
+      const TopoDS_Edge e = TopoDS::Edge(edges_(i).Oriented(TopAbs_FORWARD));
+      TopoDS_Vertex v0, v1;
+      TopExp::Vertices(e, v0, v1, false);
+      double t0 = 0, t1 = 0;
+      const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
+      const bool degenerate = BRep_Tool::Degenerated(e) || c.IsNull();
+      if (c.IsNull()) BRep_Tool::Range(e, t0, t1);
+      if (v0.IsNull() && v1.IsNull())
+        throw Error(ExitCode::kGeometry,
+                    path_ + ": edge " + std::to_string(i) + " has no vertex; export the model again");
+      if (v0.IsNull()) v0 = v1;
+      if (v1.IsNull()) v1 = v0;
+      t.edge_vertices.push_back(vertices_.FindIndex(v0) - 1);
+      t.edge_vertices.push_back(vertices_.FindIndex(v1) - 1);
+      t.edge_range.push_back(t0);
+      t.edge_range.push_back(t1);
+      t.edge_tolerance.push_back(BRep_Tool::Tolerance(e));
+      t.edge_is_degenerate.push_back(degenerate);
+      edge_box_.emplace_back();
+      t.edge_length.push_back(0);
+      if (degenerate) continue;
+      const std::unique_ptr<Curve> curve = make_curve(c, t0, t1);
+      t.edge_length.back() = arc_length(*curve, t0, t1, 32);
+      edge_box_.back() = sampled_box(*curve);
+    }
+  }
+
+  void fill_faces() {
+    ModelTables& t = tables_;
+    std::vector<TopAbs_Orientation> orientation(model_.faces.Extent(), TopAbs_FORWARD);
+    std::vector<char> seen(model_.faces.Extent(), 0);
+    for (TopExp_Explorer e(model_.shape, TopAbs_FACE); e.More(); e.Next()) {
+      const int i = model_.faces.FindIndex(e.Current()) - 1;
+      if (seen[i]) continue;
+      seen[i] = 1;
+      orientation[i] = e.Current().Orientation();
+    }
+    t.face_loop_offsets.push_back(0);
+    t.loop_coedge_offsets.push_back(0);
+    for (int i = 0; i < model_.faces.Extent(); ++i) {
+      const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1).Oriented(TopAbs_FORWARD));
+      const FaceDomain domain = make_domain(f);
+      for (double b : {domain.bounds.u_min, domain.bounds.u_max, domain.bounds.v_min, domain.bounds.v_max})
+        t.face_uv_bounds.push_back(b);
+      t.face_is_reversed.push_back(orientation[i] == TopAbs_REVERSED);
+      t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
+      t.face_tolerance.push_back(BRep_Tool::Tolerance(f));
+      fill_labels(i);
+      fill_loops(domain);
+      measure(f, domain);
+    }
+  }
+
+  /// What the file says of a face.
+  void fill_labels(int i) {
+    tables_.face_name.push_back(model_.attributes[i].name);
+    tables_.face_layer.push_back(model_.attributes[i].layer);
+    tables_.face_color.push_back(model_.attributes[i].color);
+  }
+
+  /// As measure() has it, of one face alone; of a face whose loops need repair the rough one.
+  static Box3 early_box(const TopoDS_Face& face) {
+    const Box3 rough = rough_box(face);
+    try {
+      Box3 sampled = sampled_box(make_domain(face));
+      for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) sampled.add(edge_box(TopoDS::Edge(e.Current())));
+      return common_box(rough, sampled);
+    } catch (const Standard_Failure&) {
+      return rough;
+    }
+  }
+
+  /// Empty without a space curve.
+  static Box3 edge_box(const TopoDS_Edge& edge) {
+    double t0 = 0, t1 = 0;
+    const Handle(Geom_Curve) c = BRep_Tool::Curve(edge, t0, t1);
+    return BRep_Tool::Degenerated(edge) || c.IsNull() ? Box3() : sampled_box(*make_curve(c, t0, t1));
+  }
+
+  void fill_loops(const FaceDomain& domain) {
+    ModelTables& t = tables_;
+    for (const LoopUv& loop : domain.loops) {
+      for (const CoedgeUv& c : loop.coedges) {
+        t.coedge_edge.push_back(edges_.FindIndex(c.edge) - 1);
+        t.coedge_is_reversed.push_back(c.edge.Orientation() == TopAbs_REVERSED);
+      }
+      t.loop_coedge_offsets.push_back(static_cast<std::int32_t>(t.coedge_edge.size()));
+    }
+    t.face_loop_offsets.push_back(static_cast<std::int32_t>(t.loop_coedge_offsets.size()) - 1);
+  }
+
+  /// Area, width, box, and what the report says of the loops.
+  void measure(const TopoDS_Face& f, const FaceDomain& domain) {
+    ModelTables& t = tables_;
+    const FaceIntegral integral = integrate_face(domain, origin_);
+    Box3 sampled = sampled_box(domain);
+    double perimeter = 0, tolerance = BRep_Tool::Tolerance(f);
+    for (const LoopUv& loop : domain.loops)
+      for (const CoedgeUv& c : loop.coedges) {
+        const EdgeId e = edges_.FindIndex(c.edge) - 1;
+        perimeter += t.edge_length[e];
+        tolerance = std::max(tolerance, t.edge_tolerance[e]);
+        sampled.add(edge_box_[e]);
+      }
+    t.face_area.push_back(std::fabs(integral.area));
+    t.face_width.push_back(rectangle_width(std::fabs(integral.area), perimeter));
+    t.face_box.push_back(common_box(rough_box(f), sampled));
+    measures_.cone_volume.push_back(integral.volume);
+    measures_.crossing.push_back(find_loop_crossing(domain, 2 * tolerance));
+  }
+
+  /// Width of the rectangle of this area and perimeter: of a strip its width, of anything rounder than a square the
+  /// square's side.
+  static double rectangle_width(double area, double perimeter) {
+    const double half = 0.5 * perimeter, d = half * half - 4 * area;
+    return d > 0 ? 2 * area / (half + std::sqrt(d)) : std::sqrt(area);
+  }
+
+  static Box3 common_box(const Box3& a, const Box3& b) {
+    if (b.is_empty() || a.is_empty()) return a;
+    return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+            {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+  }
+
+  void fill_shells_and_solids() {
+    ModelTables& t = tables_;
+    t.face_shell.assign(model_.faces.Extent(), kNone);
+    t.face_solid.assign(model_.faces.Extent(), kNone);
+    const auto number = [&](TopAbs_ShapeEnum kind, std::vector<std::int32_t>& ids) {
+      TopTools_IndexedMapOfShape map;
+      TopExp::MapShapes(model_.shape, kind, map);
+      for (int i = 1; i <= map.Extent(); ++i)
+        for (TopExp_Explorer e(map(i), TopAbs_FACE); e.More(); e.Next())
+          if (std::int32_t& id = ids[model_.faces.FindIndex(e.Current()) - 1]; id == kNone) id = i - 1;
+      return map.Extent();
+    };
+    t.n_shells = number(TopAbs_SHELL, t.face_shell);
+    t.n_solids = number(TopAbs_SOLID, t.face_solid);
+  }
+
+  /// Parts that have a path, in the order of their first face.
+  void fill_parts() {
+    FaceLabels& labels = tables_.labels;
+    std::vector<std::int32_t> number(model_.parts.size(), kNone);
+    for (const FaceAttributes& face : model_.attributes) {
+      const std::int32_t p = face.part_index;
+      const bool has_part = p != kNone && static_cast<std::size_t>(p) < number.size() && !model_.parts[p].path.empty();
+      if (has_part && number[p] == kNone) {
+        number[p] = static_cast<std::int32_t>(labels.part_name.size());
+        labels.part_name.push_back(model_.parts[p].name);
+        labels.part_path.push_back(model_.parts[p].path);
+      }
+      labels.face_part.push_back(has_part ? number[p] : kNone);
+    }
+    if (labels.part_name.empty()) labels.face_part.clear();
+  }
+
+  void fill_groups() {
+    ModelTables& t = tables_;
+    std::map<std::string, std::int32_t> ids;
+    for (int i = 0; i < model_.faces.Extent(); ++i) {
+      const FaceAttributes& d = model_.attributes[i];
+      const std::string name = !d.name.empty() ? d.name : !d.part.empty() ? d.part : "default";
+      const auto [it, is_new] = ids.emplace(name, static_cast<std::int32_t>(t.group_name.size()));
+      if (is_new) {
+        t.group_name.push_back(name);
+        t.group_role.push_back(role_of_name(name));
+        t.labels.group_attributes.push_back("{}");
+      }
+      t.face_group.push_back(it->second);
+    }
+  }
+
+  const ImportedShape& model_;
+  const std::string path_;
+  Vec3 origin_;
+  ModelTables tables_;
+  FaceMeasures measures_;
+  std::vector<Box3> edge_box_;
+  TopTools_IndexedMapOfShape edges_, vertices_;
+};
+
+}  // namespace
+
+ModelOfFile make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
+
+ModelTables make_face_tables(const ImportedShape& model, double scale) {
+  return TableWriter(model, "").faces_alone(scale);
+}
+
+}  // namespace st::occt

@@ -1,0 +1,245 @@
+#include "geometry/shape/bspline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/assert.h"
+
+namespace st {
+namespace {
+
+constexpr int kMaxOrder = 26;  // OpenCASCADE's largest degree is 25
+constexpr int kBucketsPerSpan = 2;
+constexpr double kKnotRoundings = 4;  // epsilons by which a parameter may miss a knot
+constexpr double kNoPiece = 1e-12;    // of the bounds: shorter pieces at their ends are rounding
+
+// Power coefficients in s of the degree+1 basis functions that act on [knots[k], knots[k+1]]; t = middle + half * s.
+// Cox-de Boor recursion carried out on polynomials.
+void basis_polynomials(const std::vector<double>& knots, int k, int degree, double middle, double half, double* out) {
+  const int order = degree + 1;
+  std::vector<double> level(order * order, 0.0), next(order * order, 0.0);
+  level[0] = 1.0;  // degree 0: the span's own function
+  for (int p = 1; p <= degree; ++p) {
+    std::fill(next.begin(), next.end(), 0.0);
+    for (int j = 0; j < p; ++j) {  // function index k-(p-1)+j of degree p-1
+      const int i = k - (p - 1) + j;
+      const double width = knots[i + p] - knots[i];
+      const double* n = &level[j * order];
+      for (int c = 0; c < p; ++c) {
+        // rises into function i (degree p), falls into function i-1
+        const double a = n[c] * (middle - knots[i]) / width, b = n[c] * half / width;
+        next[(j + 1) * order + c] += a;
+        next[(j + 1) * order + c + 1] += b;
+        next[j * order + c] += n[c] * (knots[i + p] - middle) / width;
+        next[j * order + c + 1] -= b;
+      }
+    }
+    level.swap(next);
+  }
+  std::copy(level.begin(), level.end(), out);
+}
+
+}  // namespace
+
+KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double period)
+    : degree_(degree), period_(period) {
+  ST_ASSERT(degree >= 1 && flat_knots.size() >= 2 * static_cast<std::size_t>(degree + 1));
+  ST_ASSERT(std::is_sorted(flat_knots.begin(), flat_knots.end()) &&
+            flat_knots[degree] < flat_knots[flat_knots.size() - degree - 1]);
+  const int order = degree + 1, n_poles = static_cast<int>(flat_knots.size()) - order;
+  lo_ = flat_knots[degree];
+  hi_ = flat_knots[n_poles];
+  rounding_ = kKnotRoundings * std::numeric_limits<double>::epsilon() * std::max(std::abs(lo_), std::abs(hi_));
+  for (int k = degree; k < n_poles; ++k) {
+    const double a = flat_knots[k], b = flat_knots[k + 1];
+    if (!(b > a)) continue;
+    spans_.push_back({a - rounding_, b - rounding_, 0.5 * (a + b), 2.0 / (b - a)});
+    knots_.push_back(a);
+    first_pole_.push_back(k - degree);
+    basis_.resize(basis_.size() + order * order);
+    basis_polynomials(flat_knots, k, degree, 0.5 * (a + b), 0.5 * (b - a), &basis_[basis_.size() - order * order]);
+  }
+  knots_.push_back(hi_);
+  for (int k = degree + 1; k < n_poles;) {
+    int multiplicity = 1;
+    while (k + multiplicity < n_poles && flat_knots[k + multiplicity] == flat_knots[k]) ++multiplicity;
+    if (multiplicity >= degree && flat_knots[k] > lo_ && flat_knots[k] < hi_) c0_knots_.push_back(flat_knots[k]);
+    k += multiplicity;
+  }
+  const int n_buckets = kBucketsPerSpan * n_spans();
+  buckets_per_t_ = n_buckets / (hi_ - lo_);
+  for (int b = 0, k = 0; b < n_buckets; ++b) {
+    while (k + 1 < n_spans() && lo_ + b / buckets_per_t_ >= spans_[k + 1].start) ++k;
+    bucket_span_.push_back(k);
+  }
+}
+
+int KnotSpans::find(double& t) const {
+  if (period_ > 0 && (t < lo_ - rounding_ || t > hi_ + rounding_)) t -= period_ * std::floor((t - lo_) / period_);
+  const double bucket = (t - lo_) * buckets_per_t_;
+  const auto n_buckets = static_cast<double>(bucket_span_.size());
+  int k = bucket_span_[bucket > 0 ? static_cast<std::size_t>(std::min(bucket, n_buckets - 1)) : 0];
+  while (k + 1 < n_spans() && t >= spans_[k + 1].start) ++k;
+  while (k > 0 && t < spans_[k].start) --k;
+  return k;
+}
+
+std::vector<double> KnotSpans::knots_between(double lo, double hi) const {
+  std::vector<double> knots;
+  const double rounding = kNoPiece * (hi - lo);
+  const int first = period_ > 0 ? static_cast<int>(std::floor((lo - lo_) / period_)) : 0;
+  const int last = period_ > 0 ? static_cast<int>(std::floor((hi - lo_) / period_)) : 0;
+  for (int turn = first; turn <= last; ++turn)
+    for (std::size_t k = turn == first ? 1 : 0; k < spans_.size(); ++k) {
+      const double t = knots_[k] + turn * period_;
+      if (t > lo + rounding && t < hi - rounding) knots.push_back(t);
+    }
+  return knots;
+}
+
+BsplineCurve::BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool is_rational, double t_min,
+                           double t_max)
+    : knots_(std::move(knots)),
+      is_rational_(is_rational),
+      kernels_(patch_kernels(knots_.degree() + 1, is_rational ? 4 : 3)) {
+  t_min_ = t_min;
+  t_max_ = t_max;
+  period_ = knots_.period();
+  const int order = knots_.degree() + 1;
+  ST_ASSERT(poles.size() >= static_cast<std::size_t>(knots_.first_pole(knots_.n_spans() - 1) + order));
+  coefficients_.assign(static_cast<std::size_t>(knots_.n_spans()) * order, Pole{});
+  for (int k = 0; k < knots_.n_spans(); ++k)
+    for (int j = 0; j < order; ++j)
+      for (int c = 0; c < order; ++c)
+        for (int x = 0; x < 4; ++x)
+          coefficients_[k * order + c].x[x] += knots_.basis(k)[j * order + c] * poles[knots_.first_pole(k) + j].x[x];
+}
+
+Vec3 BsplineCurve::point(double t) const {
+  double s;
+  const int k = knots_.locate(t, last_, s), degree = knots_.degree();
+  const Pole* c = &coefficients_[static_cast<std::size_t>(k) * (degree + 1)];
+  double p[4] = {c[degree].x[0], c[degree].x[1], c[degree].x[2], c[degree].x[3]};
+  for (int i = degree - 1; i >= 0; --i)
+    for (int x = 0; x < 4; ++x) p[x] = p[x] * s + c[i].x[x];
+  if (is_rational_) return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
+  return {p[0], p[1], p[2]};
+}
+
+CurvePoint BsplineCurve::evaluate(double t) const {
+  double s, out[12];
+  const int k = knots_.locate(t, last_, s), order = knots_.degree() + 1;
+  kernels_.line_second(coefficients_[static_cast<std::size_t>(k) * order].x, order, s, knots_.rate(k), out);
+  return {{out[0], out[1], out[2]}, {out[4], out[5], out[6]}, {out[8], out[9], out[10]}};
+}
+
+BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational,
+                               Bounds bounds)
+    : u_(std::move(u)),
+      v_(std::move(v)),
+      poles_(std::move(poles)),
+      n_v_(n_v),
+      is_rational_(is_rational),
+      stride_(is_rational ? 4 : 3),
+      kernels_(patch_kernels(v_.degree() + 1, stride_)) {
+  ST_ASSERT(n_v_ >= v_.first_pole(v_.n_spans() - 1) + v_.degree() + 1);
+  ST_ASSERT(poles_.size() >= static_cast<std::size_t>(n_v_) * (u_.first_pole(u_.n_spans() - 1) + u_.degree() + 1));
+  type_ = SurfaceType::kBspline;
+  u_min_ = bounds.u_min;
+  u_max_ = bounds.u_max;
+  v_min_ = bounds.v_min;
+  v_max_ = bounds.v_max;
+  u_period_ = u_.period();
+  v_period_ = v_.period();
+  u_breaks_ = u_.c0_knots();
+  v_breaks_ = v_.c0_knots();
+  patch_index_.assign(static_cast<std::size_t>(u_.n_spans()) * v_.n_spans(), -1);
+}
+
+BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
+  Place place;
+  const int iu = u_.locate(uv.x, last_u_, place.s), iv = v_.locate(uv.y, last_v_, place.t);
+  place.rate_u = u_.rate(iu);
+  place.rate_v = v_.rate(iv);
+  place.coefficients = patch(iu, iv);
+  return place;
+}
+
+const double* BsplineSurface::patch(int iu, int iv) const {
+  const std::size_t size = static_cast<std::size_t>(u_.degree() + 1) * (v_.degree() + 1) * stride_;
+  std::int32_t& index = patch_index_[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(patches_.size() / size);
+    patches_.resize((index + 1) * size + 1, 0.0);
+    convert(iu, iv, &patches_[index * size]);
+  }
+  return &patches_[index * size];
+}
+
+void BsplineSurface::convert(int iu, int iv, double* out) const {
+  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
+  const double *bu = u_.basis(iu), *bv = v_.basis(iv);
+  Pole half[kMaxOrder];
+  for (int j = 0; j < nu; ++j) {
+    const Pole* row = &poles_[static_cast<std::size_t>(u_.first_pole(iu) + j) * n_v_ + v_.first_pole(iv)];
+    for (int c = 0; c < nv; ++c) {
+      half[c] = Pole{};
+      for (int l = 0; l < nv; ++l)
+        for (int x = 0; x < 4; ++x) half[c].x[x] += bv[l * nv + c] * row[l].x[x];
+    }
+    for (int b = 0; b < nu; ++b)
+      for (int c = 0; c < nv; ++c)
+        for (int x = 0; x < stride_; ++x) out[(b * nv + c) * stride_ + x] += bu[j * nu + b] * half[c].x[x];
+  }
+}
+
+Vec3 BsplineSurface::point(Vec2 uv) const {
+  const Place at = locate(uv);
+  double p[4];
+  kernels_.point(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, p);
+  if (is_rational_) return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
+  return {p[0], p[1], p[2]};
+}
+
+SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
+  const Place at = locate(uv);
+  double out[12];
+  kernels_.first(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
+  const double *p = out, *pu = out + 4, *pv = out + 8, ru = at.rate_u, rv = at.rate_v;
+  SurfacePoint r{{p[0], p[1], p[2]}, ru * Vec3{pu[0], pu[1], pu[2]}, rv * Vec3{pv[0], pv[1], pv[2]}};
+  if (is_rational_) {
+    const double w = 1.0 / p[3];
+    r.x = w * r.x;
+    r.du = w * (r.du - (ru * pu[3]) * r.x);
+    r.dv = w * (r.dv - (rv * pv[3]) * r.x);
+  }
+  return r;
+}
+
+void BsplineSurface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const {
+  ST_ASSERT(uv.size() == out.size());
+  for (std::size_t i = 0; i < uv.size(); ++i) out[i] = BsplineSurface::evaluate(uv[i]);
+}
+
+SurfacePoint2 BsplineSurface::evaluate2(Vec2 uv) const {
+  const Place at = locate(uv);
+  double out[24];
+  kernels_.second(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
+  const double *p = out, *pu = out + 4, *pv = out + 8, *puu = out + 12, *puv = out + 16, *pvv = out + 20;
+  const double a = at.rate_u, b = at.rate_v;
+  const auto v3 = [](const double* w, double f) { return f * Vec3{w[0], w[1], w[2]}; };
+  SurfacePoint2 r{v3(p, 1), v3(pu, a), v3(pv, b), v3(puu, 2 * a * a), v3(puv, a * b), v3(pvv, 2 * b * b)};
+  if (is_rational_) {
+    const double w = 1.0 / p[3], wu = a * pu[3], wv = b * pv[3];
+    r.x = w * r.x;
+    r.du = w * (r.du - wu * r.x);
+    r.dv = w * (r.dv - wv * r.x);
+    r.duu = w * (r.duu - 2 * wu * r.du - (2 * a * a * puu[3]) * r.x);
+    r.duv = w * (r.duv - wu * r.dv - wv * r.du - (a * b * puv[3]) * r.x);
+    r.dvv = w * (r.dvv - 2 * wv * r.dv - (2 * b * b * pvv[3]) * r.x);
+  }
+  return r;
+}
+
+}  // namespace st

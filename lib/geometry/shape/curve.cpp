@@ -1,0 +1,46 @@
+#include "geometry/shape/curve.h"
+
+#include <cmath>
+
+#include "base/assert.h"
+#include "geometry/shape/samples.h"
+
+namespace st {
+
+double arc_length(const Curve& curve, double t0, double t1, int n_intervals) {
+  ST_ASSERT(n_intervals >= 1);
+  // 5-point Gauss-Legendre
+  static constexpr double kX[5] = {0.0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,
+                                   0.9061798459386640};
+  static constexpr double kW[5] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,
+                                   0.2369268850561891};
+  double length = 0;
+  const double step = (t1 - t0) / n_intervals;
+  for (int i = 0; i < n_intervals; ++i) {
+    const double middle = t0 + (i + 0.5) * step;
+    for (int k = 0; k < 5; ++k) length += 0.5 * step * kW[k] * norm(curve.evaluate(middle + 0.5 * step * kX[k]).d1);
+  }
+  return length;
+}
+
+double curvature(const CurvePoint& p) {
+  const double speed = norm(p.d1);
+  return speed > 0 ? norm(cross(p.d1, p.d2)) / (speed * speed * speed) : 0.0;
+}
+
+Box3 bounding_box(const Curve& curve) {
+  const std::vector<double> t =
+      sample_parameters(curve.t_min(), curve.t_max(), curve.knots(), kBoxSamples, kBoxSamplesPerPiece);
+  Box3 box;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const CurvePoint p = curve.evaluate(t[i]);
+    const double h = i + 1 < t.size() ? t[i + 1] - t[i] : t[i] - t[i - 1];
+    // Taylor's remainder over half an interval; twice, as the second derivative varies inside it
+    const Vec3 reach = (h * h / 4) * Vec3{std::abs(p.d2.x), std::abs(p.d2.y), std::abs(p.d2.z)};
+    box.add(p.x - reach);
+    box.add(p.x + reach);
+  }
+  return box;
+}
+
+}  // namespace st

@@ -1,0 +1,168 @@
+#include "geometry/shape/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/shape/samples.h"
+#include "geometry/shape/surface_forms.h"
+
+namespace st {
+namespace {
+
+constexpr int kStarts = 6;     // samples from which the closest point is sought
+constexpr int kMaxSteps = 50;  // Newton steps per start
+constexpr int kMaxHalvings = 30;
+constexpr double kSmallMove = 1e-13;  // of the parameter range: converged
+
+/// A sample that is closer to the target than its neighbours.
+struct Start {
+  double distance2;
+  std::size_t index;
+  bool operator<(const Start& o) const { return distance2 != o.distance2 ? distance2 < o.distance2 : index < o.index; }
+};
+
+/// The closest first, at most kStarts.
+void keep_closest(std::vector<Start>& starts) {
+  std::sort(starts.begin(), starts.end());
+  if (starts.size() > kStarts) starts.resize(kStarts);
+}
+
+struct Bounds {
+  Vec2 lo, hi;
+  Vec2 clamp(Vec2 p) const { return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y)}; }
+};
+
+/// Newton step of half the squared distance, in the directions that are free: a parameter at its bound stays there when
+/// the distance falls outwards. Where the distance is not convex the Gauss-Newton step, which always descends.
+Vec2 free_step(const SurfacePoint2& p, Vec3 r, Vec2 uv, const Bounds& b) {
+  const Eigen::Vector2d slope = along_tangents(p.du, p.dv, r);
+  const bool u_free = !(uv.x <= b.lo.x && slope.x() >= 0) && !(uv.x >= b.hi.x && slope.x() <= 0);
+  const bool v_free = !(uv.y <= b.lo.y && slope.y() >= 0) && !(uv.y >= b.hi.y && slope.y() <= 0);
+  const Eigen::Matrix2d gauss = first_form(p.du, p.dv), newton = gauss + second_form(p, r);
+  const auto along = [&](int i) {
+    const double bend = newton(i, i) > 1e-12 * gauss(i, i) ? newton(i, i) : gauss(i, i);
+    return bend > 0 ? -slope(i) / bend : 0.0;
+  };
+  if (!u_free && !v_free) return {};
+  if (!v_free) return {along(0), 0};
+  if (!u_free) return {0, along(1)};
+  const double least = 1e-12 * gauss(0, 0) * gauss(1, 1);
+  for (const Eigen::Matrix2d& m : {newton, gauss})
+    if (const auto back = solve(m, slope, least); back && m(0, 0) > 0) return to_vec2(-*back);
+  return {along(0), along(1)};  // singular: each by itself
+}
+
+SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& b) {
+  SurfacePoint2 p = surface.evaluate2(uv);
+  double distance2 = norm2(p.x - target);
+  const Vec2 range = b.hi - b.lo;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    Vec2 move = free_step(p, p.x - target, uv, b);
+    bool is_closer = false;
+    for (int halving = 0; halving < kMaxHalvings && !is_closer; ++halving, move = 0.5 * move) {
+      const Vec2 next = b.clamp(uv + move);
+      const SurfacePoint2 q = surface.evaluate2(next);
+      is_closer = norm2(q.x - target) < distance2;
+      if (!is_closer && std::abs(move.x) <= kSmallMove * range.x && std::abs(move.y) <= kSmallMove * range.y) break;
+      if (!is_closer) continue;
+      move = next - uv;
+      uv = next;
+      p = q;
+      distance2 = norm2(q.x - target);
+      break;
+    }
+    if (!is_closer || (std::abs(move.x) <= kSmallMove * range.x && std::abs(move.y) <= kSmallMove * range.y)) break;
+  }
+  return {uv, p.x, std::sqrt(distance2)};
+}
+
+/// Grid samples no further from the target than their eight neighbours.
+std::vector<Start> surface_starts(const Surface& surface, Vec3 target, const std::vector<double>& u,
+                                  const std::vector<double>& v) {
+  const int n_u = static_cast<int>(u.size()), n_v = static_cast<int>(v.size());
+  std::vector<double> distance2;
+  distance2.reserve(u.size() * v.size());
+  for (const double x : u)
+    for (const double y : v) distance2.push_back(norm2(surface.point({x, y}) - target));
+  std::vector<Start> starts;
+  for (int i = 0; i < n_u; ++i)
+    for (int j = 0; j < n_v; ++j) {
+      const double own = distance2[i * n_v + j];
+      bool is_least = true;
+      for (int k = std::max(i - 1, 0); k <= std::min(i + 1, n_u - 1) && is_least; ++k)
+        for (int l = std::max(j - 1, 0); l <= std::min(j + 1, n_v - 1); ++l) is_least &= own <= distance2[k * n_v + l];
+      if (is_least) starts.push_back({own, static_cast<std::size_t>(i) * n_v + j});
+    }
+  keep_closest(starts);
+  return starts;
+}
+
+}  // namespace
+
+SurfaceFoot closest_point(const Surface& surface, Vec3 target) {
+  const Bounds b{{surface.u_min(), surface.v_min()}, {surface.u_max(), surface.v_max()}};
+  if (const auto exact = surface.exact_foot(target); exact && b.clamp(*exact) == *exact) {
+    const Vec3 x = surface.point(*exact);
+    return {*exact, x, distance(x, target)};
+  }
+  const std::vector<double> u = sample_parameters(b.lo.x, b.hi.x, surface.u_knots());
+  const std::vector<double> v = sample_parameters(b.lo.y, b.hi.y, surface.v_knots());
+  std::optional<SurfaceFoot> best;
+  for (const Start& start : surface_starts(surface, target, u, v)) {
+    const SurfaceFoot foot = descend(surface, target, {u[start.index / v.size()], v[start.index % v.size()]}, b);
+    if (!best || foot.distance < best->distance) best = foot;
+  }
+  return *best;
+}
+
+CurveFoot closest_point(const Curve& curve, Vec3 target) {
+  const std::vector<double> t = sample_parameters(curve.t_min(), curve.t_max(), curve.knots());
+  std::vector<double> distance2;
+  for (const double s : t) distance2.push_back(norm2(curve.point(s) - target));
+  std::vector<Start> starts;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if ((i == 0 || distance2[i] <= distance2[i - 1]) && (i + 1 == t.size() || distance2[i] <= distance2[i + 1]))
+      starts.push_back({distance2[i], i});
+  keep_closest(starts);
+  CurveFoot best{t[starts[0].index], {}, std::sqrt(starts[0].distance2)};
+  for (const Start& start : starts) {
+    // the sample's neighbours bracket a local minimum: bisect the derivative of the distance, with Newton where it
+    // stays inside
+    double lo = t[start.index > 0 ? start.index - 1 : 0], hi = t[std::min(start.index + 1, t.size() - 1)],
+           s = t[start.index];
+    for (int step = 0; step < 2 * kMaxSteps && hi - lo > kSmallMove * (curve.t_max() - curve.t_min()); ++step) {
+      const CurvePoint p = curve.evaluate(s);
+      const Vec3 r = p.x - target;
+      const double slope = dot(r, p.d1), bend = norm2(p.d1) + dot(r, p.d2);
+      if (const double here = norm(r); here < best.distance) best = {s, {}, here};
+      (slope > 0 ? hi : lo) = s;
+      const double next = bend > 0 ? s - slope / bend : lo;
+      const double middle = 0.5 * (lo + hi);
+      if (std::abs(next - s) <= kSmallMove * (curve.t_max() - curve.t_min()) && bend > 0) break;
+      s = next > lo && next < hi ? next : middle;
+    }
+    if (const double here = distance(curve.point(s), target); here < best.distance) best = {s, {}, here};
+  }
+  best.x = curve.point(best.t);
+  for (const double end : {curve.t_min(), curve.t_max()})
+    if (const Vec3 x = curve.point(end); distance(x, target) < best.distance) best = {end, x, distance(x, target)};
+  return best;
+}
+
+std::optional<double> project_near(const Curve& curve, Vec3 target, double t) {
+  const double range = curve.t_max() - curve.t_min(), lo = curve.t_min() - 0.01 * range,
+               hi = curve.t_max() + 0.01 * range;
+  for (int step = 0; step < 20; ++step) {
+    const CurvePoint p = curve.evaluate(t);
+    const Vec3 r = p.x - target;
+    const double gauss = norm2(p.d1), newton = gauss + dot(r, p.d2);
+    if (!(gauss > 0)) return std::nullopt;
+    const double next = std::clamp(t - dot(r, p.d1) / (newton > 1e-12 * gauss ? newton : gauss), lo, hi);
+    const double move = std::abs(next - t);
+    t = next;
+    if (move * std::sqrt(gauss) <= 1e-12 * (norm(p.x) + std::sqrt(gauss) * range)) return t;
+  }
+  return std::nullopt;
+}
+
+}  // namespace st

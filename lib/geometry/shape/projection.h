@@ -1,0 +1,36 @@
+// The closest point of a bounded surface or curve, found without a guess. For a guess there is project_near(); this is
+// for the few points that have none.
+#pragma once
+
+#include <optional>
+
+#include "geometry/shape/curve.h"
+#include "geometry/shape/surface.h"
+
+namespace st {
+
+/// Closest point of a surface within its bounds.
+struct SurfaceFoot {
+  Vec2 uv;
+  Vec3 x;
+  double distance;  ///< model unit
+};
+
+/// By formula where exact_foot() gives a point within the bounds; else constrained Newton from the closest samples of a
+/// grid that has two intervals per polynomial piece, sides and corners included. Of equally close points the one found
+/// first. Cost: the grid, tens of microseconds to milliseconds.
+SurfaceFoot closest_point(const Surface& surface, Vec3 p);
+
+/// Closest point of a curve within its bounds.
+struct CurveFoot {
+  double t;
+  Vec3 x;
+  double distance;  ///< model unit
+};
+CurveFoot closest_point(const Curve& curve, Vec3 p);
+
+/// Newton projection from the guess `t`, within the bounds enlarged by 1 %. nullopt when it does not converge in 20
+/// steps.
+std::optional<double> project_near(const Curve& curve, Vec3 p, double guess);
+
+}  // namespace st

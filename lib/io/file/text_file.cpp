@@ -1,0 +1,32 @@
+#include "io/file/text_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/file/temporary_file.h"
+
+namespace st {
+
+std::string read_text_file(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file.is_open() || file.bad())
+    throw Error(ExitCode::kInput, path + ": cannot be read; check name and permissions");
+  return std::move(text).str();
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  TemporaryFile temporary(path);
+  std::ofstream file(temporary.name(), std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Error(ExitCode::kOutput, path + ": cannot be written; free some space or choose another directory");
+  temporary.commit();
+}
+
+}  // namespace st

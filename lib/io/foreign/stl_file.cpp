@@ -1,0 +1,119 @@
+#include "io/foreign/stl_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/limits.h"
+#include "io/file/text_file.h"
+#include "mesh/adjacency.h"
+
+namespace st {
+namespace {
+
+constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes of a binary file before the triangles, and of one
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw Error(ExitCode::kInput, path + ": " + what + "; an STL file (binary or ASCII) is expected");
+}
+
+bool is_binary(const std::string& bytes) {
+  if (bytes.size() < kHeader) return false;
+  std::uint32_t n = 0;
+  std::memcpy(&n, bytes.data() + 80, sizeof n);
+  return bytes.size() == kHeader + kRecord * static_cast<std::size_t>(n);
+}
+
+std::vector<Vec3> binary_corners(const std::string& bytes) {
+  std::vector<Vec3> corners;
+  for (std::size_t at = kHeader; at < bytes.size(); at += kRecord) {
+    float xyz[9];
+    std::memcpy(xyz, bytes.data() + at + 12, sizeof xyz);
+    for (int k = 0; k < 9; k += 3) corners.push_back({xyz[k], xyz[k + 1], xyz[k + 2]});
+  }
+  return corners;
+}
+
+std::vector<Vec3> text_corners(const std::string& path, const std::string& bytes) {
+  std::vector<Vec3> corners;
+  const char *at = bytes.data(), *end = at + bytes.size();
+  const auto word = [&]() -> std::string_view {
+    const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    while (at != end && is_blank(*at)) ++at;
+    const char* from = at;
+    while (at != end && !is_blank(*at)) ++at;
+    return {from, static_cast<std::size_t>(at - from)};
+  };
+  const auto number = [&] {
+    std::string_view text = word();
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || stop != text.data() + text.size() || text.empty())
+      fail(path, std::string("no coordinate: ").append(text));
+    return value;
+  };
+  if (word() != "solid") fail(path, "neither binary nor ASCII");
+  for (std::string_view w = word(); !w.empty(); w = word()) {
+    if (w != "vertex") continue;
+    const double x = number(), y = number(), z = number();
+    corners.push_back({x, y, z});
+  }
+  return corners;
+}
+
+/// Nodes by coordinates: -0 equals 0.
+std::vector<NodeId> weld(const std::vector<Vec3>& corners, std::vector<Vec3>& nodes) {
+  std::vector<std::int32_t> order(corners.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+  const auto key = [&](std::int32_t i) { return std::tuple(corners[i].x, corners[i].y, corners[i].z); };
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+  std::vector<std::int32_t> first(corners.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+  std::vector<NodeId> node(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (first[i] == static_cast<std::int32_t>(i)) {
+      nodes.push_back(corners[i]);
+      node[i] = static_cast<NodeId>(nodes.size() - 1);
+    } else {
+      node[i] = node[first[i]];
+    }
+  }
+  return node;
+}
+
+}  // namespace
+
+SurfaceMesh read_stl(const std::string& path) {
+  const std::string bytes = read_text_file(path);
+  const std::vector<Vec3> corners = is_binary(bytes) ? binary_corners(bytes) : text_corners(path, bytes);
+  if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
+  for (const Vec3& x : corners)
+    if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) fail(path, "a coordinate is not finite");
+  if (corners.size() / 3 > kMaxTriangles) fail(path, "has more triangles than can be numbered");
+  SurfaceMesh mesh;
+  const std::vector<NodeId> node = weld(corners, mesh.node_xyz);
+  for (std::size_t i = 0; i < node.size(); i += 3)
+    if (node[i] != node[i + 1] && node[i + 1] != node[i + 2] && node[i + 2] != node[i])
+      mesh.triangles.push_back({{node[i], node[i + 1], node[i + 2]}});
+  const std::size_t n = mesh.triangles.size();
+  mesh.node_entity_dim.assign(mesh.node_xyz.size(), static_cast<std::uint8_t>(EntityDim::kFace));
+  mesh.node_entity.assign(mesh.node_xyz.size(), 0);
+  mesh.node_t.assign(mesh.node_xyz.size(), 0);
+  mesh.node_size.assign(mesh.node_xyz.size(), 0);
+  std::int32_t n_parts = 0;
+  const std::vector<std::int32_t> part = node_components(mesh.triangles, mesh.n_nodes(), n_parts);
+  for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
+  mesh.triangle_group.assign(n, 0);
+  mesh.corner_uv.assign(3 * n, {});
+  mesh.face_name.resize(static_cast<std::size_t>(n_parts));
+  mesh.group_name = {"default"};
+  return mesh;
+}
+
+}  // namespace st

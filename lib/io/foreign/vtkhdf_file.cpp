@@ -1,0 +1,97 @@
+// VTKHDF of other programs: an UnstructuredGrid in one part.
+#include <hdf5.h>
+
+#include <optional>
+
+#include "base/error.h"
+#include "io/foreign/triangulation_file.h"
+
+namespace st {
+namespace {
+
+class VtkhdfParser {
+ public:
+  explicit VtkhdfParser(const std::string& path) : path_(path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file_ < 0) fail("an HDF5 file that cannot be read: damaged or cut off; write it again");
+  }
+  ~VtkhdfParser() { H5Fclose(file_); }
+  VtkhdfParser(const VtkhdfParser&) = delete;
+  VtkhdfParser& operator=(const VtkhdfParser&) = delete;
+
+  TriangulationFile run() {
+    if (H5Lexists(file_, "/VTKHDF", H5P_DEFAULT) <= 0) fail("an HDF5 file without a group /VTKHDF; give a mesh");
+    const auto xyz = require<double>("Points", H5T_NATIVE_DOUBLE);
+    const auto n_parts = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);
+    if (n_parts.size() != 1) fail("has " + std::to_string(n_parts.size()) + " parts; write the mesh as one");
+    const auto nodes = require<std::int64_t>("Connectivity", H5T_NATIVE_INT64),
+               offsets = require<std::int64_t>("Offsets", H5T_NATIVE_INT64),
+               types = require<std::int64_t>("Types", H5T_NATIVE_INT64);
+    const auto face = read<std::int64_t>("CellData/face", H5T_NATIVE_INT64);
+    if (xyz.size() % 3 != 0 || offsets.size() != types.size() + 1) fail("has arrays that do not fit each other");
+    TriangulationFile result;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) result.node_xyz.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    for (std::size_t c = 0; c < types.size(); ++c) {
+      constexpr std::int64_t kTriangle = 5;
+      if (types[c] != kTriangle) fail("cell " + std::to_string(c) + " is no triangle; write triangles only");
+      if (offsets[c] < 0 || offsets[c + 1] != offsets[c] + 3 || static_cast<std::size_t>(offsets[c + 1]) > nodes.size())
+        fail("cell " + std::to_string(c) + " has offsets that do not fit");
+      const std::int64_t* n = nodes.data() + offsets[c];
+      result.triangles.push_back({n[0], n[1], n[2]});
+      if (face && face->size() == types.size()) result.surface.push_back((*face)[c]);
+    }
+    if (auto size = read<double>("PointData/size", H5T_NATIVE_DOUBLE); size && 3 * size->size() == xyz.size())
+      result.node_size = std::move(*size);
+    return result;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw Error(ExitCode::kInput, path_ + ": " + what); }
+
+  /// The whole dataset; nullopt: there is none of this name, or it is not made of numbers.
+  template <class Value>
+  std::optional<std::vector<Value>> read(const std::string& name, hid_t type) const {
+    const std::string path = "/VTKHDF/" + name, group = path.substr(0, path.rfind('/'));
+    if (H5Lexists(file_, group.c_str(), H5P_DEFAULT) <= 0 || H5Lexists(file_, path.c_str(), H5P_DEFAULT) <= 0)
+      return std::nullopt;
+    const hid_t dataset = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    if (dataset < 0) return std::nullopt;
+    const hid_t space = H5Dget_space(dataset), stored = H5Dget_type(dataset);
+    const H5T_class_t kind = H5Tget_class(stored);
+    const hssize_t n = H5Sget_simple_extent_npoints(space);
+    std::optional<std::vector<Value>> values;
+    if ((kind == H5T_INTEGER || kind == H5T_FLOAT) && n >= 0 && n < 6000000000) {
+      values.emplace(static_cast<std::size_t>(n));
+      if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) < 0) values.reset();
+    }
+    H5Tclose(stored);
+    H5Sclose(space);
+    H5Dclose(dataset);
+    return values;
+  }
+  template <class Value>
+  std::vector<Value> require(const std::string& name, hid_t type) const {
+    auto values = read<Value>(name, type);
+    if (!values) fail("the dataset /VTKHDF/" + name + " is missing or cannot be read");
+    return std::move(*values);
+  }
+
+  const std::string& path_;
+  hid_t file_ = -1;
+};
+
+}  // namespace
+
+bool is_foreign_vtkhdf(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) return false;
+  const bool is_foreign = H5Lexists(file, "/st", H5P_DEFAULT) <= 0 && H5Lexists(file, "/VTKHDF", H5P_DEFAULT) > 0;
+  H5Fclose(file);
+  return is_foreign;
+}
+
+TriangulationFile read_vtkhdf(const std::string& path) { return VtkhdfParser(path).run(); }
+
+}  // namespace st

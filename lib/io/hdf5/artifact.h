@@ -1,0 +1,94 @@
+// Artifacts: HDF5 files that connect the stages. The only public face of HDF5.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/model/finding.h"
+#include "geometry/model/model.h"
+#include "mesh/surface_mesh.h"
+
+namespace st {
+
+/// Newest schema versions that this build reads, and those that it writes.
+inline constexpr int kGeometryVersion = 1, kPatchesVersion = 1, kMeshVersion = 1;
+
+/// An input that an artifact was made from.
+struct InputRef {
+  std::string role;  ///< "cad", "geometry", "raster", "sizing", "patches", "mesh"
+  std::string name;  ///< file name without directory
+  std::string hash;  ///< content hash of the artifact (or of the bytes of a CAD file)
+};
+
+/// What every artifact says of itself.
+struct ArtifactHeader {
+  std::string schema;  ///< "geometry", "raster", "sizing", "patches", "mesh"
+  int schema_version = 1;
+  std::string tool, tool_version;
+  std::string options_json;  ///< resolved options of the stage, one JSON object
+  std::string unit;          ///< empty: the model has none
+  std::optional<double> unit_in_m;
+  std::string content_hash;   ///< set by write_*, checked by read_*; covers content, not provenance
+  std::string geometry_hash;  ///< content hash of the geometry everything goes back to (empty in geometry itself)
+  std::vector<InputRef> inputs;
+};
+
+/// geometry.hdf
+struct GeometryArtifact {
+  ArtifactHeader header;
+  ModelTables tables;
+  std::vector<std::byte> brep;
+  std::vector<ImportFinding> findings;
+  bool is_closed = false;
+  /// What each entity of an edited geometry was: its id, and the input it is of (index into header.inputs). [2*n] Empty
+  /// unless st-edit made it. Provenance, not content.
+  std::vector<std::int32_t> previous_faces, previous_edges, previous_vertices;
+};
+
+/// patches.hdf: what st-mesh and st-remesh hand to st-merge, self-contained.
+struct PatchesArtifact {
+  ArtifactHeader header;
+  EdgeMesh edges;
+  std::vector<Vec3> vertex_xyz;
+  std::vector<VertexId> edge_vertices;  ///< [2*n_edges]
+  std::vector<FacePatch> patches;       ///< by face id
+  std::vector<FaceFailure> failures;
+  MergedFeatures merged;
+  std::vector<std::string> face_name, group_name, group_role;
+  std::vector<std::int32_t> face_group;
+  FaceLabels labels;
+  std::vector<std::int32_t> face_shell;
+  std::vector<double> face_area;  ///< CAD area, for the check of the merged mesh
+  bool is_complete = true;        ///< every face meshed
+};
+
+/// mesh.hdf
+struct MeshArtifact {
+  ArtifactHeader header;
+  SurfaceMesh mesh;
+  bool is_complete = true;
+};
+
+/// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no
+/// artifact, a truncated one.
+ArtifactHeader read_header(const std::string& path);
+
+/// All write_* functions: written to a temporary name in the same directory, synced, renamed; nothing is left behind on
+/// failure, nor on SIGINT/SIGTERM (remove_temporaries). Equal content gives equal bytes. Return the content hash. Throw
+/// Error(kOutput). All read_* functions: throw Error(kInput) naming file, dataset and remedy for a wrong kind, a wrong
+/// version, truncation or a checksum that does not fit.
+std::string write_geometry(const std::string& path, const GeometryArtifact& geometry);
+GeometryArtifact read_geometry(const std::string& path);
+std::string write_patches(const std::string& path, const PatchesArtifact& patches);
+PatchesArtifact read_patches(const std::string& path);
+std::string write_mesh(const std::string& path, const MeshArtifact& mesh);
+MeshArtifact read_mesh(const std::string& path);
+
+/// Throws Error(kMismatch) unless both go back to the same geometry; the message names both files.
+void require_same_geometry(const std::string& path_a, const ArtifactHeader& a, const std::string& path_b,
+                           const ArtifactHeader& b);
+
+}  // namespace st

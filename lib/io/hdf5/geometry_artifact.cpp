@@ -1,0 +1,189 @@
+// geometry.hdf: docs/artifacts.md
+#include <cmath>
+
+#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/face_labels_io.h"
+
+namespace st {
+namespace {
+
+void write_vertices_and_edges(Hdf5Writer& w, const ModelTables& t) {
+  w.write("/st/vertex/xyz", t.vertex_xyz);
+  w.write("/st/vertex/tolerance", t.vertex_tolerance);
+  w.write("/st/edge/vertices", t.edge_vertices, 2);
+  w.write("/st/edge/range", t.edge_range, 2);
+  w.write("/st/edge/length", t.edge_length);
+  w.write("/st/edge/tolerance", t.edge_tolerance);
+  w.write("/st/edge/is_degenerate", t.edge_is_degenerate);
+  w.write_strings("/st/edge/name", t.edge_name);
+}
+
+void write_faces(Hdf5Writer& w, const ModelTables& t) {
+  w.write("/st/face/loop_offsets", t.face_loop_offsets);
+  w.write("/st/loop/coedge_offsets", t.loop_coedge_offsets);
+  w.write("/st/coedge/edge", t.coedge_edge);
+  w.write("/st/coedge/is_reversed", t.coedge_is_reversed);
+  w.write("/st/face/is_reversed", t.face_is_reversed);
+  w.write("/st/face/type", t.face_type);
+  w.write("/st/face/uv_bounds", t.face_uv_bounds, 4);
+  w.write("/st/face/tolerance", t.face_tolerance);
+  w.write("/st/face/area", t.face_area);
+  w.write("/st/face/width", t.face_width);
+  w.write("/st/face/box", t.face_box);
+  w.write_strings("/st/face/name", t.face_name);
+  w.write("/st/face/color", t.face_color);
+  w.write_strings("/st/face/layer", t.face_layer);
+  w.write("/st/face/group", t.face_group);
+  w.write("/st/face/shell", t.face_shell);
+  w.write("/st/face/solid", t.face_solid);
+  w.write_strings("/st/group/name", t.group_name);
+  w.write_strings("/st/group/role", t.group_role);
+  write_labels(w, t.labels);
+}
+
+void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
+  std::vector<std::string> what, entity;
+  std::vector<Vec3> xyz;
+  std::vector<double> size;
+  std::vector<std::uint8_t> is_repair;
+  for (const ImportFinding& f : findings) {
+    what.push_back(f.what);
+    entity.push_back(f.entity);
+    xyz.push_back(f.xyz);
+    size.push_back(f.size);
+    is_repair.push_back(f.is_repair);
+  }
+  w.write_strings("/st/finding/what", what);
+  w.write_strings("/st/finding/entity", entity);
+  w.write("/st/finding/xyz", xyz);
+  w.write("/st/finding/size", size);
+  w.write("/st/finding/is_repair", is_repair);
+}
+
+constexpr const char *kPreviousFaces = "/st/face/previous_id", *kPreviousEdges = "/st/edge/previous_id",
+                     *kPreviousVertices = "/st/vertex/previous_id";
+
+std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& name, std::size_t n) {
+  std::vector<std::int32_t> previous = r.read_rows<std::int32_t>(name, n, 2);
+  for (std::size_t i = 0; i < n; ++i)
+    if (previous[2 * i] < 0 || previous[2 * i + 1] < 0 ||
+        static_cast<std::size_t>(previous[2 * i + 1]) >= r.header().inputs.size())
+      r.fail(name, "row " + std::to_string(i) + " is of no input");
+  return previous;
+}
+
+void read_vertices_and_edges(const Hdf5Reader& r, ModelTables& t) {
+  t.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
+  t.vertex_tolerance = r.read_rows<double>("/st/vertex/tolerance", t.vertex_xyz.size());
+  t.edge_length = r.read<double>("/st/edge/length");
+  const std::size_t n = t.edge_length.size();
+  t.edge_vertices = r.read_rows<std::int32_t>("/st/edge/vertices", n, 2);
+  require_ids(r, "/st/edge/vertices", t.edge_vertices, t.vertex_xyz.size());
+  t.edge_range = r.read_rows<double>("/st/edge/range", n, 2);
+  t.edge_tolerance = r.read_rows<double>("/st/edge/tolerance", n);
+  t.edge_is_degenerate = r.read_rows<std::uint8_t>("/st/edge/is_degenerate", n);
+  t.edge_name = r.read_string_rows("/st/edge/name", n);
+}
+
+void read_loops(const Hdf5Reader& r, ModelTables& t, std::size_t n_faces) {
+  t.coedge_edge = r.read<std::int32_t>("/st/coedge/edge");
+  require_ids(r, "/st/coedge/edge", t.coedge_edge, t.edge_length.size());
+  t.coedge_is_reversed = r.read_rows<std::uint8_t>("/st/coedge/is_reversed", t.coedge_edge.size());
+  t.loop_coedge_offsets = r.read<std::int32_t>("/st/loop/coedge_offsets");
+  require_offsets(r, "/st/loop/coedge_offsets", t.loop_coedge_offsets, t.coedge_edge.size());
+  t.face_loop_offsets = r.read_rows<std::int32_t>("/st/face/loop_offsets", n_faces + 1);
+  require_offsets(r, "/st/face/loop_offsets", t.face_loop_offsets, t.loop_coedge_offsets.size() - 1);
+}
+
+void read_faces(const Hdf5Reader& r, ModelTables& t) {
+  t.face_is_reversed = r.read<std::uint8_t>("/st/face/is_reversed");
+  const std::size_t n = t.face_is_reversed.size();
+  read_loops(r, t, n);
+  t.face_type = r.read_rows<SurfaceType>("/st/face/type", n);
+  t.face_uv_bounds = r.read_rows<double>("/st/face/uv_bounds", n, 4);
+  t.face_tolerance = r.read_rows<double>("/st/face/tolerance", n);
+  t.face_area = r.read_rows<double>("/st/face/area", n);
+  if (r.has("/st/face/width")) {
+    t.face_width = r.read_rows<double>("/st/face/width", n);
+  } else {  // written before widths were: as wide as long
+    for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
+  }
+  t.face_box = r.read_rows<Box3>("/st/face/box", n);
+  t.face_name = r.read_string_rows("/st/face/name", n);
+  t.face_color = r.read_rows<std::int32_t>("/st/face/color", n);
+  t.face_layer = r.read_string_rows("/st/face/layer", n);
+  t.group_name = r.read_strings("/st/group/name");
+  t.group_role = r.read_string_rows("/st/group/role", t.group_name.size());
+  t.face_group = r.read_rows<std::int32_t>("/st/face/group", n);
+  require_ids(r, "/st/face/group", t.face_group, t.group_name.size());
+  t.labels = read_labels(r, n, t.group_name.size());
+  for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
+  for (const EntityGroup& g : t.labels.vertex_groups)
+    require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());
+  t.n_shells = static_cast<std::int32_t>(r.int_attribute("/st", "n_shells"));
+  t.n_solids = static_cast<std::int32_t>(r.int_attribute("/st", "n_solids"));
+  t.face_shell = r.read_rows<std::int32_t>("/st/face/shell", n);
+  require_ids(r, "/st/face/shell", t.face_shell, t.n_shells, kNone);
+  t.face_solid = r.read_rows<std::int32_t>("/st/face/solid", n);
+  require_ids(r, "/st/face/solid", t.face_solid, t.n_solids, kNone);
+}
+
+std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
+  const std::vector<std::string> what = r.read_strings("/st/finding/what");
+  const std::size_t n = what.size();
+  const std::vector<std::string> entity = r.read_string_rows("/st/finding/entity", n);
+  const std::vector<Vec3> xyz = r.read_rows<Vec3>("/st/finding/xyz", n);
+  const std::vector<double> size = r.read_rows<double>("/st/finding/size", n);
+  const std::vector<std::uint8_t> is_repair = r.read_rows<std::uint8_t>("/st/finding/is_repair", n);
+  std::vector<ImportFinding> findings;
+  for (std::size_t i = 0; i < n; ++i) findings.push_back({what[i], entity[i], xyz[i], size[i], is_repair[i] != 0});
+  return findings;
+}
+
+}  // namespace
+
+std::string write_geometry(const std::string& path, const GeometryArtifact& geometry) {
+  const ModelTables& t = geometry.tables;
+  ArtifactHeader header = geometry.header;
+  header.schema = "geometry";
+  header.schema_version = kGeometryVersion;
+  header.unit = t.unit;
+  header.unit_in_m = t.unit_in_m;
+  Hdf5Writer w(path, header);
+  write_vertices_and_edges(w, t);
+  write_faces(w, t);
+  write_findings(w, geometry.findings);
+  if (!geometry.previous_faces.empty()) {
+    w.write(kPreviousFaces, geometry.previous_faces, 2);
+    w.write(kPreviousEdges, geometry.previous_edges, 2);
+    w.write(kPreviousVertices, geometry.previous_vertices, 2);
+  }
+  w.write("/st/brep", geometry.brep);
+  w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
+  w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
+  if (t.volume) w.write("/st/volume", std::vector<double>{*t.volume});
+  w.set_attribute("/st", "is_closed", std::int64_t{geometry.is_closed});
+  return w.commit();
+}
+
+GeometryArtifact read_geometry(const std::string& path) {
+  const Hdf5Reader r(path, "geometry", kGeometryVersion);
+  GeometryArtifact geometry;
+  geometry.header = r.header();
+  read_vertices_and_edges(r, geometry.tables);
+  read_faces(r, geometry.tables);
+  geometry.tables.unit = r.header().unit;
+  geometry.tables.unit_in_m = r.header().unit_in_m;
+  if (r.has("/st/volume")) geometry.tables.volume = r.read_rows<double>("/st/volume", 1)[0];
+  geometry.findings = read_findings(r);
+  if (r.has(kPreviousFaces)) {
+    geometry.previous_faces = read_previous(r, kPreviousFaces, geometry.tables.face_type.size());
+    geometry.previous_edges = read_previous(r, kPreviousEdges, geometry.tables.edge_length.size());
+    geometry.previous_vertices = read_previous(r, kPreviousVertices, geometry.tables.vertex_xyz.size());
+  }
+  geometry.brep = r.read<std::byte>("/st/brep");
+  geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;
+  return geometry;
+}
+
+}  // namespace st

@@ -1,0 +1,127 @@
+#include "io/hdf5/node_array.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& name, const std::string& what) {
+  throw Error(ExitCode::kInput, fmt::format("{}: array '{}' {}", path, name, what));
+}
+
+/// Reads the whole dataset as doubles; nullopt: there is none of this name.
+std::optional<std::vector<double>> read_dataset(hid_t file, const std::string& name) {
+  const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+  if (dataset < 0) return std::nullopt;
+  const hid_t space = H5Dget_space(dataset);
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  std::vector<double> values(n > 0 ? static_cast<std::size_t>(n) : 0);
+  const bool ok = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+  H5Sclose(space);
+  H5Dclose(dataset);
+  if (!ok) values.clear();
+  return values;
+}
+
+std::vector<double> read_hdf5(const std::string& path, const std::string& name) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) throw Error(ExitCode::kInput, path + ": no HDF5 file that can be read; give .vtu or HDF5");
+  std::optional<std::vector<double>> values;
+  if (name.find('/') == std::string::npos) values = read_dataset(file, "/VTKHDF/PointData/" + name);
+  if (!values) values = read_dataset(file, name);
+  H5Fclose(file);
+  if (!values) fail(path, name, "is not in the file, neither as /VTKHDF/PointData/" + name + " nor by that path");
+  return *values;
+}
+
+/// Value of an attribute of an XML tag; empty: none.
+std::string attribute(const std::string& tag, const std::string& key) {
+  const std::size_t at = tag.find(" " + key + "=\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + key.size() + 3;
+  return tag.substr(begin, tag.find('"', begin) - begin);
+}
+
+template <class Value>
+std::vector<double> convert(const char* data, std::size_t n_bytes) {
+  std::vector<double> values(n_bytes / sizeof(Value));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Value v;
+    std::memcpy(&v, data + i * sizeof v, sizeof v);
+    values[i] = static_cast<double>(v);
+  }
+  return values;
+}
+
+/// Appended raw data: the number of bytes, then the values.
+std::vector<double> read_appended(const std::string& path, const std::string& name, const std::string& text,
+                                  const std::string& tag) {
+  const std::size_t data = text.find("<AppendedData");
+  const std::size_t open = data == std::string::npos ? data : text.find('>', data);
+  if (open == std::string::npos || attribute(text.substr(data, open - data), "encoding") != "raw" ||
+      text.find("compressor=") < data)
+    fail(path, name, "is compressed or encoded; write the file as ascii, or appended raw without compression");
+  const std::size_t header = attribute(text, "header_type") == "UInt64" ? 8 : 4;
+  const std::size_t at = text.find('_', open) + 1 + std::strtoull(attribute(tag, "offset").c_str(), nullptr, 10);
+  std::uint64_t n = 0;
+  if (at + header <= text.size()) std::memcpy(&n, text.data() + at, header);
+  if (at + header > text.size() || n > text.size() - at - header) fail(path, name, "is cut off");
+  const std::string type = attribute(tag, "type");
+  const char* values = text.data() + at + header;
+  if (type == "Float64") return convert<double>(values, n);
+  if (type == "Float32") return convert<float>(values, n);
+  fail(path, name, "has the type " + type + "; Float64 or Float32 are needed");
+}
+
+std::vector<double> read_vtu(const std::string& path, const std::string& name) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::size_t begin = text.find("<PointData"), end = text.find("</PointData>");
+  for (std::size_t at = begin; at < end && end != std::string::npos; ++at) {
+    at = text.find("<DataArray", at);
+    if (at >= end) break;
+    const std::size_t close = text.find('>', at);
+    const std::string tag = text.substr(at, close - at);
+    if (attribute(tag, "Name") != name) continue;
+    const std::string format = attribute(tag, "format");
+    if (format == "appended") return read_appended(path, name, text, tag);
+    if (format != "ascii")
+      fail(path, name, "is written as '" + format + "'; write the file as ascii, or appended raw without compression");
+    std::istringstream numbers(text.substr(close + 1, text.find('<', close) - close - 1));
+    std::vector<double> values;
+    for (std::string word; numbers >> word;) values.push_back(std::strtod(word.c_str(), nullptr));
+    return values;
+  }
+  fail(path, name, "is not among the point data");
+}
+
+}  // namespace
+
+std::vector<double> read_node_lengths(const std::string& path, const std::string& name, std::size_t n_nodes) {
+  if (!std::filesystem::is_regular_file(path)) throw Error(ExitCode::kInput, path + ": no such file");
+  const std::vector<double> values =
+      std::filesystem::path(path).extension() == ".vtu" ? read_vtu(path, name) : read_hdf5(path, name);
+  if (values.size() != n_nodes)
+    fail(path, name,
+         fmt::format("has {} values, the mesh {} nodes; give one length per node of the mesh to be redone",
+                     values.size(), n_nodes));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0) || !std::isfinite(values[i]))
+      fail(path, name, fmt::format("is {} at node {}; lengths must be positive and finite", values[i], i));
+  return values;
+}
+
+}  // namespace st

@@ -1,0 +1,220 @@
+// patches.hdf: docs/artifacts.md
+#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/face_labels_io.h"
+#include "io/hdf5/merged_features.h"
+
+namespace st {
+namespace {
+
+template <class T>
+using PatchArray = std::vector<T> FacePatch::*;
+
+/// One array of all patches, behind one another.
+template <class T>
+std::vector<T> concatenate(const std::vector<FacePatch>& patches, PatchArray<T> array) {
+  std::size_t n = 0;
+  for (const FacePatch& p : patches) n += (p.*array).size();
+  std::vector<T> all;
+  all.reserve(n);
+  for (const FacePatch& p : patches) all.insert(all.end(), (p.*array).begin(), (p.*array).end());
+  return all;
+}
+
+/// Where each patch starts in concatenate(), [n_patches+1].
+template <class T>
+std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, PatchArray<T> array) {
+  std::vector<std::int64_t> offsets = {0};
+  for (const FacePatch& p : patches) offsets.push_back(offsets.back() + static_cast<std::int64_t>((p.*array).size()));
+  return offsets;
+}
+
+/// The inverse of concatenate() for an array with `factor` rows for each step of the offsets.
+template <class T>
+void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets,
+                std::vector<FacePatch>& patches, PatchArray<T> array, std::int64_t factor = 1) {
+  const std::vector<T> all = r.read_rows<T>(name, static_cast<std::size_t>(factor * offsets.back()));
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    (patches[i].*array).assign(all.begin() + factor * offsets[i], all.begin() + factor * offsets[i + 1]);
+}
+
+void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
+  std::vector<std::int32_t> face;
+  for (const FacePatch& p : patches) face.push_back(p.face);
+  w.write("/st/patch/face", face);
+  w.write("/st/patch/boundary_offsets", offsets_of(patches, &FacePatch::boundary_dim));
+  w.write("/st/patch/inner_offsets", offsets_of(patches, &FacePatch::inner_xyz));
+  w.write("/st/patch/triangle_offsets", offsets_of(patches, &FacePatch::triangles));
+  w.write("/st/boundary/dim", concatenate(patches, &FacePatch::boundary_dim));
+  w.write("/st/boundary/entity", concatenate(patches, &FacePatch::boundary_entity));
+  w.write("/st/boundary/index", concatenate(patches, &FacePatch::boundary_index));
+  w.write("/st/inner/xyz", concatenate(patches, &FacePatch::inner_xyz));
+  w.write("/st/inner/uv", concatenate(patches, &FacePatch::inner_uv));
+  w.write("/st/inner/size", concatenate(patches, &FacePatch::inner_size));
+  w.write("/st/triangle/nodes", concatenate(patches, &FacePatch::triangles));
+  w.write("/st/triangle/corner_uv", concatenate(patches, &FacePatch::corner_uv));
+}
+
+/// Offsets of one kind of rows of the patches; `array` is one that they point into.
+std::vector<std::int64_t> read_offsets(const Hdf5Reader& r, const std::string& name, std::size_t n_patches,
+                                       const std::string& array) {
+  std::vector<std::int64_t> offsets = r.read_rows<std::int64_t>(name, n_patches + 1);
+  require_offsets(r, name, offsets, r.info(array).shape[0]);
+  return offsets;
+}
+
+/// Triangles name nodes of their patch, boundary nodes entities of the model.
+void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesArtifact& a) {
+  const std::int64_t n_nodes = p.n_boundary + static_cast<std::int64_t>(p.inner_xyz.size());
+  const std::string label = "patch of face " + std::to_string(p.face + 1);
+  for (const Triangle& t : p.triangles)
+    for (const NodeId n : t.n)
+      if (n < 0 || n >= n_nodes) r.fail("/st/triangle/nodes", label + " has no node " + std::to_string(n));
+  for (std::int32_t i = 0; i < p.n_boundary; ++i) {
+    const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
+    if (p.boundary_dim[i] == 0) {
+      if (entity < 0 || entity >= static_cast<std::int64_t>(a.vertex_xyz.size()))
+        r.fail("/st/boundary/entity", label + ": no vertex " + std::to_string(entity + 1));
+    } else {
+      if (entity < 0 || entity + 1 >= static_cast<std::int64_t>(a.edges.edge_offsets.size()))
+        r.fail("/st/boundary/entity", label + ": no edge " + std::to_string(entity + 1));
+      if (index < 0 || index >= a.edges.edge_offsets[entity + 1] - a.edges.edge_offsets[entity])
+        r.fail("/st/boundary/index",
+               label + ": no node " + std::to_string(index) + " on edge " + std::to_string(entity + 1));
+    }
+  }
+}
+
+std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtifact& a) {
+  const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/patch/face");
+  require_ids(r, "/st/patch/face", face, a.face_group.size());
+  std::vector<FacePatch> patches(face.size());
+  const auto boundary = read_offsets(r, "/st/patch/boundary_offsets", face.size(), "/st/boundary/dim");
+  distribute(r, "/st/boundary/dim", boundary, patches, &FacePatch::boundary_dim);
+  distribute(r, "/st/boundary/entity", boundary, patches, &FacePatch::boundary_entity);
+  distribute(r, "/st/boundary/index", boundary, patches, &FacePatch::boundary_index);
+  const auto inner = read_offsets(r, "/st/patch/inner_offsets", face.size(), "/st/inner/xyz");
+  distribute(r, "/st/inner/xyz", inner, patches, &FacePatch::inner_xyz);
+  distribute(r, "/st/inner/uv", inner, patches, &FacePatch::inner_uv);
+  distribute(r, "/st/inner/size", inner, patches, &FacePatch::inner_size);
+  const auto triangle = read_offsets(r, "/st/patch/triangle_offsets", face.size(), "/st/triangle/nodes");
+  distribute(r, "/st/triangle/nodes", triangle, patches, &FacePatch::triangles);
+  distribute(r, "/st/triangle/corner_uv", triangle, patches, &FacePatch::corner_uv, 3);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    patches[i].face = face[i];
+    patches[i].n_boundary = static_cast<std::int32_t>(patches[i].boundary_dim.size());
+    require_consistent(r, patches[i], a);
+  }
+  return patches;
+}
+
+/// What st-remesh kept: -1 for what is new. Absent when nothing was remeshed.
+void write_previous(Hdf5Writer& w, const PatchesArtifact& a) {
+  if (a.edges.node_previous.empty()) return;
+  w.write("/st/edge_node/previous_id", a.edges.node_previous);
+  w.write("/st/inner/previous_id", concatenate(a.patches, &FacePatch::inner_previous));
+  w.write("/st/triangle/previous_id", concatenate(a.patches, &FacePatch::triangle_previous));
+}
+
+void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
+  if (!r.has("/st/edge_node/previous_id")) return;
+  a.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", a.edges.node_t.size());
+  distribute(r, "/st/inner/previous_id", offsets_of(a.patches, &FacePatch::inner_xyz), a.patches,
+             &FacePatch::inner_previous);
+  distribute(r, "/st/triangle/previous_id", offsets_of(a.patches, &FacePatch::triangles), a.patches,
+             &FacePatch::triangle_previous);
+}
+
+void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
+  std::vector<std::int32_t> face;
+  std::vector<std::string> cause, remedy;
+  std::vector<Vec3> xyz;
+  for (const FaceFailure& f : failures) {
+    face.push_back(f.face);
+    cause.push_back(f.cause);
+    remedy.push_back(f.remedy);
+    xyz.push_back(f.xyz);
+  }
+  w.write("/st/failure/face", face);
+  w.write_strings("/st/failure/cause", cause);
+  w.write_strings("/st/failure/remedy", remedy);
+  w.write("/st/failure/xyz", xyz);
+}
+
+std::vector<FaceFailure> read_failures(const Hdf5Reader& r) {
+  const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/failure/face");
+  const std::vector<std::string> cause = r.read_string_rows("/st/failure/cause", face.size());
+  const std::vector<std::string> remedy = r.read_string_rows("/st/failure/remedy", face.size());
+  const std::vector<Vec3> xyz = r.read_rows<Vec3>("/st/failure/xyz", face.size());
+  std::vector<FaceFailure> failures;
+  for (std::size_t i = 0; i < face.size(); ++i) failures.push_back({face[i], cause[i], remedy[i], xyz[i]});
+  return failures;
+}
+
+void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
+  a.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
+  a.edge_vertices = r.read<std::int32_t>("/st/edge/vertices", 2);
+  require_ids(r, "/st/edge/vertices", a.edge_vertices, a.vertex_xyz.size());
+  EdgeMesh& e = a.edges;
+  e.node_t = r.read<double>("/st/edge_node/t");
+  e.node_xyz = r.read_rows<Vec3>("/st/edge_node/xyz", e.node_t.size());
+  e.node_size = r.read_rows<double>("/st/edge_node/size", e.node_t.size());
+  if (r.has("/st/edge_node/request")) e.node_request = r.read_rows<double>("/st/edge_node/request", e.node_t.size());
+  e.edge_offsets = r.read_rows<std::int32_t>("/st/edge/node_offsets", a.edge_vertices.size() / 2 + 1);
+  require_offsets(r, "/st/edge/node_offsets", e.edge_offsets, e.node_t.size());
+}
+
+void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
+  a.face_group = r.read<std::int32_t>("/st/face/group");
+  a.face_shell = r.read_rows<std::int32_t>("/st/face/shell", a.face_group.size());
+  a.face_area = r.read_rows<double>("/st/face/area", a.face_group.size());
+  a.face_name = r.read_string_rows("/st/face/name", a.face_group.size());
+  a.group_name = r.read_strings("/st/group/name");
+  a.group_role = read_roles(r, a.group_name);
+  require_ids(r, "/st/face/group", a.face_group, a.group_name.size());
+  a.labels = read_labels(r, a.face_group.size(), a.group_name.size());
+}
+
+}  // namespace
+
+std::string write_patches(const std::string& path, const PatchesArtifact& a) {
+  ArtifactHeader header = a.header;
+  header.schema = "patches";
+  header.schema_version = kPatchesVersion;
+  Hdf5Writer w(path, header);
+  w.write("/st/vertex/xyz", a.vertex_xyz);
+  w.write("/st/edge/vertices", a.edge_vertices, 2);
+  w.write("/st/edge/node_offsets", a.edges.edge_offsets);
+  w.write("/st/edge_node/t", a.edges.node_t);
+  w.write("/st/edge_node/xyz", a.edges.node_xyz);
+  w.write("/st/edge_node/size", a.edges.node_size);
+  if (!a.edges.node_request.empty()) w.write("/st/edge_node/request", a.edges.node_request);
+  w.write_strings("/st/face/name", a.face_name);
+  w.write("/st/face/group", a.face_group);
+  w.write("/st/face/shell", a.face_shell);
+  w.write("/st/face/area", a.face_area);
+  w.write_strings("/st/group/name", a.group_name);
+  if (!a.group_role.empty()) w.write_strings("/st/group/role", a.group_role);
+  write_labels(w, a.labels);
+  write_patch_arrays(w, a.patches);
+  write_previous(w, a);
+  write_failures(w, a.failures);
+  write_merged(w, a.merged);
+  w.set_attribute("/st", "is_complete", std::int64_t{a.is_complete});
+  return w.commit();
+}
+
+PatchesArtifact read_patches(const std::string& path) {
+  const Hdf5Reader r(path, "patches", kPatchesVersion);
+  PatchesArtifact a;
+  a.header = r.header();
+  read_edges(r, a);
+  read_faces(r, a);
+  a.patches = read_patch_arrays(r, a);
+  read_previous(r, a);
+  a.failures = read_failures(r);
+  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.face_group.size());
+  a.is_complete = r.int_attribute("/st", "is_complete") != 0;
+  return a;
+}
+
+}  // namespace st

@@ -1,0 +1,376 @@
+#include "io/hdf5/sizing_artifact.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "base/limits.h"
+#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/face_labels_io.h"
+#include "io/hdf5/hdf5_file.h"
+#include "sizing/moved_field.h"
+
+namespace st {
+
+template <>
+struct Element<CellLength> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 5;
+};
+
+template <>
+struct Element<CellPlane> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 6;
+};
+
+template <>
+struct Element<CellSplit> {
+  static constexpr ElementType type = ElementType::kFloat32;
+  static constexpr std::size_t count = 5;
+};
+
+template <>
+struct Element<CellColour> : Element<std::uint8_t> {};
+
+namespace {
+
+constexpr int kOpenSizingVersion = 2;     // of a sizing without a surface in it
+constexpr int kUnmovedSizingVersion = 3;  // of one whose octree lies where it was made
+constexpr int kPlainRasterVersion = 2;    // of a raster without samples
+constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
+constexpr const char* kSizing = "/st/sizing";
+constexpr const char* kNotSampled = "not_sampled";
+constexpr const char* kRoot = "/st/octree/root";
+constexpr const char* kFrame = "/st/octree/frame";
+constexpr const char* kLeafKey = "/st/octree/leaf_key";
+constexpr const char* kLeafLevel = "/st/octree/leaf_level";
+constexpr const char* kNodeChild = "/st/octree/node_child";
+constexpr const char* kStoredLength = "/st/octree/stored_length";
+constexpr const char* kStoredCause = "/st/octree/stored_cause";
+constexpr const char* kSamplePoint = "/st/sample/point";
+constexpr const char* kSampleLength = "/st/sample/length";
+constexpr const char* kSampleCause = "/st/sample/cause";
+constexpr const char* kCell = "/st/octree/cell";
+constexpr const char* kCause = "/st/octree/cause";
+constexpr const char* kColour = "/st/octree/colour";
+constexpr const char* kSplitLeaf = "/st/split/leaf";
+constexpr const char* kSplitPlane = "/st/split/plane";
+constexpr const char* kSplitCell = "/st/split/cell";
+constexpr const char* kSplitCause = "/st/split/cause";
+constexpr const char* kFaceOffset = "/st/face/cell_offset";
+constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
+constexpr const char* kFaceArea = "/st/face/cell_area";
+constexpr const char* kFacePlane = "/st/face/cell_plane";
+constexpr const char* kFaceName = "/st/face/name";
+constexpr const char* kEdgeName = "/st/edge/name";
+constexpr const char* kGroupName = "/st/group/name";
+constexpr const char* kFaceGroup = "/st/face/group";
+constexpr const char* kSourceName = "/st/source/name";
+constexpr const char* kFaceWeight = "/st/face/weight";
+
+void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
+  file.set_attribute(kSizing, "min_length", n.min_length);
+  file.set_attribute(kSizing, "max_length", n.max_length);
+  file.set_attribute(kSizing, "far_length", n.far_length);
+  file.set_attribute(kSizing, "alpha_deg", n.alpha_deg);
+  file.set_attribute(kSizing, "cell_per_length", n.cell_per_length);
+  file.set_attribute(kSizing, "diagonal", n.diagonal);
+}
+
+SizingNumbers read_numbers(const Hdf5Reader& file) {
+  const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
+  return {get("min_length"), get("max_length"),      get("far_length"),
+          get("alpha_deg"),  get("cell_per_length"), get("diagonal")};
+}
+
+/// Older versions lack what this build needs.
+void require_version(const Hdf5Reader& file, int version, const std::string& tool) {
+  const ArtifactHeader& header = file.header();
+  if (header.schema_version < version)
+    throw Error(ExitCode::kInput, file.path() + ": " + header.schema + " schema version " +
+                                      std::to_string(header.schema_version) + " of an older " + tool + "; run " + tool +
+                                      " again");
+}
+
+void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
+  file.write<double>(kRoot, std::vector<double>{shape.lo.x, shape.lo.y, shape.lo.z, shape.edge});
+  file.write<std::uint64_t>(kLeafKey, shape.leaf_keys);
+  file.write<std::uint8_t>(kLeafLevel, shape.leaf_levels);
+  file.write<std::int32_t>(kNodeChild, shape.node_children, 8);
+}
+
+/// Sizes that any use of the arrays relies on; their values are covered by checksums.
+void require_shape(const Hdf5Reader& file, std::size_t n_leaves, std::size_t n_levels, std::size_t n_children,
+                   double edge) {
+  if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1)
+    file.fail(kLeafKey, "number of leaves does not fit the tree");
+  require_countable(n_leaves, "cells of one octree");
+  if (n_levels != n_leaves) file.fail(kLeafLevel, "length does not fit the number of leaves");
+  if (!(edge > 0)) file.fail(kRoot, "root cube has no size");
+}
+
+OctreeShape read_shape(const Hdf5Reader& file) {
+  const std::vector<double> root = file.read_rows<double>(kRoot, 4);
+  OctreeShape shape{{root[0], root[1], root[2]},
+                    root[3],
+                    file.read<std::uint64_t>(kLeafKey),
+                    file.read<std::uint8_t>(kLeafLevel),
+                    file.read<std::int32_t>(kNodeChild, 8)};
+  require_shape(file, shape.leaf_keys.size(), shape.leaf_levels.size(), shape.node_children.size(), shape.edge);
+  return shape;
+}
+
+void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples) {
+  std::vector<float> points, lengths;
+  std::vector<std::int32_t> causes;
+  for (const LengthSample& s : samples) {
+    points.insert(points.end(), s.xyz, s.xyz + 3);
+    lengths.push_back(s.length);
+    causes.push_back(s.cause);
+  }
+  file.write<float>(kSamplePoint, points, 3);
+  file.write<float>(kSampleLength, lengths);
+  file.write<std::int32_t>(kSampleCause, causes);
+}
+
+std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
+  const std::vector<float> lengths = file.read<float>(kSampleLength), points = file.read<float>(kSamplePoint, 3);
+  const std::vector<std::int32_t> causes = file.read_rows<std::int32_t>(kSampleCause, lengths.size());
+  if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
+  std::vector<LengthSample> samples;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, lengths[i], causes[i]});
+  return samples;
+}
+
+FaceCells read_face_cells(const Hdf5Reader& file) {
+  FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}};
+  faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
+  faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
+  if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size()))
+    file.fail(kFaceOffset, "does not fit cell_leaf");
+  return faces;
+}
+
+/// Rotation by rows, scale, translation.
+void write_frame(Hdf5Writer& file, const Similarity& frame) {
+  std::vector<double> numbers;
+  for (const Vec3& row : frame.rotation) numbers.insert(numbers.end(), {row.x, row.y, row.z});
+  numbers.insert(numbers.end(), {frame.scale, frame.translation.x, frame.translation.y, frame.translation.z});
+  file.write<double>(kFrame, numbers);
+}
+
+Similarity read_frame(const Hdf5Reader& file) {
+  Similarity frame;
+  if (!file.has(kFrame)) return frame;
+  const std::vector<double> n = file.read_rows<double>(kFrame, 13);
+  for (std::size_t i = 0; i < 3; ++i) frame.rotation[i] = {n[3 * i], n[3 * i + 1], n[3 * i + 2]};
+  frame.scale = n[9];
+  frame.translation = {n[10], n[11], n[12]};
+  if (!(frame.scale > 0)) file.fail(kFrame, "its scale is not positive");
+  return frame;
+}
+
+/// What a mapped field keeps alive.
+struct MappedArrays {
+  MappedArray<std::uint64_t> leaf_key;
+  MappedArray<std::uint8_t> leaf_level;
+  MappedArray<std::int32_t> node_child;
+  MappedArray<CellLength> cell;
+  MappedArray<std::int32_t> cause;
+  MappedArray<std::int32_t> split_leaf;
+  MappedArray<CellSplit> split;
+  MappedArray<CellLength> second_cell;
+  MappedArray<std::int32_t> second_cause;
+};
+
+std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
+  const std::vector<double> root = file.read_rows<double>(kRoot, 4);
+  const auto arrays = std::make_shared<MappedArrays>(MappedArrays{file.map<std::uint64_t>(kLeafKey),
+                                                                  file.map<std::uint8_t>(kLeafLevel),
+                                                                  file.map<std::int32_t>(kNodeChild, 8),
+                                                                  file.map<CellLength>(kCell),
+                                                                  file.map<std::int32_t>(kCause),
+                                                                  {},
+                                                                  {},
+                                                                  {},
+                                                                  {}});
+  if (file.has(kColour)) {
+    const std::size_t n = file.info(kSplitLeaf).shape[0];
+    arrays->split_leaf = file.map<std::int32_t>(kSplitLeaf);
+    arrays->split = file.map<CellSplit>(kSplitPlane);
+    arrays->second_cell = file.map<CellLength>(kSplitCell);
+    arrays->second_cause = file.map<std::int32_t>(kSplitCause);
+    if (arrays->split.size() != n || arrays->second_cell.size() != n || arrays->second_cause.size() != n)
+      file.fail(kSplitLeaf, "does not fit the other arrays of split cells");
+  }
+  require_shape(file, arrays->leaf_key.size(), arrays->leaf_level.size(), arrays->node_child.size(), root[3]);
+  if (arrays->cell.size() != arrays->leaf_key.size()) file.fail(kCell, "length does not fit the number of leaves");
+  if (arrays->cause.size() != arrays->leaf_key.size()) file.fail(kCause, "length does not fit the number of leaves");
+  OctreeFieldData data;
+  data.octree = {{root[0], root[1], root[2]},
+                 root[3],
+                 arrays->leaf_key.values(),
+                 arrays->leaf_level.values(),
+                 arrays->node_child.values()};
+  data.cells = arrays->cell.values();
+  data.cause = arrays->cause.values();
+  data.split_leaf = arrays->split_leaf.values();
+  data.split = arrays->split.values();
+  data.second_cells = arrays->second_cell.values();
+  data.second_cause = arrays->second_cause.values();
+  data.slope = file.double_attribute(kSizing, "slope");
+  data.scale = file.double_attribute(kSizing, "scale");
+  return make_octree_field(data, arrays, min_length, read_frame(file));
+}
+
+CauseNames read_names(const Hdf5Reader& file) {
+  return {file.read_strings(kEdgeName), file.read_strings(kFaceName), file.read_strings(kSourceName)};
+}
+
+}  // namespace
+
+std::string cause_text(const CauseNames& names, std::int32_t cause) {
+  if (cause == kNone) return "the largest length";
+  const std::size_t id = static_cast<std::size_t>(cause_id(cause));
+  const auto label = [id](const char* kind, const std::vector<std::string>& of) {
+    const std::string name = id < of.size() ? of[id] : "";
+    return std::string(kind) + " " + std::to_string(id + 1) + (name.empty() ? "" : " \"" + name + "\"");
+  };
+  switch (cause_kind(cause)) {
+    case CauseKind::kEdge:
+      return label("edge", names.edge);
+    case CauseKind::kFace:
+      return label("face", names.face);
+    case CauseKind::kSource:
+      return label("source", names.source);
+    case CauseKind::kOther:
+      break;
+  }
+  return "the background mesh";
+}
+
+std::string write_raster(const std::string& path, const RasterArtifact& raster) {
+  ArtifactHeader header = raster.header;
+  header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kSampledRasterVersion;
+  if (raster.n_not_sampled > 0) header.schema_version = kRasterVersion;
+  Hdf5Writer file(path, header);
+  write_numbers(file, raster.numbers);
+  if (raster.n_not_sampled > 0) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
+  write_shape(file, raster.octree.shape);
+  file.write<float>(kStoredLength, raster.octree.stored_length);
+  file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
+  if (!raster.samples.empty()) write_samples(file, raster.samples);
+  file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
+  file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
+  file.write<float>(kFaceArea, raster.faces.area);
+  file.write<CellPlane>(kFacePlane, raster.faces.plane);
+  file.write_strings(kFaceName, raster.names.face);
+  file.write_strings(kEdgeName, raster.names.edge);
+  if (!raster.face_group.empty()) {
+    file.write_strings(kGroupName, raster.group_name);
+    file.write<std::int32_t>(kFaceGroup, raster.face_group);
+    write_labels(file, raster.labels);
+  }
+  return file.commit();
+}
+
+RasterArtifact read_raster(const std::string& path) {
+  const Hdf5Reader file(path, "raster", kRasterVersion);
+  require_version(file, kPlainRasterVersion, "st-raster");
+  RasterArtifact raster;
+  raster.header = file.header();
+  raster.numbers = read_numbers(file);
+  if (raster.header.schema_version >= kRasterVersion) raster.n_not_sampled = file.int_attribute(kSizing, kNotSampled);
+  raster.octree.shape = read_shape(file);
+  const std::size_t n = raster.octree.shape.leaf_keys.size();
+  raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
+  raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
+  if (file.has(kSamplePoint)) raster.samples = read_samples(file);
+  raster.faces = read_face_cells(file);
+  raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
+  if (!file.has(kFaceGroup)) return raster;  // written before groups were
+  raster.group_name = file.read_strings(kGroupName);
+  raster.face_group = file.read_rows<std::int32_t>(kFaceGroup, raster.names.face.size());
+  require_ids(file, kFaceGroup, raster.face_group, raster.group_name.size());
+  raster.labels = read_labels(file, raster.names.face.size(), raster.group_name.size());
+  return raster;
+}
+
+std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
+  ArtifactHeader header = sizing.header;
+  const bool is_blanked = !sizing.blanking.colour.empty();
+  const bool is_moved = sizing.frame != Similarity();
+  header.schema_version = is_moved ? kSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
+  Hdf5Writer file(path, header);
+  write_numbers(file, sizing.numbers);
+  double smallest = sizing.numbers.far_length;
+  for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.length);
+  file.set_attribute(kSizing, "slope", sizing.slope);
+  file.set_attribute(kSizing, "scale", sizing.scale);
+  file.set_attribute(kSizing, "smallest_length", smallest);
+  write_shape(file, sizing.shape);
+  if (is_moved) write_frame(file, sizing.frame);
+  file.write<CellLength>(kCell, sizing.lengths.cells);
+  file.write<std::int32_t>(kCause, sizing.lengths.cause);
+  if (is_blanked) {
+    file.write<CellColour>(kColour, sizing.blanking.colour);
+    file.write<std::int32_t>(kSplitLeaf, sizing.blanking.split_leaf);
+    file.write<CellSplit>(kSplitPlane, sizing.blanking.split);
+    file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
+    file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
+  }
+  file.write<double>(kFaceWeight, sizing.face_weight);
+  file.write_strings(kFaceName, sizing.names.face);
+  file.write_strings(kEdgeName, sizing.names.edge);
+  file.write_strings(kSourceName, sizing.names.source);
+  return file.commit();
+}
+
+SizingArtifact read_sizing(const std::string& path) {
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kOpenSizingVersion, "st-prolong");
+  SizingArtifact sizing;
+  sizing.header = file.header();
+  sizing.numbers = read_numbers(file);
+  sizing.slope = file.double_attribute(kSizing, "slope");
+  sizing.scale = file.double_attribute(kSizing, "scale");
+  sizing.shape = read_shape(file);
+  sizing.frame = read_frame(file);
+  const std::size_t n = sizing.shape.leaf_keys.size();
+  sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
+  sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
+  if (file.has(kColour)) {
+    sizing.blanking.colour = file.read_rows<CellColour>(kColour, n);
+    sizing.blanking.split_leaf = file.read<std::int32_t>(kSplitLeaf);
+    const std::size_t n_split = sizing.blanking.split_leaf.size();
+    sizing.blanking.split = file.read_rows<CellSplit>(kSplitPlane, n_split);
+    sizing.lengths.second_cells = file.read_rows<CellLength>(kSplitCell, n_split);
+    sizing.lengths.second_cause = file.read_rows<std::int32_t>(kSplitCause, n_split);
+  }
+  sizing.face_weight = file.read<double>(kFaceWeight);
+  sizing.names = read_names(file);
+  return sizing;
+}
+
+MappedSizing map_sizing(const std::string& path) {
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kOpenSizingVersion, "st-prolong");
+  return {file.header(), read_numbers(file), file.read<double>(kFaceWeight),
+          map_field(file, file.double_attribute(kSizing, "smallest_length"))};
+}
+
+CauseNames read_cause_names(const std::string& path) {
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kOpenSizingVersion, "st-prolong");
+  return read_names(file);
+}
+
+std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header) {
+  MappedSizing sizing = map_sizing(path);
+  if (header) *header = std::move(sizing.header);
+  return std::move(sizing.field);
+}
+
+}  // namespace st

@@ -1,0 +1,97 @@
+// raster.hdf and sizing.hdf: the octree before and after prolongation.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/artifact.h"
+#include "sizing/face_cells.h"
+#include "sizing/octree.h"
+#include "sizing/octree_field.h"
+#include "sizing/prolong.h"
+#include "sizing/sample_seeds.h"
+
+namespace st {
+
+/// Schema versions that this build writes and reads.
+inline constexpr int kRasterVersion = 4, kSizingVersion = 4;
+
+/// Resolved numbers of the sampling, model unit.
+struct SizingNumbers {
+  double min_length = 0;       ///< smallest sample length
+  double max_length = 0;       ///< largest sample length on walls
+  double far_length = 0;       ///< length where nothing asks for less: the largest of all groups, >= max_length
+  double alpha_deg = 0;        ///< largest turning along one length, degrees
+  double cell_per_length = 0;  ///< edge of a raster box over its sample length
+  double diagonal = 0;         ///< what per cents refer to: of the box of all walls
+};
+
+/// Names of what causes of lengths refer to; UTF-8, empty where there is none.
+struct CauseNames {
+  std::vector<std::string> edge;    ///< [n_edges]
+  std::vector<std::string> face;    ///< [n_faces]
+  std::vector<std::string> source;  ///< [n_sources] of sizing.hdf only
+};
+
+/// "edge 12 \"TE\"", "face 3", "source \"wake\"", "the background mesh", "the largest length". See pack_cause.
+std::string cause_text(const CauseNames& names, std::int32_t cause);
+
+/// raster.hdf
+struct RasterArtifact {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  RasterOctree octree;
+  std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
+  FaceCells faces;                    ///< where in the octree each face lies, with its area there
+  CauseNames names;
+  std::int64_t n_not_sampled = 0;        ///< faces and batches of edges that could not be sampled; > 0: the raster is
+                                         ///< incomplete
+  std::vector<std::string> group_name;   ///< main groups, for slopes of groups
+  std::vector<std::int32_t> face_group;  ///< [n_faces], or empty
+  FaceLabels labels;
+};
+
+/// sizing.hdf
+struct SizingArtifact {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  double slope = 0;  ///< largest change of length per distance, before `scale`
+  double scale = 1;  ///< multiplies every length of a query
+  Similarity frame;  ///< the octree's point x lies at frame(x) of the model: it moved with its geometry. Lengths below
+                     ///< are as before
+  OctreeShape shape;
+  ProlongedLengths lengths;
+  Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
+  std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
+  CauseNames names;
+
+  /// Views of the arrays above, in the octree's own frame.
+  OctreeFieldData field_data() const {
+    return {shape.view(),   lengths.cells,        lengths.cause,       slope, scale, blanking.split_leaf,
+            blanking.split, lengths.second_cells, lengths.second_cause};
+  }
+};
+
+/// As all write_* and read_* of io/hdf5/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).
+std::string write_raster(const std::string& path, const RasterArtifact& raster);
+RasterArtifact read_raster(const std::string& path);
+std::string write_sizing(const std::string& path, const SizingArtifact& sizing);
+SizingArtifact read_sizing(const std::string& path);
+
+/// A sizing artifact as a field over the mapped file: costs no memory of its own, shared by all processes of a machine.
+struct MappedSizing {
+  ArtifactHeader header;
+  SizingNumbers numbers;
+  std::vector<double> face_weight;  ///< see SizingArtifact
+  std::unique_ptr<OctreeField> field;
+};
+MappedSizing map_sizing(const std::string& path);
+
+/// Names of a sizing artifact alone.
+CauseNames read_cause_names(const std::string& path);
+
+/// The field alone; `header` may be null. Throws Error(kInput).
+std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header);
+
+}  // namespace st

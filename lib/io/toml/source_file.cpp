@@ -1,0 +1,402 @@
+#include "io/toml/source_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string_view>
+
+#include "base/text.h"
+#include "io/file/text_file.h"
+#include "io/toml/toml_entry.h"
+
+namespace st {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::string text = read_text_file(path);
+  if (text.empty()) throw Error(ExitCode::kInput, path + ": empty file; write it again");
+  return text;
+}
+
+/// Words of a text file by lines, with the line number for messages.
+class LineReader {
+ public:
+  explicit LineReader(const std::string& path) : path_(path), text_(read_text(path)) {}
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ExitCode::kInput, path_ + ":" + std::to_string(line_) + ": " + what + "; check the file");
+  }
+  bool next_line(std::string& line) {
+    if (at_ >= text_.size()) return false;
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    line = text_.substr(at_, end - at_);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    at_ = end + 1;
+    ++line_;
+    return true;
+  }
+  std::string line(const char* what) {
+    std::string text;
+    if (!next_line(text)) fail(std::string("ends before ") + what);
+    return text;
+  }
+  /// The numbers of one line, at least `least`; Fortran exponents (1.0D-3) and empty lines before are accepted.
+  std::vector<double> numbers(const char* what, std::size_t least) {
+    std::string text;
+    do text = line(what);
+    while (text.find_first_not_of(" \t") == std::string::npos);
+    std::vector<double> values;
+    std::replace(text.begin(), text.end(), 'D', 'E');
+    std::replace(text.begin(), text.end(), 'd', 'e');
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+      double value = 0;
+      const char* first = word.data() + (word[0] == '+');
+      const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) break;
+      values.push_back(value);
+    }
+    if (values.size() < least) fail(std::string(what) + ": " + std::to_string(least) + " numbers expected");
+    return values;
+  }
+  std::int64_t count(double value, const char* what) const {
+    if (!(value >= 0 && value <= 1e9) || value != std::floor(value)) fail(std::string(what) + ": not a count");
+    return static_cast<std::int64_t>(value);
+  }
+
+ private:
+  std::string path_, text_;
+  std::size_t at_ = 0;
+  int line_ = 0;
+};
+
+std::array<std::int32_t, 4> tet_of(const LineReader& file, const std::map<std::int64_t, std::int32_t>& index,
+                                   const double* ids) {
+  std::array<std::int32_t, 4> tet{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto it = index.find(static_cast<std::int64_t>(ids[k]));
+    if (it == index.end()) file.fail("tetrahedron names a node that does not exist");
+    tet[k] = it->second;
+  }
+  return tet;
+}
+
+// --- FLITE .bac ---
+
+void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets, BackgroundMesh& mesh) {
+  std::map<std::int64_t, std::int32_t> index;
+  for (std::int64_t i = 0; i < n_nodes; ++i) {
+    const std::vector<double> at = file.numbers("a background node", 4);
+    double least = 0, most = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double d = file.numbers("a direction and its spacing", 4)[3];
+      if (!(d > 0)) file.fail("spacing must be positive");
+      least = axis ? std::min(least, d) : d;
+      most = std::max(most, d);
+    }
+    mesh.n_anisotropic += most > least * (1 + 1e-6);
+    index.emplace(static_cast<std::int64_t>(at[0]), static_cast<std::int32_t>(i));
+    mesh.node_xyz.push_back({at[1], at[2], at[3]});
+    mesh.node_length.push_back(least);
+  }
+  for (std::int64_t i = 0; i < n_tets; ++i)
+    mesh.tets.push_back(tet_of(file, index, file.numbers("a tetrahedron", 5).data() + 1));
+}
+
+void read_bac_sources(LineReader& file, SourceKind kind, std::int64_t n, std::vector<SourceSpec>& sources) {
+  file.line("the label of the sources");
+  for (std::int64_t i = 0; i < n; ++i) {
+    SourceSpec source;
+    source.kind = kind;
+    source.name = trimmed(file.line("the name of a source"));
+    for (int k = 0; k < n_spacings(kind); ++k) {
+      const std::vector<double> v = file.numbers("a point of a source, its spacing and two radii", 6);
+      if (!(v[3] > 0) || v[4] < 0) file.fail("spacing must be positive, and radii not negative");
+      source.point[k] = {v[0], v[1], v[2]};
+      source.spacing[k] = {v[3], v[4], v[5]};
+    }
+    sources.push_back(source);
+  }
+}
+
+SourceFile read_bac(const std::string& path) {
+  LineReader file(path);
+  file.line("the title");
+  const std::vector<double> n = file.numbers("the numbers of nodes, tetrahedra and sources", 5);
+  SourceFile result;
+  read_bac_nodes(file, file.count(n[0], "nodes"), file.count(n[1], "tetrahedra"), result.background);
+  const SourceKind kinds[] = {SourceKind::kPoint, SourceKind::kLine, SourceKind::kTriangle};
+  std::int64_t n_left = 0;
+  for (int k = 0; k < 3; ++k) n_left += file.count(n[2 + k], "sources");
+  for (int k = 0; k < 3 && n_left > 0; ++k) {
+    const std::int64_t count = file.count(n[2 + k], "sources");
+    read_bac_sources(file, kinds[k], count, result.sources);
+    n_left -= count;
+  }
+  return result;
+}
+
+// --- MSH 2.2 ---
+
+constexpr int kMshTet = 4;
+
+void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
+  const std::int64_t n = file.count(file.numbers("the number of elements", 1)[0], "elements");
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::vector<double> e = file.numbers("an element", 3);
+    if (static_cast<int>(e[1]) != kMshTet) continue;
+    const std::size_t first = 3 + static_cast<std::size_t>(file.count(e[2], "tags"));
+    if (e.size() < first + 4) file.fail("a tetrahedron: four nodes expected");
+    mesh.tets.push_back(tet_of(file, index, e.data() + first));
+  }
+}
+
+void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
+  std::vector<double> integers;
+  for (int block = 0; block < 3; ++block) {  // strings, reals, integers: a count, then as many lines
+    const std::int64_t n = file.count(file.numbers("a number of tags", 1)[0], "tags");
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (block == 2)
+        integers.push_back(file.numbers("an integer tag", 1)[0]);
+      else
+        file.line("a tag");
+    }
+  }
+  if (integers.size() < 3 || integers[1] != 1) file.fail("$NodeData: one value per node expected");
+  const std::int64_t n = file.count(integers[2], "values");
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::vector<double> v = file.numbers("a node and its length", 2);
+    const auto it = index.find(static_cast<std::int64_t>(v[0]));
+    if (it == index.end()) file.fail("$NodeData names a node that does not exist");
+    if (!(v[1] > 0)) file.fail("length must be positive");
+    mesh.node_length[it->second] = v[1];
+  }
+}
+
+std::map<std::int64_t, std::int32_t> read_msh_nodes(LineReader& file, BackgroundMesh& mesh) {
+  std::map<std::int64_t, std::int32_t> index;
+  const std::int64_t n = file.count(file.numbers("the number of nodes", 1)[0], "nodes");
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::vector<double> v = file.numbers("a node", 4);
+    index.emplace(static_cast<std::int64_t>(v[0]), static_cast<std::int32_t>(i));
+    mesh.node_xyz.push_back({v[1], v[2], v[3]});
+  }
+  mesh.node_length.assign(mesh.node_xyz.size(), 0);
+  return index;
+}
+
+SourceFile read_msh(const std::string& path) {
+  LineReader file(path);
+  SourceFile result;
+  BackgroundMesh& mesh = result.background;
+  std::map<std::int64_t, std::int32_t> index;
+  bool has_data = false;
+  for (std::string line; file.next_line(line);) {
+    const std::string section = trimmed(line);
+    if (section == "$MeshFormat") {
+      const std::vector<double> format = file.numbers("the format", 3);
+      if (std::floor(format[0]) != 2 || format[1] != 0)
+        file.fail("only MSH 2.2 as text is read (gmsh -format msh22); this is version " +
+                  std::to_string(format[0]).substr(0, 3));
+    }
+    if (section == "$Nodes") index = read_msh_nodes(file, mesh);
+    if (section == "$Elements") read_msh_elements(file, index, mesh);
+    if (section == "$NodeData" && !has_data) {
+      read_msh_data(file, index, mesh);
+      has_data = true;
+    }
+  }
+  if (mesh.tets.empty()) file.fail("no tetrahedra");
+  if (!has_data) file.fail("no $NodeData with lengths");
+  for (const auto& tet : mesh.tets)
+    for (const std::int32_t node : tet)
+      if (!(mesh.node_length[node] > 0)) file.fail("a tetrahedron has a node without a length");
+  return result;
+}
+
+// --- TOML ---
+
+const std::map<std::string, SourceKind> kKinds = {{"point", SourceKind::kPoint},       {"line", SourceKind::kLine},
+                                                  {"triangle", SourceKind::kTriangle}, {"box", SourceKind::kBox},
+                                                  {"cylinder", SourceKind::kCylinder}, {"sphere", SourceKind::kSphere},
+                                                  {"disc", SourceKind::kDisc}};
+
+/// One [[source]] table; every access names file and line on failure.
+class SourceTable {
+ public:
+  SourceTable(const std::string& path, const toml::table& table, const ModelScale& scale)
+      : path_(path), table_(table), scale_(scale) {}
+
+  [[noreturn]] void fail(const std::string& what, const toml::node* node = nullptr) const {
+    throw Error(ExitCode::kInput, toml_place(path_, (node ? *node : table_).source()) + ": " + what);
+  }
+  bool has(const char* key) const { return table_.contains(key); }
+  std::string text(const char* key) const {
+    const toml::node* node = table_.get(key);
+    if (!node) return "";
+    if (const auto* s = node->as_string()) return s->get();
+    fail(std::string(key) + ": text expected", node);
+  }
+  Vec3 vector(const char* key) const {
+    const toml::node* node = table_.get(key);
+    if (!node) fail(std::string("source needs ") + key + " = [x, y, z]");
+    return vector(key, *node);
+  }
+  std::vector<Vec3> vectors(const char* key, std::size_t n) const {
+    const toml::node* node = table_.get(key);
+    const toml::array* list = node ? node->as_array() : nullptr;
+    if (!list || list->size() != n)
+      fail(std::string("source needs ") + key + " = [[x, y, z], ...] of " + std::to_string(n) + " points", node);
+    std::vector<Vec3> points;
+    for (const toml::node& p : *list) points.push_back(vector(key, p));
+    return points;
+  }
+  double length(const char* key) const { return length(key, *table_.get(key)); }
+  /// One value for all points, or one for each.
+  std::vector<double> lengths(const char* key, std::size_t n, double fallback, bool may_be_zero) const {
+    const toml::node* node = table_.get(key);
+    if (!node) return std::vector<double>(n, fallback);
+    const toml::array* list = node->as_array();
+    if (!list) return std::vector<double>(n, length(key, *node, may_be_zero));
+    if (list->size() != n)
+      fail(std::string(key) + ": one value, or one for each of the " + std::to_string(n) + " points", node);
+    std::vector<double> values;
+    for (const toml::node& v : *list) values.push_back(length(key, v, may_be_zero));
+    return values;
+  }
+  void require_known(std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, node] : table_)
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+        fail("unknown key '" + std::string(key.str()) + "' of a source", &node);
+  }
+
+ private:
+  Vec3 vector(const char* key, const toml::node& node) const {
+    const toml::array* list = node.as_array();
+    double v[3] = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value = list && list->size() == 3 ? (*list)[k].value<double>() : std::nullopt;
+      if (!value || !std::isfinite(*value)) fail(std::string(key) + ": [x, y, z] expected", &node);
+      v[k] = *value;
+    }
+    return {v[0], v[1], v[2]};
+  }
+  double length(const char* key, const toml::node& node, bool may_be_zero = false) const {
+    if (const auto value = node.value<double>(); value && !node.is_string()) {
+      if (!(*value > 0 || (may_be_zero && *value == 0)) || !std::isfinite(*value))
+        fail(std::string(key) + ": must be positive", &node);
+      return *value;
+    }
+    const auto* s = node.as_string();
+    if (!s) fail(std::string(key) + ": a length expected, such as 0.2 or \"5mm\"", &node);
+    try {
+      return resolve_length(parse_length(s->get(), key), scale_.diagonal, scale_.unit_in_m, key);
+    } catch (const Error& e) {
+      fail(e.what(), &node);
+    }
+  }
+
+  const std::string& path_;
+  const toml::table& table_;
+  const ModelScale& scale_;
+};
+
+void read_box(const SourceTable& table, SourceSpec& source) {
+  const Vec3 lo = table.vector("lo"), hi = table.vector("hi"), half = 0.5 * (hi - lo);
+  if (!(half.x > 0 && half.y > 0 && half.z > 0)) table.fail("box: lo must be below hi in x, y and z");
+  source.point[0] = 0.5 * (lo + hi);
+  source.half_axis = {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}};
+}
+
+void read_shape(const SourceTable& table, SourceSpec& source) {
+  const std::size_t n = static_cast<std::size_t>(n_spacings(source.kind));
+  if (n > 1) {
+    const std::vector<Vec3> points = table.vectors("points", n);
+    std::copy(points.begin(), points.end(), source.point.begin());
+  }
+  const auto extent = [&] {
+    if (!table.has("extent")) table.fail("source needs extent, the radius of the volume");
+    return table.length("extent");
+  };
+  switch (source.kind) {
+    case SourceKind::kPoint:
+      source.point[0] = table.vector("at");
+      break;
+    case SourceKind::kBox:
+      read_box(table, source);
+      break;
+    case SourceKind::kCylinder:
+      source.point = {table.vector("from"), table.vector("to"), {}};
+      if (source.point[0] == source.point[1]) table.fail("cylinder: from and to are the same point");
+      source.extent = extent();
+      break;
+    case SourceKind::kDisc:
+      source.half_axis[0] = table.vector("normal");
+      if (!(norm(source.half_axis[0]) > 0)) table.fail("disc: normal is zero");
+      [[fallthrough]];
+    case SourceKind::kSphere:
+      source.point[0] = table.vector("at");
+      source.extent = extent();
+      break;
+    case SourceKind::kLine:
+    case SourceKind::kTriangle:
+      break;
+  }
+}
+
+SourceSpec read_source(const SourceTable& table) {
+  table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent", "length",
+                       "radius", "doubling"});
+  SourceSpec source;
+  source.name = table.text("name");
+  const auto kind = kKinds.find(table.text("type"));
+  if (kind == kKinds.end())
+    table.fail("type '" + table.text("type") + "': write point, line, triangle, box, cylinder, sphere or disc");
+  source.kind = kind->second;
+  read_shape(table, source);
+  if (!table.has("length")) table.fail("source needs a length");
+  const std::size_t n = static_cast<std::size_t>(n_spacings(source.kind));
+  const auto length = table.lengths("length", n, 0, false), radius = table.lengths("radius", n, 0, true),
+             doubling = table.lengths("doubling", n, 0, false);
+  for (std::size_t k = 0; k < n; ++k) {
+    source.spacing[k] = {length[k], radius[k], doubling[k]};
+    if (table.has("doubling") && doubling[k] <= radius[k]) table.fail("doubling must be larger than radius");
+  }
+  return source;
+}
+
+SourceFile read_toml(const std::string& path, const ModelScale& scale) {
+  const toml::table file = parse_toml(path, read_text(path), ExitCode::kInput);
+  SourceFile result;
+  const std::vector<const toml::table*> entries = toml_list(path, file, {"source", "st-prolong", ExitCode::kInput});
+  if (entries.empty() && !file.empty())
+    throw Error(ExitCode::kInput, path + ": no table [[source]] in it; see docs/st-prolong.md");
+  for (const toml::table* entry : entries) {
+    const SourceTable table(path, *entry, scale);
+    const toml::node* deleted = entry->get("delete");
+    if (deleted && deleted->value<bool>().value_or(false))
+      result.deleted.push_back(table.text("name"));
+    else
+      result.sources.push_back(read_source(table));
+  }
+  return result;
+}
+
+bool is_flite(const std::string& path) { return path.ends_with(".bac") || path.ends_with(".ba3"); }
+
+}  // namespace
+
+SourceFile read_source_file(const std::string& path, const ModelScale& scale) {
+  return is_flite(path) ? read_bac(path) : read_toml(path, scale);
+}
+
+SourceFile read_background_file(const std::string& path) {
+  SourceFile file = is_flite(path) ? read_bac(path) : read_msh(path);
+  if (file.background.tets.empty()) throw Error(ExitCode::kInput, path + ": has no tetrahedra; give a background mesh");
+  return file;
+}
+
+}  // namespace st

@@ -1,0 +1,33 @@
+// How far a mesh of chords may differ from the CAD it was made on.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model/model.h"
+#include "mesh/surface_mesh.h"
+
+namespace st {
+
+/// Of the requested length: a node farther from its surface belongs to another one.
+inline constexpr double kOffSurface = 0.25;
+
+/// What chords explain, per CAD face.
+struct ChordError {
+  std::vector<double> area;  ///< [n_faces] largest difference of area that chords of this length explain, model unit
+                             ///< squared
+  std::vector<double> distance;  ///< [n_faces] largest distance found between the side of a triangle and the surface,
+                                 ///< model unit
+  std::vector<double> node_distance;  ///< [n_faces] largest distance between a node and the surface at its corner's
+                                      ///< (u,v), model unit
+  std::vector<Vec3> node_place;       ///< [n_faces] where that is
+  std::vector<double> off_surface;    ///< [n_faces] largest part of such a distance beyond kOffSurface of the node's
+                                      ///< requested length; 0: none
+  std::vector<Vec3> off_place;        ///< [n_faces] where that is
+};
+
+/// Along edges: the segments between trimming curve and chord in (u,v). Inside: triangles against their parts on the
+/// surface halved in (u,v), extrapolated; from the (u,v) alone, so that a misplaced node explains nothing.
+/// Precondition: `mesh` was made on `model`. Local; six surface evaluations per triangle.
+ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh);
+
+}  // namespace st

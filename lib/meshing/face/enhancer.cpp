@@ -1,0 +1,352 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/predicates.h"
+#include "geometry/shape/surface_forms.h"
+#include "meshing/face/front.h"
+
+namespace st {
+namespace {
+
+/// i + 1, around a ring of n.
+std::size_t following(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
+
+constexpr int kNext[3] = {1, 2, 0};
+constexpr int kPrev[3] = {2, 0, 1};
+constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
+constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
+constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
+constexpr double kSteepCosine = 0.5;    // between a triangle's normal and the surface's: less costs quality
+constexpr float kNoTriangle = 2;        // quality of what is outside or gone
+constexpr double kHalfSqrt3 = 0.8660254037844386;
+constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
+constexpr double kStill = 0.02;      // of the requested length: a shorter move wakes no neighbours
+constexpr double kSwapGain = 1e-3;
+constexpr double kSwapBelow = 0.9;    // pairs of triangles that are both better are left alone
+constexpr double kRelaxLeast = 0.55;  // no triangle worse than this is made for the sake of the valence
+
+class Enhancer {
+ public:
+  explicit Enhancer(FaceWork& work) : w_(work), m_(work.mesh) {}
+
+  void run(int rounds) {
+    start();
+    swap_sweeps();
+    for (int round = 0; round < rounds; ++round) {
+      if (round < 2) collapse_sweep();
+      if (round < 2) relax_sweep();
+      smooth_sweep();
+      swap_sweeps();
+    }
+  }
+
+ private:
+  void start() {
+    quality_.assign(m_.triangles.size(), kNoTriangle);
+    degree_.assign(m_.nodes.size(), 0);
+    is_active_.assign(m_.nodes.size(), 1);
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      if (!is_inside(m_.triangles[i])) continue;
+      update(static_cast<std::int32_t>(i));
+      for (std::int32_t v : m_.triangles[i].v) ++degree_[v];
+    }
+  }
+
+  void update(std::int32_t t) {
+    const PlaneTriangle& r = m_.triangles[t];
+    quality_[t] = static_cast<float>(quality(r.v[0], r.v[1], r.v[2]));
+  }
+
+  bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
+
+  /// 4 sqrt(3) A / sum l^2 in space, less where the normal is far off the surface's, negative where it is turned
+  /// against it.
+  double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
+    const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
+    const Vec3 n = cross(ab, ac);
+    const double sum = norm2(ab) + norm2(ac) + norm2(bc);
+    if (!(sum > 0)) return 0;
+    const double area = norm(n), q = 3.4641016151377544 * area / sum;
+    const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
+    if (least >= kSteepCosine * area) return q;
+    const Vec3 mean = a.normal + b.normal + c.normal;
+    const double cosine = dot(n, mean) / std::max(area * norm(mean), 1e-300);
+    if (least >= 0) return q * std::clamp(cosine / kSteepCosine, 0.0, 1.0);
+    return cosine > 0.2 ? 0.5 * q : -1 + q;
+  }
+  double quality(std::int32_t a, std::int32_t b, std::int32_t c) const {
+    return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]);
+  }
+
+  bool is_inside(const PlaneTriangle& t) const { return t.state != kOutside && t.state != kDead; }
+
+  void swap_sweeps() {
+    for (int sweep = 0; sweep < 4; ++sweep) {
+      std::size_t n_swaps = 0;
+      for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+        if (quality_[i] > kSwapBelow) continue;
+        for (int k = 0; k < 3; ++k)
+          if (try_swap(static_cast<std::int32_t>(i), k)) ++n_swaps;
+      }
+      if (n_swaps * 1000 < m_.triangles.size()) return;
+    }
+  }
+
+  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment or the
+  /// rim.
+  struct Quad {
+    std::int32_t t, o, a, b, c, d;
+  };
+  bool quad_at(std::int32_t t, int k, Quad& q) const {
+    const PlaneTriangle& r = m_.triangles[t];
+    const std::int32_t o = r.n[k];
+    if (o == kNone || (r.constrained >> k & 1)) return false;
+    const PlaneTriangle& s = m_.triangles[o];
+    const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
+    q = {t, o, r.v[k], r.v[kNext[k]], r.v[kPrev[k]], s.v[kPrev[j]]};
+    return true;
+  }
+
+  /// May c-d replace a-b? Not between seam twins or nodes of a pole, nor along the surface much further than through
+  /// the air.
+  bool may_swap(const Quad& q, int k) const {
+    const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
+    if ((nc.id != kNone && nc.id == nd.id) || (nc.is_pole && nd.is_pole) || !m_.can_swap(q.t, k)) return false;
+    const double chord = distance(nc.x, nd.x);
+    return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > distance(m_.nodes[q.a].x, m_.nodes[q.b].x);
+  }
+
+  void swap(const Quad& q, int k) {
+    m_.swap(q.t, k);
+    for (const std::int32_t n : {q.a, q.b, q.c, q.d}) is_active_[n] = 1;
+    update(q.t);
+    update(q.o);
+    --degree_[q.a];
+    --degree_[q.b];
+    ++degree_[q.c];
+    ++degree_[q.d];
+  }
+
+  bool try_swap(std::int32_t t, int k) {
+    Quad q;
+    if (!quad_at(t, k, q)) return false;
+    const double before = std::min(quality_[q.t], quality_[q.o]);
+    const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
+    if (after <= before + kSwapGain || !may_swap(q, k)) return false;
+    swap(q, k);
+    return true;
+  }
+
+  /// Swaps towards six triangles about every inner node, where that costs little quality; smoothing earns it back (Frey
+  /// and Field 1991).
+  void relax_sweep() {
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      if (!is_inside(m_.triangles[i])) continue;
+      for (int k = 0; k < 3; ++k) try_relax(static_cast<std::int32_t>(i), k);
+    }
+  }
+
+  void try_relax(std::int32_t t, int k) {
+    Quad q;
+    if (!quad_at(t, k, q) || q.o < q.t) return;  // each edge once
+    if (!is_inner(q.a) || !is_inner(q.b) || !is_inner(q.c) || !is_inner(q.d)) return;
+    if (degree_[q.a] + degree_[q.b] - degree_[q.c] - degree_[q.d] < 3) return;
+    if (degree_[q.a] <= 5 || degree_[q.b] <= 5) return;
+    const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
+    if (after < kRelaxLeast || !may_swap(q, k)) return;
+    swap(q, k);
+  }
+
+  void smooth_sweep() {
+    const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
+    for (std::int32_t i = first; i < n; ++i) {
+      if (!is_active_[i] || m_.triangle_at(i) == kNone) continue;
+      is_active_[i] = 0;
+      smooth(i);
+    }
+  }
+
+  struct Ring {
+    double worst = 2, mean = 0;  // quality
+    /// Better than before at its worst, or on the mean where the worst stays fair.
+    bool improves(const Ring& before) const {
+      return worst > before.worst + 1e-4 || (worst > before.fair() && mean > before.mean + 1e-4);
+    }
+    double fair() const { return std::max(0.6, worst - 0.05); }
+  };
+
+  Ring ring_before() const {
+    Ring ring;
+    for (std::int32_t t : tris_) {
+      ring.worst = std::min<double>(ring.worst, quality_[t]);
+      ring.mean += quality_[t];
+    }
+    ring.mean /= static_cast<double>(tris_.size());
+    return ring;
+  }
+
+  /// The ring about a moved node, its qualities in ring_quality_; left early where it cannot improve.
+  Ring ring_about(const MeshNode& centre, const Ring& before) {
+    Ring ring;
+    ring_quality_.resize(around_.size());
+    const double least = std::min(before.worst + 1e-4, before.fair());
+    const std::size_t n = around_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double q = quality(centre, m_.nodes[around_[i]], m_.nodes[around_[following(i, n)]]);
+      ring.worst = std::min(ring.worst, q);
+      if (q <= least) return ring;
+      ring.mean += q;
+      ring_quality_[i] = static_cast<float>(q);
+    }
+    ring.mean /= static_cast<double>(n);
+    return ring;
+  }
+
+  void smooth(std::int32_t i) {
+    if (!m_.ring_of(i, around_, tris_)) return;
+    const MeshNode& old = m_.nodes[i];
+    const Ring before = ring_before();
+    if (before.worst > kGoodQuality) return;
+    // mean of the apexes that would make each triangle of the ring equilateral
+    Vec3 middle{}, edge{};
+    double weights = 0;
+    const std::size_t n = around_.size();
+    for (std::size_t j = 0; j < n; ++j) {
+      const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[following(j, n)]].x - b;
+      const double weight = kWeightBase - quality_[tris_[j]];
+      middle += weight * (b + 0.5 * e);
+      edge += weight * e;
+      weights += weight;
+    }
+    const Vec3 target = (middle + kHalfSqrt3 * cross(old.normal, edge)) / weights;
+    const Metric metric = metric_of(old.du, old.dv);
+    const Eigen::Matrix2d form = symmetric(metric.e, metric.f, metric.g);
+    for (double part : {1.0, 0.4}) {
+      const auto step = solve(form, along_tangents(old.du, old.dv, part * (target - old.x)), 0);
+      if (!step) return;
+      MeshNode moved = old;
+      moved.p = old.p + to_vec2(*step);
+      if (!is_valid_at(moved.p)) continue;
+      w_.evaluate(moved);
+      if (ring_about(moved, before).improves(before)) {
+        const bool is_far = norm2(moved.x - old.x) > kStill * kStill * old.h * old.h;
+        m_.nodes[i] = moved;
+        for (std::size_t j = 0; j < n; ++j) quality_[tris_[j]] = ring_quality_[j];
+        if (!is_far) return;
+        is_active_[i] = 1;
+        for (const std::int32_t j : around_) is_active_[j] = 1;
+        return;
+      }
+    }
+  }
+
+  bool is_valid_at(Vec2 p) const {
+    const std::size_t n = around_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      if (orient2d(p, m_.nodes[around_[i]].p, m_.nodes[around_[following(i, n)]].p) <= 0) return false;
+    return true;
+  }
+
+  void collapse_sweep() {
+    find_short_edges();
+    const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
+    for (std::int32_t i = first; i < n; ++i)
+      if ((at_short_edge_[i] || degree_[i] <= 4) && m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept) try_collapse(i);
+  }
+
+  void find_short_edges() {
+    at_short_edge_.assign(m_.nodes.size(), 0);
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      const PlaneTriangle& t = m_.triangles[i];
+      if (!is_inside(t)) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (are_one_pole(t.v[k], t.v[kNext[k]])) at_short_edge_[t.v[kPrev[k]]] = 1;
+        if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
+        const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
+        const double h = 0.5 * (a.h + b.h);
+        if (norm2(a.x - b.x) <= kShortEdge * kShortEdge * h * h)
+          at_short_edge_[t.v[k]] = at_short_edge_[t.v[kNext[k]]] = 1;
+      }
+    }
+  }
+
+  /// Nodes of the plane that are one pole in space: no side between them.
+  bool are_one_pole(std::int32_t a, std::int32_t b) const {
+    const MeshNode &p = m_.nodes[a], &q = m_.nodes[b];
+    return p.is_pole && q.is_pole && p.id == q.id;
+  }
+
+  void try_collapse(std::int32_t i) {
+    if (!m_.ring_of(i, around_, tris_)) return;
+    const MeshNode& node = m_.nodes[i];
+    const int n = static_cast<int>(around_.size());
+    int n_sides = 0;  // in space
+    double before = 2;
+    for (int k = 0; k < n; ++k) {
+      if (are_one_pole(around_[k], around_[(k + 1) % n])) continue;
+      ++n_sides;
+      before = std::min<double>(before, quality_[tris_[k]]);
+    }
+    double shortest = 1e300;
+    for (std::int32_t j : around_)
+      shortest = std::min(shortest, distance(node.x, m_.nodes[j].x) / (0.5 * (node.h + m_.nodes[j].h)));
+    if (shortest > kShortEdge && n_sides > 4) return;
+    int best = -1;
+    double best_quality = n_sides <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;
+    for (int c = 0; c < n; ++c) {
+      const double q = collapsed_quality(c);
+      if (q > best_quality) {
+        best_quality = q;
+        best = c;
+      }
+    }
+    if (best < 0) return;
+    --degree_[around_[(best + 1) % n]];
+    --degree_[around_[(best + n - 1) % n]];
+    degree_[around_[best]] += n - 4;
+    for (const std::int32_t j : around_) is_active_[j] = 1;
+    m_.collapse(i, best, around_, tris_);
+    for (std::int32_t t : tris_)
+      if (m_.triangles[t].state == kDead)
+        quality_[t] = kNoTriangle;
+      else
+        update(t);
+  }
+
+  /// Worst quality after moving the node onto ring node c; -2 when invalid.
+  double collapsed_quality(int c) const {
+    const int n = static_cast<int>(around_.size());
+    const MeshNode& target = m_.nodes[around_[c]];
+    double worst = 2;
+    for (int k = 0; k < n; ++k) {
+      const int l = (k + 1) % n;
+      if (k == c || l == c) continue;
+      const MeshNode &a = m_.nodes[around_[k]], &b = m_.nodes[around_[l]];
+      if (orient2d(target.p, a.p, b.p) <= 0) return -2;
+      if (!are_one_pole(around_[k], around_[l])) worst = std::min(worst, quality(target, a, b));
+    }
+    // edges that appear: target to every ring node but its neighbours
+    for (int k = 0; k < n; ++k) {
+      if (k == c || k == (c + 1) % n || k == (c + n - 1) % n) continue;
+      const MeshNode& a = m_.nodes[around_[k]];
+      if (a.id != kNone && a.id == target.id) return -2;
+      if (w_.edge_length(around_[c], around_[k]) > kLongEdge * 0.5 * (a.h + target.h)) return -2;
+    }
+    return worst;
+  }
+
+  FaceWork& w_;
+  Triangulation& m_;
+  std::vector<float> ring_quality_;
+  std::vector<float> quality_;               // of each inside triangle, kept up to date
+  std::vector<std::uint8_t> at_short_edge_;  // nodes that may be worth a collapse
+  std::vector<std::uint8_t> is_active_;      // nodes to be smoothed: something about them changed
+  std::vector<std::int32_t> degree_;         // triangles at each node
+  std::vector<std::int32_t> around_, tris_;
+};
+
+}  // namespace
+
+void enhance(FaceWork& work, int rounds) { Enhancer(work).run(rounds); }
+
+}  // namespace st

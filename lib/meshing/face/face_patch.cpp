@@ -1,0 +1,68 @@
+#include "meshing/face/face_patch.h"
+
+#include <algorithm>
+
+namespace st {
+
+FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
+                     const BoundaryNumbering& numbering) {
+  FacePatch patch;
+  patch.face = face;
+  const std::int32_t n_local = static_cast<std::int32_t>(boundary.nodes.size());
+  std::vector<std::pair<std::int32_t, std::int32_t>> by_id;  // (global id, local)
+  for (std::int32_t i = 0; i < n_local; ++i) by_id.push_back({boundary.nodes[i].id, i});
+  std::sort(by_id.begin(), by_id.end());
+  std::vector<std::int32_t> number(n_local);
+  for (std::size_t i = 0; i < by_id.size(); ++i) {
+    if (i == 0 || by_id[i].first != by_id[i - 1].first) {
+      const auto entity = numbering.entity(by_id[i].first);
+      patch.boundary_dim.push_back(static_cast<std::uint8_t>(entity.dim));
+      patch.boundary_entity.push_back(entity.entity);
+      patch.boundary_index.push_back(entity.index);
+      ++patch.n_boundary;
+    }
+    number[by_id[i].second] = patch.n_boundary - 1;
+  }
+  for (const FaceMesh::InnerNode& n : mesh.inner) {
+    patch.inner_xyz.push_back(n.x);
+    patch.inner_uv.push_back(n.uv);
+    patch.inner_size.push_back(n.h);
+  }
+  const auto node = [&](std::int32_t c) { return c < n_local ? number[c] : patch.n_boundary + c - n_local; };
+  const auto uv = [&](std::int32_t c) { return c < n_local ? boundary.nodes[c].uv : mesh.inner[c - n_local].uv; };
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    std::int32_t c[3] = {mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]};
+    if (t.face_is_reversed[face]) std::swap(c[1], c[2]);
+    patch.triangles.push_back({{node(c[0]), node(c[1]), node(c[2])}});
+    for (std::int32_t k : c) patch.corner_uv.push_back(uv(k));
+  }
+  return patch;
+}
+
+void pack(Packer& p, const FacePatch& f) {
+  p.add(f.face);
+  p.add(f.n_boundary);
+  p.add(f.boundary_dim);
+  p.add(f.boundary_entity);
+  p.add(f.boundary_index);
+  p.add(f.inner_xyz);
+  p.add(f.inner_uv);
+  p.add(f.inner_size);
+  p.add(f.triangles);
+  p.add(f.corner_uv);
+}
+
+void unpack(Unpacker& u, FacePatch& f) {
+  u.get(f.face);
+  u.get(f.n_boundary);
+  u.get(f.boundary_dim);
+  u.get(f.boundary_entity);
+  u.get(f.boundary_index);
+  u.get(f.inner_xyz);
+  u.get(f.inner_uv);
+  u.get(f.inner_size);
+  u.get(f.triangles);
+  u.get(f.corner_uv);
+}
+
+}  // namespace st

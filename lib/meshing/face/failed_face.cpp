@@ -1,0 +1,132 @@
+#include "meshing/face/failed_face.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace st {
+namespace {
+
+constexpr std::size_t kMaxTriangles = 200000;  // of the partial state: enough to look at
+
+/// All coedges of the face by edge: which loop an edge belongs to. Seams and slits belong to one loop twice.
+struct LoopEdge {
+  EdgeId edge;
+  std::int32_t loop;
+};
+
+std::vector<LoopEdge> loop_edges(const ModelTables& t, FaceId face) {
+  std::vector<LoopEdge> list;
+  for (const LoopId l : t.loops(face))
+    for (const CoedgeId c : t.loop_coedges(l)) list.push_back({t.coedge_edge[c], l - t.loops(face).first()});
+  return list;
+}
+
+/// The face's edge that a segment lies on: that of its inner node, else the one between its two vertices.
+LoopEdge edge_of(const BoundaryNumbering& numbering, const std::vector<LoopEdge>& edges, std::int32_t id_a,
+                 std::int32_t id_b) {
+  const ModelTables& t = numbering.tables;
+  const auto a = numbering.entity(id_a), b = numbering.entity(id_b);
+  const auto fits = [&](const LoopEdge& e) {
+    if (a.dim == EntityDim::kEdge) return e.edge == a.entity;
+    if (b.dim == EntityDim::kEdge) return e.edge == b.entity;
+    const auto ends = std::minmax(t.edge_vertices[2 * e.edge], t.edge_vertices[2 * e.edge + 1]);
+    return ends == std::minmax(a.entity, b.entity);
+  };
+  const auto found = std::find_if(edges.begin(), edges.end(), fits);
+  return found == edges.end() ? LoopEdge{kNone, 0} : *found;
+}
+
+void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& boundary, FailedFace& f) {
+  const std::vector<LoopEdge> edges = loop_edges(numbering.tables, f.face);
+  for (const FaceBoundary::Node& n : boundary.nodes) {
+    f.xyz.push_back(n.x);
+    f.uv.push_back(n.uv);
+    f.size.push_back(n.h);
+  }
+  for (const auto& [a, b] : boundary.segments) {
+    const LoopEdge e = edge_of(numbering, edges, boundary.nodes[a].id, boundary.nodes[b].id);
+    f.segment_nodes.insert(f.segment_nodes.end(), {a, b});
+    f.segment_loop.push_back(e.loop);
+    f.segment_edge.push_back(e.edge);
+  }
+}
+
+/// Nodes of the CAD edges themselves, loop by loop.
+void add_edges(const BoundaryNumbering& numbering, FailedFace& f) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const EdgeMesh& m = numbering.edges;
+  for (const LoopEdge& e : loop_edges(numbering.tables, f.face))
+    for (const std::int32_t i : m.nodes(e.edge)) {
+      f.xyz.push_back(m.node_xyz[i]);
+      f.uv.push_back({kUnknown, kUnknown});
+      f.size.push_back(m.node_size[i]);
+      if (i == m.first_node(e.edge)) continue;
+      const std::int32_t last = static_cast<std::int32_t>(f.xyz.size()) - 1;
+      f.segment_nodes.insert(f.segment_nodes.end(), {last - 1, last});
+      f.segment_loop.push_back(e.loop);
+      f.segment_edge.push_back(e.edge);
+    }
+}
+
+void add_triangles(const FaceMesh& mesh, FailedFace& f) {
+  for (const FaceMesh::InnerNode& n : mesh.inner) {
+    f.xyz.push_back(n.x);
+    f.uv.push_back(n.uv);
+    f.size.push_back(n.h);
+  }
+  for (std::size_t i = 0; i + 2 < mesh.corners.size() && f.triangles.size() < kMaxTriangles; i += 3) {
+    const std::int32_t* c = &mesh.corners[i];
+    if (c[0] != kNone && c[1] != kNone && c[2] != kNone) f.triangles.push_back({{c[0], c[1], c[2]}});
+  }
+}
+
+}  // namespace
+
+FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
+                            const FaceMesh& mesh) {
+  FailedFace f;
+  f.face = face;
+  if (boundary.nodes.empty())
+    add_edges(numbering, f);
+  else
+    add_boundary(numbering, boundary, f), add_triangles(mesh, f);
+  for (const RefinementPoint& p : mesh.refinement) f.places.push_back(p.x);
+  return f;
+}
+
+std::string remedy_of(const std::string& cause) {
+  const auto names = [&](const char* text) { return cause.find(text) != std::string::npos; };
+  if (names("cross or touch"))
+    return "repair its boundary in the CAD system where it crosses itself, or ask for smaller sizes there";
+  if (names("fewer than three nodes") || names("too few nodes"))
+    return "ask for smaller sizes there (st-raster), or remove the feature in the CAD system";
+  if (names("far more nodes"))
+    return "its surface is degenerate: export it anew from the CAD system, or ask for larger sizes there";
+  return "repair the face in the CAD system, or ask for smaller sizes there";
+}
+
+void pack(Packer& p, const FailedFace& f) {
+  p.add(f.face);
+  p.add(f.xyz);
+  p.add(f.uv);
+  p.add(f.size);
+  p.add(f.segment_nodes);
+  p.add(f.segment_loop);
+  p.add(f.segment_edge);
+  p.add(f.triangles);
+  p.add(f.places);
+}
+
+void unpack(Unpacker& u, FailedFace& f) {
+  u.get(f.face);
+  u.get(f.xyz);
+  u.get(f.uv);
+  u.get(f.size);
+  u.get(f.segment_nodes);
+  u.get(f.segment_loop);
+  u.get(f.segment_edge);
+  u.get(f.triangles);
+  u.get(f.places);
+}
+
+}  // namespace st

@@ -1,0 +1,360 @@
+#include "meshing/face/front.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen.h"
+#include "base/predicates.h"
+
+namespace st {
+namespace {
+
+constexpr int kNext[3] = {1, 2, 0};
+constexpr int kPrev[3] = {2, 0, 1};
+
+// Rules: docs/design/kernel.md; where each number comes from: docs/design/heuristics.md.
+constexpr double kFinishedRadius = 0.68;  // circumradius over requested length; equilateral: 0.577
+constexpr double kNearNode = 0.65;        // of the side: a new node nearer than this to another is not made
+constexpr double kNearBoundary = 0.4;     // of the side: nor nearer than this to a boundary segment
+constexpr double kGrowth = 1.25;          // size of a new node over its base side
+constexpr double kVeryLong = 1.7;         // times the size: an edge so long is split even closer to other nodes
+constexpr double kCloseSplit = 0.55;      // the distances kept then
+constexpr double kShortBase = 0.8;  // of the size at its ends: a shorter base does not hold back the growth any more
+constexpr double kTurningFloor = 0.25;  // of the requested length: turning shortens sides no further
+constexpr double kTooLarge = 0.95;      // circumradius over requested length that is split when the front has ended
+
+constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
+constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
+
+class Front {
+ public:
+  explicit Front(FaceWork& work)
+      : w_(work),
+        m_(work.mesh),
+        cos_turning_(std::cos(work.max_turning)),
+        cos_too_far_(std::cos(1.25 * work.max_turning)) {}
+
+  void run() {
+    start();
+    ring_narrow_parts();
+    advance();
+    split_large();
+  }
+
+ private:
+  struct Entry {
+    std::int32_t t, a, b;
+  };
+
+  bool is_finished(const PlaneTriangle& t) const {
+    const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
+    const double radius2 = w_.circumradius2(t), finished = kFinishedRadius * h;
+    if (!(radius2 < finished * finished)) return false;
+    const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
+    const double least = kTurningFloor * kFinishedRadius * request;
+    return !(radius2 > least * least && turns_too_far(t));
+  }
+
+  static bool is_done(const PlaneTriangle& t) { return t.state == kFinished || t.state == kRetired; }
+
+  void start() {
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i)
+      if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside) t.state = is_finished(t) ? kFinished : kUnfinished;
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i)
+      if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
+  }
+
+  /// Where a face closes on itself at a seam with little room, as at the tip of a cone or along a needle: rings of
+  /// three nodes, which no size asks for. With fewer the part would close to nothing at any size.
+  void ring_narrow_parts() {
+    for (const auto& [a, b] : seam_twins()) {
+      const MeshNode na = m_.nodes[a], nb = m_.nodes[b];
+      const auto at = [&](double share) {
+        MeshNode p;
+        p.p = na.p + share * (nb.p - na.p);
+        w_.evaluate(p);
+        return p;
+      };
+      double length = 0;
+      Vec3 last = na.x;
+      for (int i = 1; i <= kRingSamples; ++i) {
+        const Vec3 x = at(static_cast<double>(i) / kRingSamples).x;
+        length += distance(last, x);
+        last = x;
+      }
+      if (length >= kNarrowRing * na.h) continue;
+      for (const double share : {1.0 / 3, 2.0 / 3}) {
+        MeshNode p = at(share);
+        p.request = p.h = w_.field->size(p.x, w_.hint);
+        p.is_kept = true;
+        insert(p, inside_triangle_at(a), length / 3, na.h) || insert(p, inside_triangle_at(b), length / 3, na.h);
+      }
+    }
+  }
+
+  /// A triangle of the face at a boundary node, where a search may start: it does not leave the loops.
+  std::int32_t inside_triangle_at(std::int32_t node) const {
+    const std::int32_t first = m_.triangle_at(node);
+    std::int32_t t = first;
+    do {
+      const PlaneTriangle& r = m_.triangles[t];
+      if (r.state != kOutside) return t;
+      t = r.n[kPrev[r.v[0] == node ? 0 : r.v[1] == node ? 1 : 2]];
+    } while (t != first && t != kNone);
+    return first;
+  }
+
+  /// Pairs of plane nodes that are one node of a seam, by its id.
+  std::vector<std::pair<std::int32_t, std::int32_t>> seam_twins() const {
+    std::vector<std::pair<std::int32_t, std::int32_t>> by_id, twins;
+    for (std::int32_t i = 0; i < m_.n_boundary; ++i)
+      if (!m_.nodes[i].is_pole) by_id.push_back({m_.nodes[i].id, i});
+    std::sort(by_id.begin(), by_id.end());
+    const auto same = [&](std::size_t i, std::size_t j) {
+      return j < by_id.size() && by_id[i].first == by_id[j].first;
+    };
+    for (std::size_t i = 0; i + 1 < by_id.size(); ++i)
+      if (same(i, i + 1) && !same(i, i + 2) && !(i > 0 && same(i - 1, i)))
+        twins.push_back({by_id[i].second, by_id[i + 1].second});
+    return twins;
+  }
+
+  /// Edges of an unfinished triangle that border on something finished, or on the boundary.
+  void push_front_edges(std::int32_t t) {
+    const PlaneTriangle& r = m_.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const bool boundary = r.constrained >> k & 1;
+      if (boundary || (r.n[k] != kNone && is_done(m_.triangles[r.n[k]]))) queue_.push_back({t, r.v[k], r.v[kNext[k]]});
+    }
+  }
+
+  void advance() {
+    for (std::size_t head = 0; head < queue_.size(); ++head) {
+      if (head > 4096 && head * 2 > queue_.size()) {
+        queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(head));
+        head = 0;
+      }
+      const Entry e = queue_[head];
+      const PlaneTriangle& r = m_.triangles[e.t];
+      if (r.state != kUnfinished) continue;
+      int k = 0;
+      while (k < 3 && !(r.v[k] == e.a && r.v[kNext[k]] == e.b)) ++k;
+      if (k == 3) continue;
+      if (m_.nodes[e.a].is_pole && m_.nodes[e.b].is_pole) continue;
+      if (!place(e.t, e.a, e.b)) retire(e.t);
+    }
+    queue_.clear();
+  }
+
+  void retire(std::int32_t t) {
+    m_.triangles[t].state = kRetired;
+    const PlaneTriangle r = m_.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t o = r.n[k];
+      if ((r.constrained >> k & 1) || o == kNone || m_.triangles[o].state != kUnfinished) continue;
+      queue_.push_back({o, r.v[kNext[k]], r.v[k]});
+    }
+  }
+
+  /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
+  bool ideal_point(const MeshNode& a, const MeshNode& b, double& r, MeshNode& p) {
+    const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
+    const Metric m = metric_of(du, dv);
+    const Vec2 e = b.p - a.p;
+    const double base = distance(a.x, b.x), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
+    if (!(e2 > 0) || !(det > 0)) return false;
+    const double height = std::sqrt(std::max(r * r - 0.25 * base * base, 0.04 * r * r));
+    const double f = height / std::sqrt(e2 * det);
+    p.p = 0.5 * (a.p + b.p) + f * Vec2{-(m.f * e.x + m.g * e.y), m.e * e.x + m.f * e.y};
+    for (int step = 0;; ++step) {
+      w_.evaluate(p);
+      if (step == 0) {  // the side's length is the mean of the sizes at its ends
+        p.request = p.h = w_.field->size(p.x, w_.hint);
+        r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base,
+                       kGrowth * std::max(base, kShortBase * 0.5 * (a.h + b.h)));
+        limit_turning(a, b, p, r);
+      }
+      const Vec3 ra = p.x - a.x, rb = p.x - b.x;
+      const double la = norm(ra), lb = norm(rb);
+      if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
+      if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
+      m << dot(ra, p.du), dot(ra, p.dv), dot(rb, p.du), dot(rb, p.dv);
+      const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
+      const double det_m = m.determinant();
+      if (!(std::abs(det_m) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
+      const Eigen::Vector2d missing = 0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb);
+      Vec2 move = to_vec2(adjugate(m) * missing / det_m);
+      const double length = norm(move.x * p.du + move.y * p.dv);
+      if (length > 0.5 * r) move = (0.5 * r / length) * move;
+      p.p = p.p + move;
+    }
+  }
+
+  /// A side along which the normal turns too far becomes shorter, whatever the field says; to a quarter at the most.
+  void limit_turning(const MeshNode& a, const MeshNode& b, MeshNode& p, double& r) const {
+    const double c = std::min(dot(a.normal, p.normal), dot(b.normal, p.normal));
+    if (c > cos_turning_ || a.is_pole || b.is_pole) return;
+    const double least = kTurningFloor * p.request;  // at a crease no length is short enough
+    r = std::max(std::min(r, least), r * w_.max_turning / std::acos(std::clamp(c, -1.0, 1.0)));
+    p.h = std::max(least, std::min(p.h, r));
+  }
+
+  bool turns_too_far(const PlaneTriangle& t) const {
+    const MeshNode &a = m_.nodes[t.v[0]], &b = m_.nodes[t.v[1]], &c = m_.nodes[t.v[2]];
+    if (a.is_pole || b.is_pole || c.is_pole) return false;
+    return std::min({dot(a.normal, b.normal), dot(b.normal, c.normal), dot(c.normal, a.normal)}) < cos_too_far_;
+  }
+
+  bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
+    const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
+    const double base = distance(a.x, b.x);
+    if (!(base > 0)) return false;
+    const double h = 0.5 * (a.h + b.h);
+    double r = std::max(std::min(h, kGrowth * std::max(base, kShortBase * h)), 0.62 * base);
+    MeshNode p;
+    if (!ideal_point(a, b, r, p)) return false;
+    return insert(p, t, r, kGrowth * std::max(base, h));
+  }
+
+  /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
+  bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
+    if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
+    const std::int32_t at = m_.locate(p.p, start);
+    if (at == kNone || m_.triangles[at].state == kOutside) return false;
+    const Metric metric = metric_of(p.du, p.dv);
+    for (const std::int32_t v : m_.triangles[at].v)  // most crowded places show here, before the cavity is looked for
+      if (is_near(p, m_.nodes[v], metric, r)) return false;
+    if (!m_.find_cavity(p.p, metric, at)) return false;
+    if (is_crowded(p, metric, r)) return false;
+    p.h = std::min(p.h, largest);
+    m_.nodes.push_back(p);
+    m_.added_node();
+    m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
+    fan_ = m_.new_triangles();
+    for (std::int32_t t : fan_) m_.triangles[t].state = is_finished(m_.triangles[t]) ? kFinished : kUnfinished;
+    for (std::int32_t t : fan_) {
+      const PlaneTriangle& f = m_.triangles[t];
+      if (f.state == kUnfinished) {
+        push_front_edges(t);
+      } else if (!(f.constrained & 1) && f.n[0] != kNone && m_.triangles[f.n[0]].state == kUnfinished) {
+        queue_.push_back({f.n[0], f.v[1], f.v[0]});
+      }
+    }
+    return true;
+  }
+
+  static bool is_near(const MeshNode& p, const MeshNode& node, const Metric& metric, double r) {
+    const double near2 = kNearNode * kNearNode * r * r;
+    return norm2(node.x - p.x) < near2 && (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
+  }
+
+  bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
+    for (const Triangulation::RingEdge& e : m_.ring()) {
+      const MeshNode &a = m_.nodes[e.a], &b = m_.nodes[e.b];
+      if (is_near(p, a, metric, r)) return true;
+      if (!e.constrained || (a.is_pole && b.is_pole)) continue;
+      if (segment_distance(p.x, a.x, b.x) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r))
+        return true;
+    }
+    return false;
+  }
+
+  static bool plane_near(const MeshNode& p, const Metric& m, const MeshNode& a, const MeshNode& b, double reach) {
+    const Vec2 d = b.p - a.p, q = p.p - a.p;
+    const double l2 = m.length2(d);
+    const double along = m.e * d.x * q.x + m.f * (d.x * q.y + d.y * q.x) + m.g * d.y * q.y;
+    const double s = l2 > 0 ? std::clamp(along / l2, 0.0, 1.0) : 0.0;
+    return m.length2(q - s * d) < reach * reach;
+  }
+
+  /// Triangles that the front left too large: a node at the middle of the longest edge, or the centre, until none is
+  /// left.
+  void split_large() {
+    for (int round = 0; round < 12; ++round) {
+      bool changed = false;
+      const std::size_t n = m_.triangles.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        const PlaneTriangle t = m_.triangles[i];
+        if (t.state != kUnfinished && t.state != kRetired) continue;
+        const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3, too_large = kTooLarge * h;
+        if (w_.circumradius2(t) < too_large * too_large) continue;
+        changed |= split(static_cast<std::int32_t>(i), t, h);
+      }
+      advance();
+      if (!changed) return;
+    }
+  }
+
+  bool split(std::int32_t i, const PlaneTriangle& t, double h) {
+    int longest = 0;
+    double length = 0;
+    for (int k = 0; k < 3; ++k)
+      if (const double l = w_.edge_length(t.v[k], t.v[kNext[k]]); l > length) {
+        length = l;
+        longest = k;
+      }
+    if (length < 1.3 * h) return false;
+    const Vec2 a = m_.nodes[t.v[0]].p, b = m_.nodes[t.v[1]].p, c = m_.nodes[t.v[2]].p;
+    const bool boundary = t.constrained >> longest & 1;
+    const Vec2 middle = 0.5 * (m_.nodes[t.v[longest]].p + m_.nodes[t.v[kNext[longest]]].p);
+    const Vec2 centre = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+    const double r = std::min(h, length / 2 / kNearNode * 0.99);
+    for (double closeness : {1.0, kCloseSplit})
+      for (int attempt = boundary ? 1 : 0; attempt < 2; ++attempt) {
+        if (closeness < 1 && length < kVeryLong * h) continue;
+        MeshNode p;
+        p.p = attempt == 0 ? middle : centre;
+        w_.evaluate(p);
+        p.request = p.h = w_.field->size(p.x, w_.hint);
+        if (insert(p, i, closeness * r, h * 1.25)) return true;
+      }
+    return false;
+  }
+
+  FaceWork& w_;
+  Triangulation& m_;
+  double cos_turning_, cos_too_far_;
+  std::vector<Entry> queue_;
+  std::vector<std::int32_t> fan_;
+};
+
+}  // namespace
+
+Metric metric_of(Vec3 du, Vec3 dv) {
+  Metric m{norm2(du), dot(du, dv), norm2(dv)};
+  const double floor = 1e-9 * (m.e + m.g);  // a pole has a direction without length
+  m.e += floor;
+  m.g += floor;
+  return m;
+}
+
+void FaceWork::evaluate(MeshNode& n) const {
+  const SurfacePoint s = surface->evaluate(to_uv(n.p));
+  n.x = s.x;
+  n.du = s.du / scale.x;
+  n.dv = s.dv / scale.y;
+  n.normal = normalized(cross(n.du, n.dv));
+}
+
+double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
+  const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
+  const double chord2 = norm2(b.x - a.x);
+  const Vec2 e = 0.5 * (b.p - a.p);
+  const double along2 = norm2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv));
+  return along2 > 4 * chord2 && !(a.is_pole && b.is_pole) ? along2 : chord2;
+}
+
+double FaceWork::circumradius2(const PlaneTriangle& t) const {
+  const double a2 = edge_length2(t.v[0], t.v[1]), b2 = edge_length2(t.v[1], t.v[2]), c2 = edge_length2(t.v[2], t.v[0]);
+  const double longest2 = std::max({a2, b2, c2});
+  const Vec3 &x0 = mesh.nodes[t.v[0]].x, &x1 = mesh.nodes[t.v[1]].x, &x2 = mesh.nodes[t.v[2]].x;
+  const double area4_2 = 4 * norm2(cross(x1 - x0, x2 - x0));  // (4 A)^2
+  if (area4_2 <= 1e-24 * longest2 * longest2)
+    return longest2;  // a sliver, or no triangle in space (at a pole): as large as its longest side
+  return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);
+}
+
+void advance_front(FaceWork& work) { Front(work).run(); }
+
+}  // namespace st

@@ -1,0 +1,97 @@
+#include "meshing/face/refinements.h"
+
+#include <algorithm>
+
+namespace st {
+namespace {
+
+constexpr double kWorthwhile = 0.95;  // of the present length: a refinement that asks for more than this is no change
+constexpr std::int32_t kPlacesPerLeaf = 8;
+constexpr double kRoundOff = 1 - 1e-12;  // of the bound by which places are passed over: no rounding may hide one that
+                                         // counts
+
+Vec3 extent(const Box3& b) { return b.hi - b.lo; }
+
+/// Coordinate along which the box is longest: 0, 1, 2.
+int longest_axis(const Box3& box) {
+  const Vec3 d = extent(box);
+  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+}
+
+double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+}  // namespace
+
+double box_distance(const Box3& box, Vec3 p) {
+  const auto outside = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
+  return norm(
+      Vec3{outside(box.lo.x, box.hi.x, p.x), outside(box.lo.y, box.hi.y, p.y), outside(box.lo.z, box.hi.z, p.z)});
+}
+
+bool Refinements::add(const RefinementPoint& place, double floor) {
+  const double request = field_.size(place.x), length = std::max(place.length, floor * request);
+  Box3 at;
+  at.add(place.x);
+  if (length > kWorthwhile * RefinedField(field_, near(at)).size(place.x)) return false;
+  all_.push_back({place.x, length, std::max(0.0, (request - length) / kRefinementSlope)});
+  return true;
+}
+
+std::vector<Refinement> Refinements::near(const Box3& box) const {
+  std::vector<Refinement> result;
+  for (const Refinement& r : all_)
+    if (box_distance(box, r.x) <= r.reach) result.push_back(r);
+  return result;
+}
+
+RefinedField::RefinedField(const SizeField& base, std::vector<Refinement> places)
+    : base_(base), places_(std::move(places)) {
+  if (!places_.empty()) build(0, static_cast<std::int32_t>(places_.size()));
+}
+
+/// Appends the node of these places and all below it; returns its number.
+std::int32_t RefinedField::build(std::int32_t first, std::int32_t last) {
+  const auto own = static_cast<std::int32_t>(nodes_.size());
+  Node node{{}, places_[first].length, first, last, 0};
+  for (std::int32_t i = first; i < last; ++i) {
+    node.box.add(places_[i].x);
+    node.shortest = std::min(node.shortest, places_[i].length);
+  }
+  nodes_.push_back(node);
+  if (last - first <= kPlacesPerLeaf) return own;
+  const int axis = longest_axis(node.box);
+  const std::int32_t middle = first + (last - first) / 2;
+  std::nth_element(
+      places_.begin() + first, places_.begin() + middle, places_.begin() + last,
+      [&](const Refinement& a, const Refinement& b) { return coordinate(a.x, axis) < coordinate(b.x, axis); });
+  build(first, middle);
+  const std::int32_t right = build(middle, last);
+  nodes_[own].right = right;
+  return own;
+}
+
+void RefinedField::visit(std::int32_t index, Vec3 xyz, double& length) const {
+  const Node& node = nodes_[index];
+  if (kRoundOff * (node.shortest + kRefinementSlope * box_distance(node.box, xyz)) > length) return;
+  if (node.right) {
+    visit(index + 1, xyz, length);
+    visit(node.right, xyz, length);
+    return;
+  }
+  for (std::int32_t i = node.first; i < node.last; ++i)
+    length = std::min(length, places_[i].length + kRefinementSlope * distance(xyz, places_[i].x));
+}
+
+double RefinedField::size(Vec3 xyz, int& hint) const {
+  double length = base_.size(xyz, hint);
+  if (!nodes_.empty()) visit(0, xyz, length);
+  return length;
+}
+
+double RefinedField::min_size() const {
+  return nodes_.empty() ? base_.min_size() : std::min(base_.min_size(), nodes_[0].shortest);
+}
+
+double RefinedField::slope() const { return std::max(base_.slope(), kRefinementSlope); }
+
+}  // namespace st

@@ -1,0 +1,71 @@
+// Places where the size field became finer than requested, and the field with them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/vec.h"
+#include "meshing/face/face_mesher.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// Slope with which the length grows away from a refinement.
+inline constexpr double kRefinementSlope = 0.3;
+
+/// From `p` to the box; 0 inside.
+double box_distance(const Box3& box, Vec3 p);
+
+/// A refinement that was taken.
+struct Refinement {
+  Vec3 x;
+  double length = 0;  ///< requested there, model unit
+  double reach = 0;   ///< distance at which the request at `x` is met again, model unit
+};
+
+/// All refinements of one run. The field outlives the object.
+class Refinements {
+ public:
+  explicit Refinements(const SizeField& field) : field_(field) {}
+
+  /// Takes the place, no finer than `floor` times the request there. False when it is about as fine already. Local,
+  /// linear in the places.
+  bool add(const RefinementPoint& place, double floor);
+  /// Those that reach into the box, in the order in which they were taken.
+  std::vector<Refinement> near(const Box3& box) const;
+
+  const std::vector<Refinement>& all() const { return all_; }
+  /// Takes over what another rank took.
+  void assign(std::vector<Refinement> all) { all_ = std::move(all); }
+
+ private:
+  const SizeField& field_;
+  std::vector<Refinement> all_;
+};
+
+/// min(base, length_i + slope * distance to place i). Immutable; the base outlives it. A query visits about as many
+/// places as can matter.
+class RefinedField : public SizeField {
+ public:
+  RefinedField(const SizeField& base, std::vector<Refinement> places);
+  using SizeField::size;
+  double size(Vec3 xyz, int& hint) const override;
+  double min_size() const override;
+  double slope() const override;
+
+ private:
+  struct Node {  // of a binary tree in an array: children follow their parent
+    Box3 box;
+    double shortest = 0;               // of the places in it
+    std::int32_t first = 0, last = 0;  // places
+    std::int32_t right = 0;            // node; 0: a leaf. The left child is the next node
+  };
+  std::int32_t build(std::int32_t first, std::int32_t last);
+  void visit(std::int32_t node, Vec3 xyz, double& length) const;
+
+  const SizeField& base_;
+  std::vector<Refinement> places_;  // by tree
+  std::vector<Node> nodes_;         // empty: no place
+};
+
+}  // namespace st

@@ -1,0 +1,372 @@
+#include "meshing/face/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/limits.h"
+#include "base/predicates.h"
+
+namespace st {
+namespace {
+
+constexpr int kNext[3] = {1, 2, 0};
+constexpr int kPrev[3] = {2, 0, 1};
+
+/// Does the circle through a, b, c (counter-clockwise) hold the origin, in the metric? Plain doubles: validity never
+/// rests on it.
+bool in_circle(const Metric& m, Vec2 a, Vec2 b, Vec2 c) {
+  const double a2 = m.length2(a), b2 = m.length2(b), c2 = m.length2(c);
+  return a2 * cross(b, c) - b2 * cross(a, c) + c2 * cross(a, b) > 0;
+}
+
+/// Position along a Hilbert-like order: interleaved bits of the quantised plane.
+std::uint64_t morton(Vec2 p, Vec2 lo, double scale) {
+  const auto spread = [](std::uint64_t x) {
+    x &= 0xffffffffULL;
+    x = (x | x << 16) & 0x0000ffff0000ffffULL;
+    x = (x | x << 8) & 0x00ff00ff00ff00ffULL;
+    x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fULL;
+    x = (x | x << 2) & 0x3333333333333333ULL;
+    return (x | x << 1) & 0x5555555555555555ULL;
+  };
+  const auto quantise = [&](double x) {
+    return static_cast<std::uint64_t>(std::clamp(x * scale, 0.0, 1.0) * 1048575.0);
+  };
+  return spread(quantise(p.x - lo.x)) | spread(quantise(p.y - lo.y)) << 1;
+}
+
+}  // namespace
+
+void Triangulation::start_box() {
+  Vec2 lo = nodes[0].p, hi = lo;
+  for (const MeshNode& n : nodes) {
+    lo = {std::min(lo.x, n.p.x), std::min(lo.y, n.p.y)};
+    hi = {std::max(hi.x, n.p.x), std::max(hi.y, n.p.y)};
+  }
+  const double margin = 3 * std::max({hi.x - lo.x, hi.y - lo.y, 1e-12});
+  const Vec2 corners[4] = {{lo.x - margin, lo.y - margin},
+                           {hi.x + margin, lo.y - margin},
+                           {hi.x + margin, hi.y + margin},
+                           {lo.x - margin, hi.y + margin}};
+  const std::int32_t c = n_boundary;
+  for (Vec2 corner : corners) {
+    MeshNode n;
+    n.p = corner;
+    nodes.push_back(n);
+  }
+  triangles.clear();
+  triangles.push_back({{c, c + 1, c + 2}, {kNone, kNone, 1}, 0, 0, kOutside});
+  triangles.push_back({{c, c + 2, c + 3}, {0, kNone, kNone}, 0, 0, kOutside});
+  node_triangle_.assign(nodes.size(), kNone);
+  for (int k = 0; k < 3; ++k) node_triangle_[c + k] = 0;
+  node_triangle_[c + 3] = 1;
+}
+
+std::vector<LoopConflict> Triangulation::build(const std::vector<std::pair<std::int32_t, std::int32_t>>& segments) {
+  n_boundary = checked_id(nodes.size(), "nodes on the boundary of one face", kMaxTriangles / 4);
+  start_box();
+  Vec2 lo = nodes[n_boundary].p, hi = nodes[n_boundary + 2].p;
+  const double scale = 1.0 / std::max(hi.x - lo.x, hi.y - lo.y);
+  std::vector<std::pair<std::uint64_t, std::int32_t>> order(n_boundary);
+  for (std::int32_t i = 0; i < n_boundary; ++i) order[i] = {morton(nodes[i].p, lo, scale), i};
+  std::sort(order.begin(), order.end());
+  std::vector<LoopConflict> conflicts;
+  std::int32_t hint = 0;
+  for (const auto& [key, i] : order)
+    if (!insert_boundary_node(i, hint)) conflicts.push_back({i, i, i, i});
+  if (!conflicts.empty()) return conflicts;
+  for (const auto& [a, b] : segments)
+    if (const auto conflict = insert_segment(a, b)) conflicts.push_back(*conflict);
+  if (conflicts.empty()) classify();
+  return conflicts;
+}
+
+std::int32_t Triangulation::locate(Vec2 p, std::int32_t start) const {
+  std::int32_t t = start, from = kNone;
+  for (std::size_t step = 0; step < triangles.size() + 8; ++step) {
+    const PlaneTriangle& r = triangles[t];
+    int exit = -1;
+    for (int k = 0; k < 3; ++k) {
+      if (r.n[k] == from && from != kNone) continue;
+      if (orient2d(nodes[r.v[k]].p, nodes[r.v[kNext[k]]].p, p) < 0) {
+        exit = k;
+        if (!(r.constrained >> k & 1)) break;
+      }
+    }
+    if (exit < 0) return t;
+    if ((r.constrained >> exit & 1) || r.n[exit] == kNone) return kNone;
+    from = t;
+    t = r.n[exit];
+  }
+  return kNone;
+}
+
+bool Triangulation::find_cavity(Vec2 p, const Metric& metric, std::int32_t start) {
+  cavity_.clear();
+  ring_.clear();
+  stack_.clear();
+  cavity_.push_back(start);
+  for (int k = 2; k >= 0; --k) stack_.push_back({start, k});
+  while (!stack_.empty()) {
+    const auto [t, k] = stack_.back();
+    stack_.pop_back();
+    const PlaneTriangle& r = triangles[t];
+    const std::int32_t a = r.v[k], b = r.v[kNext[k]], other = r.n[k];
+    const bool constrained = r.constrained >> k & 1;
+    const bool must_join = t == start && orient2d(nodes[a].p, nodes[b].p, p) <= 0;
+    if (must_join && (constrained || other == kNone)) return false;
+    bool joins = false;
+    if (!constrained && other != kNone) {
+      const PlaneTriangle& o = triangles[other];
+      const int j = neighbour_index(other, t);
+      const std::int32_t apex = o.v[kPrev[j]];
+      const Vec2 pa = nodes[a].p, pb = nodes[b].p, pc = nodes[apex].p;
+      if (must_join || in_circle(metric, pb - p, pa - p, pc - p)) {
+        // the other two edges, a -> apex and apex -> b, strictly seen from p
+        joins = orient2d(pa, pc, p) > 0 && orient2d(pc, pb, p) > 0;
+        if (must_join && !joins) return false;
+      }
+      if (joins) {
+        cavity_.push_back(other);
+        stack_.push_back({other, kPrev[j]});
+        stack_.push_back({other, kNext[j]});
+      }
+    }
+    if (!joins) ring_.push_back({a, b, other, constrained, (r.toggles >> k & 1) != 0});
+  }
+  return true;
+}
+
+void Triangulation::fill_cavity(std::int32_t node) {
+  const std::size_t n = ring_.size();
+  fan_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i < cavity_.size()) {
+      fan_[i] = cavity_[i];
+    } else {
+      fan_[i] = static_cast<std::int32_t>(triangles.size());
+      triangles.emplace_back();
+    }
+  }
+  const std::uint8_t state = triangles[cavity_[0]].state;
+  for (std::size_t i = 0; i < n; ++i) {
+    const RingEdge& e = ring_[i];
+    PlaneTriangle& r = triangles[fan_[i]];
+    const std::int32_t old_owner_unknown = e.outer;
+    r = {{e.a, e.b, node},
+         {e.outer, fan_[(i + 1) % n], fan_[(i + n - 1) % n]},
+         static_cast<std::uint8_t>(e.constrained ? 1 : 0),
+         static_cast<std::uint8_t>(e.toggles ? 1 : 0),
+         state == kOutside ? static_cast<std::uint8_t>(kOutside) : static_cast<std::uint8_t>(kUnfinished)};
+    if (old_owner_unknown != kNone) {
+      PlaneTriangle& o = triangles[old_owner_unknown];
+      for (int k = 0; k < 3; ++k)
+        if (o.v[k] == e.b && o.v[kNext[k]] == e.a) o.n[k] = fan_[i];
+    }
+    node_triangle_[e.a] = fan_[i];
+  }
+  node_triangle_[node] = fan_[0];
+}
+
+bool Triangulation::insert_boundary_node(std::int32_t node, std::int32_t& hint) {
+  const Vec2 p = nodes[node].p;
+  const std::int32_t t = locate(p, hint);
+  if (t == kNone) return false;
+  for (std::int32_t v : triangles[t].v)
+    if (nodes[v].p == p) return false;
+  if (!find_cavity(p, Metric{}, t)) return false;
+  fill_cavity(node);
+  hint = fan_[0];
+  return true;
+}
+
+std::int32_t Triangulation::find_edge(std::int32_t a, std::int32_t b, int& k) const {
+  const std::int32_t first = node_triangle_[a];
+  std::int32_t t = first;
+  do {  // counter-clockwise about a
+    const int i = index_of(t, a);
+    if (triangles[t].v[kNext[i]] == b) {
+      k = i;
+      return t;
+    }
+    t = triangles[t].n[kPrev[i]];
+  } while (t != first && t != kNone);
+  return kNone;
+}
+
+void Triangulation::mark(std::int32_t t, int k) {
+  triangles[t].constrained |= static_cast<std::uint8_t>(1 << k);
+  triangles[t].toggles ^= static_cast<std::uint8_t>(1 << k);
+  const std::int32_t o = triangles[t].n[k];
+  if (o == kNone) return;
+  const int j = neighbour_index(o, t);
+  triangles[o].constrained |= static_cast<std::uint8_t>(1 << j);
+  triangles[o].toggles ^= static_cast<std::uint8_t>(1 << j);
+}
+
+// Forces the edge a-b by swapping the edges it crosses (Sloan 1993).
+std::optional<LoopConflict> Triangulation::insert_segment(std::int32_t a, std::int32_t b) {
+  int k;
+  if (const std::int32_t t = find_edge(a, b, k); t != kNone) {
+    mark(t, k);
+    return std::nullopt;
+  }
+  const Vec2 pa = nodes[a].p, pb = nodes[b].p;
+  std::vector<std::pair<std::int32_t, std::int32_t>> crossing;
+  // first triangle about a whose far edge the segment crosses
+  std::int32_t t = node_triangle_[a];
+  const std::int32_t first = t;
+  for (;;) {
+    const int i = index_of(t, a);
+    const std::int32_t r = triangles[t].v[kNext[i]], l = triangles[t].v[kPrev[i]];
+    const double side_r = orient2d(pa, pb, nodes[r].p), side_l = orient2d(pa, pb, nodes[l].p);
+    if (side_r == 0 && dot(nodes[r].p - pa, pb - pa) > 0) return LoopConflict{a, b, r, r};
+    if (side_r < 0 && side_l > 0) break;
+    t = triangles[t].n[kPrev[i]];
+    if (t == first || t == kNone) return LoopConflict{a, b, a, a};
+  }
+  int edge = kNext[index_of(t, a)];
+  for (;;) {
+    const PlaneTriangle& r = triangles[t];
+    const std::int32_t v = r.v[edge], w = r.v[kNext[edge]];
+    if (r.constrained >> edge & 1) return LoopConflict{a, b, v, w};
+    crossing.push_back({v, w});
+    const std::int32_t o = r.n[edge];
+    const int j = neighbour_index(o, t);
+    const std::int32_t apex = triangles[o].v[kPrev[j]];
+    if (apex == b) break;
+    const double side = orient2d(pa, pb, nodes[apex].p);
+    if (side == 0) return LoopConflict{a, b, apex, apex};
+    t = o;
+    edge = side > 0 ? kNext[j] : kPrev[j];  // leave across the edge whose ends lie on both sides
+  }
+  std::size_t guard = 0;
+  const std::size_t limit = 64 + 16 * crossing.size() * (1 + crossing.size() / 16);
+  for (std::size_t head = 0; head < crossing.size(); ++head) {
+    if (++guard > limit) return LoopConflict{a, b, crossing[head].first, crossing[head].second};
+    const auto [v, w] = crossing[head];
+    const std::int32_t s = find_edge(v, w, k);
+    if (s == kNone) continue;
+    if (!can_swap(s, k)) {
+      crossing.push_back({v, w});
+      continue;
+    }
+    const std::int32_t c = triangles[s].v[kPrev[k]];
+    const std::int32_t o = triangles[s].n[k];
+    const std::int32_t d = triangles[o].v[kPrev[neighbour_index(o, s)]];
+    swap(s, k);
+    if (c == a || c == b || d == a || d == b) continue;
+    if ((orient2d(pa, pb, nodes[c].p) > 0) != (orient2d(pa, pb, nodes[d].p) > 0)) crossing.push_back({c, d});
+  }
+  const std::int32_t done = find_edge(a, b, k);
+  if (done == kNone) return LoopConflict{a, b, a, b};
+  mark(done, k);
+  return std::nullopt;
+}
+
+bool Triangulation::can_swap(std::int32_t t, int k) const {
+  const PlaneTriangle& r = triangles[t];
+  if ((r.constrained >> k & 1) || r.n[k] == kNone) return false;
+  const PlaneTriangle& o = triangles[r.n[k]];
+  const Vec2 a = nodes[r.v[k]].p, b = nodes[r.v[kNext[k]]].p, c = nodes[r.v[kPrev[k]]].p;
+  const Vec2 d = nodes[o.v[kPrev[neighbour_index(r.n[k], t)]]].p;
+  return orient2d(c, a, d) > 0 && orient2d(c, d, b) > 0;
+}
+
+void Triangulation::swap(std::int32_t t, int k) {
+  const std::int32_t o = triangles[t].n[k];
+  const int j = neighbour_index(o, t);
+  const PlaneTriangle r = triangles[t], s = triangles[o];
+  const std::int32_t a = r.v[k], b = r.v[kNext[k]], c = r.v[kPrev[k]], d = s.v[kPrev[j]];
+  const auto bit = [](std::uint8_t bits, int i) { return bits >> i & 1; };
+  const int kn = kNext[k], kp = kPrev[k], jn = kNext[j], jp = kPrev[j];
+  // t = (c, a, d), o = (c, d, b); edges: t: c-a (old r.kp), a-d (old s.jn), d-c; o: c-d, d-b (old s.jp), b-c (old r.kn)
+  triangles[t] = {{c, a, d},
+                  {r.n[kp], s.n[jn], o},
+                  static_cast<std::uint8_t>(bit(r.constrained, kp) | bit(s.constrained, jn) << 1),
+                  static_cast<std::uint8_t>(bit(r.toggles, kp) | bit(s.toggles, jn) << 1),
+                  r.state};
+  triangles[o] = {{c, d, b},
+                  {t, s.n[jp], r.n[kn]},
+                  static_cast<std::uint8_t>(bit(s.constrained, jp) << 1 | bit(r.constrained, kn) << 2),
+                  static_cast<std::uint8_t>(bit(s.toggles, jp) << 1 | bit(r.toggles, kn) << 2),
+                  s.state};
+  if (s.n[jn] != kNone) triangles[s.n[jn]].n[neighbour_index(s.n[jn], o)] = t;
+  if (r.n[kn] != kNone) triangles[r.n[kn]].n[neighbour_index(r.n[kn], t)] = o;
+  node_triangle_[a] = t;
+  node_triangle_[b] = o;
+  node_triangle_[c] = t;
+  node_triangle_[d] = t;
+}
+
+void Triangulation::classify() {
+  std::vector<std::int32_t> stack{node_triangle_[n_boundary]};
+  std::vector<char> seen(triangles.size(), 0);
+  seen[stack[0]] = 1;
+  triangles[stack[0]].state = kOutside;
+  while (!stack.empty()) {
+    const std::int32_t t = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t o = triangles[t].n[k];
+      if (o == kNone || seen[o]) continue;
+      seen[o] = 1;
+      const bool toggles = triangles[t].toggles >> k & 1;
+      triangles[o].state = (triangles[t].state == kOutside) != toggles ? kOutside : kUnfinished;
+      stack.push_back(o);
+    }
+  }
+}
+
+bool Triangulation::ring_of(std::int32_t node, std::vector<std::int32_t>& around,
+                            std::vector<std::int32_t>& tris) const {
+  around.clear();
+  tris.clear();
+  const std::int32_t first = node_triangle_[node];
+  std::int32_t t = first;
+  do {
+    const int i = index_of(t, node);
+    around.push_back(triangles[t].v[kNext[i]]);
+    tris.push_back(t);
+    t = triangles[t].n[kPrev[i]];
+  } while (t != first && t != kNone && tris.size() < 1000);
+  return t == first;
+}
+
+void Triangulation::collapse(std::int32_t node, int target_index, const std::vector<std::int32_t>& around,
+                             const std::vector<std::int32_t>& tris) {
+  const int n = static_cast<int>(around.size());
+  const std::int32_t target = around[target_index];
+  // the two triangles at the edge (node, target) vanish: tris[target_index] and the one before it
+  const int gone[2] = {target_index, (target_index + n - 1) % n};
+  for (int g : gone) {
+    const std::int32_t t = tris[g];
+    const PlaneTriangle r = triangles[t];
+    const int i = index_of(t, node);
+    const int j = index_of(t, target);
+    // across the edge opposite to the node, and across the edge opposite to the target
+    const int edge_far = kNext[i];   // opposite to node
+    const int edge_near = kNext[j];  // opposite to target
+    const std::int32_t far = r.n[edge_far], near = r.n[edge_near];
+    const bool constrained = r.constrained >> edge_far & 1, toggles = r.toggles >> edge_far & 1;
+    if (near != kNone) {
+      const int q = neighbour_index(near, t);
+      triangles[near].n[q] = far;
+      if (constrained) triangles[near].constrained |= static_cast<std::uint8_t>(1 << q);
+      if (toggles) triangles[near].toggles |= static_cast<std::uint8_t>(1 << q);
+    }
+    if (far != kNone) triangles[far].n[neighbour_index(far, t)] = near;
+    const std::int32_t third = r.v[3 - i - j];
+    node_triangle_[third] = near;
+    triangles[t].state = kDead;
+  }
+  for (int q = 0; q < n; ++q) {
+    if (q == gone[0] || q == gone[1]) continue;
+    triangles[tris[q]].v[index_of(tris[q], node)] = target;
+    node_triangle_[target] = tris[q];
+  }
+  node_triangle_[node] = kNone;
+}
+
+}  // namespace st

@@ -1,0 +1,118 @@
+// The planar triangulation that carries a face's mesh: nodes in the (scaled) parameter plane, triangles with
+// neighbours, constrained edges.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/ids.h"
+#include "base/vec.h"
+
+namespace st {
+
+/// A node of a face: in the plane and in space.
+struct MeshNode {
+  Vec2 p;                   ///< scaled parameter plane
+  Vec3 x;                   ///< space, model unit
+  Vec3 du, dv;              ///< derivatives by the scaled parameters
+  Vec3 normal;              ///< unit normal du x dv; zero at a pole
+  double h = 0;             ///< edge length to aim at: the request, limited by growth and turning
+  double request = 0;       ///< edge length that the field asks for
+  std::int32_t id = kNone;  ///< the boundary node's id outside the face; equal for seam twins and the nodes of a pole;
+                            ///< kNone inside
+  bool is_pole = false;     ///< one of the plane nodes of a degenerate edge
+  bool is_kept = false;     ///< of a ring about a narrow part: not to be collapsed
+};
+
+/// A triangle, counter-clockwise in the plane. Edge k runs from v[k] to v[(k+1)%3]; n[k] is the neighbour across it.
+struct PlaneTriangle {
+  std::int32_t v[3];
+  std::int32_t n[3];
+  std::uint8_t constrained = 0;  ///< bit k: edge k is a boundary segment
+  std::uint8_t toggles = 0;      ///< bit k: crossing edge k changes between inside and outside
+  std::uint8_t state = 0;        ///< TriangleState
+};
+
+/// Retired: no node can be placed in it, though it is not small enough.
+enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3, kRetired = 4 };
+
+/// Symmetric metric E dx^2 + 2 F dx dy + G dy^2.
+struct Metric {
+  double e = 1, f = 0, g = 1;
+  double length2(Vec2 d) const { return e * d.x * d.x + 2 * f * d.x * d.y + g * d.y * d.y; }
+};
+
+/// Two boundary segments that cross or touch, or a node on a segment: where (plane nodes).
+struct LoopConflict {
+  std::int32_t node_a, node_b;    ///< ends of the segment that could not be inserted
+  std::int32_t other_a, other_b;  ///< ends of the one in its way; equal: a node on the segment
+};
+
+class Triangulation {
+ public:
+  std::vector<MeshNode> nodes;
+  std::vector<PlaneTriangle> triangles;
+  std::int32_t n_boundary = 0;  ///< nodes [0, n_boundary) are boundary nodes; the next four span a box around them;
+                                ///< inner nodes follow
+
+  /// Triangulates the boundary nodes (already in `nodes`; the four box nodes are appended) and forces `segments` (node
+  /// pairs) as edges, then marks inside by parity. Returns the conflicts; the triangulation is usable only when there
+  /// is none.
+  std::vector<LoopConflict> build(const std::vector<std::pair<std::int32_t, std::int32_t>>& segments);
+
+  /// Triangle that contains p, walked from `start` without crossing a constrained edge; kNone when one is in the way.
+  std::int32_t locate(Vec2 p, std::int32_t start) const;
+
+  /// The cavity of p: triangles whose circumcircle (in the metric) holds p, grown from `start`, star-shaped about p.
+  /// Fills cavity() and ring(). False when p lies on a constrained edge or on a node.
+  bool find_cavity(Vec2 p, const Metric& metric, std::int32_t start);
+  struct RingEdge {
+    std::int32_t a, b, outer;  ///< counter-clockwise; triangle beyond, kNone at the rim
+    bool constrained, toggles;
+  };
+  const std::vector<std::int32_t>& cavity() const { return cavity_; }
+  const std::vector<RingEdge>& ring() const { return ring_; }
+  /// Replaces the cavity by the fan about `node`. new_triangles() lists the fan. States are kUnfinished.
+  void fill_cavity(std::int32_t node);
+  const std::vector<std::int32_t>& new_triangles() const { return fan_; }
+
+  /// Swaps edge k of t. Precondition: unconstrained and the quadrilateral strictly convex (can_swap).
+  void swap(std::int32_t t, int k);
+  bool can_swap(std::int32_t t, int k) const;
+
+  /// A triangle at the node, kNone when unknown. Kept up to date by all operations.
+  std::int32_t triangle_at(std::int32_t node) const { return node_triangle_[node]; }
+  /// Tells the triangulation of a node appended to `nodes`.
+  void added_node() { node_triangle_.push_back(kNone); }
+  /// Nodes and triangles around an inner node, counter-clockwise: triangle i holds (node, around[i], around[i+1]).
+  bool ring_of(std::int32_t node, std::vector<std::int32_t>& around, std::vector<std::int32_t>& tris) const;
+  /// Removes inner node `node` by moving it onto ring node `target_index` of the given ring. Precondition: all
+  /// remaining triangles are valid.
+  void collapse(std::int32_t node, int target_index, const std::vector<std::int32_t>& around,
+                const std::vector<std::int32_t>& tris);
+
+  int index_of(std::int32_t t, std::int32_t node) const {
+    const PlaneTriangle& r = triangles[t];
+    return r.v[0] == node ? 0 : r.v[1] == node ? 1 : 2;
+  }
+
+ private:
+  void start_box();
+  bool insert_boundary_node(std::int32_t node, std::int32_t& hint);
+  std::optional<LoopConflict> insert_segment(std::int32_t a, std::int32_t b);
+  void mark(std::int32_t t, int k);
+  void classify();
+  std::int32_t find_edge(std::int32_t a, std::int32_t b, int& k) const;
+  int neighbour_index(std::int32_t t, std::int32_t of) const {
+    const PlaneTriangle& r = triangles[t];
+    return r.n[0] == of ? 0 : r.n[1] == of ? 1 : 2;
+  }
+
+  std::vector<std::int32_t> node_triangle_;
+  std::vector<std::int32_t> cavity_, fan_;
+  std::vector<RingEdge> ring_;
+  std::vector<std::pair<std::int32_t, int>> stack_;
+};
+
+}  // namespace st

@@ -1,0 +1,54 @@
+// A hole's boundary in (u,v), and the face's patch once its holes are filled.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meshing/face/face_mesher.h"
+#include "meshing/hole/hole_curves.h"
+#include "meshing/hole/hole_rim.h"
+
+namespace st {
+
+/// Numbers of the nodes that holes are made of: those of BoundaryNumbering for the new edges, then the inner nodes of
+/// the old mesh.
+struct HoleNumbering {
+  /// Of `mesh` only the nodes on vertices and edges are used: a mesh cut off after these will do.
+  HoleNumbering(const HoleMesh& mesh, const EdgeUpdate& update);
+  /// kNone: replaced on its edge.
+  std::int32_t number(NodeId n) const {
+    return n < mesh.inner_begin[0] ? of_node[n] : first_inner + n - mesh.inner_begin[0];
+  }
+  bool is_inner(std::int32_t id) const { return id >= first_inner; }
+  NodeId mesh_node(std::int32_t inner_id) const { return inner_id - first_inner + mesh.inner_begin[0]; }
+
+  const HoleMesh& mesh;
+  const EdgeUpdate& update;
+  BoundaryNumbering boundary;
+  std::int32_t first_inner;
+  std::vector<std::int32_t> of_node;  ///< [nodes on vertices and edges]
+};
+
+/// Boundary of a hole: its sides to triangles that stay, and the new nodes on CAD edges. Seams appear twice, poles get
+/// their segments; nothing is ordered, segments count by parity. A whole face has the loops of make_face_boundary.
+/// Throws Error(kInternal) when marks and runs do not fit. Of `marks` the segments are used.
+FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks,
+                                const HoleNumbering& numbering, const SizeField& field);
+
+/// A filled hole: nodes on its boundary first, then new ones.
+struct HoleFill {
+  std::vector<std::int32_t> id;  ///< [n_boundary] by HoleNumbering
+  std::vector<Vec2> uv;          ///< [n_boundary]
+  std::vector<FaceMesh::InnerNode> inner;
+  std::vector<Triangle> triangles;  ///< of these nodes, oriented as the old mesh; empty: it could not be filled
+};
+
+/// `mesh`: mesh_face of `boundary`.
+HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
+
+/// The face's patch: unmarked triangles as they were, then those of the fills of its holes. Without fills all triangles
+/// are as they were.
+FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
+                          std::span<const HoleFill> fills);
+
+}  // namespace st

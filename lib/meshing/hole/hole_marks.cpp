@@ -1,0 +1,201 @@
+#include "meshing/hole/hole_marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace st {
+namespace {
+
+bool by_face(const TouchedNode& a, const TouchedNode& b) { return a.face < b.face; }
+
+class Marker {
+ public:
+  Marker(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted, const HoleMarkOptions& options,
+         const NodeExchange& exchange)
+      : cad_(mesh), mesh_(mesh.mesh), share_(share), wanted_(wanted), options_(options), exchange_(exchange) {
+    marks_.triangle.assign(mesh_.triangles.size(), 0);
+    marks_.segment.assign(mesh.edges.node_t.size(), 0);
+    on_run_.assign(mesh_.node_xyz.size(), 0);
+    face_at_.assign(mesh_.node_xyz.size(), kNone);
+  }
+
+  HoleMarks run() {
+    mark_segments();
+    join_segments();
+    mark_triangles();
+    for (int i = 0; i < options_.layers; ++i) {
+      const std::vector<TouchedNode> elsewhere = exchange_touched();
+      for_each_face([&](FaceId f) { add_layer(f, elsewhere); });
+    }
+    const std::vector<TouchedNode> elsewhere = exchange_touched();
+    for_each_face([&](FaceId f) { close_gaps(f, elsewhere); });
+    return std::move(marks_);
+  }
+
+ private:
+  bool keeps(FaceId f) const { return !options_.keep_face.empty() && options_.keep_face[f]; }
+
+  bool has_moved(NodeId a, NodeId b, double length) const {
+    if (options_.earlier_xyz.empty()) return false;
+    const double earlier = distance(options_.earlier_xyz[a], options_.earlier_xyz[b]);
+    return std::abs(length - earlier) > options_.change * earlier;
+  }
+
+  bool violates(NodeId a, NodeId b) const {
+    const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
+    const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
+    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length)) return false;
+    const double ratio = length / size;
+    return ratio > options_.too_long || ratio < options_.too_short;
+  }
+
+  /// Segments of kept faces and edges stay, and those of merged strips, which share nodes.
+  std::vector<char> free_edges() const {
+    const ModelTables& t = cad_.tables;
+    std::vector<char> is_free(t.n_edges(), 1);
+    for (std::size_t e = 0; e < options_.keep_edge.size(); ++e) is_free[e] = !options_.keep_edge[e];
+    for (const MeshTopology::Strip& strip : cad_.topology.strips()) is_free[strip.kept] = is_free[strip.closed] = 0;
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      if (keeps(f))
+        for (const EdgeId e : t.edges_of(f)) is_free[e] = 0;
+    return is_free;
+  }
+
+  void mark_segments() {
+    const std::vector<char> is_free = free_edges();
+    for (const CadSegment& s : cad_.segments) marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high);
+  }
+
+  /// A segment between two marked ones goes with them.
+  void join_segments() {
+    const EdgeMesh& m = cad_.edges;
+    for (EdgeId e = 0; e < m.n_edges(); ++e)
+      for (std::int32_t i = m.first_node(e) + 1; i + 2 < m.first_node(e) + m.n_nodes(e); ++i)
+        if (marks_.segment[i - 1] && marks_.segment[i + 1]) marks_.segment[i] = 1;
+    for (std::size_t i = 0; i < marks_.segment.size(); ++i)
+      if (marks_.segment[i]) on_run_[cad_.edge_node[i]] = on_run_[cad_.edge_node[i + 1]] = 1;
+  }
+
+  void mark_triangles() {
+    for (const TriangleId t : options_.redo)
+      if (const TriangleId i = t - share_.first_triangle; share_.begin <= i && i < share_.end)
+        marks_.triangle[i] = !keeps(mesh_.triangle_face[i]);
+    for (TriangleId i = share_.begin; i < share_.end; ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (marks_.triangle[i] || keeps(mesh_.triangle_face[i])) continue;
+      marks_.triangle[i] = violates(n[0], n[1]) || violates(n[1], n[2]) || violates(n[2], n[0]);
+    }
+  }
+
+  TriangleId begin(FaceId f) const { return std::max(share_.begin, cad_.face_begin[f]); }
+  TriangleId end(FaceId f) const { return std::min(share_.end, cad_.face_begin[f + 1]); }
+
+  template <class Work>
+  void for_each_face(const Work& work) {
+    for (FaceId f = 0; f < cad_.tables.n_faces(); ++f)
+      if (begin(f) < end(f) && !keeps(f)) work(f);
+  }
+
+  NodeId in_whole_mesh(NodeId n) const { return n < cad_.inner_begin[0] ? n : n + share_.inner_shift; }
+  /// kNone: not in this rank's mesh.
+  NodeId in_own_mesh(NodeId n) const {
+    if (n < cad_.inner_begin[0]) return n;
+    const NodeId own = n - share_.inner_shift;
+    return own >= cad_.inner_begin[0] && own < static_cast<NodeId>(face_at_.size()) ? own : kNone;
+  }
+
+  /// What marked triangles of other ranks touch; only the first and the last face can lie there, too.
+  std::vector<TouchedNode> exchange_touched() {
+    if (!exchange_) return {};
+    std::vector<TouchedNode> own;
+    if (share_.begin < share_.end) {
+      const FaceId first = mesh_.triangle_face[share_.begin], last = mesh_.triangle_face[share_.end - 1];
+      add_touched(first, own);
+      if (last != first) add_touched(last, own);
+    }
+    std::vector<TouchedNode> all = exchange_(own);
+    std::sort(all.begin(), all.end(), by_face);
+    return all;
+  }
+
+  void add_touched(FaceId f, std::vector<TouchedNode>& own) {
+    face_at_.assign(face_at_.size(), kNone);
+    for (TriangleId i = begin(f); i < end(f); ++i)
+      for (const NodeId n : mesh_.triangles[i].n)
+        if (marks_.triangle[i] && face_at_[n] != f) {
+          face_at_[n] = f;
+          own.push_back({f, in_whole_mesh(n)});
+        }
+  }
+
+  /// Marks spread within a face; over CAD edges only where the edge itself changes.
+  void note_nodes(FaceId f, std::span<const TouchedNode> elsewhere) {
+    for (TriangleId i = begin(f); i < end(f); ++i)
+      if (marks_.triangle[i])
+        for (NodeId n : mesh_.triangles[i].n) face_at_[n] = f;
+    const auto [first, last] = std::equal_range(elsewhere.begin(), elsewhere.end(), TouchedNode{f, kNone}, by_face);
+    for (auto touched = first; touched != last; ++touched)
+      if (const NodeId n = in_own_mesh(touched->node); n != kNone) face_at_[n] = f;
+  }
+  bool is_marked(NodeId n, FaceId f) const { return on_run_[n] || face_at_[n] == f; }
+
+  void add_layer(FaceId f, std::span<const TouchedNode> elsewhere) {
+    note_nodes(f, elsewhere);
+    for (TriangleId i = begin(f); i < end(f); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (is_marked(n[0], f) || is_marked(n[1], f) || is_marked(n[2], f)) marks_.triangle[i] = 1;
+    }
+  }
+
+  /// No triangle with marked ones at all its corners stays; one pass finds all, as no further node is touched.
+  void close_gaps(FaceId f, std::span<const TouchedNode> elsewhere) {
+    note_nodes(f, elsewhere);
+    for (TriangleId i = begin(f); i < end(f); ++i) {
+      const NodeId* n = mesh_.triangles[i].n;
+      if (is_marked(n[0], f) && is_marked(n[1], f) && is_marked(n[2], f)) marks_.triangle[i] = 1;
+    }
+  }
+
+  const HoleMesh& cad_;
+  const SurfaceMesh& mesh_;
+  const MeshShare& share_;
+  std::span<const double> wanted_;
+  const HoleMarkOptions& options_;
+  const NodeExchange& exchange_;  // empty: there is one rank
+  HoleMarks marks_;
+  std::vector<char> on_run_;     // nodes of marked segments
+  std::vector<FaceId> face_at_;  // last face in which a marked triangle was seen at the node
+};
+
+}  // namespace
+
+std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
+
+HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options) {
+  return mark_share(mesh, {0, static_cast<TriangleId>(mesh.mesh.triangles.size()), 0, 0}, wanted, options, {});
+}
+
+HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,
+                     const HoleMarkOptions& options, const NodeExchange& exchange) {
+  return Marker(mesh, share, wanted, options, exchange).run();
+}
+
+void grow_hole(const HoleMesh& cad, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks) {
+  std::vector<TriangleId> fresh(hole.begin(), hole.end());
+  std::vector<NodeId> touched;
+  for (int l = 0; l < layers; ++l) {
+    for (const TriangleId i : fresh)
+      touched.insert(touched.end(), cad.mesh.triangles[i].n, cad.mesh.triangles[i].n + 3);
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    fresh.clear();
+    for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i) {
+      if (marks.triangle[i]) continue;
+      for (const NodeId n : cad.mesh.triangles[i].n)
+        if (std::binary_search(touched.begin(), touched.end(), n)) marks.triangle[i] = 1;
+      if (marks.triangle[i]) fresh.push_back(i);
+    }
+  }
+}
+
+}  // namespace st

@@ -1,0 +1,65 @@
+// Which triangles and segments no longer respect the sizes (the analysis of a remeshing).
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "meshing/hole/hole_mesh.h"
+
+namespace st {
+
+struct HoleMarkOptions {
+  double too_long = 1.4;   ///< times the requested length, > 1
+  double too_short = 0.7;  ///< likewise, in (0, 1)
+  double change = 0.1;     ///< relative: where the request changed by less, edges are good whatever their length
+  int layers = 2;          ///< triangles around a marked one that are marked with it, >= 1
+  std::vector<char> keep_face = {};        ///< [n_faces] 1: nothing of it changes; empty: none
+  std::vector<char> keep_edge = {};        ///< [n_edges] 1: its segments stay; empty: none
+  std::span<const Vec3> earlier_xyz = {};  ///< empty, or [n_nodes] before the geometry moved: edges that it made longer
+                                           ///< or shorter count, too
+  std::vector<TriangleId> redo = {};       ///< marked whatever their edges, unless kept
+};
+
+/// 1: to be redone.
+struct HoleMarks {
+  std::vector<char> triangle;  ///< [n_triangles]
+  std::vector<char> segment;   ///< [edges.node_t] by CadSegment::index; all triangles that touch an inner node of a run
+                               ///< of these are marked
+  std::int64_t n_triangles() const;
+};
+
+/// The part of the whole mesh that a rank has, and the part of that which it marks. A rank's mesh has all nodes on
+/// vertices and edges, and a consecutive share of the triangles with their nodes, by their order in the whole mesh.
+struct MeshShare {
+  TriangleId begin = 0, end = 0;  ///< triangles of the rank's mesh that it marks
+  TriangleId first_triangle = 0;  ///< number in the whole mesh of the rank's triangle 0
+  NodeId inner_shift = 0;         ///< of nodes inside faces: number in the whole mesh minus number in the rank's
+};
+
+/// A node of the whole mesh that a marked triangle of `face` touches.
+struct TouchedNode {
+  FaceId face;
+  NodeId node;
+};
+
+/// Where faces lie on several ranks. Collective: what every rank's triangles touch goes in, what all of them touch
+/// comes out.
+using NodeExchange = std::function<std::vector<TouchedNode>(const std::vector<TouchedNode>& own)>;
+
+/// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size
+/// stored with the mesh; with it its triangles, and `layers` around them within their face (over a CAD edge where its
+/// segments are marked); segments between marked ones and triangles with marked ones at all corners follow. Local,
+/// pure.
+HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
+
+/// Likewise on several ranks, each with its share: together they mark what one would. Of the triangles only those of
+/// the share are marked, of `wanted` only the values on their nodes and on all edges are used; segments are marked on
+/// every rank. `options.redo` numbers the whole mesh's triangles. Calls `exchange` layers + 1 times.
+HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,
+                     const HoleMarkOptions& options, const NodeExchange& exchange);
+
+/// Grows a hole within its face by `layers`; segments stay. `hole`: its triangles.
+void grow_hole(const HoleMesh& mesh, FaceId face, std::span<const TriangleId> hole, int layers, HoleMarks& marks);
+
+}  // namespace st

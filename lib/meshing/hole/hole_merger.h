@@ -1,0 +1,17 @@
+// The mesh again, once its holes are filled: what was kept is copied, what is new inserted.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "meshing/hole/hole_filler.h"
+
+namespace st {
+
+/// What merge_patches() gives for the patches of all faces, without making patches: canonical order, the orientation of
+/// the old mesh, node_previous and triangle_previous filled. `fills` [n_faces]: of the holes of each face; none: the
+/// face is as it was. Local, linear.
+SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks,
+                         std::span<const std::vector<HoleFill>> fills);
+
+}  // namespace st

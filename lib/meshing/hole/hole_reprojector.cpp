@@ -1,0 +1,287 @@
+#include "meshing/hole/hole_reprojector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "meshing/topology/mesh_topology.h"
+#include "meshing/topology/small_features.h"
+
+namespace st {
+namespace {
+
+constexpr double kSpoiltQuality = 0.3;  // of a triangle: below, it is made again if it was better before
+constexpr double kOnPoint = 1e-7;       // of the model's size: (u,v) that give a node's place as close as this need no
+                                        // projection
+constexpr double kSameParameters = 1e-4;  // likewise: a face whose boundary is as close to its old (u,v) was not
+                                          // stretched
+constexpr double kEvenStretch = 1.5;      // of the segments of an edge that keep their parameters: largest over least
+
+constexpr auto kOnVertex = static_cast<std::uint8_t>(EntityDim::kVertex),
+               kOnEdge = static_cast<std::uint8_t>(EntityDim::kEdge),
+               kInFace = static_cast<std::uint8_t>(EntityDim::kFace);
+
+struct UvBox {
+  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
+  void add(Vec2 p) {
+    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
+    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+  }
+};
+
+double stretched(double x, double from_lo, double from_hi, double to_lo, double to_hi) {
+  const double span = from_hi - from_lo;
+  if (!(span > 0) || std::abs(to_lo - from_lo) + std::abs(to_hi - from_hi) <= 1e-9 * span) return x;
+  return to_lo + (to_hi - to_lo) * (x - from_lo) / span;
+}
+
+double quality(Vec3 a, Vec3 b, Vec3 c) {
+  const double sides = norm2(b - a) + norm2(c - b) + norm2(a - c);
+  return sides > 0 ? 2 * std::sqrt(3.0) * norm(cross(b - a, c - a)) / sides : 0;
+}
+
+class Mover {
+ public:
+  Mover(const SurfaceMesh& old, const Model& model) : old_(old), model_(model), t_(model.tables()), result_{old, {}} {}
+
+  MovedMesh run() {
+    require_same_topology();
+    move_vertices();
+    move_edges();
+    const MeshTopology topology(t_, old_.merged);
+    for (const MeshTopology::Strip& strip : topology.strips()) move_strip(strip);
+    for (std::size_t begin = 0, end; begin < old_.triangles.size(); begin = end) {
+      for (end = begin; end < old_.triangles.size() && old_.triangle_face[end] == old_.triangle_face[begin];) ++end;
+      move_face(old_.triangle_face[begin], begin, end);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& what) {
+    throw Error(ExitCode::kMismatch, "the geometry is not the mesh's one moved: " + what + "; mesh it with st-mesh");
+  }
+
+  std::vector<EdgeId> edges_of(FaceId f) const {
+    std::vector<EdgeId> edges;
+    for (const EdgeId e : t_.edges_of(f)) edges.push_back(e);
+    std::sort(edges.begin(), edges.end());
+    return edges;
+  }
+
+  /// Boundary nodes of each face's triangles must lie on its own edges, or on those of a face beside it (narrow faces
+  /// may be closed).
+  void require_same_topology() const {
+    if (static_cast<std::int32_t>(old_.face_name.size()) != t_.n_faces())
+      fail("it has " + std::to_string(t_.n_faces()) + " faces, the mesh " + std::to_string(old_.face_name.size()));
+    const std::int32_t limit[] = {t_.n_vertices(), t_.n_edges(), t_.n_faces()};
+    for (std::size_t n = 0; n < old_.node_xyz.size(); ++n)
+      if (old_.node_entity_dim[n] > kInFace || old_.node_entity[n] < 0 ||
+          old_.node_entity[n] >= limit[old_.node_entity_dim[n]])
+        fail("it lacks the entity of node " + std::to_string(n));
+    std::vector<std::int32_t> offsets;
+    std::vector<FaceId> faces;
+    t_.edge_faces(offsets, faces);
+    std::vector<FaceId> edge_seen(t_.n_edges(), kNone), vertex_seen(t_.n_vertices(), kNone);
+    FaceId current = kNone;
+    for (std::size_t i = 0; i < old_.triangles.size(); ++i) {
+      const FaceId f = old_.triangle_face[i];
+      if (f != current)
+        for (EdgeId e : edges_of(current = f))
+          for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
+            for (EdgeId near : edges_of(faces[k])) {
+              edge_seen[near] = f;
+              vertex_seen[t_.edge_vertices[2 * near]] = vertex_seen[t_.edge_vertices[2 * near + 1]] = f;
+            }
+      for (NodeId n : old_.triangles[i].n) {
+        const std::int32_t entity = old_.node_entity[n];
+        const bool fits = old_.node_entity_dim[n] == kOnVertex ? vertex_seen[entity] == f
+                          : old_.node_entity_dim[n] == kOnEdge ? edge_seen[entity] == f
+                                                               : entity == f;
+        if (!fits)
+          fail("node " + std::to_string(n) + " of " + t_.face_label(f) + " lies on an entity that is not beside it");
+      }
+    }
+  }
+
+  void move_vertices() {
+    vertex_node_.assign(t_.n_vertices(), kNone);
+    for (std::size_t n = 0; n < old_.node_xyz.size(); ++n) {
+      if (old_.node_entity_dim[n] != kOnVertex) continue;
+      vertex_node_[old_.node_entity[n]] = static_cast<NodeId>(n);
+      result_.mesh.node_xyz[n] = t_.vertex_xyz[old_.node_entity[n]];
+    }
+  }
+
+  void move_edges() {
+    std::size_t end = 0;
+    for (std::size_t n = 0; n < old_.node_xyz.size(); n = end) {
+      end = n + 1;
+      if (old_.node_entity_dim[n] != kOnEdge) continue;
+      while (end < old_.node_xyz.size() && old_.node_entity_dim[end] == kOnEdge &&
+             old_.node_entity[end] == old_.node_entity[n])
+        ++end;
+      move_edge(old_.node_entity[n], n, end);
+    }
+  }
+
+  /// Nodes [begin, end) of an edge.
+  void move_edge(EdgeId e, std::size_t begin, std::size_t end) {
+    const double lo = t_.edge_range[2 * e], hi = t_.edge_range[2 * e + 1];
+    const NodeId first = vertex_node_[t_.edge_vertices[2 * e]], last = vertex_node_[t_.edge_vertices[2 * e + 1]];
+    std::vector<double> share;
+    double length = 0;
+    Vec3 from = first == kNone ? old_.node_xyz[begin] : old_.node_xyz[first];
+    for (std::size_t n = begin; n < end; ++n) {
+      share.push_back(length += distance(from, old_.node_xyz[n]));
+      from = old_.node_xyz[n];
+    }
+    length += last == kNone ? 0 : distance(from, old_.node_xyz[last]);
+    const auto curve = model_.curve(e);
+    const bool keeps_t = keeps_parameters(*curve, begin, end, first, last);
+    for (std::size_t n = begin; n < end; ++n) {
+      double& t = result_.mesh.node_t[n];
+      if (!keeps_t) t = lo + (hi - lo) * share[n - begin] / length;
+      result_.mesh.node_xyz[n] = curve->point(t);
+    }
+  }
+
+  /// Nodes inside an edge.
+  std::pair<std::size_t, std::size_t> nodes_on(EdgeId e) const {
+    const auto first_not_below = [&](std::pair<std::uint8_t, std::int32_t> key) {
+      std::size_t lo = 0, hi = old_.node_xyz.size();
+      while (lo < hi) {
+        const std::size_t middle = (lo + hi) / 2;
+        std::pair(old_.node_entity_dim[middle], old_.node_entity[middle]) < key ? lo = middle + 1 : hi = middle;
+      }
+      return lo;
+    };
+    return {first_not_below({kOnEdge, e}), first_not_below({kOnEdge, e + 1})};
+  }
+
+  /// Where a strip is not closed both its edges have nodes, at the same shares of their lengths (mirror_nodes): so they
+  /// do on the moved edges.
+  void move_strip(const MeshTopology::Strip& strip) {
+    const EdgeId kept = strip.kept, closed = strip.closed;
+    const auto [begin, end] = nodes_on(kept);
+    const auto [own_begin, own_end] = nodes_on(closed);
+    if (own_begin == own_end) return;
+    SurfaceMesh& m = result_.mesh;
+    CurveNodes nodes{{t_.edge_range[2 * kept]}, {}, {}};
+    nodes.t.insert(nodes.t.end(), m.node_t.begin() + begin, m.node_t.begin() + end);
+    nodes.t.push_back(t_.edge_range[2 * kept + 1]);
+    nodes.x.resize(nodes.t.size());
+    nodes.h.resize(nodes.t.size());
+    const CurveNodes mirrored = mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), strip.is_opposed, {});
+    std::size_t last = 0;
+    for (std::size_t own = own_begin; own < own_end; ++own) {
+      std::size_t partner = begin;
+      for (std::size_t n = begin; n < end; ++n)
+        if (distance(old_.node_xyz[n], old_.node_xyz[own]) < distance(old_.node_xyz[partner], old_.node_xyz[own]))
+          partner = n;
+      const std::size_t i = partner - begin + 1, k = strip.is_opposed ? mirrored.t.size() - 1 - i : i;
+      if (k <= last || k + 1 >= mirrored.t.size())
+        fail("the nodes on the narrow strip of " + t_.face_label(strip.face) + " cannot be followed");
+      last = k;
+      m.node_t[own] = mirrored.t[k];
+      m.node_xyz[own] = mirrored.x[k];
+    }
+  }
+
+  /// Does every segment of an edge become about as much longer as the others when its nodes keep their parameters?
+  bool keeps_parameters(const Curve& curve, std::size_t begin, std::size_t end, NodeId first, NodeId last) const {
+    if (!(old_.node_t[begin] > curve.t_min() && old_.node_t[end - 1] < curve.t_max())) return false;
+    double least = 1e300, most = 0;
+    Vec3 from = first == kNone ? old_.node_xyz[begin] : old_.node_xyz[first], moved = curve.point(curve.t_min());
+    const auto add = [&](Vec3 to, Vec3 moved_to) {
+      const double before = distance(from, to), ratio = before > 0 ? distance(moved, moved_to) / before : 1;
+      least = std::min(least, ratio);
+      most = std::max(most, ratio);
+      from = to, moved = moved_to;
+    };
+    for (std::size_t n = begin; n < end; ++n) add(old_.node_xyz[n], curve.point(old_.node_t[n]));
+    if (last != kNone) add(old_.node_xyz[last], curve.point(curve.t_max()));
+    return most <= kEvenStretch * least;
+  }
+
+  /// Of the nodes on the boundary of a face: as the old mesh has them, and by the new trimming curves.
+  std::pair<UvBox, UvBox> boundary_boxes(FaceId f, std::size_t begin, std::size_t end) const {
+    UvBox before, after;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int k = 0; k < 3; ++k)
+        if (old_.node_entity_dim[old_.triangles[i].n[k]] != kInFace) before.add(old_.corner_uv[3 * i + k]);
+    for (const CoedgeId c : t_.coedges(f)) {
+      const EdgeId e = t_.coedge_edge[c];
+      const auto pcurve = model_.pcurve(f, c);
+      if (!pcurve) continue;
+      after.add(pcurve->point(t_.edge_range[2 * e]));
+      after.add(pcurve->point(t_.edge_range[2 * e + 1]));
+      const auto [first, last] = nodes_on(e);
+      for (std::size_t n = first; n < last; ++n) after.add(pcurve->point(result_.mesh.node_t[n]));
+    }
+    return {before, after};
+  }
+
+  /// Do the old (u,v) of the nodes on the boundary give their new places?
+  bool fits(const Surface& surface, std::size_t begin, std::size_t end, double tolerance) const {
+    for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+      const NodeId n = old_.triangles[c / 3].n[c % 3];
+      if (old_.node_entity_dim[n] != kInFace &&
+          distance(surface.point(old_.corner_uv[c]), result_.mesh.node_xyz[n]) > tolerance)
+        return false;
+    }
+    return true;
+  }
+
+  void move_face(FaceId f, std::size_t begin, std::size_t end) {
+    const auto surface = model_.surface(f);
+    const double tolerance = kOnPoint * t_.reference_diagonal();
+    auto [before, after] = boundary_boxes(f, begin, end);
+    if (fits(*surface, begin, end, kSameParameters * t_.reference_diagonal())) after = before;
+    SurfaceMesh& m = result_.mesh;
+    for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+      const NodeId n = old_.triangles[c / 3].n[c % 3];
+      Vec2& uv = m.corner_uv[c];
+      uv = {stretched(uv.x, before.lo.x, before.hi.x, after.lo.x, after.hi.x),
+            stretched(uv.y, before.lo.y, before.hi.y, after.lo.y, after.hi.y)};
+      if (old_.node_entity_dim[n] == kInFace) {
+        m.node_xyz[n] = surface->point(uv);
+        continue;
+      }
+      if (distance(surface->point(uv), m.node_xyz[n]) <= tolerance) continue;
+      if (const auto there = project_near(*surface, m.node_xyz[n], uv)) uv = *there;
+    }
+    note_spoilt(begin, end);
+  }
+
+  double uv_area(const SurfaceMesh& m, std::size_t i) const {
+    const Vec2 a = m.corner_uv[3 * i];
+    return cross(m.corner_uv[3 * i + 1] - a, m.corner_uv[3 * i + 2] - a);
+  }
+
+  void note_spoilt(std::size_t begin, std::size_t end) {
+    const SurfaceMesh& m = result_.mesh;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& n = old_.triangles[i].n;
+      const double q = quality(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
+      const double q_before = quality(old_.node_xyz[n[0]], old_.node_xyz[n[1]], old_.node_xyz[n[2]]);
+      const bool turned = uv_area(m, i) * uv_area(old_, i) <= 0;
+      if (turned || (q < kSpoiltQuality && q < q_before)) result_.spoilt.push_back(static_cast<TriangleId>(i));
+    }
+  }
+
+  const SurfaceMesh& old_;
+  const Model& model_;
+  const ModelTables& t_;
+  MovedMesh result_;
+  std::vector<NodeId> vertex_node_;
+};
+
+}  // namespace
+
+MovedMesh move_mesh(const SurfaceMesh& old, const Model& model) { return Mover(old, model).run(); }
+
+}  // namespace st

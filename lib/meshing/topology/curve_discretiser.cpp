@@ -1,0 +1,181 @@
+#include "meshing/topology/curve_discretiser.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/limits.h"
+
+namespace st {
+namespace {
+
+constexpr int kInitialIntervals = 16;
+constexpr int kMaxDepth = 24;
+constexpr double kSamplesPerLength = 2.0;  // samples of the size along one requested length
+constexpr double kFullRadius = 0.4;        // of the length: circles from this radius on get segments of max_turning
+constexpr double kMostDense = 1.5;         // segments for one of such a circle, however small the radius
+constexpr std::uint64_t kMaxSegments = 100'000'000;  // of one edge between two corners
+constexpr double kCorner = 0.01;       // of the length: what turns by more than max_turning within this is a corner
+constexpr double kCornerReach = 0.25;  // lengths: a corner nearer to an end or another corner has no node of its own
+
+struct Sample {
+  double t;
+  Vec3 x, d1;
+  double h;
+};
+
+class Discretiser {
+ public:
+  Discretiser(const Curve& curve, const SizeField& field, const CurveMeshOptions& options)
+      : curve_(curve), field_(field), max_turning_(radians(options.max_turning_deg)) {}
+
+  CurveNodes run(int min_segments) {
+    sample();
+    integrate();
+    find_stops();
+    share_segments(min_segments);
+    return place();
+  }
+
+ private:
+  Sample at(double t) {
+    const CurvePoint p = curve_.evaluate(t);
+    return {t, p.x, p.d1, field_.size(p.x, hint_)};
+  }
+
+  void sample() {
+    Sample last = at(curve_.t_min());
+    samples_.push_back(last);
+    for (int i = 1; i <= kInitialIntervals; ++i) {
+      const double s = static_cast<double>(i) / kInitialIntervals;
+      const Sample next =
+          at(i == kInitialIntervals ? curve_.t_max() : curve_.t_min() + s * (curve_.t_max() - curve_.t_min()));
+      refine(last, next, 0);
+      last = next;
+    }
+  }
+
+  /// Halves an interval until it is short against the size and turns little, or is as short as a corner.
+  void refine(const Sample& a, const Sample& b, int depth) {
+    const double chord = distance(a.x, b.x);
+    const double h = std::min(a.h, b.h);
+    const bool turns =
+        norm(a.d1) > 0 && norm(b.d1) > 0 && angle_between(a.d1, b.d1) > 0.5 * max_turning_ && chord > kCorner * h;
+    if (depth < kMaxDepth && (kSamplesPerLength * chord > h || turns)) {
+      const Sample m = at(0.5 * (a.t + b.t));
+      refine(a, m, depth + 1);
+      refine(m, b, depth + 1);
+      return;
+    }
+    samples_.push_back(b);
+  }
+
+  double turning(std::size_t i) const { return angle_between(samples_[i - 1].d1, samples_[i].d1); }
+
+  /// Turning counts until the chord of a segment is as near to the curve as in a circle of kFullRadius: arcs of smaller
+  /// radius turn more along a segment, and what turns within next to no length (a kink, a hook at an end) counts for
+  /// next to nothing. On a curve shorter than the size its own length is the measure: a small sphere stays round.
+  void integrate() {
+    double arc = 0;
+    for (std::size_t i = 1; i < samples_.size(); ++i) arc += distance(samples_[i - 1].x, samples_[i].x);
+    share_.assign(1, 0.0);
+    lengths_.assign(1, 0.0);
+    for (std::size_t i = 1; i < samples_.size(); ++i) {
+      const Sample &a = samples_[i - 1], &b = samples_[i];
+      const double by_size = distance(a.x, b.x) * 0.5 * (1 / a.h + 1 / b.h);
+      const double by_turning = turning(i) / max_turning_;
+      const double at_full_radius = std::max(by_size, distance(a.x, b.x) / arc) / (kFullRadius * max_turning_);
+      const double by_chord = std::min(std::sqrt(by_turning * at_full_radius), kMostDense * at_full_radius);
+      share_.push_back(share_.back() + std::max(by_size, std::min(by_turning, by_chord)));
+      lengths_.push_back(lengths_.back() + by_size);
+    }
+  }
+
+  /// The ends and, the sharpest first, the corners that are not too near to one of these: samples that become nodes.
+  void find_stops() {
+    stops_ = {0, samples_.size() - 1};
+    std::vector<std::size_t> corners;
+    for (std::size_t i = 1; i < samples_.size(); ++i)
+      if (turning(i) > max_turning_ && distance(samples_[i - 1].x, samples_[i].x) <= kCorner * samples_[i].h)
+        corners.push_back(i);
+    std::stable_sort(corners.begin(), corners.end(),
+                     [&](std::size_t i, std::size_t j) { return turning(i) > turning(j); });
+    for (const std::size_t i : corners) {
+      const auto is_near = [&](std::size_t stop) { return std::abs(lengths_[i] - lengths_[stop]) < kCornerReach; };
+      if (std::none_of(stops_.begin(), stops_.end(), is_near)) stops_.push_back(i);
+    }
+    std::sort(stops_.begin(), stops_.end());
+  }
+
+  double part_share(std::size_t part) const { return share_[stops_[part + 1]] - share_[stops_[part]]; }
+
+  /// Segments between two stops: what the share says, rounded; where that makes too few, the part with the largest
+  /// segments gets more.
+  void share_segments(int min_segments) {
+    int n = 0;
+    for (std::size_t part = 0; part + 1 < stops_.size(); ++part) {
+      const auto n_part = static_cast<std::uint64_t>(std::llround(std::min(part_share(part), 1e18)));
+      n_segments_.push_back(std::max(1, checked_id(n_part, "segments of one CAD edge", kMaxSegments)));
+      n += n_segments_.back();
+    }
+    for (; n < min_segments; ++n) {
+      std::size_t largest = 0;
+      for (std::size_t part = 1; part < n_segments_.size(); ++part)
+        if (part_share(part) * n_segments_[largest] > part_share(largest) * n_segments_[part]) largest = part;
+      ++n_segments_[largest];
+    }
+  }
+
+  CurveNodes place() {
+    CurveNodes nodes;
+    nodes.t.push_back(curve_.t_min());
+    for (std::size_t part = 0; part < n_segments_.size(); ++part) place_part(part, nodes.t);
+    const int n = static_cast<int>(nodes.t.size()) - 1;
+    if (!(share_.back() > 0) || !strictly_increasing(nodes.t))
+      for (int k = 0; k <= n; ++k) nodes.t[k] = curve_.t_min() + (curve_.t_max() - curve_.t_min()) * k / n;
+    nodes.t.back() = curve_.t_max();
+    for (double t : nodes.t) {
+      const Sample s = at(t);
+      nodes.x.push_back(s.x);
+      nodes.h.push_back(s.h);
+    }
+    return nodes;
+  }
+
+  /// Equal shares between two stops; the first one's node is there.
+  void place_part(std::size_t part, std::vector<double>& t) const {
+    const int n = n_segments_[part];
+    std::size_t i = stops_[part] + 1;
+    for (int k = 1; k < n; ++k) {
+      const double want = share_[stops_[part]] + part_share(part) * k / n;
+      while (i + 1 < share_.size() && share_[i] < want) ++i;
+      const double own = share_[i] - share_[i - 1];
+      const double s = own > 0 ? (want - share_[i - 1]) / own : 0.5;
+      t.push_back(samples_[i - 1].t + s * (samples_[i].t - samples_[i - 1].t));
+    }
+    t.push_back(samples_[stops_[part + 1]].t);
+  }
+
+  static bool strictly_increasing(const std::vector<double>& t) {
+    for (std::size_t k = 1; k < t.size(); ++k)
+      if (!(t[k] > t[k - 1])) return false;
+    return true;
+  }
+
+  const Curve& curve_;
+  const SizeField& field_;
+  double max_turning_;
+  int hint_ = 0;
+  std::vector<Sample> samples_;
+  std::vector<double> share_;       // segments up to each sample
+  std::vector<double> lengths_;     // requested lengths up to each sample
+  std::vector<std::size_t> stops_;  // samples that are nodes: both ends and corners, ascending
+  std::vector<int> n_segments_;     // between two stops
+};
+
+}  // namespace
+
+CurveNodes discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options) {
+  return Discretiser(curve, field, options).run(options.min_segments);
+}
+
+}  // namespace st

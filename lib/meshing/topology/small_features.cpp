@@ -1,0 +1,278 @@
+#include "meshing/topology/small_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "features/arc_table.h"
+#include "features/strip.h"
+#include "meshing/topology/vertex_sets.h"
+
+namespace st {
+namespace {
+
+constexpr double kLargestMerge = 0.5;  // of the requested length: what the mesh can show stays, whatever the tolerance
+constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to another between the same vertices is no
+                                 // ring with it
+
+/// Limits of merging for each face, by its group's tolerance.
+std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
+  const std::vector<double> tolerances = face_tolerances(t.group_names());
+  std::vector<MergeLimit> limits(t.n_faces(), {below, 0});
+  for (std::size_t f = 0; f < tolerances.size(); ++f) limits[f].tolerance = tolerances[f];
+  return limits;
+}
+
+/// Draws short edges together, the shortest first.
+class EdgeMerger {
+ public:
+  EdgeMerger(const Model& model, const SizeField& field, const std::vector<MergeLimit>& face_limit, double below)
+      : model_(model),
+        t_(model.tables()),
+        field_(field),
+        face_limit_(face_limit),
+        below_(below),
+        sets_(t_.n_vertices()) {
+    t_.edge_faces(face_offsets_, faces_);
+    is_merged_.assign(t_.n_edges(), 0);
+    cluster_.resize(t_.n_vertices());
+    for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
+    edge_loops();
+  }
+
+  std::vector<EdgeId> run() {
+    std::vector<EdgeId> candidates;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (!t_.edge_is_degenerate[e] &&
+          t_.edge_length[e] < limit_of(e, field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_)))
+        candidates.push_back(e);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
+    for (const EdgeId e : candidates)
+      if (!is_merged_[e]) merge(e);
+    std::vector<EdgeId> merged;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (is_merged_[e]) merged.push_back(e);
+    return merged;
+  }
+
+ private:
+  /// The smallest of its faces.
+  double limit_of(EdgeId e, double size) const {
+    if (face_offsets_[e] == face_offsets_[e + 1]) return below_ * size;
+    double limit = std::numeric_limits<double>::infinity();
+    for (std::int32_t i = face_offsets_[e]; i < face_offsets_[e + 1]; ++i)
+      limit = std::min(limit, face_limit_[faces_[i]].at(size));
+    return limit;
+  }
+
+  void edge_loops() {
+    loops_.resize(t_.n_edges());
+    n_long_.assign(t_.n_loops(), 0);
+    at_vertex_.resize(t_.n_vertices());
+    for (LoopId l = 0; l < t_.n_loops(); ++l)
+      for (const CoedgeId c : t_.loop_coedges(l)) {
+        if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
+        ++n_long_[l];
+        loops_[t_.coedge_edge[c]].push_back(l);
+      }
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      for (int k = 0; k < 2; ++k)
+        if (!t_.edge_is_degenerate[e]) at_vertex_[t_.edge_vertices[2 * e + k]].push_back(e);
+  }
+
+  void merge(EdgeId e) {
+    const VertexId a = sets_.root(t_.edge_vertices[2 * e]), b = sets_.root(t_.edge_vertices[2 * e + 1]);
+    if (a == b) {
+      if (is_point(e)) leave_out({e});
+      return;
+    }
+    Box3 both = cluster_[a];
+    both.add(cluster_[b]);
+    const double limit = limit_of(e, field_.size(both.center(), hint_));
+    const std::vector<EdgeId> edges = short_edges_between(a, b, e, 3 * limit);
+    const bool are_one =
+        std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k) || coincide(e, k); });
+    if (both.diagonal() > limit || !are_one || !leave_out(edges)) return;
+    sets_.unite(a, b);
+    cluster_[std::min(a, b)] = both;
+    auto &to = at_vertex_[std::min(a, b)], &from = at_vertex_[std::max(a, b)];
+    to.insert(to.end(), from.begin(), from.end());
+  }
+
+  /// No longer than its vertices are exact.
+  bool is_point(EdgeId e) const {
+    const auto tolerance = [&](int k) { return t_.vertex_tolerance[t_.edge_vertices[2 * e + k]]; };
+    return t_.edge_length[e] <= std::max(tolerance(0), tolerance(1));
+  }
+
+  bool are_points(EdgeId a, EdgeId b) const { return is_point(a) && is_point(b); }
+
+  /// Two edges between the same vertices that run beside each other.
+  bool coincide(EdgeId a, EdgeId b) const {
+    const auto middle = [&](EdgeId e) {
+      return model_.curve(e)->point(0.5 * (t_.edge_range[2 * e] + t_.edge_range[2 * e + 1]));
+    };
+    return distance(middle(a), middle(b)) < kBeside * std::min(t_.edge_length[a], t_.edge_length[b]);
+  }
+
+  /// Merges the edges if none is a seam and each of their loops keeps two others.
+  bool leave_out(const std::vector<EdgeId>& edges) {
+    std::vector<LoopId> loops;
+    for (const EdgeId e : edges) {
+      std::vector<LoopId> own = loops_[e];
+      std::sort(own.begin(), own.end());
+      if (std::adjacent_find(own.begin(), own.end()) != own.end()) return false;
+      loops.insert(loops.end(), own.begin(), own.end());
+    }
+    for (const LoopId l : loops)
+      if (n_long_[l] < 2 + std::count(loops.begin(), loops.end(), l)) return false;
+    for (const LoopId l : loops) --n_long_[l];
+    for (const EdgeId e : edges) is_merged_[e] = 1;
+    return true;
+  }
+
+  /// `e` and the others between the two that are too short to be a loop of their own with it.
+  std::vector<EdgeId> short_edges_between(VertexId a, VertexId b, EdgeId e, double limit) const {
+    std::vector<EdgeId> edges = {e};
+    for (const EdgeId k : at_vertex_[a]) {
+      const VertexId p = sets_.root(t_.edge_vertices[2 * k]), q = sets_.root(t_.edge_vertices[2 * k + 1]);
+      if (k != e && ((p == a && q == b) || (p == b && q == a)) && t_.edge_length[k] < limit) edges.push_back(k);
+    }
+    return edges;
+  }
+
+  const Model& model_;
+  const ModelTables& t_;
+  const SizeField& field_;
+  const std::vector<MergeLimit>& face_limit_;
+  double below_;
+  std::vector<std::int32_t> face_offsets_;  // faces of each edge
+  std::vector<FaceId> faces_;
+  int hint_ = 0;
+  VertexSets sets_;
+  std::vector<Box3> cluster_;               // of each set, at its root
+  std::vector<std::vector<LoopId>> loops_;  // of each edge
+  std::vector<int> n_long_;                 // edges left in each loop
+  std::vector<char> is_merged_;
+  std::vector<std::vector<EdgeId>> at_vertex_;
+};
+
+/// Chooses strips that may be closed: no edge belongs to two of them, no neighbour is a strip itself (the part is a
+/// needle), and the faces on both sides are two that do not already share an edge at its ends, or triangles in that
+/// corner would be the same in both.
+class StripMerger {
+ public:
+  StripMerger(const ModelTables& t, const std::vector<EdgeId>& merged_edges)
+      : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0) {
+    for (const EdgeId e : merged_edges) sets_.unite(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
+    t.edge_faces(offsets_, faces_);
+    for (EdgeId e = 0; e < t.n_edges(); ++e)
+      if (!t.edge_is_degenerate[e] && offsets_[e + 1] - offsets_[e] == 2)
+        add_contact(e, {faces_[offsets_[e]], faces_[offsets_[e] + 1]});
+    std::sort(contacts_.begin(), contacts_.end());
+  }
+
+  /// `narrow` [by face] all strips that might be closed.
+  bool may_close(const Strip& strip, const std::vector<Strip>& narrow) {
+    const auto is_narrow = [&](FaceId f) {
+      return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
+    };
+    const FaceId a = other_face(strip.edges[0], strip.face), b = other_face(strip.edges[1], strip.face);
+    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
+    for (const EdgeId e : strip.edges)
+      for (int k = 0; k < 2; ++k)
+        if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
+    for (const EdgeId e : strip.edges) {
+      taken_[e] = 1;
+      add_contact(e, {a, b});
+    }
+    std::sort(contacts_.begin(), contacts_.end());
+    return true;
+  }
+
+ private:
+  using FacePair = std::pair<FaceId, FaceId>;
+  using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
+  Contact contact(EdgeId e, int k, FacePair f) const {
+    return {sets_.root(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
+  }
+  void add_contact(EdgeId e, FacePair f) {
+    for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, f));
+  }
+  FaceId other_face(EdgeId e, FaceId f) const {
+    return faces_[offsets_[e]] == f ? faces_[offsets_[e] + 1] : faces_[offsets_[e]];
+  }
+
+  const ModelTables& t_;
+  VertexSets sets_;
+  std::vector<char> taken_;
+  std::vector<std::int32_t> offsets_;
+  std::vector<FaceId> faces_;
+  std::vector<Contact> contacts_;
+};
+
+/// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
+std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
+                                 const std::vector<MergeLimit>& face_limit) {
+  std::vector<Strip> strips = find_strips(model);
+  int hint = 0;
+  std::erase_if(strips, [&](const Strip& strip) {
+    bool is_narrow = false;
+    double width = 0, length = 0;  // sums over the stations
+    for (const Strip::Station& s : strip.stations) {
+      const double h = field.size(s.x, hint);
+      is_narrow |= s.width < face_limit[strip.face].at(h);
+      width += s.width;
+      length += h;
+    }
+    return !is_narrow || width > length;
+  });
+  return strips;
+}
+
+}  // namespace
+
+double MergeLimit::at(double size) const {
+  return tolerance > 0 ? std::min(tolerance, kLargestMerge * size) : below * size;
+}
+
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
+  MergedFeatures merged;
+  if (!(below > 0)) return merged;
+  const ModelTables& t = model.tables();
+  const std::vector<MergeLimit> face_limit = face_limits(t, below);
+  merged.edge = EdgeMerger(model, field, face_limit, below).run();
+  StripMerger merger(t, merged.edge);
+  const std::vector<Strip> strips = narrow_strips(model, field, face_limit);
+  for (const Strip& strip : strips) {
+    if (!merger.may_close(strip, strips)) continue;
+    merged.strip_face.push_back(strip.face);
+    merged.strip_kept.push_back(strip.edges[0]);
+    merged.strip_closed.push_back(strip.edges[1]);
+    merged.strip_is_opposed.push_back(strip.is_opposed);
+  }
+  return merged;
+}
+
+CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,
+                        const MergeLimit& limit) {
+  const ArcTable a(kept), b(closed);
+  const std::size_t n = nodes.t.size();
+  CurveNodes result;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = is_opposed ? n - 1 - k : k;
+    const double share = k == 0 ? 0 : k + 1 == n ? 1 : a.share_at(nodes.t[i]);
+    const double own = is_opposed && k > 0 && k + 1 < n ? 1 - share : share;
+    result.t.push_back(k == 0 ? closed.t_min() : k + 1 == n ? closed.t_max() : b.parameter_at(own));
+    const Vec3 x = closed.point(result.t.back());
+    result.x.push_back(distance(x, nodes.x[i]) < limit.at(nodes.h[i]) ? nodes.x[i] : x);
+    result.h.push_back(nodes.h[i]);
+  }
+  return result;
+}
+
+}  // namespace st

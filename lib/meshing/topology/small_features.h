@@ -1,0 +1,34 @@
+// Virtual topology for meshing: short edges drawn together, narrow strips closed. The CAD and its ids stay.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model/model.h"
+#include "mesh/surface_mesh.h"
+#include "meshing/topology/curve_discretiser.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+/// How far apart features are merged.
+struct MergeLimit {
+  double below = 0;      ///< of the requested length
+  double tolerance = 0;  ///< takes the place of `below` where it is positive, model unit; up to half of the requested
+                         ///< length
+  /// Model unit; `size`: the requested length.
+  double at(double size) const;
+};
+
+/// Edges between two vertices shorter than `below` times the requested length, and strips narrower than that somewhere
+/// and on the mean narrower than the length. On faces whose groups have a tolerance (face_tolerances) that is the
+/// limit; an edge between faces of different limits has the smaller. `below` 0: nothing is merged. An edge is not drawn
+/// together when a loop would be left with fewer than two edges, or several would move a vertex further than that.
+/// Deterministic, local.
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
+
+/// Nodes on the other long edge of a strip for those on the kept one: as many, at the same shares of the length, in the
+/// other edge's own direction. Where the strip is narrower than the limit they are the kept edge's own points.
+CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,
+                        const MergeLimit& limit);
+
+}  // namespace st

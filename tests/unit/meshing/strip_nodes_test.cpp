@@ -1,0 +1,45 @@
+// Strips in the mesh: the nodes that their two long edges share.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/strip.h"
+#include "meshing/topology/small_features.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+Strip tapered_strip() {
+  for (const Strip& s : find_strips(test::make_model("wedge_strip")))
+    if (std::abs(s.stations.front().width - s.stations.back().width) > 0.9 &&
+        s.stations.front().width + s.stations.back().width < 1.1)
+      return s;
+  return {};
+}
+
+TEST(StripNodes, both_edges_get_as_many_nodes_common_ones_where_it_is_narrow) {
+  const Model model = test::make_model("wedge_strip");
+  const Strip strip = tapered_strip();
+  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
+  const UniformField field(1);
+  const CurveNodes nodes = discretise_curve(*kept, field, {});
+  const CurveNodes twin = mirror_nodes(*kept, nodes, *closed, strip.is_opposed, {0.25});
+  const std::size_t n = nodes.t.size();
+  ASSERT_EQ(twin.t.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = strip.is_opposed ? n - 1 - i : i;
+    if (i) {
+      EXPECT_GT(twin.t[i], twin.t[i - 1]);
+    }
+    const double width = 0.02 + 0.98 * nodes.x[k].x / 20;
+    if (std::abs(width - 0.25) > 0.01) {
+      EXPECT_EQ(twin.x[i] == nodes.x[k], width < 0.25) << width;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace st
