@@ -202,7 +202,7 @@ void mesh_one_face(benchmark::State& state, int kind, bool has_octree) {
   const FaceBoundary boundary = make_boundary(c, *field);
   FaceMesh mesh;
   for (auto _ : state) mesh = mesh_face(*c.surface, boundary, *field, {});
-  if (!mesh.cause.empty()) return state.SkipWithError(mesh.cause.c_str());
+  if (mesh.cause != FailureCause::kNone) return state.SkipWithError(text_of(mesh.cause));
   report_quality(c, boundary, mesh, state);
 }
 

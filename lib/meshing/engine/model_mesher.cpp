@@ -154,7 +154,8 @@ void ModelMesher::rounds(std::vector<EdgeId> dirty_edges, std::vector<FaceId> di
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     folds.insert(folds.end(), o.fold_places.begin(), o.fold_places.end());
-    if (!o.cause.empty()) failures.push_back({f, o.cause, remedy_of(o.cause), o.cause_xyz});
+    if (o.cause != FailureCause::kNone)
+      failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz});
   }
   for (auto& [f, failed] : failed_faces_) failed_faces.push_back(std::move(failed));
 }
@@ -310,6 +311,7 @@ Bytes ModelMesher::compute_face(FaceId f) const {
   FaceMesh mesh;
   FacePatch patch;
   FaceBoundary boundary;
+  std::string error;
   patch.face = f;
   try {
     const auto surface = model_.surface(f);
@@ -325,16 +327,18 @@ Bytes ModelMesher::compute_face(FaceId f) const {
     } else {
       mesh = mesh_face(*surface, boundary, RefinedField(field_, near), options);
     }
-    if (mesh.cause.empty()) patch = make_patch(tables_, f, boundary, mesh, *numbering_);
+    if (mesh.cause == FailureCause::kNone) patch = make_patch(tables_, f, boundary, mesh, *numbering_);
   } catch (const Error& e) {
-    mesh.cause = e.what();
+    mesh.cause = FailureCause::kError;
+    error = e.what();
   }
   Packer packer;
   pack(packer, patch);
   packer.add(mesh.cause);
+  packer.add(error);
   packer.add(mesh.refinement);
   packer.add(mesh.n_folds);
-  if (!mesh.cause.empty()) pack(packer, describe_failure(*numbering_, f, boundary, mesh));
+  if (mesh.cause != FailureCause::kNone) pack(packer, describe_failure(*numbering_, f, boundary, mesh));
   return packer.take();
 }
 
@@ -354,10 +358,11 @@ std::vector<RefinementPoint> ModelMesher::mesh_faces(const std::vector<FaceId>& 
         face_is_fresh_[f] = 1;
         FaceOutcome& o = outcomes_[f];
         u.get(o.cause);
+        u.get(o.error);
         u.get(wanted[task]);
         u.get(o.n_folds);
         failed_faces_.erase(f);
-        if (!o.cause.empty()) unpack(u, failed_faces_[f]);
+        if (o.cause != FailureCause::kNone) unpack(u, failed_faces_[f]);
         o.fold_places = o.n_folds ? wanted[task] : std::vector<RefinementPoint>();
         o.cause_xyz = wanted[task].empty() ? tables_.face_box[f].center() : wanted[task][0].x;
         progress.update(static_cast<double>(++n_done));

@@ -65,7 +65,8 @@ class ModelMesher {
 
  private:
   struct FaceOutcome {
-    std::string cause;  // why it failed, empty where it did not
+    FailureCause cause = FailureCause::kNone;
+    std::string error;  // what was thrown, for kError
     Vec3 cause_xyz;
     int n_folds = 0;
     std::vector<RefinementPoint> fold_places;

@@ -295,7 +295,8 @@ HoleFill Remesher::fill_hole(const HoleRim& rim) const {
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
     FaceMesh filled = mesh_face(*surface, boundary, field, options);
-    if (filled.cause.empty() && filled.n_folds == 0) fill = make_hole_fill(rim, boundary, std::move(filled));
+    if (filled.cause == FailureCause::kNone && filled.n_folds == 0)
+      fill = make_hole_fill(rim, boundary, std::move(filled));
   } catch (const Error&) {  // no triangles: the hole grows
   }
   int hint = 0;

@@ -41,12 +41,12 @@ class FaceMesher {
   FaceMesh mesh(const SizeField& field, const FaceMeshOptions& options) {
     FaceMesh result;
     if (boundary_.nodes.size() < 3) {
-      result.cause = "its loops have fewer than three nodes";
+      result.cause = FailureCause::kShortLoops;
       return result;
     }
     result.refinement = prepare();
     if (!result.refinement.empty()) {
-      result.cause = "its loops cross or touch in (u,v)";
+      result.cause = FailureCause::kCrossingLoops;
       return result;
     }
     work_.field = &field;
@@ -54,7 +54,7 @@ class FaceMesher {
     work_.max_nodes = expected_nodes();
     advance_front(work_);
     if (work_.mesh.nodes.size() >= work_.max_nodes) {
-      result.cause = "the sizes ask for far more nodes than the face's area explains";
+      result.cause = FailureCause::kTooManyNodes;
       collect(result);
       return result;
     }
@@ -212,14 +212,14 @@ class FaceMesher {
     for (std::size_t i = 0; i < r.corners.size(); i += 3) {
       const std::int32_t* c = &r.corners[i];
       if (c[0] == kNone || c[1] == kNone || c[2] == kNone) {
-        r.cause = "a triangle reaches outside its loops";
+        r.cause = FailureCause::kOutsideLoops;
         return;
       }
       const std::int64_t key[3] = {node_key(c[0]), node_key(c[1]), node_key(c[2])};
       for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3;
         if (key[k] == key[l]) {
-          r.cause = "too few nodes around a narrow part";
+          r.cause = FailureCause::kNarrowPart;
           refine(position(r, c[k]), 0.5 * distance(position(r, c[0]), position(r, c[1])) +
                                         0.25 * distance(position(r, c[1]), position(r, c[2])));
           break;
@@ -248,8 +248,7 @@ class FaceMesher {
       for (; i < uses.size() && uses[i] == edge; ++i) ++n_used;
       for (; j < loop_uses.size() && loop_uses[j] == edge; ++j) ++n_wanted;
       if (n_used == (n_wanted ? n_wanted : 2)) continue;
-      r.cause = n_wanted ? "a boundary segment is not used as often as the loops use it"
-                         : "too few nodes around a narrow part";
+      r.cause = n_wanted ? FailureCause::kUnusedBoundary : FailureCause::kNarrowPart;
       report_edge(r, edge, refine);
     }
   }

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/ids.h"
 #include "base/vec.h"
 #include "geometry/shape/surface.h"
+#include "meshing/face/failure_cause.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -47,9 +47,9 @@ struct FaceMesh {
   std::vector<InnerNode> inner;
   std::vector<std::int32_t> corners;  ///< [3*n] boundary node i as i, inner node j as n_boundary + j; counter-clockwise
                                       ///< in (u,v)
-  std::string cause;                  ///< empty: meshed; else why not
-  std::vector<RefinementPoint> refinement;  ///< where smaller sizes may help
-  int n_folds = 0;                          ///< triangles whose normal is against the surface's
+  FailureCause cause = FailureCause::kNone;  ///< kNone: meshed
+  std::vector<RefinementPoint> refinement;   ///< where smaller sizes may help
+  int n_folds = 0;                           ///< triangles whose normal is against the surface's
 };
 
 /// Meshes the face. Never throws for geometry: a face that cannot be meshed says why. Local, pure.

@@ -94,17 +94,6 @@ FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, con
   return f;
 }
 
-std::string remedy_of(const std::string& cause) {
-  const auto names = [&](const char* text) { return cause.find(text) != std::string::npos; };
-  if (names("cross or touch"))
-    return "repair its boundary in the CAD system where it crosses itself, or ask for smaller sizes there";
-  if (names("fewer than three nodes") || names("too few nodes"))
-    return "ask for smaller sizes there (st-raster), or remove the feature in the CAD system";
-  if (names("far more nodes"))
-    return "its surface is degenerate: export it anew from the CAD system, or ask for larger sizes there";
-  return "repair the face in the CAD system, or ask for smaller sizes there";
-}
-
 void pack(Packer& p, const FailedFace& f) {
   p.add(f.face);
   p.add(f.xyz);

@@ -1,8 +1,6 @@
 // The record of a face that could not be meshed, and its way between ranks.
 #pragma once
 
-#include <string>
-
 #include "base/packer.h"
 #include "mesh/failed_face.h"
 #include "meshing/face/face_boundary.h"
@@ -14,9 +12,6 @@ namespace st {
 /// it, without (u,v).
 FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
                             const FaceMesh& mesh);
-
-/// What the user can do about a cause that mesh_face() or make_face_boundary() names.
-std::string remedy_of(const std::string& cause);
 
 void pack(Packer& p, const FailedFace& f);
 void unpack(Unpacker& u, FailedFace& f);

@@ -164,7 +164,7 @@ struct MeshView {
 /// What holds of every mesh of a face: complete, no repeated node, positive in (u,v), every boundary segment used once
 /// and in its direction, every other edge once each way.
 inline void expect_valid(const FaceBoundary& boundary, const FaceMesh& mesh) {
-  ASSERT_EQ(mesh.cause, "");
+  ASSERT_EQ(mesh.cause, FailureCause::kNone);
   EXPECT_EQ(mesh.n_folds, 0);
   const MeshView view{boundary, mesh};
   ASSERT_GT(view.n_triangles(), 0u);

@@ -69,7 +69,7 @@ struct Refilled {
     for (const HoleRim& rim : rims.back()) {
       bounds.back().push_back(make_hole_boundary(solid.model, *surface, rim, marks, numbering, field));
       FaceMesh mesh = mesh_face(*surface, bounds.back().back(), field, {});
-      EXPECT_EQ(mesh.cause, "");
+      EXPECT_EQ(mesh.cause, FailureCause::kNone);
       fills.back().push_back(make_hole_fill(rim, bounds.back().back(), std::move(mesh)));
     }
   }

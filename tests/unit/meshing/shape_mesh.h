@@ -32,7 +32,7 @@ struct ShapeMesh {
     const auto surface = model.surface(f);
     const FaceBoundary boundary = make_face_boundary(model, *surface, f, numbering);
     const FaceMesh m = mesh_face(*surface, boundary, field, {});
-    EXPECT_EQ(m.cause, "");
+    EXPECT_EQ(m.cause, FailureCause::kNone);
     FacePatch p;
     p.face = f;
     for (const auto& n : boundary.nodes) {
