@@ -28,6 +28,7 @@
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/blanking.h"
 #include "sizing/face_cells.h"
+#include "sizing/loop_tracer.h"
 #include "sizing/model_limits.h"
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
-#include "sizing/loop_polygon.h"
 #include "sizing/octree_field.h"
 
 namespace st {

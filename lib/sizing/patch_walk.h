@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
-#include "sizing/loop_polygon.h"
 
 namespace st {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
 #include "sizing/gap_patch.h"
-#include "sizing/loop_polygon.h"
 #include "sizing/octree.h"
 #include "sizing/size_limits.h"
 

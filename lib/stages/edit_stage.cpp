@@ -226,7 +226,7 @@ std::vector<ImportFinding> findings_of(const Edited& e, const EditInputs& inputs
   findings.insert(findings.end(), r.uses.findings.begin(), r.uses.findings.end());
   for (const PartCrossing& c : r.crossings.found)
     for (const FaceId f : {c.first, c.second})
-      findings.push_back({kCrossesPart, r.tables.face_label(f), c.xyz, c.size, false});
+      findings.push_back({FindingKind::kCrossingPart, r.tables.face_label(f), c.xyz, c.size, false});
   return findings;
 }
 

@@ -108,7 +108,9 @@ std::vector<ImportFinding> carry_findings(const std::vector<std::vector<ImportFi
   for (std::size_t i = 0; i < of_input.size(); ++i) {
     const Finder finder(trace, t, static_cast<std::int32_t>(i));
     for (ImportFinding f : of_input[i]) {
-      if (f.what == "free edge" || f.what == "non-manifold edge" || (f.what == kCrossesPart && !moved_as_one)) continue;
+      if (f.kind == FindingKind::kFreeEdge || f.kind == FindingKind::kNonManifoldEdge ||
+          (f.kind == FindingKind::kCrossingPart && !moved_as_one))
+        continue;
       if (!is_of_an_entity(f)) {
         if (moved_as_one) move(motion.front(), f);
         carried.push_back(f);

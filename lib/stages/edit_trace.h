@@ -29,9 +29,6 @@ struct EditTrace {
               std::span<const VertexId> new_vertices);
 };
 
-/// What a finding of a face is called that passes through one of another part; made anew where parts moved.
-inline constexpr const char* kCrossesPart = "face passes through another part";
-
 /// [2*n] as GeometryArtifact has it.
 std::vector<std::int32_t> previous_ids(const std::vector<Origin>& origins);
 

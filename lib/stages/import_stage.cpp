@@ -28,7 +28,7 @@ std::string file_hash(const std::string& path) {
 }
 
 nlohmann::json finding_json(const ImportFinding& f) {
-  return {{"what", f.what},
+  return {{"what", f.what()},
           {"entity", f.entity},
           {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}},
           {"size", f.size},
@@ -119,25 +119,17 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
   return list;
 }
 
-/// "sewn: 14 free edges before, 0 after" is of the kind "sewn".
-std::string kind_of(const ImportFinding& f) {
-  std::string kind = f.what.substr(0, f.what.find_first_of("(:"));
-  while (!kind.empty() && kind.back() == ' ') kind.pop_back();
-  return kind;
-}
-
 /// Repairs are never silent: their kinds and numbers, in the order of the first of each.
 std::string repairs_in_words(const ImportResult& r) {
-  std::vector<std::pair<std::string, int>> kinds;
+  std::vector<std::pair<FindingKind, int>> kinds;
   for (const ImportFinding& f : r.findings) {
     if (!f.is_repair) continue;
-    const std::string kind = kind_of(f);
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
-    known == kinds.end() ? kinds.emplace_back(kind, 1), void() : void(++known->second);
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == f.kind; });
+    known == kinds.end() ? kinds.emplace_back(f.kind, 1), void() : void(++known->second);
   }
   std::string text;
   for (const auto& [kind, n] : kinds)
-    text += (text.empty() ? "" : "; ") + kind + (n > 1 ? fmt::format(" ({} times)", n) : "");
+    text += std::string(text.empty() ? "" : "; ") + name_of(kind) + (n > 1 ? fmt::format(" ({} times)", n) : "");
   return text;
 }
 
@@ -155,7 +147,7 @@ void say(const std::string& model, const ImportResult& r) {
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
-    log_info(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what,
+    log_info(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what(),
                          f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size));
   }
   if (n > shown) log_info(fmt::format("  ... and {} more: see --json", n - shown));

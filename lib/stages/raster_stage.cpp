@@ -22,6 +22,7 @@
 #include "sizing/cell_limit.h"
 #include "sizing/face_cells.h"
 #include "sizing/gap_sizes.h"
+#include "sizing/loop_tracer.h"
 #include "sizing/model_limits.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/shape/loop_polygons.h"
 
 namespace st::occt {
 namespace {
@@ -68,18 +69,13 @@ void add_sag(Vec3& sag, Vec3 a, Vec3 b, Vec3 c) {
   sag = {std::max(sag.x, std::fabs(d.x)), std::max(sag.y, std::fabs(d.y)), std::max(sag.z, std::fabs(d.z))};
 }
 
-/// Where the sampled loops cross the line of constant v, ascending.
-std::vector<double> row_crossings(const FaceDomain& d, double v) {
-  std::vector<double> u;
+std::vector<LoopSide> sides_of(const FaceDomain& d) {
+  std::vector<LoopSide> sides;
   for (const LoopUv& loop : d.loops) {
     const std::vector<Vec2> p = loop.polygon();
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      const Vec2 a = p[k], b = p[(k + 1) % p.size()];
-      if ((a.y < v) != (b.y < v)) u.push_back(a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y));
-    }
+    for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
   }
-  std::sort(u.begin(), u.end());
-  return u;
+  return sides;
 }
 
 }  // namespace
@@ -134,15 +130,15 @@ Box3 sampled_box(const Curve& curve) {
 
 Box3 sampled_box(const FaceDomain& d) {
   Box3 box;
-  if (d.surface->is_planar()) return box;
+  const LoopPolygons loops(sides_of(d));
+  if (d.surface->is_planar() || loops.sides().empty()) return box;
   const double du = (d.bounds.u_max - d.bounds.u_min) / d.n_u, dv = (d.bounds.v_max - d.bounds.v_min) / d.n_v;
   Vec3 sag;
   for (int j = 1; j < d.n_v; ++j) {
     const double v = d.bounds.v_min + j * dv;
-    const std::vector<double> crossings = row_crossings(d, v);
     for (int i = 1; i < d.n_u; ++i) {
       const double u = d.bounds.u_min + i * du;
-      if ((std::upper_bound(crossings.begin(), crossings.end(), u) - crossings.begin()) % 2 == 0) continue;
+      if (!loops.contains({u, v})) continue;
       const Vec3 x = d.surface->point({u, v});
       box.add(x);
       add_sag(sag, d.surface->point({u - du, v}), x, d.surface->point({u + du, v}));

@@ -99,10 +99,9 @@ void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& finding
       const Candidate& gone = keep_i ? faces[k] : faces[i];
       is_removed[keep_i ? k : i] = 1;
       reshape->Remove(gone.face);
-      findings.push_back({"duplicated face, removed: it lies on face " +
-                              std::to_string(keep_i ? faces[i].id : faces[k].id) + " of the file",
-                          std::string("face ").append(std::to_string(gone.id)).append(" of the file"),
-                          gone.box.center(), gone.box.diagonal(), true});
+      findings.push_back(
+          {FindingKind::kDuplicateFace, std::string("face ").append(std::to_string(gone.id)).append(" of the file"),
+           gone.box.center(), gone.box.diagonal(), true, std::to_string(keep_i ? faces[i].id : faces[k].id)});
     }
   if (std::find(is_removed.begin(), is_removed.end(), 1) == is_removed.end()) return;
   model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); });

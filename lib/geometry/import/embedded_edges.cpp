@@ -105,7 +105,7 @@ void open_slits(ImportedShape& model, std::vector<ImportFinding>& findings) {
     face.Free(true);
     for (const TopoDS_Wire& slit : slits_of(edges)) BRep_Builder().Add(face, slit);
     remove_empty_wires(face);
-    findings.push_back({"edges inside, on which other faces end, made slits", "face " + std::to_string(i),
+    findings.push_back({FindingKind::kSlit, "face " + std::to_string(i),
                         vec(BRep_Tool::Pnt(TopExp::FirstVertex(edges.front()))), rough_box(face).diagonal(), true});
   }
 }

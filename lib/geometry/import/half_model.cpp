@@ -161,7 +161,7 @@ void keep_one_side(ImportedShape& model, Cut& cut, const Box3& box, std::vector<
   cut.plane.side = asked != 0 ? asked : side != 0 ? side : 1;
   if (side != 0) return;
   cut_model(model, cut, box, path);
-  findings.push_back({"cut at the symmetry plane", "", box.center(), cut.diagonal, false});
+  findings.push_back({FindingKind::kCutAtSymmetry, "", box.center(), cut.diagonal, false});
 }
 
 // --- faces in the plane ---
@@ -349,7 +349,7 @@ Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool
       if (volume_of(s.Current()) < 0) {
         TopExp::MapShapes(s.Current(), TopAbs_FACE, cavities);
         const Box3 box = rough_box(s.Current());
-        findings.push_back({"cavity inside a solid left out of the fluid", "", box.center(), box.diagonal(), false});
+        findings.push_back({FindingKind::kCavityLeftOut, "", box.center(), box.diagonal(), false});
       }
   }
   Faces faces;

@@ -147,13 +147,7 @@ std::vector<double> group_tolerances(const ImportedShape& model, const ModelUnit
 void say_what_is_not_sewn(const ImportOptions& options, std::vector<ImportFinding>& findings) {
   for (const GroupRule& rule : options.groups)
     if (rule.tolerance && is_known_late(rule, options))
-      findings.push_back(
-          {"tolerance not used for sewing: the faces are named by numbers, which --symmetry and "
-           "--farfield give anew",
-           "group \"" + rule.name + "\"",
-           {},
-           0,
-           false});
+      findings.push_back({FindingKind::kUnusedTolerance, "group \"" + rule.name + "\"", {}, 0, false});
 }
 
 occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, const ImportedShape& model,
@@ -179,9 +173,8 @@ void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, c
                       "numbers; for groups with a tolerance select by place, part, layer or name");
 }
 
-std::string without_members(const EmptyGroup& group) {
-  const char* const member = group.of == EntityDim::kFace ? "face" : group.of == EntityDim::kEdge ? "edge" : "vertex";
-  return std::string("optional group without ") + (group.of == EntityDim::kEdge ? "an " : "a ") + member;
+const char* member_of(const EmptyGroup& group) {
+  return group.of == EntityDim::kFace ? "a face" : group.of == EntityDim::kEdge ? "an edge" : "a vertex";
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
@@ -199,9 +192,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
-  if (file.has_mixed_units)
-    result.findings.push_back(
-        {"the file holds several units of length; everything was converted to " + unit.name, "", {}, 0, false});
+  if (file.has_mixed_units) result.findings.push_back({FindingKind::kMixedUnits, "", {}, 0, false, unit.name});
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   add_flow_domain(model, tables, domain, result.findings, path);
@@ -209,7 +200,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
   for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
-    result.findings.push_back({without_members(group), "group \"" + group.name + "\"", {}, 0, false});
+    result.findings.push_back(
+        {FindingKind::kEmptyGroup, "group \"" + group.name + "\"", {}, 0, false, member_of(group)});
   require_sewn_faces(model, result.tables, options);
   const double small =
       resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");

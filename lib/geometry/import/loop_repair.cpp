@@ -369,8 +369,7 @@ void rebuild_lost_loops(ImportedShape& model, std::vector<ImportFinding>& findin
     apply(*f);
     faces.push_back(*f);
     const Box3 box = rough_box(face);
-    findings.push_back(
-        {"loops made anew from their edges", "face " + std::to_string(i), box.center(), box.diagonal(), true});
+    findings.push_back({FindingKind::kLostLoops, "face " + std::to_string(i), box.center(), box.diagonal(), true});
   }
   if (faces.empty()) return;
   lower_vertex_tolerances(model.shape, faces);

@@ -134,12 +134,10 @@ void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string&
   if (!better.IsNull()) {
     BRep_Builder().UpdateEdge(use.edge, better, use.face, BRep_Tool::Tolerance(use.edge));
     BRep_Builder().Range(use.edge, use.face, use.t0, use.t1);
-    findings.push_back({"trimming curve off its edge, projected anew (" +
-                            format_number(after.distance / before.distance) + " of the distance is left)",
-                        name, before.xyz, before.distance, true});
+    findings.push_back({FindingKind::kProjectedCurve, name, before.xyz, before.distance, true,
+                        format_number(after.distance / before.distance)});
   } else {
-    findings.push_back(
-        {"trimming curve off its edge, tolerance of the edge raised", name, before.xyz, before.distance, true});
+    findings.push_back({FindingKind::kRaisedTolerance, name, before.xyz, before.distance, true});
   }
   const double left = std::min(before.distance, after.distance);
   if (left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);

@@ -223,10 +223,10 @@ void take_over(ImportedShape& model, const Sewn& sewn) {
                 [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
 }
 
-ImportFinding sewn_finding(const std::string& how, const Sewn& before, const Sewn& after, double tolerance) {
+ImportFinding sewn_finding(FindingKind kind, const Sewn& before, const Sewn& after, double tolerance) {
   const std::string numbers =
       std::to_string(before.n_free) + " free edges before, " + std::to_string(after.n_free) + " after";
-  return {how + ": " + numbers, "", {}, tolerance, true};
+  return {kind, "", {}, tolerance, true, numbers};
 }
 
 /// Likewise; tolerances beyond reason are set back.
@@ -236,11 +236,7 @@ void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::ve
   const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
   if (sewn.edge_tolerance <= reasonable) return;
   tighten_tolerances(model.shape, tolerance, reasonable);
-  findings.push_back({"sewing left tolerances far above its own; trimming curves there are compared anew",
-                      "",
-                      {},
-                      sewn.edge_tolerance,
-                      true});
+  findings.push_back({FindingKind::kSewingTolerance, "", {}, sewn.edge_tolerance, true});
 }
 
 /// Ascending. `base`: what the first has to be at least. All lengths in the unit of the shape.
@@ -291,9 +287,10 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   for (std::size_t f = 0; is_group_sewn && f < limits.of_face.size(); ++f)
     model.attributes[f].is_sewn_by_group = limits.of_face[f] > 0;
   if (is_group_sewn)
-    findings.push_back(sewn_finding("sewn by the tolerance of their group", original, start, start.group_tolerance));
+    findings.push_back(sewn_finding(FindingKind::kSewnByGroup, original, start, start.group_tolerance));
   const std::optional<Sewn> best = sew_all(model, start, tolerances_to_try(diagonal, base, limits.largest));
-  if (best && best->n_free < start.n_free) findings.push_back(sewn_finding("sewn", start, *best, best->tolerance));
+  if (best && best->n_free < start.n_free)
+    findings.push_back(sewn_finding(FindingKind::kSewn, start, *best, best->tolerance));
   if (best || is_group_sewn) adopt(model, original, best.value_or(start), findings);
 }
 

@@ -79,8 +79,7 @@ void bound_rings(ImportedShape& model, std::vector<ImportFinding>& findings) {
     if (!is_alone || !maker.IsDone()) continue;
     reshape->Replace(face, maker.Face());
     const Box3 box = rough_box(maker.Face());
-    findings.push_back({"ring without bounds, given its surface's own", "face " + std::to_string(i), box.center(),
-                        box.diagonal(), true});
+    findings.push_back({FindingKind::kUnboundedRing, "face " + std::to_string(i), box.center(), box.diagonal(), true});
     ++n;
   }
   if (n > 0) model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); });
@@ -95,11 +94,7 @@ void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
     ShapeFix_Shape fix(model.shape);
     fix.Perform();
     if (model.replace(fix.Shape(), [&](const TopoDS_Shape& s) { return fix.Context()->Apply(s); }))
-      findings.push_back({"loops: " + std::to_string(n_bad) + " loops or faces that could not be walked were rebuilt",
-                          "",
-                          {},
-                          0,
-                          true});
+      findings.push_back({FindingKind::kRebuiltLoops, "", {}, 0, true, std::to_string(n_bad)});
   }
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
@@ -110,12 +105,7 @@ void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
     BRepLib::SameParameter(e, BRep_Tool::Tolerance(e));
     ++n_parameters;
   }
-  if (n_parameters)
-    findings.push_back({"parameters of " + std::to_string(n_parameters) + " edges made equal to their trimming curves'",
-                        "",
-                        {},
-                        0,
-                        true});
+  if (n_parameters) findings.push_back({FindingKind::kEdgeParameters, "", {}, 0, true, std::to_string(n_parameters)});
   int n_pcurves = 0;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     const TopoDS_Face f = TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));
@@ -133,9 +123,7 @@ void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
       }
     }
   }
-  if (n_pcurves)
-    findings.push_back(
-        {"trimming curves of " + std::to_string(n_pcurves) + " edges were missing and rebuilt", "", {}, 0, true});
+  if (n_pcurves) findings.push_back({FindingKind::kMissingTrimmingCurves, "", {}, 0, true, std::to_string(n_pcurves)});
 }
 
 }  // namespace st::occt

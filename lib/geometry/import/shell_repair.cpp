@@ -89,9 +89,9 @@ TopoDS_Shape exchanged(const TopoDS_Shape& shape, const Exchange& exchange) {
   return result;
 }
 
-ImportFinding repair(const std::string& what, const TopoDS_Shape& shape) {
+ImportFinding repair(FindingKind kind, const TopoDS_Shape& shape) {
   const Box3 box = rough_box(shape);
-  return {what, "", box.center(), box.diagonal(), true};
+  return {kind, "", box.center(), box.diagonal(), true};
 }
 
 /// A lone face that closes on itself, as a sphere from IGES, becomes a shell of its own.
@@ -120,7 +120,7 @@ bool repair_shells(ImportedShape& model, const FaceMeasures& measures, std::vect
   const auto exchange = [&](const TopoDS_Shape& shape) -> TopoDS_Shape {
     if (shape.ShapeType() == TopAbs_SOLID && signed_volume(model, measures, shape) < 0 &&
         count_free_edges(shape) == 0) {
-      findings.push_back(repair("solid inside out, turned", shape));
+      findings.push_back(repair(FindingKind::kTurnedSolid, shape));
       is_changed = true;
       return shape.Reversed();
     }
@@ -128,14 +128,14 @@ bool repair_shells(ImportedShape& model, const FaceMeasures& measures, std::vect
       if (shape.ShapeType() != TopAbs_SHELL || !shape.IsSame(shells[i].original)) continue;
       is_changed = true;
       if (shells[i].depth % 2 == 1) {
-        findings.push_back(repair("closed shell inside another one made its void", shape));
+        findings.push_back(repair(FindingKind::kVoidShell, shape));
         return {};
       }
       TopoDS_Solid solid = solid_of(shells[i].outward);
       for (const LooseShell& inner : shells)
         if (inner.depth % 2 == 1 && inner.container == static_cast<int>(i))
           BRep_Builder().Add(solid, inner.outward.Reversed());
-      findings.push_back(repair("closed shell made a solid", shape));
+      findings.push_back(repair(FindingKind::kShellMadeSolid, shape));
       return solid;
     }
     return shape;

@@ -36,10 +36,9 @@ void report_edges(double small, ImportResult& result) {
     const double tolerance = std::max({t.edge_tolerance[e], t.vertex_tolerance[t.edge_vertices[2 * e]],
                                        t.vertex_tolerance[t.edge_vertices[2 * e + 1]]});
     if (t.edge_length[e] < small)
-      result.findings.push_back({"short edge", t.edge_label(e), middle(t, e), t.edge_length[e], false});
+      result.findings.push_back({FindingKind::kShortEdge, t.edge_label(e), middle(t, e), t.edge_length[e], false});
     if (t.edge_length[e] < tolerance)
-      result.findings.push_back(
-          {"tolerance larger than the edge is long", t.edge_label(e), middle(t, e), tolerance, false});
+      result.findings.push_back({FindingKind::kLooseEdgeTolerance, t.edge_label(e), middle(t, e), tolerance, false});
   }
 }
 
@@ -62,7 +61,7 @@ void report_gaps(const ImportedShape& model, double small, ImportResult& result)
   for (VertexId v = 0; v < t.n_vertices(); ++v)
     if (gap[v] > small)
       result.findings.push_back(
-          {"edges end away from their vertex", "vertex " + std::to_string(v + 1), t.vertex_xyz[v], gap[v], false});
+          {FindingKind::kOpenVertex, "vertex " + std::to_string(v + 1), t.vertex_xyz[v], gap[v], false});
 }
 
 double edge_tolerance(const ModelTables& t, FaceId f) {
@@ -77,11 +76,11 @@ void report_faces(const FaceMeasures& measures, double small, ImportResult& resu
     const Vec3 at = t.face_box[f].center();
     const double tolerance = edge_tolerance(t, f);
     if (t.face_width[f] < small)
-      result.findings.push_back({"sliver face", t.face_label(f), at, t.face_width[f], false});
+      result.findings.push_back({FindingKind::kSliverFace, t.face_label(f), at, t.face_width[f], false});
     if (t.face_width[f] < tolerance)
-      result.findings.push_back({"tolerance larger than the face is wide", t.face_label(f), at, tolerance, false});
+      result.findings.push_back({FindingKind::kLooseFaceTolerance, t.face_label(f), at, tolerance, false});
     if (const auto& c = measures.crossing[f])
-      result.findings.push_back({"loop crosses itself or another", t.face_label(f), c->xyz, c->size, false});
+      result.findings.push_back({FindingKind::kCrossingLoop, t.face_label(f), c->xyz, c->size, false});
   }
 }
 
@@ -147,17 +146,17 @@ void report_validity(const ImportedShape& model, ImportResult& result) {
   if (checker.IsValid()) return;
   for (FaceId f = 0; f < t.n_faces(); ++f)
     if (!checker.IsValid(model.faces(f + 1)))
-      result.findings.push_back({"invalid face (" + cause(checker, model.faces(f + 1)) + ")", t.face_label(f),
-                                 t.face_box[f].center(), t.face_box[f].diagonal(), false});
+      result.findings.push_back({FindingKind::kInvalidFace, t.face_label(f), t.face_box[f].center(),
+                                 t.face_box[f].diagonal(), false, cause(checker, model.faces(f + 1))});
   for (const auto& [kind, name] : {std::pair{TopAbs_SHELL, "shell"}, std::pair{TopAbs_SOLID, "solid"}}) {
     TopTools_IndexedMapOfShape map;
     TopExp::MapShapes(model.shape, kind, map);
     for (int i = 1; i <= map.Extent(); ++i) {
       if (checker.IsValid(map(i))) continue;
       const Box3 box = rough_box(map(i));
-      result.findings.push_back({std::string("invalid ") + name + " (" + cause(checker, map(i)) + ")",
+      result.findings.push_back({kind == TopAbs_SHELL ? FindingKind::kInvalidShell : FindingKind::kInvalidSolid,
                                  std::string(name).append(" ").append(std::to_string(i)), box.center(), box.diagonal(),
-                                 false});
+                                 false, cause(checker, map(i))});
     }
   }
 }

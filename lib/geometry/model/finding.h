@@ -1,19 +1,66 @@
 // What the import found in a model, and what it did about it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/vec.h"
 
 namespace st {
 
-/// One finding of the import: what, where, what was done.
+enum class FindingKind : std::uint8_t {
+  kFreeEdge,               ///< used by one face only
+  kNonManifoldEdge,        ///< used by three faces or more
+  kShortEdge,              ///< shorter than --small
+  kLooseEdgeTolerance,     ///< tolerance larger than the edge is long
+  kOpenVertex,             ///< edges end away from their vertex
+  kSliverFace,             ///< narrower than --small
+  kLooseFaceTolerance,     ///< tolerance larger than the face is wide
+  kCrossingLoop,           ///< a loop crosses itself or another
+  kInvalidFace,            ///< OpenCASCADE's checker, --check
+  kInvalidShell,           ///< likewise
+  kInvalidSolid,           ///< likewise
+  kCrossingPart,           ///< a face passes through another part, found by st-edit
+  kMixedUnits,             ///< several units of length in the file
+  kEmptyGroup,             ///< a rule of the groups file that selects nothing
+  kUnusedTolerance,        ///< a group's tolerance could not be used for sewing
+  kCutAtSymmetry,          ///< the model reached across the symmetry plane
+  kCavityLeftOut,          ///< a cavity in a solid that is no part of the fluid
+  kDuplicateFace,          ///< removed
+  kSlit,                   ///< edges inside a face on which other faces end
+  kUnboundedRing,          ///< a ring without bounds got its surface's own
+  kRebuiltLoops,           ///< loops that could not be walked
+  kLostLoops,              ///< loops that the reader lost
+  kEdgeParameters,         ///< made equal to those of the trimming curves
+  kMissingTrimmingCurves,  ///< rebuilt
+  kProjectedCurve,         ///< a trimming curve off its edge, projected again
+  kRaisedTolerance,        ///< a trimming curve off its edge, the edge's tolerance raised
+  kSewn,                   ///< free edges joined
+  kSewnByGroup,            ///< likewise, within the tolerance of a group
+  kSewingTolerance,        ///< sewing left large tolerances
+  kTurnedSolid,            ///< was inside out
+  kVoidShell,              ///< a closed shell in another one made its void
+  kShellMadeSolid,         ///< a closed shell without a solid
+  kOther                   ///< written by another version
+};
+
+/// Short, for counts: "sewn".
+const char* name_of(FindingKind kind);
+
+/// One finding: what, where, what was done.
 struct ImportFinding {
-  std::string what;    ///< "free edge", "short edge", "sliver face", "sewn", "scaled" ...
+  FindingKind kind = FindingKind::kOther;
   std::string entity;  ///< "edge 12 "TE"" or empty
   Vec3 xyz;            ///< model unit
   double size = 0;     ///< length, width, tolerance: model unit
   bool is_repair = false;
+  std::string detail = {};  ///< what is particular in the text: "14 free edges before, 0 after"
+
+  /// As artifacts and messages have it: "sewn: 14 free edges before, 0 after".
+  std::string what() const;
 };
+
+/// Sets kind and detail so that finding.what() is `what`: artifacts store the text.
+void set_what(ImportFinding& finding, const std::string& what);
 
 }  // namespace st

@@ -17,7 +17,7 @@ EdgeUses report_edge_uses(const ModelTables& t) {
     if (t.edge_is_degenerate[e] || uses[e] == 2 || uses[e] == 0) continue;
     const bool is_free = uses[e] == 1;
     ++(is_free ? result.n_free : result.n_nonmanifold);
-    result.findings.push_back({is_free ? "free edge" : "non-manifold edge", t.edge_label(e),
+    result.findings.push_back({is_free ? FindingKind::kFreeEdge : FindingKind::kNonManifoldEdge, t.edge_label(e),
                                t.vertex_xyz[t.edge_vertices[2 * e]], t.edge_length[e], false});
   }
   return result;

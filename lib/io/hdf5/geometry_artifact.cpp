@@ -47,7 +47,7 @@ void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
   std::vector<double> size;
   std::vector<std::uint8_t> is_repair;
   for (const ImportFinding& f : findings) {
-    what.push_back(f.what);
+    what.push_back(f.what());
     entity.push_back(f.entity);
     xyz.push_back(f.xyz);
     size.push_back(f.size);
@@ -136,7 +136,10 @@ std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
   const std::vector<double> size = r.read_rows<double>("/st/finding/size", n);
   const std::vector<std::uint8_t> is_repair = r.read_rows<std::uint8_t>("/st/finding/is_repair", n);
   std::vector<ImportFinding> findings;
-  for (std::size_t i = 0; i < n; ++i) findings.push_back({what[i], entity[i], xyz[i], size[i], is_repair[i] != 0});
+  for (std::size_t i = 0; i < n; ++i) {
+    findings.push_back({FindingKind::kOther, entity[i], xyz[i], size[i], is_repair[i] != 0});
+    set_what(findings.back(), what[i]);
+  }
   return findings;
 }
 

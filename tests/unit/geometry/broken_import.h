@@ -22,7 +22,7 @@ inline ImportResult import_broken(const std::string& shape, const ImportOptions&
 inline std::vector<ImportFinding> findings_of(const ImportResult& r, const std::string& start) {
   std::vector<ImportFinding> found;
   std::copy_if(r.findings.begin(), r.findings.end(), std::back_inserter(found),
-               [&](const ImportFinding& f) { return f.what.find(start) == 0; });
+               [&](const ImportFinding& f) { return f.what().find(start) == 0; });
   return found;
 }
 

@@ -184,7 +184,7 @@ TEST(Import, sews_loose_faces_to_a_solid_and_says_so) {
   EXPECT_NEAR(r.volume, 48000, 1e-6);
   EXPECT_GE(r.n_repairs, 1);
   EXPECT_TRUE(std::any_of(r.findings.begin(), r.findings.end(),
-                          [](const ImportFinding& f) { return f.is_repair && f.what.find("sewn") == 0; }));
+                          [](const ImportFinding& f) { return f.is_repair && f.kind == FindingKind::kSewn; }));
 }
 
 TEST(Import, keeps_names_and_ids_of_sewn_faces) {
@@ -221,7 +221,7 @@ TEST(Import, reports_free_edges_with_their_places) {
   EXPECT_EQ(r.volume, 0);
   double length = 0;
   for (const ImportFinding& f : r.findings)
-    if (f.what == "free edge") length += f.size;
+    if (f.kind == FindingKind::kFreeEdge) length += f.size;
   EXPECT_NEAR(length, 40, 1e-12);
 }
 

@@ -257,7 +257,7 @@ TEST(GeometryArtifact, gives_back_every_table) {
   EXPECT_EQ(ga.brep, gb.brep);
   EXPECT_EQ(ga.is_closed, gb.is_closed);
   ASSERT_EQ(gb.findings.size(), 2u);
-  EXPECT_EQ(gb.findings[0].what, "short edge");
+  EXPECT_EQ(gb.findings[0].kind, FindingKind::kShortEdge);
   EXPECT_EQ(gb.findings[0].entity, "edge 3 \"TE\"");
   EXPECT_TRUE(gb.findings[0].xyz == (Vec3{1, 2, 3}));
   EXPECT_TRUE(gb.findings[1].is_repair);

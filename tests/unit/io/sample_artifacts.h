@@ -74,7 +74,8 @@ inline GeometryArtifact sample_geometry() {
   t.unit = "mm";
   t.unit_in_m = 0.001;
   for (int i = 0; i < 3000; ++i) g.brep.push_back(static_cast<std::byte>(i * 7));
-  g.findings = {{"short edge", "edge 3 \"TE\"", {1, 2, 3}, 1e-4, false}, {"sewn", "", {}, 0, true}};
+  g.findings = {{FindingKind::kShortEdge, "edge 3 \"TE\"", {1, 2, 3}, 1e-4, false},
+                {FindingKind::kSewn, "", {}, 0, true, "4 free edges before, 0 after"}};
   g.is_closed = true;
   g.previous_faces = {4, 0, 0, 0};
   g.previous_edges = {5, 0, 6, 0, 7, 0, 9, 0};

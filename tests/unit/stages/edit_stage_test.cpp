@@ -225,9 +225,9 @@ TEST_F(EditStage, says_where_the_result_is_open) {
   EXPECT_FALSE(g.is_closed);
   EXPECT_FALSE(g.tables.volume);
   EXPECT_EQ(summary_["free_edges"], 4);
-  EXPECT_EQ(
-      std::count_if(g.findings.begin(), g.findings.end(), [](const ImportFinding& f) { return f.what == "free edge"; }),
-      4);
+  EXPECT_EQ(std::count_if(g.findings.begin(), g.findings.end(),
+                          [](const ImportFinding& f) { return f.kind == FindingKind::kFreeEdge; }),
+            4);
   o.require_valid = true;
   std::filesystem::remove(path("out.hdf"));
   EXPECT_ERROR(edit(o), kGeometry, "open where it was closed: 4 free edges");
@@ -247,7 +247,7 @@ TEST_F(EditStage, says_where_parts_cross_and_only_then) {
   const GeometryArtifact g = edit(o);
   EXPECT_GT(summary_["crossings"].size(), 0u);
   EXPECT_TRUE(std::any_of(g.findings.begin(), g.findings.end(),
-                          [](const ImportFinding& f) { return f.what == "face passes through another part"; }));
+                          [](const ImportFinding& f) { return f.kind == FindingKind::kCrossingPart; }));
   o.require_valid = true;
   o.transforms = {"translate 0 0 " + std::to_string(3 * size.z)};
   EXPECT_NO_THROW(edit(o));
@@ -288,10 +288,10 @@ TEST_F(EditStage, there_and_back_is_where_it_was) {
 
 TEST_F(EditStage, takes_findings_along_with_their_entities) {
   const std::string boxes = write("two_boxes", "boxes.hdf", [](ImportResult& r) {
-    r.findings = {{"short edge", "edge 13 \"a \\\"b\"", {1, 0, 0}, 0.5, false},
-                  {"sliver face", "face 1", {0, 1, 0}, 0.25, false},
-                  {"made up", "edge 14 in face 7", {0, 0, 1}, 1, true},
-                  {"sewn", "", {0, 0, 0}, 0, true}};
+    r.findings = {{FindingKind::kShortEdge, "edge 13 \"a \\\"b\"", {1, 0, 0}, 0.5, false},
+                  {FindingKind::kSliverFace, "face 1", {0, 1, 0}, 0.25, false},
+                  {FindingKind::kOther, "edge 14 in face 7", {0, 0, 1}, 1, true, "made up"},
+                  {FindingKind::kSewn, "", {0, 0, 0}, 0, true}};
   });
   EditStageOptions o = of_inputs({boxes});
   o.remove = "1-6";
@@ -302,7 +302,7 @@ TEST_F(EditStage, takes_findings_along_with_their_entities) {
   EXPECT_EQ(g.findings[0].xyz, (Vec3{2, 0, 1}));
   EXPECT_EQ(g.findings[0].size, 1);
   EXPECT_EQ(g.findings[1].entity, "edge 2 in face 1");
-  EXPECT_EQ(g.findings[2].what, "sewn");
+  EXPECT_EQ(g.findings[2].kind, FindingKind::kSewn);
 }
 
 TEST_F(EditStage, leaves_word_of_a_motion_of_the_whole_and_of_nothing_else) {

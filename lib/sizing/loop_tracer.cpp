@@ -1,12 +1,10 @@
-#include "sizing/loop_polygon.h"
+#include "sizing/loop_tracer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <utility>
 
-#include "base/predicates.h"
 #include "sizing/raster_curve.h"
 
 namespace st {
@@ -16,8 +14,7 @@ constexpr double kRelativeDeviation = 1e-3;  // of the polygon from the trimming
 constexpr int kMaxHalvings = 6;
 constexpr double kSamePoint = 1e-9;  // over the face's (u,v) range
 constexpr int kFirstSides = 4;       // of a degenerate edge
-constexpr std::size_t kMaxBins = 4096;
-constexpr int kMaxRefinements = 6;  // of sides that cross: what crosses then does so in the CAD model
+constexpr int kMaxRefinements = 6;   // of sides that cross: what crosses then does so in the CAD model
 
 /// Turns the trimming curves of one face into sides.
 class LoopTracer {
@@ -103,16 +100,14 @@ class LoopTracer {
   bool refine_crossing_sides() {
     std::vector<LoopSide> plain;
     for (const TracedSide& s : sides_) plain.push_back({s.a.uv, s.b.uv});
-    const std::vector<std::int32_t> crossing = crossing_sides(plain);
+    std::vector<char> crosses(sides_.size(), 0);
+    for (const auto& [i, k] : crossing_sides(plain)) crosses[i] = crosses[k] = 1;
     bool is_refined = false;
     std::vector<TracedSide> refined;
-    auto next = crossing.begin();
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const TracedSide& s = sides_[i];
-      const bool crosses = next != crossing.end() && static_cast<std::size_t>(*next) == i;
-      if (crosses) ++next;
       const double tm = 0.5 * (s.a.t + s.b.t);
-      if (!crosses || s.a.coedge != s.b.coedge || tm == s.a.t || tm == s.b.t) {
+      if (!crosses[i] || s.a.coedge != s.b.coedge || tm == s.a.t || tm == s.b.t) {
         refined.push_back(s);
         continue;
       }
@@ -133,89 +128,7 @@ class LoopTracer {
   std::vector<TracedSide> sides_;
 };
 
-/// Do the two sides cross properly: neither touches the other with an end?
-bool cross_properly(const LoopSide& s, const LoopSide& r) {
-  const auto opposite = [](double x, double y) { return (x > 0 && y < 0) || (x < 0 && y > 0); };
-  return opposite(orient2d(s.a, s.b, r.a), orient2d(s.a, s.b, r.b)) &&
-         opposite(orient2d(r.a, r.b, s.a), orient2d(r.a, r.b, s.b));
-}
-
 }  // namespace
-
-LoopPolygons::LoopPolygons(std::vector<LoopSide> sides) : sides_(std::move(sides)) {
-  if (sides_.empty()) return;
-  double v_max = sides_.front().a.y;
-  v_min_ = v_max;
-  for (const LoopSide& s : sides_) {
-    v_min_ = std::min({v_min_, s.a.y, s.b.y});
-    v_max = std::max({v_max, s.a.y, s.b.y});
-  }
-  const std::size_t n_bins = std::clamp<std::size_t>(sides_.size(), 1, kMaxBins);
-  bins_per_v_ = v_max > v_min_ ? static_cast<double>(n_bins) / (v_max - v_min_) : 0;
-  const auto bin = [&](double v) { return std::min(static_cast<std::size_t>((v - v_min_) * bins_per_v_), n_bins - 1); };
-  bin_offsets_.assign(n_bins + 1, 0);
-  for (const LoopSide& s : sides_)
-    for (std::size_t b = bin(std::min(s.a.y, s.b.y)); b <= bin(std::max(s.a.y, s.b.y)); ++b) ++bin_offsets_[b + 1];
-  for (std::size_t b = 0; b < n_bins; ++b) bin_offsets_[b + 1] += bin_offsets_[b];
-  bin_sides_.resize(static_cast<std::size_t>(bin_offsets_.back()));
-  std::vector<std::int32_t> next(bin_offsets_.begin(), bin_offsets_.end() - 1);
-  for (std::size_t i = 0; i < sides_.size(); ++i)
-    for (std::size_t b = bin(std::min(sides_[i].a.y, sides_[i].b.y)); b <= bin(std::max(sides_[i].a.y, sides_[i].b.y));
-         ++b)
-      bin_sides_[next[b]++] = static_cast<std::int32_t>(i);
-}
-
-bool LoopPolygons::contains(Vec2 uv) const {
-  if (sides_.empty()) return true;
-  const double position = (uv.y - v_min_) * bins_per_v_;
-  const std::size_t n_bins = bin_offsets_.size() - 1;
-  if (!(position >= 0 && position <= static_cast<double>(n_bins))) return false;
-  const std::size_t b = std::min(static_cast<std::size_t>(position), n_bins - 1);
-  bool is_inside = false;
-  for (std::int32_t k = bin_offsets_[b]; k < bin_offsets_[b + 1]; ++k) {
-    const LoopSide& s = sides_[bin_sides_[k]];
-    if ((s.a.y > uv.y) == (s.b.y > uv.y)) continue;
-    if (uv.x < s.a.x + (uv.y - s.a.y) / (s.b.y - s.a.y) * (s.b.x - s.a.x)) is_inside = !is_inside;
-  }
-  return is_inside;
-}
-
-std::vector<std::int32_t> crossing_sides(std::span<const LoopSide> sides) {
-  // Sweeps along the axis that the sides run along less: fewer of them lie side by side.
-  double along_u = 0, along_v = 0;
-  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
-  for (const LoopSide& s : sides) {
-    along_u += std::abs(s.b.x - s.a.x), along_v += std::abs(s.b.y - s.a.y);
-    lo = {std::min({lo.x, s.a.x, s.b.x}), std::min({lo.y, s.a.y, s.b.y})},
-    hi = {std::max({hi.x, s.a.x, s.b.x}), std::max({hi.y, s.a.y, s.b.y})};
-  }
-  const bool by_u = along_u * (hi.y - lo.y) < along_v * (hi.x - lo.x);
-  const auto along = [&](Vec2 p) { return by_u ? p.x : p.y; };
-  const auto across = [&](Vec2 p) { return by_u ? p.y : p.x; };
-  std::vector<std::int32_t> order(sides.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto start = [&](std::int32_t i) { return std::min(along(sides[i].a), along(sides[i].b)); };
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t i, std::int32_t j) { return std::pair(start(i), i) < std::pair(start(j), j); });
-  std::vector<std::int32_t> open, result;
-  for (const std::int32_t i : order) {
-    const LoopSide& s = sides[i];
-    const auto [low, high] = std::minmax({across(s.a), across(s.b)});
-    std::erase_if(open, [&](std::int32_t k) { return std::max(along(sides[k].a), along(sides[k].b)) < start(i); });
-    for (const std::int32_t k : open) {
-      const LoopSide& r = sides[k];
-      if (std::max(across(r.a), across(r.b)) < low || std::min(across(r.a), across(r.b)) > high ||
-          !cross_properly(s, r))
-        continue;
-      result.push_back(i);
-      result.push_back(k);
-    }
-    open.push_back(i);
-  }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
 
 LoopPolygons loop_polygons(const Model& model, FaceId face, const ModelLimits& limits) {
   return LoopPolygons(LoopTracer(model, face, limits).run());

@@ -1,12 +1,12 @@
-// The trimming loops of a face as polygons in (u,v).
+// The loops of a face as polygons in (u,v): what is inside, and which sides cross.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "geometry/model/model.h"
-#include "sizing/model_limits.h"
+#include "base/vec.h"
 
 namespace st {
 
@@ -31,12 +31,10 @@ class LoopPolygons {
   std::vector<std::int32_t> bin_offsets_, bin_sides_;  // CSR: sides that meet each strip of v
 };
 
-/// Sides that properly cross another one (ends that touch do not count), ascending. Cost: near linear for loops of
-/// short sides.
-std::vector<std::int32_t> crossing_sides(std::span<const LoopSide> sides);
+/// Do the two sides cross properly: neither touches the other with an end?
+bool cross_properly(const LoopSide& s, const LoopSide& r);
 
-/// Polygons of the face's loops: each coedge at the parameters of its measured curve, refined until the polygon follows
-/// the trimming curve within 0.1 % of the face's (u,v) range, and further where sides cross each other.
-LoopPolygons loop_polygons(const Model& model, FaceId face, const ModelLimits& limits);
+/// Pairs of sides that cross properly, the smaller number first, ascending. Cost: near linear for loops of short sides.
+std::vector<std::pair<std::int32_t, std::int32_t>> crossing_sides(std::span<const LoopSide> sides);
 
 }  // namespace st

@@ -1,0 +1,84 @@
+#include "geometry/model/finding.h"
+
+#include <iterator>
+#include <string_view>
+
+namespace st {
+namespace {
+
+struct Wording {
+  const char* name;
+  const char* text;  // "{}": the detail
+};
+
+/// [FindingKind]
+constexpr Wording kWordings[] = {
+    {"free edge", "free edge"},
+    {"non-manifold edge", "non-manifold edge"},
+    {"short edge", "short edge"},
+    {"tolerance larger than the edge is long", "tolerance larger than the edge is long"},
+    {"edges end away from their vertex", "edges end away from their vertex"},
+    {"sliver face", "sliver face"},
+    {"tolerance larger than the face is wide", "tolerance larger than the face is wide"},
+    {"loop crosses itself or another", "loop crosses itself or another"},
+    {"invalid face", "invalid face ({})"},
+    {"invalid shell", "invalid shell ({})"},
+    {"invalid solid", "invalid solid ({})"},
+    {"face passes through another part", "face passes through another part"},
+    {"several units of length", "the file holds several units of length; everything was converted to {}"},
+    {"optional group without members", "optional group without {}"},
+    {"tolerance not used for sewing",
+     "tolerance not used for sewing: the faces are named by numbers, which --symmetry and --farfield give anew"},
+    {"cut at the symmetry plane", "cut at the symmetry plane"},
+    {"cavity inside a solid left out of the fluid", "cavity inside a solid left out of the fluid"},
+    {"duplicated face, removed", "duplicated face, removed: it lies on face {} of the file"},
+    {"edges inside, on which other faces end, made slits", "edges inside, on which other faces end, made slits"},
+    {"ring without bounds, given its surface's own", "ring without bounds, given its surface's own"},
+    {"loops", "loops: {} loops or faces that could not be walked were rebuilt"},
+    {"loops made anew from their edges", "loops made anew from their edges"},
+    {"parameters of edges made equal to their trimming curves'",
+     "parameters of {} edges made equal to their trimming curves'"},
+    {"missing trimming curves of edges rebuilt", "trimming curves of {} edges were missing and rebuilt"},
+    {"trimming curve off its edge, projected anew",
+     "trimming curve off its edge, projected anew ({} of the distance is left)"},
+    {"trimming curve off its edge, tolerance of the edge raised",
+     "trimming curve off its edge, tolerance of the edge raised"},
+    {"sewn", "sewn: {}"},
+    {"sewn by the tolerance of their group", "sewn by the tolerance of their group: {}"},
+    {"sewing left tolerances far above its own; trimming curves there are compared anew",
+     "sewing left tolerances far above its own; trimming curves there are compared anew"},
+    {"solid inside out, turned", "solid inside out, turned"},
+    {"closed shell inside another one made its void", "closed shell inside another one made its void"},
+    {"closed shell made a solid", "closed shell made a solid"},
+    {"other", "{}"},
+};
+static_assert(std::size(kWordings) == static_cast<std::size_t>(FindingKind::kOther) + 1);
+
+constexpr std::string_view kDetail = "{}";
+
+}  // namespace
+
+const char* name_of(FindingKind kind) { return kWordings[static_cast<std::size_t>(kind)].name; }
+
+std::string ImportFinding::what() const {
+  std::string text = kWordings[static_cast<std::size_t>(kind)].text;
+  if (const std::size_t at = text.find(kDetail); at != std::string::npos) text.replace(at, kDetail.size(), detail);
+  return text;
+}
+
+void set_what(ImportFinding& finding, const std::string& what) {
+  for (std::size_t k = 0; k < std::size(kWordings); ++k) {
+    const std::string_view text = kWordings[k].text;
+    const std::size_t at = text.find(kDetail);
+    finding.kind = static_cast<FindingKind>(k);
+    finding.detail.clear();
+    if (at == std::string_view::npos && what == text) return;
+    if (at == std::string_view::npos) continue;
+    const std::string_view before = text.substr(0, at), after = text.substr(at + kDetail.size());
+    if (what.size() < before.size() + after.size() || !what.starts_with(before) || !what.ends_with(after)) continue;
+    finding.detail = what.substr(at, what.size() - before.size() - after.size());
+    return;
+  }
+}
+
+}  // namespace st
