@@ -111,7 +111,7 @@ class Enhancer {
   /// the air.
   bool may_swap(const Quad& q, int k) const {
     const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
-    if ((nc.id != kNone && nc.id == nd.id) || (nc.is_pole && nd.is_pole) || !m_.can_swap(q.t, k)) return false;
+    if ((nc.id != kNone && nc.id == nd.id) || are_one_pole(nc, nd) || !m_.can_swap(q.t, k)) return false;
     const double chord = distance(nc.x, nd.x);
     return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > distance(m_.nodes[q.a].x, m_.nodes[q.b].x);
   }
@@ -260,7 +260,7 @@ class Enhancer {
       const PlaneTriangle& t = m_.triangles[i];
       if (!is_inside(t)) continue;
       for (int k = 0; k < 3; ++k) {
-        if (are_one_pole(t.v[k], t.v[kNext[k]])) at_short_edge_[t.v[kPrev[k]]] = 1;
+        if (is_pole_side(t.v[k], t.v[kNext[k]])) at_short_edge_[t.v[kPrev[k]]] = 1;
         if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
         const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
         const double h = 0.5 * (a.h + b.h);
@@ -270,11 +270,7 @@ class Enhancer {
     }
   }
 
-  /// Nodes of the plane that are one pole in space: no side between them.
-  bool are_one_pole(std::int32_t a, std::int32_t b) const {
-    const MeshNode &p = m_.nodes[a], &q = m_.nodes[b];
-    return p.is_pole && q.is_pole && p.id == q.id;
-  }
+  bool is_pole_side(std::int32_t a, std::int32_t b) const { return are_one_pole(m_.nodes[a], m_.nodes[b]); }
 
   void try_collapse(std::int32_t i) {
     if (!m_.ring_of(i, around_, tris_)) return;
@@ -283,7 +279,7 @@ class Enhancer {
     int n_sides = 0;  // in space
     double before = 2;
     for (int k = 0; k < n; ++k) {
-      if (are_one_pole(around_[k], around_[(k + 1) % n])) continue;
+      if (is_pole_side(around_[k], around_[(k + 1) % n])) continue;
       ++n_sides;
       before = std::min<double>(before, quality_[tris_[k]]);
     }
@@ -323,7 +319,7 @@ class Enhancer {
       if (k == c || l == c) continue;
       const MeshNode &a = m_.nodes[around_[k]], &b = m_.nodes[around_[l]];
       if (orient2d(target.p, a.p, b.p) <= 0) return -2;
-      if (!are_one_pole(around_[k], around_[l])) worst = std::min(worst, quality(target, a, b));
+      if (!is_pole_side(around_[k], around_[l])) worst = std::min(worst, quality(target, a, b));
     }
     // edges that appear: target to every ring node but its neighbours
     for (int k = 0; k < n; ++k) {

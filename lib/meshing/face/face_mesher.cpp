@@ -182,11 +182,8 @@ class FaceMesher {
 
   bool same_pole(const PlaneTriangle& t) const {
     const auto& n = work_.mesh.nodes;
-    for (int k = 0; k < 3; ++k) {
-      const MeshNode &a = n[t.v[k]], &b = n[t.v[(k + 1) % 3]];
-      if (a.is_pole && b.is_pole && a.id == b.id) return true;
-    }
-    return false;
+    return are_one_pole(n[t.v[0]], n[t.v[1]]) || are_one_pole(n[t.v[1]], n[t.v[2]]) ||
+           are_one_pole(n[t.v[2]], n[t.v[0]]);
   }
 
   using NodePair = std::pair<std::int64_t, std::int64_t>;  // node_key(), the smaller first

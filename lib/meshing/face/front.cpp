@@ -140,7 +140,7 @@ class Front {
       int k = 0;
       while (k < 3 && !(r.v[k] == e.a && r.v[kNext[k]] == e.b)) ++k;
       if (k == 3) continue;
-      if (m_.nodes[e.a].is_pole && m_.nodes[e.b].is_pole) continue;
+      if (are_one_pole(m_.nodes[e.a], m_.nodes[e.b])) continue;
       if (!place(e.t, e.a, e.b)) retire(e.t);
     }
     queue_.clear();
@@ -253,7 +253,7 @@ class Front {
     for (const Triangulation::RingEdge& e : m_.ring()) {
       const MeshNode &a = m_.nodes[e.a], &b = m_.nodes[e.b];
       if (is_near(p, a, metric, r)) return true;
-      if (!e.constrained || (a.is_pole && b.is_pole)) continue;
+      if (!e.constrained || are_one_pole(a, b)) continue;
       if (segment_distance(p.x, a.x, b.x) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r))
         return true;
     }
@@ -342,7 +342,7 @@ double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
   const double chord2 = norm2(b.x - a.x);
   const Vec2 e = 0.5 * (b.p - a.p);
   const double along2 = norm2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv));
-  return along2 > 4 * chord2 && !(a.is_pole && b.is_pole) ? along2 : chord2;
+  return along2 > 4 * chord2 && !are_one_pole(a, b) ? along2 : chord2;
 }
 
 double FaceWork::circumradius2(const PlaneTriangle& t) const {

@@ -25,6 +25,9 @@ struct MeshNode {
   bool is_kept = false;     ///< of a ring about a narrow part: not to be collapsed
 };
 
+/// Plane nodes of one pole: one point in space, no side between them.
+inline bool are_one_pole(const MeshNode& a, const MeshNode& b) { return a.is_pole && b.is_pole && a.id == b.id; }
+
 /// A triangle, counter-clockwise in the plane. Edge k runs from v[k] to v[(k+1)%3]; n[k] is the neighbour across it.
 struct PlaneTriangle {
   std::int32_t v[3];

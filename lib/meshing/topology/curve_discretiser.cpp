@@ -71,9 +71,11 @@ class Discretiser {
 
   double turning(std::size_t i) const { return angle_between(samples_[i - 1].d1, samples_[i].d1); }
 
-  /// Turning counts until the chord of a segment is as near to the curve as in a circle of kFullRadius: arcs of smaller
-  /// radius turn more along a segment, and what turns within next to no length (a kink, a hook at an end) counts for
-  /// next to nothing. On a curve shorter than the size its own length is the measure: a small sphere stays round.
+  /// A chord may leave the curve as far as one that turns by max_turning on a circle of the curve's radius r, or of
+  /// kFullRadius lengths h where r is smaller: s^2 / (8 r) = max(r, kFullRadius h) max_turning^2 / 8 for a segment s.
+  /// From that radius on, a segment turns by max_turning; on smaller arcs it turns more, and what turns within next to
+  /// no length (a kink, a hook at an end) counts for next to nothing. On a curve shorter than the size its own length
+  /// is the measure: a small sphere stays round.
   void integrate() {
     double arc = 0;
     for (std::size_t i = 1; i < samples_.size(); ++i) arc += distance(samples_[i - 1].x, samples_[i].x);
@@ -84,8 +86,9 @@ class Discretiser {
       const double by_size = distance(a.x, b.x) * 0.5 * (1 / a.h + 1 / b.h);
       const double by_turning = turning(i) / max_turning_;
       const double at_full_radius = std::max(by_size, distance(a.x, b.x) / arc) / (kFullRadius * max_turning_);
-      const double by_chord = std::min(std::sqrt(by_turning * at_full_radius), kMostDense * at_full_radius);
-      share_.push_back(share_.back() + std::max(by_size, std::min(by_turning, by_chord)));
+      const double by_chord_error =
+          std::min(std::sqrt(by_turning * std::min(by_turning, at_full_radius)), kMostDense * at_full_radius);
+      share_.push_back(share_.back() + std::max(by_size, by_chord_error));
       lengths_.push_back(lengths_.back() + by_size);
     }
   }
