@@ -30,16 +30,20 @@ std::string position(const std::string& path, const toml::source_region& source)
   return path + ":" + std::to_string(source.begin.line);
 }
 
-toml::table parse_file(const std::string& path) {
+toml::table parse_text(const std::string& text, const std::string& path) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& e) {
+    fail(position(path, e.source()), std::string(e.description()));
+  }
+}
+
+std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   if (!file || !(text << file.rdbuf() || file.peek() == std::ifstream::traits_type::eof()) || file.bad())
     fail(path, "cannot read the option file");
-  try {
-    return toml::parse(text.str(), path);
-  } catch (const toml::parse_error& e) {
-    fail(position(path, e.source()), std::string(e.description()));
-  }
+  return text.str();
 }
 
 /// The shortest decimal that reads back as the same number.
@@ -161,7 +165,11 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
 }
 
 void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app) {
-  const toml::table file = parse_file(path);
+  apply_option_text(read_text(path), path, tool, app);
+}
+
+void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app) {
+  const toml::table file = parse_text(text, path);
   const Settings settings = settings_for(tool, file, path);
   std::vector<std::pair<const toml::node*, CLI::Option*>> lists;
   for (const auto& [key, node] : settings.lists)

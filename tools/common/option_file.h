@@ -18,4 +18,7 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
 /// of them, and a value that the option does not take.
 void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app);
 
+/// The same for the text of an option file; `path` is what messages name.
+void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app);
+
 }  // namespace st

@@ -14,6 +14,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "common/option_file.h"
+#include "common/presets.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 
@@ -208,6 +209,10 @@ void ToolMain::flag(const std::string& flag, bool& value, const std::string& hel
   file_options_.push_back(app_.add_flag(flag, value, help));
 }
 
+void ToolMain::preset() {
+  text("--preset", preset_, preset_names(), "settings for a purpose, below all other options (docs/presets.md)");
+}
+
 void ToolMain::begin(int argc, char** argv) {
   install_signal_handlers();
   json_ = has_argument(argc, argv, "--json");
@@ -230,6 +235,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }
   if (!options_file_.empty()) apply_option_file(options_file_, name_, app_);
+  if (!preset_.empty()) apply_option_text(find_preset(preset_).options, "preset " + preset_, name_, app_);
   if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose exclude each other");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
   require_distinct_files();

@@ -65,6 +65,8 @@ class ToolMain {
   /// A whole number that may be left out.
   void number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help);
   void flag(const std::string& flag, bool& value, const std::string& help);
+  /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
+  void preset();
 
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.
   int run(int argc, char** argv, const std::function<StageSummary()>& stage);
@@ -97,7 +99,7 @@ class ToolMain {
   std::string name_;
   Kind kind_;
   CLI::App app_;
-  std::string options_file_;
+  std::string options_file_, preset_;
   int n_ranks_ = 1;
   bool quiet_ = false, verbose_ = false, json_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;

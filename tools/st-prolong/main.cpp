@@ -24,5 +24,6 @@ int main(int argc, char** argv) {
   tool.optional_input("--sample", o.sample, "CSV of points at which to write the lengths");
   tool.output_option("--sample-output", o.sample_output, "CSV that --sample writes");
   tool.flag("--allow-incomplete", o.allow_incomplete, "take a raster of which parts could not be sampled");
+  tool.preset();
   return tool.run(argc, argv, [&] { return st::run_prolong(o); });
 }

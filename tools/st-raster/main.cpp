@@ -21,5 +21,6 @@ int main(int argc, char** argv) {
               "refuse an octree with more cells; default: what fits 80% of the memory");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "exit code 0 although parts could not be sampled; the artifact is flagged");
+  tool.preset();
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

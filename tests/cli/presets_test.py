@@ -1,0 +1,62 @@
+"""Presets are plain options: the table of docs/presets.md, given by hand, makes the same sizing."""
+import json
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+BIN, MODELS = Path(os.environ["ST_BIN"]), Path(os.environ["ST_MODELS"])
+WORK = Path(os.environ["ST_WORK"]) / "presets"
+PAGE = Path(__file__).resolve().parents[2] / "docs/presets.md"
+ROW = re.compile(r"^\| `(\w+)` \|.*?\| `(.*?)` \| `(.*?)` \|", re.M)
+
+
+def run(tool, *arguments):
+    return subprocess.run([BIN / tool, *map(str, arguments), "--json"], capture_output=True, text=True)
+
+
+def summary(tool, *arguments):
+    done = run(tool, *arguments)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+class Presets(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        cls.geometry = WORK / "geometry.hdf"
+        summary("st-import", MODELS / "wing_with_flap.step", "-o", cls.geometry)
+
+    def sizing_hash(self, raster_options, prolong_options):
+        raster, sizing = WORK / "raster.hdf", WORK / "sizing.hdf"
+        summary("st-raster", self.geometry, "-o", raster, *raster_options)
+        return summary("st-prolong", raster, "-o", sizing, *prolong_options)["hash"]
+
+    def test_the_page_lists_the_options_of_every_preset(self):
+        rows = ROW.findall(PAGE.read_text(encoding="utf-8"))
+        self.assertEqual([r[0] for r in rows], ["preview", "euler", "rans", "fine"])
+        hashes = {}
+        for name, raster, prolong in rows:
+            by_name = self.sizing_hash(["--preset", name], ["--preset", name])
+            by_hand = self.sizing_hash(raster.split(), prolong.split())
+            self.assertEqual(by_name, by_hand, name)
+            hashes[name] = by_name
+        self.assertEqual(len(set(hashes.values())), len(rows), "presets differ from each other")
+
+    def test_the_command_line_and_the_option_file_win(self):
+        file = WORK / "options.toml"
+        file.write_text('[st-raster]\npreset = "fine"\nlmax = "4%"\n')
+        by_file = self.sizing_hash(["--options", file], [])
+        by_line = self.sizing_hash(["--preset", "fine", "--lmax", "4%"], [])
+        self.assertEqual(by_file, by_line)
+
+    def test_an_unknown_preset_is_refused_with_the_names(self):
+        done = run("st-raster", self.geometry, "--preset", "ranz")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("preview | euler | rans | fine", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+#include "common/presets.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace st {
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = {
+      {"preview", "a first look: does the CAD mesh, and where are its features?", R"(
+[st-raster]
+lmax = "5%"
+alpha = 20
+[st-prolong]
+slope = 0.3
+)"},
+      {"euler", "inviscid flow, and panel methods", R"(
+[st-raster]
+alpha = 10
+[st-prolong]
+slope = 0.2
+)"},
+      {"rans", "viscous flow: drag", R"(
+[st-raster]
+alpha = 7
+lmin = "0.01%"
+[st-prolong]
+slope = 0.15
+)"},
+      {"fine", "viscous flow on the fine mesh of a study", R"(
+[st-raster]
+lmax = "1.5%"
+alpha = 5
+[st-prolong]
+slope = 0.12
+)"},
+  };
+  return all;
+}
+
+std::string preset_names() {
+  std::string names;
+  for (const Preset& p : presets()) names += (names.empty() ? "" : " | ") + p.name;
+  return names;
+}
+
+const Preset& find_preset(const std::string& name) {
+  const auto& all = presets();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == name; });
+  if (found == all.end())
+    throw Error(ExitCode::kUsage, "--preset: unknown preset '" + name + "'; use one of " + preset_names());
+  return *found;
+}
+
+}  // namespace st
