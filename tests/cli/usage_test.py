@@ -13,8 +13,8 @@ N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-m
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
     "st-edit": {"--output": "edited.hdf", "--as": "", "--join": "", "--extract": "", "--remove": "", "--transform": "", "--of": "", "--require-valid": ""},
-    "st-raster": {"--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--allow-incomplete": ""},
-    "st-prolong": {"--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
+    "st-raster": {"--preset": "", "--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--allow-incomplete": ""},
+    "st-prolong": {"--preset": "", "--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
                    "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv", "--allow-incomplete": ""},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
@@ -43,6 +43,7 @@ REFUSED = {
         "--max-cells": ["0", "x", "1.5"],
         "--trailing-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
         "--leading-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
+        "--preset": ["ranz"],
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
