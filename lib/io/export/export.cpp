@@ -1,9 +1,10 @@
-// Meshes for other programs: STL, VTU, OBJ, PLY, MSH, FRO. VTU, MSH and FRO have files of their own.
+// Meshes for other programs: which suffix is which format; STL, OBJ and PLY. The other formats have files of their own.
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <limits>
-#include <map>
+#include <optional>
 
 #include "base/limits.h"
 #include "io/export/export.h"
@@ -194,25 +195,59 @@ namespace {
 
 /// How a format is written.
 struct Format {
+  const char* suffix;
   void (*write)(Output&, const SurfaceMesh&);
   bool has_entity_groups;  ///< holds groups of edges and vertices
 };
 
-Format format_of(const std::string& path) {
-  static const std::map<std::string, Format> formats = {{".stl", {export_stl, false}}, {".vtu", {export_vtu, true}},
-                                                        {".obj", {export_obj, true}},  {".ply", {export_ply, true}},
-                                                        {".msh", {export_msh, true}},  {".fro", {export_fro, false}}};
-  std::string name = path.substr(path.rfind('/') + 1);
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".ascii.stl")) return {export_ascii_stl, false};
+/// A suffix with two dots stands before the one that it ends with.
+constexpr Format kFormats[] = {
+    {".ascii.stl", export_ascii_stl, false},
+    {".stl", export_stl, false},
+    {".vtu", export_vtu, true},
+    {".obj", export_obj, true},
+    {".ply", export_ply, true},
+    {".msh", export_msh, true},
+    {".fro", export_fro, false},
+    {".lb8.ugrid", export_lb8_ugrid, false},
+    {".b8.ugrid", export_b8_ugrid, false},
+    {".ugrid", export_ugrid, false},
+    {".su2", export_su2, false},
+    {".bdf", export_nastran, false},
+    {".nas", export_nastran, false},
+    {".mesh", export_medit, false},
+    {".off", export_off, false},
+    {".smesh", export_smesh, false},
+    {".poly", export_poly, false},
+};
+
+std::string known_suffixes() {
+  std::string list;
+  for (const Format& f : kFormats) list.append(list.empty() ? "" : ", ").append(f.suffix);
+  return list;
+}
+
+/// Ends with the suffix, whatever its case.
+bool has_suffix(const std::string& path, const std::string& suffix) {
+  return path.size() > suffix.size() && std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(), [](char a, char b) {
+           return a == std::tolower(static_cast<unsigned char>(b));
+         });
+}
+
+const Format& format_of(const std::string& path) {
+  for (const Format& f : kFormats)
+    if (has_suffix(path, f.suffix)) return f;
+  const std::string name = path.substr(path.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
-  const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
-  const auto it = formats.find(suffix);
-  if (it == formats.end())
-    throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix +
-                                      "' for an export; use .stl, .ascii.stl, .vtu, .obj, .ply, .msh or .fro");
-  return it->second;
+  throw Error(ExitCode::kUsage, path + ": unknown suffix '" + (dot == std::string::npos ? "" : name.substr(dot)) +
+                                    "' for an export; use one of " + known_suffixes());
+}
+
+/// The list of boundaries beside a UGRID file.
+std::optional<std::string> mapbc_beside(const std::string& path) {
+  for (const std::string suffix : {".lb8.ugrid", ".b8.ugrid", ".ugrid"})
+    if (has_suffix(path, suffix)) return path.substr(0, path.size() - suffix.size()) + ".mapbc";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -220,9 +255,14 @@ Format format_of(const std::string& path) {
 void require_export_suffix(const std::string& path) { format_of(path); }
 
 std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
-  const Format format = format_of(path);
+  const Format& format = format_of(path);
   Output out(path);
   format.write(out, mesh);
+  if (const auto list = mapbc_beside(path)) {
+    Output boundaries(*list);
+    export_mapbc(boundaries, mesh);
+    boundaries.commit();
+  }
   out.commit();
   return format.has_entity_groups ? 0 : mesh.labels.edge_groups.size() + mesh.labels.vertex_groups.size();
 }

@@ -95,5 +95,15 @@ void export_ply(Output& out, const SurfaceMesh& mesh);
 void export_vtu(Output& out, const SurfaceMesh& mesh);
 void export_msh(Output& out, const SurfaceMesh& mesh);
 void export_fro(Output& out, const SurfaceMesh& mesh);
+void export_ugrid(Output& out, const SurfaceMesh& mesh);
+void export_lb8_ugrid(Output& out, const SurfaceMesh& mesh);
+void export_b8_ugrid(Output& out, const SurfaceMesh& mesh);
+void export_mapbc(Output& out, const SurfaceMesh& mesh);
+void export_su2(Output& out, const SurfaceMesh& mesh);
+void export_nastran(Output& out, const SurfaceMesh& mesh);
+void export_medit(Output& out, const SurfaceMesh& mesh);
+void export_off(Output& out, const SurfaceMesh& mesh);
+void export_smesh(Output& out, const SurfaceMesh& mesh);
+void export_poly(Output& out, const SurfaceMesh& mesh);
 
 }  // namespace st

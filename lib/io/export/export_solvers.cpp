@@ -1,0 +1,226 @@
+// Meshes for flow solvers and volume meshers, with a number for each group: UGRID, SU2, NASTRAN, Medit, OFF, TetGen.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+#include "base/face_labels.h"
+#include "io/export/export_formats.h"
+
+namespace st {
+namespace {
+
+/// Group of each triangle as a number from 1.
+std::int64_t tag(const SurfaceMesh& m, std::size_t triangle) { return std::int64_t{m.triangle_group[triangle]} + 1; }
+
+/// Names of all groups as words that no other group has: "a b" and "a_b" become "a_b" and "a_b_2".
+std::vector<std::string> group_words(const SurfaceMesh& m) {
+  std::set<std::string> used;
+  std::vector<std::string> words;
+  for (std::size_t g = 0; g < m.group_name.size(); ++g) {
+    std::string word = clean_name(m.group_name[g], true);
+    if (word.empty()) word = "group";
+    std::string free = word;
+    for (int k = 2; used.contains(free); ++k) (free = word).append("_").append(std::to_string(k));
+    used.insert(free);
+    words.push_back(free);
+  }
+  return words;
+}
+
+void write_nodes(TextBuffer& text, const SurfaceMesh& m, std::string_view begin, std::string_view end) {
+  for (const Vec3& p : m.node_xyz) text << begin << p.x << " " << p.y << " " << p.z << end;
+}
+
+/// The coordinate axis that the normals of a group's triangles run along on the whole: 0, 1 or 2.
+int axis_of(const SurfaceMesh& m, std::size_t group) {
+  Vec3 area;
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    if (static_cast<std::size_t>(m.triangle_group[i]) != group) continue;
+    const auto& n = m.triangles[i].n;
+    const Vec3 a = cross(m.node_xyz[n[1]] - m.node_xyz[n[0]], m.node_xyz[n[2]] - m.node_xyz[n[0]]);
+    area = area + Vec3{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
+  }
+  return area.x >= area.y && area.x >= area.z ? 0 : area.y >= area.z ? 1 : 2;
+}
+
+/// FUN3D's number of a boundary condition: viscous wall, far field, symmetry about x, y or z.
+int boundary_condition(const SurfaceMesh& m, std::size_t group) {
+  const std::string role = group < m.group_role.size() ? m.group_role[group] : role_of_name(m.group_name[group]);
+  if (role == "farfield") return 5000;
+  return role == "symmetry" ? 6661 + axis_of(m, group) : 4000;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.insert(0, width - text.size(), ' ');
+  return text;
+}
+
+/// Bytes in the order that a .ugrid of this kind has.
+template <class T>
+void put(Output& out, T value, bool is_big_endian) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof value);
+  if (is_big_endian) std::reverse(bytes.begin(), bytes.end());
+  out.bytes(bytes.data(), bytes.size());
+}
+
+void write_binary_ugrid(Output& out, const SurfaceMesh& m, bool is_big_endian) {
+  const auto integer = [&](std::int64_t v) { put(out, static_cast<std::int32_t>(v), is_big_endian); };
+  integer(m.n_nodes());
+  integer(m.n_triangles());
+  for (int i = 0; i < 5; ++i) integer(0);
+  for (const Vec3& p : m.node_xyz)
+    for (const double x : {p.x, p.y, p.z}) put(out, x, is_big_endian);
+  for (const Triangle& t : m.triangles)
+    for (const NodeId n : t.n) integer(std::int64_t{n} + 1);
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) integer(tag(m, i));
+}
+
+}  // namespace
+
+/// AFLR3's UGRID: counts, nodes, triangles, then the group of each triangle.
+void export_ugrid(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  text << m.n_nodes() << " " << m.n_triangles() << " 0 0 0 0 0\n";
+  write_nodes(text, m, "", "\n");
+  for (const Triangle& t : m.triangles)
+    text << std::int64_t{t.n[0] + 1} << " " << std::int64_t{t.n[1] + 1} << " " << std::int64_t{t.n[2] + 1} << "\n";
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) text << tag(m, i) << "\n";
+  text.flush();
+}
+
+void export_lb8_ugrid(Output& out, const SurfaceMesh& m) { write_binary_ugrid(out, m, false); }
+void export_b8_ugrid(Output& out, const SurfaceMesh& m) { write_binary_ugrid(out, m, true); }
+
+/// FUN3D's list of boundaries that stands beside a UGRID file: number, boundary condition, name.
+void export_mapbc(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  const std::vector<std::string> words = group_words(m);
+  text << static_cast<std::int64_t>(words.size()) << "\n";
+  for (std::size_t g = 0; g < words.size(); ++g)
+    text << static_cast<std::int64_t>(g + 1) << " " << std::int64_t{boundary_condition(m, g)} << " " << words[g]
+         << "\n";
+  text.flush();
+}
+
+/// SU2: triangles as elements, and again as boundary elements in the marker of their group.
+void export_su2(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  const auto element = [&](std::size_t i) -> TextBuffer& {
+    const auto& n = m.triangles[i].n;
+    return text << "5 " << std::int64_t{n[0]} << " " << std::int64_t{n[1]} << " " << std::int64_t{n[2]};
+  };
+  text << "NDIME= 3\nNELEM= " << m.n_triangles() << "\n";
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) element(i) << " " << static_cast<std::int64_t>(i) << "\n";
+  text << "NPOIN= " << m.n_nodes() << "\n";
+  std::int64_t number = 0;
+  for (const Vec3& p : m.node_xyz) text << p.x << " " << p.y << " " << p.z << " " << number++ << "\n";
+  const std::vector<std::string> words = group_words(m);
+  std::vector<std::vector<std::size_t>> of_group(words.size());
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) of_group[m.triangle_group[i]].push_back(i);
+  text << "NMARK= " << static_cast<std::int64_t>(words.size()) << "\n";
+  for (std::size_t g = 0; g < words.size(); ++g) {
+    text << "MARKER_TAG= " << words[g] << "\nMARKER_ELEMS= " << static_cast<std::int64_t>(of_group[g].size()) << "\n";
+    for (const std::size_t i : of_group[g]) element(i) << "\n";
+  }
+  text.flush();
+}
+
+/// NASTRAN bulk data: GRID* in fields of 16 columns, CTRIA3 in fields of 8 with a property per group, its name as a
+/// comment. Throws Error(kOutput) for numbers of more than 8 digits.
+void export_nastran(Output& out, const SurfaceMesh& m) {
+  if (std::max(m.n_nodes(), m.n_triangles()) > 99'999'999)
+    throw Error(ExitCode::kOutput,
+                "NASTRAN has no room for more than 99,999,999 nodes or triangles; use another format");
+  TextBuffer text(out);
+  const auto wide = [](double value) {  // 16 columns, and a point: a real number has one
+    char field[32];
+    for (int digits = 16; digits > 0; --digits) {
+      std::snprintf(field, sizeof field, "%.*G", digits, value);
+      std::string shown = field;
+      if (shown.find('.') == std::string::npos) {
+        const std::size_t e = shown.find('E');
+        shown.insert(e == std::string::npos ? shown.size() : e, 1, '.');
+      }
+      if (shown.size() <= 16) return padded(std::move(shown), 16);
+    }
+    return std::string(16, ' ');
+  };
+  const auto column = [](std::int64_t value, std::size_t width) { return padded(std::to_string(value), width); };
+  text << "$ surface mesh\n";
+  for (std::size_t g = 0; g < m.group_name.size(); ++g)
+    text << "$ property " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.group_name[g], false) << "\n";
+  text << "BEGIN BULK\n";
+  for (std::size_t g = 0; g < m.group_name.size(); ++g)
+    text << "PSHELL  " << column(static_cast<std::int64_t>(g + 1), 8) << "\n";
+  for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
+    const Vec3& p = m.node_xyz[i];
+    text << "GRID*   " << column(static_cast<std::int64_t>(i + 1), 16) << std::string(16, ' ') << wide(p.x) << wide(p.y)
+         << "\n*       " << wide(p.z) << "\n";
+  }
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    const auto& n = m.triangles[i].n;
+    text << "CTRIA3  ";
+    for (const std::int64_t value : {static_cast<std::int64_t>(i + 1), tag(m, i), n[0] + std::int64_t{1},
+                                     n[1] + std::int64_t{1}, n[2] + std::int64_t{1}})
+      text << column(value, 8);
+    text << "\n";
+  }
+  text << "ENDDATA\n";
+  text.flush();
+}
+
+/// INRIA's Medit, text: the group of each triangle is its reference.
+void export_medit(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  text << "MeshVersionFormatted 2\nDimension\n3\nVertices\n" << m.n_nodes() << "\n";
+  write_nodes(text, m, "", " 0\n");
+  text << "Triangles\n" << m.n_triangles() << "\n";
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    for (const NodeId n : m.triangles[i].n) text << std::int64_t{n + 1} << " ";
+    text << tag(m, i) << "\n";
+  }
+  text << "End\n";
+  text.flush();
+}
+
+/// Geomview's OFF: nodes and triangles alone.
+void export_off(Output& out, const SurfaceMesh& m) {
+  TextBuffer text(out);
+  text << "OFF\n" << m.n_nodes() << " " << m.n_triangles() << " 0\n";
+  write_nodes(text, m, "", "\n");
+  for (const Triangle& t : m.triangles) {
+    text << "3";
+    for (const NodeId n : t.n) text << " " << std::int64_t{n};
+    text << "\n";
+  }
+  text.flush();
+}
+
+/// TetGen's .smesh and .poly: facets with the group as boundary marker, no holes, no regions.
+static void write_tetgen(Output& out, const SurfaceMesh& m, std::string_view facet) {
+  TextBuffer text(out);
+  for (std::size_t g = 0; g < m.group_name.size(); ++g)
+    text << "# marker " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.group_name[g], false) << "\n";
+  text << m.n_nodes() << " 3 0 0\n";
+  std::int64_t number = 1;
+  for (const Vec3& p : m.node_xyz) text << number++ << " " << p.x << " " << p.y << " " << p.z << "\n";
+  text << m.n_triangles() << " 1\n";
+  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+    const auto& n = m.triangles[i].n;
+    const bool has_header = !facet.empty();  // .poly: "1 polygon, 0 holes, marker" on a line of its own
+    if (has_header) text << facet << tag(m, i) << "\n";
+    text << "3 " << std::int64_t{n[0] + 1} << " " << std::int64_t{n[1] + 1} << " " << std::int64_t{n[2] + 1};
+    if (!has_header) text << " " << tag(m, i);
+    text << "\n";
+  }
+  text << "0\n0\n";
+  text.flush();
+}
+
+void export_smesh(Output& out, const SurfaceMesh& m) { write_tetgen(out, m, ""); }
+void export_poly(Output& out, const SurfaceMesh& m) { write_tetgen(out, m, "1 0 "); }
+
+}  // namespace st

@@ -1,0 +1,74 @@
+// Formats of flow solvers, as text.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <sstream>
+
+#include "io/export/export.h"
+#include "unit/io/sample_artifacts.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+/// Two triangles in the plane z = 0, one in y = 0; three groups, two of names that are one word.
+SurfaceMesh three_triangles() {
+  SurfaceMesh m;
+  m.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
+  m.node_entity_dim.assign(5, 0);
+  m.node_entity = {0, 1, 2, 3, 4};
+  m.node_t.assign(5, 0);
+  m.node_size.assign(5, 1);
+  m.triangles = {{{0, 1, 2}}, {{1, 3, 2}}, {{0, 1, 4}}};
+  m.triangle_face = {0, 1, 2};
+  m.triangle_group = {0, 1, 2};
+  m.group_name = {"a b", "a_b", "mirror"};
+  m.group_role = {"wall", "farfield", "symmetry"};
+  return m;
+}
+
+TEST(ExportSolvers, mapbc_has_a_condition_by_role_and_names_that_are_different_words) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.b8.ugrid", three_triangles());
+  EXPECT_EQ(read_bytes(dir / "m.mapbc"), "3\n1 4000 a_b\n2 5000 a_b_2\n3 6662 mirror\n");
+}
+
+TEST(ExportSolvers, binary_ugrid_has_both_byte_orders) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.b8.ugrid", three_triangles());
+  export_mesh(dir / "m.lb8.ugrid", three_triangles());
+  const std::string big = read_bytes(dir / "m.b8.ugrid"), little = read_bytes(dir / "m.lb8.ugrid");
+  ASSERT_EQ(big.size(), little.size());
+  EXPECT_EQ(big.size(), 7u * 4 + 5 * 24 + 9 * 4 + 3 * 4);
+  EXPECT_EQ(big.substr(0, 8), std::string("\0\0\0\5\0\0\0\3", 8));
+  EXPECT_EQ(little.substr(0, 8), std::string("\5\0\0\0\3\0\0\0", 8));
+}
+
+TEST(ExportSolvers, su2_names_its_markers) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.su2", three_triangles());
+  const std::string text = read_bytes(dir / "m.su2");
+  EXPECT_NE(text.find("NELEM= 3\n5 0 1 2 0\n"), std::string::npos);
+  EXPECT_NE(text.find("NMARK= 3\nMARKER_TAG= a_b\nMARKER_ELEMS= 1\n5 0 1 2\n"), std::string::npos);
+  EXPECT_NE(text.find("MARKER_TAG= a_b_2\n"), std::string::npos);
+}
+
+TEST(ExportSolvers, nastran_reals_have_a_point_and_fit_their_fields) {
+  SurfaceMesh m = three_triangles();
+  m.node_xyz[1] = {-1.23456789012345678e-123, 1e22, 3};
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.bdf", m);
+  std::istringstream lines(read_bytes(dir / "m.bdf"));
+  int n_nodes = 0;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 72u);
+    if (line.starts_with("GRID*")) {
+      ++n_nodes;
+      for (const std::size_t at : {40u, 56u}) EXPECT_NE(line.substr(at, 16).find('.'), std::string::npos) << line;
+    }
+  }
+  EXPECT_EQ(n_nodes, 5);
+}
+
+}  // namespace
+}  // namespace st
