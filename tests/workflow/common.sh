@@ -1,6 +1,6 @@
 # What the tests of the make rules share; sourced in a folder of their own, $work, with the source tree in $source.
 # shellcheck shell=bash disable=SC2154,SC2034,SC2016
-unset MAKEFLAGS MAKELEVEL MFLAGS MODEL OUT NP LAUNCH EXPORT BLANK ALLOW_INCOMPLETE TOOLS BUILD
+unset MAKEFLAGS MAKELEVEL MFLAGS MODEL OUT NP LAUNCH EXPORT PRESET BLANK ALLOW_INCOMPLETE TOOLS BUILD
 export FAKE_LOG=$work/ran
 tools="st-import st-raster st-prolong st-mesh st-merge st-remesh st-check st-info st-export"
 failures=0

@@ -145,6 +145,9 @@ done << 'TABLE'
   :                                                        | NP=2                    | -
   :                                                        | LAUNCH=env              | -
   :                                                        | EXPORT=ascii.stl+vtu    | export info
+  :                                                        | PRESET=preview          | raster+
+  :                                                        | PRESET=preview          | -
+  :                                                        |                         | raster+
   :                                                        | BLANK=1                 | prolong mesh merge prolong+
   :                                                        | BLANK=1                 | -
   :                                                        |                         | prolong+

@@ -3,7 +3,7 @@
 # FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
 tool=$(basename "$0")
-inputs=() output='' allowed=''
+inputs=() output='' allowed='' preset=''
 while [ $# -gt 0 ]; do
   case $1 in
     --print-options) echo "# options of $tool"; exit 0 ;;
@@ -15,6 +15,7 @@ while [ $# -gt 0 ]; do
     --np) echo "$tool $2" >> "${FAKE_LOG:?}.np"; shift 2 ;;
     --options | --geometry | --sizing) inputs+=("$2"); shift 2 ;;
     --allow-incomplete) allowed=1; shift ;;
+    --preset) preset=$2; shift 2 ;;
     --*) shift ;;
     *) inputs+=("$1"); shift ;;
   esac
@@ -26,7 +27,7 @@ if [ -z "$output" ]; then
   exit 0
 fi
 temporary=$(dirname "$output")/.$(basename "$output").tmp.$$.0
-{ echo "$tool"; cat "${inputs[@]}"; } > "$temporary"
+{ echo "$tool${preset:+ $preset}"; cat "${inputs[@]}"; } > "$temporary"
 if [ "${FAKE_KILL:-}" = "$tool" ]; then
   echo $$ > "$FAKE_LOG.pid"
   exec sleep 60

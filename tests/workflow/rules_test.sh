@@ -52,7 +52,7 @@ run MODEL=a.step CXX=c++ CXXFLAGS=-O2 VERBOSE=1 STEPS=3 OMPI_MCA_btl=tcp ST_CORP
 expect "variables of compilers, examples and MPI are passed on" "$status $ran" "0 "
 run MODEL=new.step EXPORT="stl vtk"
 expect "a format that is none is refused before anything runs" "$status $ran $(ls out)" "2  a"
-formats="'vtk' is no format; the formats are stl ascii.stl vtu obj ply msh fro; did you mean vtu?"
+formats="'vtk' is no format; the formats are stl .* poly; did you mean vtu?"
 expect "and the formats are named" "$(grep -c "$formats" <<< "$said")" 1
 run MODEL=a.step BLANK=yes
 expect "a switch that is neither 0 nor 1 is refused" "$status $ran" "2 "
