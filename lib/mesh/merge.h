@@ -10,6 +10,23 @@
 
 namespace st {
 
+/// Patches joined by the ids of their nodes: places and corners, and where they come from.
+struct WeldedPatches {
+  std::vector<Vec3> points;               ///< by (entity dim, entity id, index); only those that a triangle uses
+  std::vector<Triangle> triangles;        ///< by (patch, position in it)
+  std::vector<TriangleId> patch_begin;    ///< [n_patches+1] into triangles
+  std::vector<NodeId> vertex;             ///< [n_vertices] node of each; kNone: no triangle uses it
+  std::vector<NodeId> edge_node;          ///< [edges.node_t] likewise
+  NodeId n_boundary = 0;                  ///< nodes on vertices and edges; those inside faces follow
+  std::vector<std::int32_t> inner;        ///< [points - n_boundary] node inside a face: its place in FacePatch::inner_*
+  std::vector<std::int32_t> inner_begin;  ///< [n_patches+1] into inner
+};
+
+/// Joins patches in the given order; those without triangles may stand among them. Throws Error(kInput) when a patch
+/// names an entity or node that does not exist. Linear.
+WeldedPatches weld_patches(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz,
+                           std::span<const FacePatch* const> patches);
+
 /// Views of what a patches artifact holds. The order of `patches` is irrelevant; a face occurs once at most.
 struct MergeInput {
   const EdgeMesh& edges;

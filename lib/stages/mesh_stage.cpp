@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <numeric>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -15,7 +14,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
-#include "meshing/engine/model_mesher.h"
+#include "meshing/engine/mesh_regions.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
 
@@ -69,6 +68,43 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
   return faces;
 }
 
+/// What an earlier part left, where there is one: its nodes on edges, and what it merged.
+struct EarlierPart {
+  EdgeMesh edges;
+  MergedFeatures merged;
+};
+
+EarlierPart read_earlier_part(const MeshStageOptions& o, const ArtifactHeader& geometry) {
+  if (o.edges.empty()) return {};
+  PatchesArtifact earlier = read_patches(o.edges);
+  require_same_geometry(o.geometry, geometry, o.edges, earlier.header);
+  return {std::move(earlier.edges), std::move(earlier.merged)};
+}
+
+MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std::vector<FaceId> faces, EdgeMesh fixed,
+                   std::vector<double> face_weight) {
+  MeshPlan plan = plan_all(topology);
+  if (!faces.empty() || !o.edges.empty())
+    plan = plan_part(topology, faces.empty() ? std::move(plan.faces) : std::move(faces), std::move(fixed));
+  plan.face_weight = std::move(face_weight);
+  return plan;
+}
+
+ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& geometry, const ArtifactHeader& sizing) {
+  ArtifactHeader header;
+  header.tool = "st-mesh";
+  header.options_json = nlohmann::json{
+      {"faces", o.faces},
+      {"group", o.group},
+      {"enhance_rounds", o.enhance_rounds},
+      {"merge_below", o.merge_below},
+      {"max_turning",
+       o.max_turning_deg}}.dump();
+  header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash},
+                   {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.content_hash}};
+  return header;
+}
+
 }  // namespace
 
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
@@ -79,47 +115,19 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   const MappedSizing sizing = map_sizing(o.sizing);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
-  ModelMesherOptions options;
-  options.enhance_rounds = o.enhance_rounds;
-  options.max_turning_deg = o.max_turning_deg;
-  options.merge_below = o.merge_below;
-  const std::vector<FaceId> faces = select_faces(o, model.tables());
+  std::vector<FaceId> faces = select_faces(o, model.tables());
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing);
-  EdgeMesh fixed;
-  MergedFeatures merged;
-  if (!o.edges.empty()) {
-    PatchesArtifact earlier = read_patches(o.edges);
-    require_same_geometry(o.geometry, geometry_header, o.edges, earlier.header);
-    fixed = std::move(earlier.edges);
-    merged = std::move(earlier.merged);
-    options.merged = &merged;
-  }
-  ModelMesher mesher(model, *sizing.field, sizing.face_weight, options, comm);
+  EarlierPart earlier = read_earlier_part(o, geometry.header);
+  const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, comm)
+                                                : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
-  if (faces.empty() && o.edges.empty()) {
-    mesher.run();
-  } else {
-    std::vector<FaceId> all(model.tables().n_faces());
-    std::iota(all.begin(), all.end(), 0);
-    mesher.run_part(faces.empty() ? all : faces, std::move(fixed));
-  }
+  MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
+  MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
+                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below}, comm);
   if (!comm.is_root()) return {};
-  store_requests(*sizing.field, mesher);
-
-  ArtifactHeader header;
-  header.tool = "st-mesh";
-  header.options_json = nlohmann::json{
-      {"faces", o.faces},
-      {"group", o.group},
-      {"enhance_rounds", o.enhance_rounds},
-      {"merge_below", o.merge_below},
-      {"max_turning",
-       o.max_turning_deg}}.dump();
-  header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry_header.content_hash},
-                   {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.header.content_hash}};
-  return write_patches_result(o.output, model.tables(), geometry_header, header, mesher,
+  return write_patches_result(o.output, model.tables(), geometry.header,
+                              output_header(o, geometry.header, sizing.header), topology, std::move(result),
                               {timer, load_seconds, comm.size()});
 }
 

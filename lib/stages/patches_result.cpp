@@ -52,45 +52,36 @@ nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const 
 /// Beside the patches: what the faces that could not be meshed look like; an earlier run's is removed when all were.
 /// Returns its path, or "".
 std::string write_failed_faces(const std::string& patches, const ArtifactHeader& header, const ModelTables& t,
-                               const ModelMesher& m) {
+                               const MeshResult& r) {
   const std::string path = failures_path(patches);
-  if (m.failures.empty()) {
+  if (r.failures.empty()) {
     remove_failures(path);
     return "";
   }
-  write_failures(path, {header, m.failures, m.failed_faces, t.face_name});
+  write_failures(path, {header, r.failures, r.failed_faces, t.face_name});
   return path;
 }
 
-}  // namespace
-
-void store_requests(const SizeField& field, ModelMesher& m) {
-  int hint = 0;
-  const auto renew = [&](const std::vector<Vec3>& xyz, const std::vector<NodeId>& previous, std::vector<double>& size) {
-    for (std::size_t i = 0; i < xyz.size(); ++i)
-      if (previous.empty() || previous[i] == kNone) size[i] = field.size(xyz[i], hint);
-  };
-  if (m.edges.node_request.empty()) m.edges.node_request = m.edges.node_size;
-  renew(m.edges.node_xyz, m.edges.node_previous, m.edges.node_request);
-  if (m.edges.node_request == m.edges.node_size) m.edges.node_request.clear();
-  for (FacePatch& p : m.patches) renew(p.inner_xyz, p.inner_previous, p.inner_size);
-}
-
-StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
-                                  ArtifactHeader header, ModelMesher& m, const RunFacts& facts) {
-  PatchesArtifact out;
+ArtifactHeader complete(ArtifactHeader header, const ArtifactHeader& geometry) {
   header.schema = "patches";
   header.tool_version = ST_VERSION;
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
   header.geometry_hash = geometry.content_hash;
+  return header;
+}
+
+/// Takes edges and patches out of the result. Faces without triangles have no patch.
+PatchesArtifact take_patches(const ModelTables& t, const ArtifactHeader& header, const MeshTopology& topology,
+                             MeshResult& r) {
+  PatchesArtifact out;
   out.header = header;
-  out.edges = std::move(m.edges);
+  out.edges = std::move(r.edges);
   out.vertex_xyz = t.vertex_xyz;
-  out.edge_vertices = m.tables().edge_vertices;
-  out.merged = m.merged();
-  out.patches = std::move(m.patches);
-  out.failures = m.failures;
+  out.edge_vertices = topology.tables().edge_vertices;
+  out.merged = topology.merged();
+  out.patches = std::move(r.patches);
+  out.failures = r.failures;
   out.face_name = t.face_name;
   out.group_name = t.group_name;
   out.group_role = t.group_role;
@@ -99,6 +90,53 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;
   std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  return out;
+}
+
+void warn(const ModelTables& t, const MeshResult& r, const std::string& failures_file) {
+  for (const FaceFailure& f : r.failures)
+    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause,
+                            f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
+  if (!failures_file.empty())
+    log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
+  if (!r.folds.empty())
+    log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})",
+                            r.folds.size(), r.folds[0].x.x, r.folds[0].x.y, r.folds[0].x.z));
+  if (r.n_crossing_pairs)
+    log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
+}
+
+void tell_merged(const ModelTables& t, const MergedFeatures& merged, std::size_t n_closed) {
+  if (merged.empty()) return;
+  log_info(
+      fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole "
+                  "faces{} (--merge-below 0: none)",
+                  merged.edge.size(), merged.strip_face.size(), n_closed, first_of(t, merged)));
+}
+
+nlohmann::json result_json(const ModelTables& t, const MeshResult& r) {
+  nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
+  for (const FaceFailure& f : r.failures) failures.push_back(failure_json(t, f));
+  for (const RefinementPoint& p : r.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
+  return {{"faces", t.n_faces()},
+          {"faces_failed", r.failures.size()},
+          {"failures", failures},
+          {"folds", folds},
+          {"crossing_pairs", r.n_crossing_pairs},
+          {"rounds", r.n_rounds},
+          {"refinements", r.n_refinements},
+          {"seconds_edges", r.times.edges},
+          {"seconds_faces", r.times.faces},
+          {"seconds_crossing", r.times.join + r.times.crossing}};
+}
+
+}  // namespace
+
+StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
+                                  ArtifactHeader header, const MeshTopology& topology, MeshResult result,
+                                  const RunFacts& facts) {
+  header = complete(std::move(header), geometry);
+  PatchesArtifact out = take_patches(t, header, topology, result);
   const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
   out.is_complete = static_cast<std::int32_t>(out.patches.size() + closed.size()) == t.n_faces();
   std::size_t n_triangles = 0, n_nodes = 0;
@@ -108,59 +146,30 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   }
   const Timer write_timer;
   const std::string hash = write_patches(path, out);
-  const std::string failures_file = write_failed_faces(path, header, t, m);
+  const std::string failures_file = write_failed_faces(path, header, t, result);
   const double write_seconds = write_timer.seconds(), seconds = facts.timer.seconds();
-
-  nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
-  for (const FaceFailure& f : m.failures) {
-    failures.push_back(failure_json(t, f));
-    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause,
-                            f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
-  }
-  if (!failures_file.empty())
-    log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
-  for (const RefinementPoint& p : m.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
-  if (!m.folds.empty())
-    log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})",
-                            m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
-  if (m.n_crossing_pairs)
-    log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
-
-  if (!m.merged().empty())
-    log_info(
-        fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole "
-                    "faces{} (--merge-below 0: none)",
-                    m.merged().edge.size(), m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
+  warn(t, result, failures_file);
+  tell_merged(t, out.merged, closed.size());
 
   StageSummary s;
-  s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
+  s.code = result.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
-                       n_triangles, out.patches.size(), t.n_faces(), m.n_rounds, seconds, facts.n_ranks,
+                       n_triangles, out.patches.size(), t.n_faces(), result.n_rounds, seconds, facts.n_ranks,
                        seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);
-  s.json = nlohmann::json{
-      {"tool", header.tool},
-      {"output", path},
-      {"triangles", n_triangles},
-      {"inner_nodes", n_nodes},
-      {"faces", t.n_faces()},
-      {"faces_meshed", out.patches.size()},
-      {"faces_failed", m.failures.size()},
-      {"failures", failures},
-      {"failures_file", failures_file},
-      {"folds", folds},
-      {"crossing_pairs", m.n_crossing_pairs},
-      {"merged", merged_json(t, m.merged(), closed)},
-      {"rounds", m.n_rounds},
-      {"refinements", m.n_refinements},
-      {"ranks", facts.n_ranks},
-      {"seconds", seconds},
-      {"seconds_load", facts.load_seconds},
-      {"seconds_edges", m.times.edges},
-      {"seconds_faces", m.times.faces},
-      {"seconds_crossing", m.times.crossing},
-      {"seconds_write", write_seconds},
-      {"hash",
-       hash}}.dump();
+  nlohmann::json json = result_json(t, result);
+  json.update({{"tool", header.tool},
+               {"output", path},
+               {"triangles", n_triangles},
+               {"inner_nodes", n_nodes},
+               {"faces_meshed", out.patches.size()},
+               {"failures_file", failures_file},
+               {"merged", merged_json(t, out.merged, closed)},
+               {"ranks", facts.n_ranks},
+               {"seconds", seconds},
+               {"seconds_load", facts.load_seconds},
+               {"seconds_write", write_seconds},
+               {"hash", hash}});
+  s.json = json.dump();
   return s;
 }
 

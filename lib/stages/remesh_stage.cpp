@@ -19,11 +19,9 @@
 #include "io/hdf5/sizing_artifact.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
-#include "meshing/engine/remesher.h"
+#include "meshing/engine/mesh_regions.h"
 #include "meshing/hole/hole_reprojector.h"
 #include "meshing/hole/mesh_gaps.h"
-#include "meshing/topology/mesh_topology.h"
 #include "sizing/node_field.h"
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
@@ -74,60 +72,34 @@ void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFea
   for (const EdgeId e : edges) mark.keep_edge[e] = 1;
 }
 
-nlohmann::json counts(const Remesher& r, const HoleMesh& mesh) {
-  return {{"faces_redone", r.dirty_faces.size()},
-          {"triangles_redone", r.n_marked_triangles},
-          {"segments_redone", r.n_marked_segments},
-          {"marks_hash", r.marks_hash},
-          {"triangles_before", mesh.mesh.n_triangles()},
-          {"faces", mesh.tables.n_faces()},
+nlohmann::json counts(const HoleMarker& holes, const MeshResult& r) {
+  return {{"faces_redone", holes.dirty_faces().size()},
+          {"triangles_redone", holes.n_marked_triangles},
+          {"segments_redone", holes.n_marked_segments},
+          {"marks_hash", holes.marks_hash},
+          {"triangles_before", holes.mesh().mesh.n_triangles()},
+          {"faces", holes.mesh().tables.n_faces()},
           {"holes_grown", r.n_grown},
           {"rounds", r.n_rounds},
           {"crossing_pairs", r.n_crossing_pairs},
           {"refinements", r.n_refinements},
-          {"seconds_analysis", r.seconds_analysis},
-          {"seconds_edges", r.seconds_edges},
-          {"seconds_faces", r.seconds_faces},
-          {"seconds_insert", r.seconds_merge},
-          {"seconds_crossing", r.seconds_crossing}};
+          {"seconds_analysis", holes.seconds},
+          {"seconds_edges", r.times.edges},
+          {"seconds_faces", r.times.faces},
+          {"seconds_insert", r.times.join},
+          {"seconds_crossing", r.times.crossing}};
 }
 
-StageSummary dry_run_summary(const Remesher& r, const HoleMesh& mesh) {
+StageSummary dry_run_summary(const HoleMarker& holes) {
   StageSummary s;
-  s.line = fmt::format(
-      "{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
-      r.n_marked_triangles, mesh.mesh.n_triangles(), r.dirty_faces.size(), mesh.tables.n_faces(), r.n_marked_segments);
-  nlohmann::json json = counts(r, mesh);
+  s.line =
+      fmt::format("{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
+                  holes.n_marked_triangles, holes.mesh().mesh.n_triangles(), holes.dirty_faces().size(),
+                  holes.mesh().tables.n_faces(), holes.n_marked_segments);
+  nlohmann::json json = counts(holes, {});
   json["tool"] = "st-remesh";
   s.json = json.dump();
   return s;
-}
-
-/// Nodes of edges that were done again keep no number but those at the ends.
-void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
-  after.node_previous.assign(after.node_t.size(), kNone);
-  for (EdgeId e = 0; e < after.n_edges(); ++e) {
-    const std::int32_t a = before.first_node(e), n = before.n_nodes(e), b = after.first_node(e), m = after.n_nodes(e);
-    if (n == 0 || m == 0) continue;
-    const bool is_same =
-        n == m && std::equal(before.node_t.begin() + a, before.node_t.begin() + a + n, after.node_t.begin() + b);
-    for (std::int32_t i = 0; is_same && i < n; ++i) after.node_previous[b + i] = before.node_previous[a + i];
-    after.node_previous[b] = before.node_previous[a];
-    after.node_previous[b + m - 1] = before.node_previous[a + n - 1];
-  }
-}
-
-/// Collective. Faces whose holes could not be filled are meshed again as wholes, in rounds as st-mesh does; the edges
-/// keep their nodes.
-void redo_failed_faces(const SizeField& field, Remesher& r, ModelMesher& mesher) {
-  const EdgeMesh before = r.edges;
-  mesher.run_from(r.edges, r.all_patches(), r.failed_faces);
-  carry_previous(before, mesher.edges);
-  for (FacePatch& p : mesher.patches) {
-    p.inner_previous.resize(p.inner_xyz.size(), kNone);
-    p.triangle_previous.resize(p.triangles.size(), kNone);
-  }
-  store_requests(field, mesher);
 }
 
 /// What is read once and used by all steps.
@@ -232,7 +204,7 @@ void require_no_gaps(const RemeshStageOptions& o, const HoleMesh& m) {
                                             o.mesh, open.size(), x.x, x.y, x.z, m.tables.face_label(open[0].face)));
 }
 
-ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const Remesher& r) {
+ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes) {
   ArtifactHeader header;
   header.tool = "st-remesh";
   header.tool_version = ST_VERSION;
@@ -240,22 +212,12 @@ ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in,
                                        {"too_short", o.too_short},
                                        {"keep", o.keep},
                                        {"sizes_on_nodes", std::filesystem::path(o.sizes_on_nodes).filename().string()},
-                                       {"faces_redone", r.dirty_faces.size()}}
+                                       {"faces_redone", holes.dirty_faces().size()}}
                             .dump();
   header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), in.old.header.content_hash},
                    {"geometry", std::filesystem::path(o.geometry).filename().string(), in.geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), in.sizing.header.content_hash}};
   return header;
-}
-
-/// Local, on rank 0.
-SurfaceMesh merged_mesh(Remesher& r, const ModelMesher* mesher) {
-  if (!mesher) return std::move(r.mesh);
-  const ModelTables& t = mesher->tables();
-  OrientationReport report;
-  std::vector<FacePatch> patches = mesher->patches;
-  std::erase_if(patches, [](const FacePatch& p) { return p.triangles.empty(); });
-  return merge_patches({mesher->edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
 }
 
 /// previous_id of a foreign mesh is the number in its file.
@@ -267,28 +229,32 @@ void number_as_in_file(const RemeshInput& in, std::vector<NodeId>& nodes, std::v
     if (t != kNone) t = in.foreign->file_triangle[t];
 }
 
-/// Local, on rank 0. Writes the merged mesh.
-StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, const ModelMesher* mesher,
-                          const RunFacts& facts) {
+MeshArtifact merged_artifact(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes,
+                             MeshResult& r) {
   MeshArtifact artifact;
-  artifact.header = output_header(o, in, r);
+  artifact.header = output_header(o, in, holes);
   artifact.header.unit = in.geometry.unit;
   artifact.header.unit_in_m = in.geometry.unit_in_m;
   artifact.header.geometry_hash = in.geometry.content_hash;
-  artifact.mesh = merged_mesh(r, mesher);
-  number_as_in_file(in, artifact.mesh.node_previous, artifact.mesh.triangle_previous);
-  artifact.mesh.face_name = in.old.mesh.face_name;
-  artifact.mesh.group_name = in.old.mesh.group_name;
-  artifact.mesh.group_role = in.old.mesh.group_role;
-  artifact.mesh.labels = in.old.mesh.labels;
-  artifact.mesh.merged = in.old.mesh.merged;
-  if (!artifact.mesh.labels.edge_groups.empty())
-    add_segments(artifact.mesh, mesher ? mesher->edges : r.edges,
-                 MeshTopology(in.model.tables(), artifact.mesh.merged).tables().edge_vertices);
-  if (mesher && !mesher->failures.empty())
+  SurfaceMesh& mesh = artifact.mesh = std::move(r.mesh);
+  number_as_in_file(in, mesh.node_previous, mesh.triangle_previous);
+  mesh.face_name = in.old.mesh.face_name;
+  mesh.group_name = in.old.mesh.group_name;
+  mesh.group_role = in.old.mesh.group_role;
+  mesh.labels = in.old.mesh.labels;
+  mesh.merged = in.old.mesh.merged;
+  if (!mesh.labels.edge_groups.empty()) add_segments(mesh, r.edges, holes.mesh().tables.edge_vertices);
+  return artifact;
+}
+
+/// Local, on rank 0. Writes the merged mesh.
+StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult& r,
+                          const RunFacts& facts) {
+  if (!r.failures.empty())
     throw Error(ExitCode::kIncomplete,
                 fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
-                            in.model.tables().face_label(mesher->failures[0].face), mesher->failures[0].cause));
+                            in.model.tables().face_label(r.failures[0].face), r.failures[0].cause));
+  const MeshArtifact artifact = merged_artifact(o, in, holes, r);
   if (r.n_crossing_pairs)
     log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
   const Timer timer;
@@ -311,23 +277,26 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, Re
 }
 
 /// Local, on rank 0. Writes patches for st-merge.
-StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, Remesher& r, ModelMesher& mesher,
+StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
                               const RunFacts& facts) {
-  if (r.failed_faces.empty()) {
-    mesher.patches = r.all_patches();
-    mesher.edges = std::move(r.edges);
-    if (mesher.edges.node_request == mesher.edges.node_size) mesher.edges.node_request.clear();
-  }
   std::vector<TriangleId> none;
-  number_as_in_file(in, mesher.edges.node_previous, none);
-  for (FacePatch& p : mesher.patches) number_as_in_file(in, p.inner_previous, p.triangle_previous);
-  mesher.times.edges += r.seconds_edges;
-  mesher.times.faces += r.seconds_faces;
-  mesher.times.crossing += r.seconds_crossing;
-  mesher.n_crossing_pairs += r.n_crossing_pairs;
-  mesher.n_refinements += r.n_refinements;
-  mesher.n_rounds += r.n_rounds;
-  return write_patches_result(o.output, in.model.tables(), in.geometry, output_header(o, in, r), mesher, facts);
+  number_as_in_file(in, r.edges.node_previous, none);
+  for (FacePatch& p : r.patches) number_as_in_file(in, p.inner_previous, p.triangle_previous);
+  return write_patches_result(o.output, in.model.tables(), in.geometry, output_header(o, in, holes),
+                              holes.mesh().topology, std::move(r), facts);
+}
+
+/// Local, on rank 0.
+StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
+                          const RunFacts& facts) {
+  const nlohmann::json more = counts(holes, r);
+  StageSummary summary =
+      o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), facts) : write_merged(o, in, holes, r, facts);
+  nlohmann::json json = nlohmann::json::parse(summary.json);
+  json.update(more);
+  summary.json = json.dump();
+  summary.line += fmt::format("; {} of {} triangles redone", holes.n_marked_triangles, in.old.mesh.n_triangles());
+  return summary;
 }
 
 StageSummary with_association(StageSummary summary, const std::optional<StageSummary>& association) {
@@ -347,6 +316,25 @@ void require_countable_sizes(const RemeshStageOptions& o, const RemeshInput& in,
   if (!faces.empty()) require_countable_mesh(in.model.tables(), in.sizing.face_weight, faces, o.sizing);
 }
 
+HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in) {
+  HoleMarkOptions mark;
+  mark.too_long = o.too_long;
+  mark.too_short = o.too_short;
+  set_kept(o, in.model.tables(), in.old.mesh.merged, mark);
+  mark.earlier_xyz = in.earlier_xyz;
+  mark.redo = in.spoilt;
+  return mark;
+}
+
+/// How well the nodes of a foreign mesh lie on the CAD.
+std::optional<StageSummary> tell_association(const RemeshStageOptions& o, const RemeshInput& in,
+                                             const Communicator& comm) {
+  if (!in.foreign) return std::nullopt;
+  StageSummary summary = association_summary(o.mesh, in.old.mesh, in.foreign->report);
+  if (comm.is_root()) log_info(summary.line);
+  return summary;
+}
+
 }  // namespace
 
 StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
@@ -357,40 +345,20 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const RemeshInput in = read_input(o, comm);
   const HoleMesh mesh(in.old.mesh, in.model.tables(), &in.model);
   if (comm.is_root()) require_no_gaps(o, mesh);
-  RemesherOptions options;
-  options.mark.too_long = o.too_long;
-  options.mark.too_short = o.too_short;
-  set_kept(o, in.model.tables(), in.old.mesh.merged, options.mark);
-  options.mark.earlier_xyz = in.earlier_xyz;
-  options.mark.redo = in.spoilt;
+  const HoleMarkOptions mark = mark_options(o, in);
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
-  if (!on_nodes) require_countable_sizes(o, in, options.mark);
-  std::optional<StageSummary> association;
-  if (in.foreign) association = association_summary(o.mesh, in.old.mesh, in.foreign->report);
-  if (association && comm.is_root()) log_info(association->line);
-  Remesher remesher(in.model, mesh, in.share, field, options, comm);
+  if (!on_nodes) require_countable_sizes(o, in, mark);
+  const std::optional<StageSummary> association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();
-  remesher.analyse();
-  if (o.dry_run) return with_association(dry_run_summary(remesher, mesh), association);
-  remesher.run();
-  std::optional<ModelMesher> mesher;
-  ModelMesherOptions mesher_options;
-  mesher_options.merged = &in.old.mesh.merged;
-  mesher_options.keep_edge = options.mark.keep_edge;
-  if (!remesher.failed_faces.empty() || o.merged.empty())
-    mesher.emplace(in.model, field, in.sizing.face_weight, mesher_options, comm);
-  if (!remesher.failed_faces.empty()) redo_failed_faces(field, remesher, *mesher);
+  HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
+  if (o.dry_run) return with_association(dry_run_summary(holes), association);
+  const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
+  MeshResult result = mesh_regions(holes, field, output, {}, comm);
   if (!comm.is_root()) return {};
-  const RunFacts facts{timer, load_seconds, comm.size()};
-  StageSummary summary = o.merged.empty() ? write_patches_of(o, in, remesher, *mesher, facts)
-                                          : write_merged(o, in, remesher, mesher ? &*mesher : nullptr, facts);
-  nlohmann::json json = nlohmann::json::parse(summary.json);
-  json.update(counts(remesher, mesh));
-  summary.json = json.dump();
-  summary.line += fmt::format("; {} of {} triangles redone", remesher.n_marked_triangles, in.old.mesh.n_triangles());
-  return with_association(std::move(summary), association);
+  return with_association(write_result(o, in, holes, std::move(result), {timer, load_seconds, comm.size()}),
+                          association);
 }
 
 }  // namespace st

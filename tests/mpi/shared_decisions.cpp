@@ -10,9 +10,7 @@
 #include "base/log.h"
 #include "comm/communicator.h"
 #include "mesh/checks.h"
-#include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
@@ -21,32 +19,22 @@ void check(bool ok, const std::string& what) {
   if (!ok) throw std::runtime_error(what);
 }
 
-SurfaceMesh merged_mesh(const ModelMesher& mesher) {
-  const ModelTables& t = mesher.tables();
-  OrientationReport report;
-  SurfaceMesh mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, report);
-  mesh.merged = mesher.merged();
-  return mesh;
-}
-
 /// On rank 0. The mesh is whole, and crosses itself nowhere.
-void check_whole(const ModelMesher& mesher) {
-  check(mesher.failures.empty(), "a face failed");
-  const SurfaceMesh mesh = merged_mesh(mesher);
-  check(check_topology(mesh).passes(), "the mesh is not closed");
-  check(mesher.n_crossing_pairs == 0, "triangles cross");
+void check_whole(const MeshTopology& topology, const MeshResult& result) {
+  check(result.failures.empty(), "a face failed");
+  OrientationReport report;
+  check(check_topology(test::merged(topology, result, report)).passes(), "the mesh is not closed");
+  check(result.n_crossing_pairs == 0, "triangles cross");
 }
 
 /// Edges that rank 0 leaves as they are and every other rank would merge.
 void shares_merged_features(const Communicator& comm) {
   const Model model = test::make_model("box");
   const UniformField field(200);
-  ModelMesherOptions options;
-  options.merge_below = comm.is_root() ? 0 : 0.2;
-  ModelMesher mesher(model, field, {}, options, comm);
-  check(mesher.merged().empty(), "a rank merged edges on its own");
-  mesher.run();
-  if (comm.is_root()) check_whole(mesher);
+  const MeshTopology topology = merge_small_features(model, field, comm.is_root() ? 0 : 0.2, comm);
+  check(topology.merged().empty(), "a rank merged edges on its own");
+  const MeshResult result = mesh_regions(model, topology, field, plan_all(topology), {}, comm);
+  if (comm.is_root()) check_whole(topology, result);
 }
 
 /// Walls that cross until they are refined, where every rank has slightly other lengths: as it would refine, and as the
@@ -54,11 +42,11 @@ void shares_merged_features(const Communicator& comm) {
 void shares_refinements(const Communicator& comm) {
   const Model model = test::make_model("thin_pipe");
   const UniformField field(comm.is_root() ? 2.0 : 2.0 + 0.3 * comm.rank());
-  ModelMesher mesher(model, field, {}, {}, comm);
-  mesher.run();
+  const MeshTopology topology = merge_small_features(model, field, MeshOptions().merge_below, comm);
+  const MeshResult result = mesh_regions(model, topology, field, plan_all(topology), {}, comm);
   if (!comm.is_root()) return;
-  check(mesher.n_refinements > 0, "nothing was refined: the scenario shows nothing");
-  check_whole(mesher);
+  check(result.n_refinements > 0, "nothing was refined: the scenario shows nothing");
+  check_whole(topology, result);
 }
 
 const std::map<std::string, std::function<void(const Communicator&)>> kScenarios = {

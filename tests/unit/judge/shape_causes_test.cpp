@@ -8,29 +8,14 @@
 
 #include "base/log.h"
 #include "judge/cad_corners.h"
-#include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
 
 /// A shape meshed with one length, nothing merged.
-struct Meshed {
-  Model model;
-  SurfaceMesh mesh;
-
-  Meshed(const std::string& shape, double length) : model(test::make_model(shape)) {
-    set_verbosity(Verbosity::kQuiet);
-    const UniformField field(length);
-    const SerialExecutor one_rank;
-    ModelMesherOptions options;
-    options.merge_below = 0;
-    ModelMesher mesher(model, field, {}, options, one_rank);
-    mesher.run();
-    OrientationReport orientation;
-    const ModelTables& t = mesher.tables();
-    mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
+struct Meshed : test::Meshed {
+  Meshed(const std::string& shape, double length) : test::Meshed(shape, length, MeshOptions{.merge_below = 0}) {
     std::fill(mesh.node_size.begin(), mesh.node_size.end(), length);
   }
   ShapeCauses causes(double angle_deg = 10) const {

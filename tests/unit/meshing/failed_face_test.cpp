@@ -7,27 +7,16 @@
 #include <set>
 
 #include "base/log.h"
-#include "meshing/engine/model_mesher.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
 
 /// A meshed model, so that its edges have nodes.
-struct Edges {
-  Model model;
-  UniformField field;
-  SerialExecutor one_rank;
-  ModelMesher mesher;
+struct Edges : test::Meshed {
   BoundaryNumbering numbering;
 
-  explicit Edges(const std::string& shape)
-      : model(test::make_model(shape)), field(2), mesher(model, field, {}, {}, one_rank), numbering(run()) {}
-  BoundaryNumbering run() {
-    set_verbosity(Verbosity::kQuiet);
-    mesher.run();
-    return BoundaryNumbering(mesher.topology(), mesher.edges);
-  }
+  explicit Edges(const std::string& shape) : test::Meshed(shape, 2), numbering(topology, result.edges) {}
 };
 
 double length_of(const FailedFace& f) {

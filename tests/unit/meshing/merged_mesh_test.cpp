@@ -12,34 +12,15 @@
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "mesh/edge_segments.h"
-#include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
 
-const SerialExecutor one_rank;
-
-struct Meshed {
-  Model model;
-  UniformField field;
-  ModelMesher mesher;
-  SurfaceMesh mesh;
-
-  Meshed(const std::string& shape, double length, double merge_below)
-      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options(merge_below), one_rank) {
-    set_verbosity(Verbosity::kQuiet);
-    mesher.run();
-    OrientationReport orientation;
-    const ModelTables& t = mesher.tables();
-    mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
-  }
-  static ModelMesherOptions options(double merge_below) {
-    ModelMesherOptions o;
-    o.merge_below = merge_below;
-    return o;
-  }
+struct Meshed : test::Meshed {
+  template <class Shape>
+  Meshed(Shape shape, double length, double merge_below)
+      : test::Meshed(std::move(shape), length, MeshOptions{.merge_below = merge_below}) {}
   double shortest_side() const {
     double shortest = 1e300;
     for (const Triangle& t : mesh.triangles)
@@ -48,12 +29,12 @@ struct Meshed {
     return shortest;
   }
   std::size_t n_closed() const {
-    return closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size();
+    return closed_faces(topology.merged(), result.edges, topology.tables().edge_vertices).size();
   }
 };
 
 void expect_sound(const Meshed& m, std::int64_t euler) {
-  EXPECT_TRUE(m.mesher.failures.empty());
+  EXPECT_TRUE(m.result.failures.empty());
   const TopologyReport topology = check_topology(m.mesh);
   EXPECT_TRUE(topology.passes());
   EXPECT_EQ(topology.euler, euler);
@@ -64,7 +45,7 @@ void expect_sound(const Meshed& m, std::int64_t euler) {
 TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_triangles) {
   const Meshed m("stepped_box", 1, 0.05);
   expect_sound(m, 2);
-  EXPECT_EQ(m.mesher.merged().edge.size(), 4u);
+  EXPECT_EQ(m.topology.merged().edge.size(), 4u);
   EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
   EXPECT_GT(m.shortest_side(), 0.4);
   EXPECT_NEAR(measure_mesh(m.mesh).volume, 501, 1);
@@ -73,22 +54,22 @@ TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_tri
 TEST(SmallFeatures, a_step_is_meshed_when_nothing_is_to_be_merged) {
   const Meshed m("stepped_box", 1, 0);
   expect_sound(m, 2);
-  EXPECT_TRUE(m.mesher.merged().empty());
+  EXPECT_TRUE(m.topology.merged().empty());
   EXPECT_NEAR(m.shortest_side(), 0.02, 1e-9);
 }
 
 TEST(SmallFeatures, a_step_above_the_bound_is_kept) {
   const Meshed m("stepped_box", 0.2, 0.05);
   expect_sound(m, 2);
-  EXPECT_TRUE(m.mesher.merged().empty());
+  EXPECT_TRUE(m.topology.merged().empty());
 }
 
 TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
   const Meshed m("wedge_strip", 1, 0.1);
   expect_sound(m, 2);
-  ASSERT_EQ(m.mesher.merged().strip_face.size(), 1u);
+  ASSERT_EQ(m.topology.merged().strip_face.size(), 1u);
   EXPECT_EQ(m.n_closed(), 0u);
-  const FaceId strip = m.mesher.merged().strip_face[0];
+  const FaceId strip = m.topology.merged().strip_face[0];
   double from = 1e300;
   for (std::size_t t = 0; t < m.mesh.triangles.size(); ++t)
     if (m.mesh.triangle_face[t] == strip)
@@ -205,23 +186,18 @@ TEST(SmallFeatures, between_a_group_with_a_tolerance_and_the_rest_have_the_small
 }
 
 TEST(SmallFeatures, strips_in_a_group_with_a_tolerance_are_closed_by_it) {
-  const Model box = stepped_box(0.03);
-  const UniformField field(0.2);
-  set_verbosity(Verbosity::kQuiet);
-  ModelMesher mesher(box, field, {}, Meshed::options(0.05), one_rank);
-  mesher.run();
-  EXPECT_TRUE(mesher.failures.empty());
-  EXPECT_EQ(closed_faces(mesher.merged(), mesher.edges, mesher.tables().edge_vertices).size(), 4u)
-      << "the step and the rims of the raised half";
+  const Meshed m(stepped_box(0.03), 0.2, 0.05);
+  EXPECT_TRUE(m.result.failures.empty());
+  EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
 }
 
 /// The mesh with every edge in one group, and how many of its segments are no side of a triangle.
 std::int64_t segments_beside_the_mesh(Meshed& m) {
-  m.mesh.labels.edge_groups = {{"all", "", "{}", std::vector<std::int32_t>(m.mesher.tables().n_edges())}};
+  m.mesh.labels.edge_groups = {{"all", "", "{}", std::vector<std::int32_t>(m.topology.tables().n_edges())}};
   std::vector<std::int32_t>& ids = m.mesh.labels.edge_groups[0].ids;
   std::iota(ids.begin(), ids.end(), 0);
-  m.mesh.merged = m.mesher.merged();
-  add_segments(m.mesh, m.mesher.edges, m.mesher.tables().edge_vertices);
+  m.mesh.merged = m.topology.merged();
+  add_segments(m.mesh, m.result.edges, m.topology.tables().edge_vertices);
   std::vector<std::pair<NodeId, NodeId>> sides;
   for (const Triangle& t : m.mesh.triangles)
     for (int k = 0; k < 3; ++k) sides.push_back(std::minmax(t.n[k], t.n[(k + 1) % 3]));
@@ -239,8 +215,8 @@ TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
     Meshed m(shape, shape == std::string("drilled_cylinder") ? 5 : 1, 0.1);
     EXPECT_EQ(segments_beside_the_mesh(m), 0) << shape;
     const auto count = [&](EdgeId e) { return std::count(m.mesh.segment_edge.begin(), m.mesh.segment_edge.end(), e); };
-    for (EdgeId e = 0; e < m.mesher.tables().n_edges(); ++e) {
-      const std::int32_t n = m.mesher.edges.n_nodes(e);
+    for (EdgeId e = 0; e < m.topology.tables().n_edges(); ++e) {
+      const std::int32_t n = m.result.edges.n_nodes(e);
       EXPECT_EQ(count(e), std::max(0, n - 1)) << shape << " edge " << e + 1 << ": also where a strip is closed";
     }
   }
@@ -248,7 +224,7 @@ TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
 
 TEST(EdgeSegments, are_none_without_groups_of_edges) {
   Meshed m("stepped_box", 1, 0.05);
-  add_segments(m.mesh, m.mesher.edges, m.mesher.tables().edge_vertices);
+  add_segments(m.mesh, m.result.edges, m.topology.tables().edge_vertices);
   EXPECT_TRUE(m.mesh.segment_nodes.empty());
 }
 

@@ -13,10 +13,8 @@
 #include "base/log.h"
 #include "geometry/import/import.h"
 #include "io/hdf5/artifact.h"
-#include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
 #include "stages/check_stage.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
@@ -25,20 +23,7 @@ namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
 /// A model meshed with length 4; the box is 60 x 40 x 20.
-SurfaceMesh good_mesh(const Model& model) {
-  const UniformField field(4);
-  const SerialExecutor one_rank;
-  ModelMesher mesher(model, field, {}, {}, one_rank);
-  mesher.run();
-  OrientationReport orientation;
-  const ModelTables& t = mesher.tables();
-  SurfaceMesh m =
-      merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, t.face_group}, orientation);
-  m.face_name = t.face_name;
-  m.group_name = t.group_name;
-  m.merged = mesher.merged();
-  return m;
-}
+SurfaceMesh good_mesh(Model model) { return test::Meshed(std::move(model), 4).mesh; }
 
 void add_triangle(SurfaceMesh& m, Triangle t, TriangleId like) {
   m.triangles.push_back(t);

@@ -1,5 +1,5 @@
-// Whole models through ModelMesher at one rank: what is merged from its patches is the closed model.
-#include "meshing/engine/model_mesher.h"
+// Whole models through mesh_regions() at one rank: what is merged from their patches is the closed model.
+#include "meshing/engine/mesh_regions.h"
 
 #include <gtest/gtest.h>
 
@@ -7,34 +7,13 @@
 
 #include "base/log.h"
 #include "mesh/checks.h"
-#include "mesh/merge.h"
 #include "mesh/quality.h"
-#include "support/shapes.h"
+#include "support/meshed.h"
 
 namespace st {
 namespace {
 
-const SerialExecutor one_rank;
-
-/// A model meshed with one length.
-struct Meshed {
-  Model model;
-  UniformField field;
-  ModelMesher mesher;
-  SurfaceMesh mesh;
-  OrientationReport orientation;
-
-  Meshed(const std::string& shape, double length, const ModelMesherOptions& options = {})
-      : model(test::make_model(shape)), field(length), mesher(model, field, {}, options, one_rank) {
-    mesher.run();
-    merge();
-  }
-  void merge() {
-    const ModelTables& t = mesher.tables();
-    mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
-    mesh.merged = mesher.merged();
-  }
-};
+using test::Meshed;
 
 struct Solid {
   const char* shape;
@@ -52,9 +31,9 @@ class MeshedSolid : public testing::TestWithParam<Solid> {
 TEST_P(MeshedSolid, is_closed_oriented_and_whole) {
   const Solid s = GetParam();
   const Meshed m(s.shape, s.length);
-  EXPECT_TRUE(m.mesher.failures.empty());
-  EXPECT_TRUE(m.mesher.folds.empty());
-  EXPECT_EQ(m.mesher.n_crossing_pairs, 0);
+  EXPECT_TRUE(m.result.failures.empty());
+  EXPECT_TRUE(m.result.folds.empty());
+  EXPECT_EQ(m.result.n_crossing_pairs, 0);
   const TopologyReport topology = check_topology(m.mesh);
   EXPECT_TRUE(topology.passes());
   EXPECT_EQ(topology.pinched_nodes.count, 0);
@@ -107,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Solid{"drilled_block", 2, 8800 - 32 * kPi + 160 * kPi, 48000 - 320 * kPi, 0.02, 0}),
     [](const auto& info) { return std::string(info.param.shape); });
 
-TEST(ModelMesher, turns_a_mirrored_part_outward) {
+TEST(MeshRegions, turns_a_mirrored_part_outward) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed a("drilled_cylinder", 1.5), b("mirrored_cylinder", 1.5);
   const double volume = measure_mesh(a.mesh).volume;
@@ -118,46 +97,46 @@ TEST(ModelMesher, turns_a_mirrored_part_outward) {
   EXPECT_TRUE(check_topology(b.mesh).passes());
 }
 
-TEST(ModelMesher, refines_a_tube_thinner_than_the_size_until_it_closes) {
+TEST(MeshRegions, refines_a_tube_thinner_than_the_size_until_it_closes) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("thin_cylinder", 0.5);
-  EXPECT_TRUE(m.mesher.failures.empty());
+  EXPECT_TRUE(m.result.failures.empty());
   EXPECT_TRUE(check_topology(m.mesh).passes());
   EXPECT_EQ(check_topology(m.mesh).euler, 2);
 }
 
-TEST(ModelMesher, closes_a_solid_smaller_than_the_size) {
+TEST(MeshRegions, closes_a_solid_smaller_than_the_size) {
   set_verbosity(Verbosity::kQuiet);
   for (const char* shape : {"box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder"}) {
     const Meshed m(shape, 200);
-    EXPECT_TRUE(m.mesher.failures.empty()) << shape;
+    EXPECT_TRUE(m.result.failures.empty()) << shape;
     EXPECT_TRUE(check_topology(m.mesh).passes()) << shape;
     EXPECT_GT(measure_mesh(m.mesh).volume, 0) << shape;
   }
 }
 
-TEST(ModelMesher, closes_the_tip_of_a_slender_cone_and_a_needle) {
+TEST(MeshRegions, closes_the_tip_of_a_slender_cone_and_a_needle) {
   set_verbosity(Verbosity::kQuiet);
   for (double size : {0.1, 0.4, 3.0}) {  // the tip has less way around it than up to it at any size
     const Meshed m("slender_cone", size);
-    EXPECT_TRUE(m.mesher.failures.empty()) << size;
+    EXPECT_TRUE(m.result.failures.empty()) << size;
     EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
     EXPECT_EQ(check_topology(m.mesh).euler, 2) << size;
-    EXPECT_LT(m.mesher.n_refinements, 200) << size;
+    EXPECT_LT(m.result.n_refinements, 200) << size;
   }
 }
 
-TEST(ModelMesher, keeps_two_faces_along_common_edges_apart) {
+TEST(MeshRegions, keeps_two_faces_along_common_edges_apart) {
   set_verbosity(Verbosity::kQuiet);
   for (double size : {1.2, 2.0, 3.0}) {  // sides 2 wide: no node inside either of them
     const Meshed m("shallow_prism", size);
-    EXPECT_TRUE(m.mesher.failures.empty()) << size;
+    EXPECT_TRUE(m.result.failures.empty()) << size;
     EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
     EXPECT_GT(measure_mesh(m.mesh).volume, 0) << size;
   }
 }
 
-TEST(ModelMesher, leaves_an_open_model_open_at_its_free_edges_only) {
+TEST(MeshRegions, leaves_an_open_model_open_at_its_free_edges_only) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("plate_with_hole", 2);
   const ModelTables& t = m.model.tables();
@@ -166,25 +145,25 @@ TEST(ModelMesher, leaves_an_open_model_open_at_its_free_edges_only) {
   EXPECT_FALSE(check_topology(m.mesh).is_closed());
 }
 
-TEST(ModelMesher, joins_three_faces_at_one_edge) {
+TEST(MeshRegions, joins_three_faces_at_one_edge) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("t_junction", 1);
-  EXPECT_TRUE(m.mesher.failures.empty());
+  EXPECT_TRUE(m.result.failures.empty());
   EXPECT_EQ(check_topology(m.mesh).nonmanifold_edges.count, 10);
   EXPECT_NEAR(measure_mesh(m.mesh).area, 150, 1e-6);
 }
 
-TEST(ModelMesher, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
+TEST(MeshRegions, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("baffled_box", 1);
-  EXPECT_TRUE(m.mesher.failures.empty());
+  EXPECT_TRUE(m.result.failures.empty());
   EXPECT_EQ(check_topology(m.mesh).nonmanifold_edges.count, 4);
   EXPECT_EQ(check_crossings(m.mesh).crossings.count, 0);
   EXPECT_EQ(check_crossings(m.mesh).contacts.count, 0);
   EXPECT_NEAR(measure_mesh(m.mesh).area, 616, 1e-6);
 }
 
-TEST(ModelMesher, meshes_poles_as_well_as_any_other_place) {
+TEST(MeshRegions, meshes_poles_as_well_as_any_other_place) {
   set_verbosity(Verbosity::kQuiet);
   for (const double length : {0.7, 1.0, 1.2, 1.5, 1.8, 2.2, 2.7}) {
     const QualityStats quality = measure_quality(Meshed("sphere", length).mesh).model;
@@ -193,47 +172,47 @@ TEST(ModelMesher, meshes_poles_as_well_as_any_other_place) {
   }
 }
 
-TEST(ModelMesher, refines_walls_thinner_than_their_chords_until_they_stand_apart) {
+TEST(MeshRegions, refines_walls_thinner_than_their_chords_until_they_stand_apart) {
   set_verbosity(Verbosity::kQuiet);
   for (const double length : {1.5, 2.0, 3.0}) {
     const Meshed m("thin_pipe", length);
-    EXPECT_EQ(m.mesher.n_crossing_pairs, 0) << length;
+    EXPECT_EQ(m.result.n_crossing_pairs, 0) << length;
     EXPECT_TRUE(check_topology(m.mesh).is_closed());
   }
 }
 
-TEST(ModelMesher, makes_no_hole_where_refining_cannot_part_what_crosses) {
+TEST(MeshRegions, makes_no_hole_where_refining_cannot_part_what_crosses) {
   set_verbosity(Verbosity::kQuiet);
   for (const double length : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
     const Meshed m("spindle_torus", length);
-    EXPECT_TRUE(m.mesher.failures.empty()) << length;
+    EXPECT_TRUE(m.result.failures.empty()) << length;
     EXPECT_TRUE(check_topology(m.mesh).is_closed()) << length;
   }
 }
 
-TEST(ModelMesher, redoes_nothing_when_nothing_is_to_be_redone) {
+TEST(MeshRegions, redoes_nothing_when_nothing_is_to_be_redone) {
   set_verbosity(Verbosity::kQuiet);
-  Meshed m("cylinder", 1);
-  ModelMesher again(m.model, m.field, {}, {}, one_rank);
-  again.run_from(m.mesher.edges, m.mesher.patches, {});
-  EXPECT_EQ(again.edges.node_t, m.mesher.edges.node_t);
-  ASSERT_EQ(again.patches.size(), m.mesher.patches.size());
+  const Meshed m("cylinder", 1);
+  const MeshResult again = mesh_regions(
+      m.model, m.topology, m.field, plan_again(m.topology, {}, m.result.edges, m.result.patches), {}, test::one_rank);
+  EXPECT_EQ(again.edges.node_t, m.result.edges.node_t);
+  ASSERT_EQ(again.patches.size(), m.result.patches.size());
   for (std::size_t f = 0; f < again.patches.size(); ++f) {
-    EXPECT_EQ(again.patches[f].triangles.size(), m.mesher.patches[f].triangles.size());
+    EXPECT_EQ(again.patches[f].triangles.size(), m.result.patches[f].triangles.size());
     for (std::size_t i = 0; i < again.patches[f].inner_xyz.size(); ++i)
-      EXPECT_TRUE(again.patches[f].inner_xyz[i] == m.mesher.patches[f].inner_xyz[i]);
+      EXPECT_TRUE(again.patches[f].inner_xyz[i] == m.result.patches[f].inner_xyz[i]);
   }
 }
 
-TEST(ModelMesher, redoes_one_face_on_the_nodes_its_neighbours_keep) {
+TEST(MeshRegions, redoes_one_face_on_the_nodes_its_neighbours_keep) {
   set_verbosity(Verbosity::kQuiet);
-  Meshed m("box", 4);
+  const Meshed m("box", 4);
   const UniformField fine(1);
-  ModelMesher again(m.model, fine, {}, {}, one_rank);
-  again.run_from(m.mesher.edges, m.mesher.patches, {2});
-  EXPECT_EQ(again.edges.node_t, m.mesher.edges.node_t);
+  const MeshResult again = mesh_regions(
+      m.model, m.topology, fine, plan_again(m.topology, {2}, m.result.edges, m.result.patches), {}, test::one_rank);
+  EXPECT_EQ(again.edges.node_t, m.result.edges.node_t);
   for (FaceId f = 0; f < 6; ++f) {
-    const std::size_t before = m.mesher.patches[f].triangles.size(), after = again.patches[f].triangles.size();
+    const std::size_t before = m.result.patches[f].triangles.size(), after = again.patches[f].triangles.size();
     if (f == 2) {
       EXPECT_GT(after, 2 * before);
     } else {
@@ -241,9 +220,7 @@ TEST(ModelMesher, redoes_one_face_on_the_nodes_its_neighbours_keep) {
     }
   }
   OrientationReport report;
-  const ModelTables& t = m.model.tables();
-  EXPECT_TRUE(
-      check_topology(merge_patches({again.edges, t.vertex_xyz, t.edge_vertices, again.patches, {}}, report)).passes());
+  EXPECT_TRUE(check_topology(test::merged(m.topology, again, report)).passes());
 }
 
 }  // namespace

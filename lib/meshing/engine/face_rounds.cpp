@@ -1,0 +1,256 @@
+#include "meshing/engine/face_rounds.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/share.h"
+#include "meshing/engine/curve_tasks.h"
+#include "meshing/face/face_patch.h"
+#include "meshing/face/failed_face.h"
+#include "meshing/topology/curve_discretiser.h"
+#include "meshing/topology/small_features.h"
+
+namespace st {
+namespace {
+
+constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
+constexpr RoundLimits kLimits{
+    .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
+constexpr int kSamples = 32;      // of a curve, for its box
+constexpr double kMargin = 0.05;  // of the box's diagonal: the curve may leave the box of its samples
+
+std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
+  std::vector<std::int32_t> order(weight.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
+  return order;
+}
+
+Box3 box_of(const Curve& curve) {
+  Box3 box;
+  for (int i = 0; i <= kSamples; ++i)
+    box.add(curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * i / kSamples));
+  const double margin = kMargin * box.diagonal();
+  box.lo -= {margin, margin, margin};
+  box.hi += {margin, margin, margin};
+  return box;
+}
+
+}  // namespace
+
+FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,
+                       const MeshOptions& options, const Executor& executor, MeshResult& result)
+    : MeshRounds(field, kLimits, executor, result),
+      model_(model),
+      topology_(topology),
+      tables_(topology.tables()),
+      plan_(std::move(plan)),
+      options_(options),
+      face_tolerance_(face_tolerances(tables_.group_names())),
+      min_segments_(min_segments_per_edge(tables_)),
+      dirty_edges_(plan_.edges),
+      dirty_faces_(plan_.faces),
+      outcomes_(tables_.n_faces()),
+      crossings_(tables_.face_shell) {
+  if (static_cast<FaceId>(plan_.face_weight.size()) != tables_.n_faces()) plan_.face_weight = tables_.face_area;
+  result_.edges = std::move(plan_.kept_edges);
+  result_.patches = std::move(plan_.kept_patches);
+  result_.patches.resize(tables_.n_faces());
+}
+
+void FaceRounds::report() {
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    const FaceOutcome& o = outcomes_[f];
+    result_.folds.insert(result_.folds.end(), o.fold_places.begin(), o.fold_places.end());
+    if (o.cause != FailureCause::kNone)
+      result_.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz});
+  }
+  for (auto& [f, failed] : failed_faces_) result_.failed_faces.push_back(std::move(failed));
+}
+
+void FaceRounds::mesh_edges() {
+  std::vector<EdgeId> own;
+  std::vector<const MeshTopology::Strip*> strips;
+  for (const EdgeId e : dirty_edges_) {
+    if (topology_.strip_closed_at(e)) continue;
+    own.push_back(e);
+    if (const auto* strip = topology_.strip_kept_at(e)) strips.push_back(strip);
+  }
+  std::vector<CurveNodes> fresh(tables_.n_edges());
+  std::vector<CurveNodes> made = make_curve_nodes(
+      static_cast<std::int32_t>(own.size()), [&](std::int32_t i) { return make_edge(own[i]); }, executor_);
+  for (std::size_t i = 0; i < own.size(); ++i) fresh[own[i]] = std::move(made[i]);
+  made = make_curve_nodes(
+      static_cast<std::int32_t>(strips.size()),
+      [&](std::int32_t i) { return make_mirrored(*strips[i], fresh[strips[i]->kept]); }, executor_);
+  for (std::size_t i = 0; i < strips.size(); ++i) fresh[strips[i]->closed] = std::move(made[i]);
+  EdgeMesh next;
+  for (EdgeId e = 0; e < tables_.n_edges(); ++e)
+    fresh[e].t.empty() ? next.append(result_.edges, e) : next.append(fresh[e]);
+  result_.edges = std::move(next);
+  numbering_.emplace(topology_, result_.edges);
+}
+
+void FaceRounds::end_at_vertices(EdgeId e, CurveNodes& nodes) const {
+  nodes.x.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * e]];
+  nodes.x.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * e + 1]];
+}
+
+CurveNodes FaceRounds::make_edge(EdgeId e) const {
+  const auto curve = model_.curve(e);
+  const RefinedField field(field_, refinements_.near(box_of(*curve)));
+  CurveNodes nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
+  end_at_vertices(e, nodes);
+  return nodes;
+}
+
+/// The nodes of a strip's other edge follow those of the kept one.
+CurveNodes FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const CurveNodes& kept) const {
+  const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
+  CurveNodes nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
+                                  {options_.merge_below, tolerance});
+  end_at_vertices(strip.closed, nodes);
+  return nodes;
+}
+
+std::vector<RefinementPoint> FaceRounds::mesh_regions() {
+  std::vector<double> weight;
+  for (const FaceId f : dirty_faces_) weight.push_back(plan_.face_weight[f]);
+  std::vector<std::vector<RefinementPoint>> wanted(dirty_faces_.size());
+  Progress progress("meshing", static_cast<double>(dirty_faces_.size()));
+  std::size_t n_done = 0;
+  executor_.run_tasks(
+      static_cast<std::int32_t>(dirty_faces_.size()), heaviest_first(weight),
+      [&](std::int32_t task) { return compute_face(dirty_faces_[task]); },
+      [&](std::int32_t task, Bytes&& bytes) {
+        wanted[task] = take_face(dirty_faces_[task], bytes);
+        progress.update(static_cast<double>(++n_done));
+      });
+  std::vector<RefinementPoint> all;
+  for (const auto& w : wanted) all.insert(all.end(), w.begin(), w.end());
+  return all;
+}
+
+/// A strip that is closed all along has no triangles: its neighbours share its nodes.
+FaceMesh FaceRounds::mesh_in(const Surface& surface, FaceId f, const FaceBoundary& boundary) const {
+  if (boundary.nodes.empty() && topology_.strip_of(f)) return {};
+  FaceMeshOptions options;
+  options.enhance_rounds = options_.enhance_rounds;
+  return mesh_face(surface, boundary, RefinedField(field_, refinements_.near(tables_.face_box[f])), options);
+}
+
+Bytes FaceRounds::compute_face(FaceId f) const {
+  FaceMesh mesh;
+  FacePatch patch;
+  FaceBoundary boundary;
+  std::string error;
+  patch.face = f;
+  try {
+    const auto surface = model_.surface(f);
+    boundary = make_face_boundary(model_, *surface, f, *numbering_);
+    mesh = mesh_in(*surface, f, boundary);
+    if (mesh.cause == FailureCause::kNone) patch = make_patch(tables_, f, boundary, mesh, *numbering_);
+  } catch (const Error& e) {
+    mesh.cause = FailureCause::kError;
+    error = e.what();
+  }
+  Packer packer;
+  pack(packer, patch);
+  packer.add(mesh.cause);
+  packer.add(error);
+  packer.add(mesh.refinement);
+  packer.add(mesh.n_folds);
+  if (mesh.cause != FailureCause::kNone) pack(packer, describe_failure(*numbering_, f, boundary, mesh));
+  return packer.take();
+}
+
+/// Local, on rank 0. What compute_face() packed; returns the places that need smaller sizes.
+std::vector<RefinementPoint> FaceRounds::take_face(FaceId f, const Bytes& bytes) {
+  Unpacker u(bytes);
+  std::vector<RefinementPoint> wanted;
+  int n_folds = 0;
+  FaceOutcome& o = outcomes_[f];
+  unpack(u, result_.patches[f]);
+  u.get(o.cause);
+  u.get(o.error);
+  u.get(wanted);
+  u.get(n_folds);
+  failed_faces_.erase(f);
+  if (o.cause != FailureCause::kNone) unpack(u, failed_faces_[f]);
+  o.fold_places = n_folds ? wanted : std::vector<RefinementPoint>();
+  o.cause_xyz = wanted.empty() ? tables_.face_box[f].center() : wanted[0].x;
+  crossings_.renew(f);
+  return wanted;
+}
+
+/// Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.
+void FaceRounds::join() {
+  char restores = whole_ && !failed_faces_.empty();
+  share(executor_, restores);
+  is_restored_ = restores != 0;
+  if (!is_restored_) return;
+  EdgeMesh& edges = result_.edges;
+  if (executor_.is_root()) {
+    edges = std::move(whole_->edges);
+    for (auto& [f, before] : whole_->faces) {
+      result_.patches[f] = std::move(before.first);
+      outcomes_[f] = std::move(before.second);
+      crossings_.renew(f);
+    }
+    failed_faces_.clear();
+  }
+  share(executor_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size);
+  numbering_.emplace(topology_, edges);
+}
+
+/// None where the mesh before was restored: refining does not help.
+std::vector<RefinementPoint> FaceRounds::find_crossings() {
+  if (!executor_.is_root()) return {};
+  std::vector<RefinementPoint> places = crossings_.run(*numbering_, result_.patches);
+  result_.n_crossing_pairs = crossings_.n_pairs();
+  return is_restored_ ? std::vector<RefinementPoint>() : places;
+}
+
+void FaceRounds::choose_again(std::size_t first_refinement) {
+  if (executor_.is_root()) find_dirty(first_refinement);
+  share(executor_, dirty_edges_, dirty_faces_);
+  log_info("refining at " + std::to_string(refinements_.all().size() - first_refinement) + " places: " +
+           std::to_string(dirty_edges_.size()) + " edges, " + std::to_string(dirty_faces_.size()) + " faces again");
+  if (executor_.is_root()) keep_whole();
+}
+
+/// Before the dirty faces are meshed again.
+void FaceRounds::keep_whole() {
+  if (failed_faces_.empty()) whole_ = WholeMesh{result_.edges, {}};
+  if (!whole_) return;
+  for (const FaceId f : dirty_faces_) whole_->faces.try_emplace(f, result_.patches[f], outcomes_[f]);
+}
+
+/// Edges and faces of the plan that refinements from this one on reach, with all faces of these edges.
+void FaceRounds::find_dirty(std::size_t first_refinement) {
+  const ModelTables& t = tables_;
+  const EdgeMesh& edges = result_.edges;
+  std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
+  const std::vector<Refinement>& all = refinements_.all();
+  for (std::size_t r = first_refinement; r < all.size(); ++r) {
+    for (EdgeId e = 0; e < t.n_edges(); ++e)
+      for (std::int32_t i = edges.first_node(e); !edge_dirty[e] && i < edges.first_node(e) + edges.n_nodes(e); ++i)
+        edge_dirty[e] = distance(edges.node_xyz[i], all[r].x) < all[r].reach + edges.node_size[i];
+    for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], all[r].x) < all[r].reach;
+  }
+  for (const MeshTopology::Strip& strip : topology_.strips())
+    edge_dirty[strip.closed] = edge_dirty[strip.kept] |= edge_dirty[strip.closed];
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    for (const EdgeId e : t.edges_of(f)) face_dirty[f] |= edge_dirty[e];
+  const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {
+    std::vector<std::int32_t> dirty;
+    std::copy_if(plan.begin(), plan.end(), std::back_inserter(dirty), [&](std::int32_t i) { return is_dirty[i]; });
+    return dirty;
+  };
+  dirty_edges_ = of_plan(plan_.edges, edge_dirty);
+  dirty_faces_ = of_plan(plan_.faces, face_dirty);
+}
+
+}  // namespace st

@@ -1,0 +1,70 @@
+// Rounds over the edges and faces of a model.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/model/model.h"
+#include "meshing/engine/crossing_search.h"
+#include "meshing/engine/mesh_plan.h"
+#include "meshing/engine/mesh_rounds.h"
+
+namespace st {
+
+class FaceRounds : public MeshRounds {
+ public:
+  /// All references outlive the object. `plan`: its patches and edges go into the result at once.
+  FaceRounds(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,
+             const MeshOptions& options, const Executor& executor, MeshResult& result);
+
+  /// Local, on rank 0, once after run(): folds and failures into the result.
+  void report();
+
+ private:
+  struct FaceOutcome {
+    FailureCause cause = FailureCause::kNone;
+    std::string error;  // what was thrown, for kError
+    Vec3 cause_xyz;
+    std::vector<RefinementPoint> fold_places;
+  };
+  struct WholeMesh {  // no face failed: what has been redone since, as it was
+    EdgeMesh edges;
+    std::map<FaceId, std::pair<FacePatch, FaceOutcome>> faces;
+  };
+
+  void mesh_edges() override;
+  std::vector<RefinementPoint> mesh_regions() override;
+  void join() override;
+  std::vector<RefinementPoint> find_crossings() override;
+  void choose_again(std::size_t first_refinement) override;
+
+  CurveNodes make_edge(EdgeId e) const;
+  CurveNodes make_mirrored(const MeshTopology::Strip& strip, const CurveNodes& kept) const;
+  void end_at_vertices(EdgeId e, CurveNodes& nodes) const;
+  FaceMesh mesh_in(const Surface& surface, FaceId f, const FaceBoundary& boundary) const;
+  Bytes compute_face(FaceId f) const;
+  std::vector<RefinementPoint> take_face(FaceId f, const Bytes& bytes);
+  void keep_whole();
+  void find_dirty(std::size_t first_refinement);
+
+  const Model& model_;
+  const MeshTopology& topology_;
+  const ModelTables& tables_;  // of topology_
+  MeshPlan plan_;
+  MeshOptions options_;
+  std::vector<double> face_tolerance_;  // [n_faces] of their groups, or empty
+  std::vector<int> min_segments_;
+  std::vector<EdgeId> dirty_edges_;  // to be meshed in this round
+  std::vector<FaceId> dirty_faces_;
+  std::optional<BoundaryNumbering> numbering_;  // of the present edges
+  std::vector<FaceOutcome> outcomes_;           // by face, on rank 0
+  std::map<FaceId, FailedFace> failed_faces_;
+  std::optional<WholeMesh> whole_;  // the last one, on rank 0
+  bool is_restored_ = false;
+  CrossingSearch crossings_;
+};
+
+}  // namespace st

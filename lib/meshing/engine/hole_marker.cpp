@@ -1,0 +1,112 @@
+#include "meshing/engine/hole_marker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/hash.h"
+#include "base/log.h"
+#include "base/share.h"
+
+namespace st {
+
+HoleMarker::HoleMarker(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field,
+                       HoleMarkOptions options, const Executor& executor)
+    : model_(model), mesh_(mesh), share_(share), options_(std::move(options)), executor_(executor) {
+  const Timer timer;
+  request_lengths(field);
+  mark(wanted_);
+  n_marked_triangles = marks_.n_triangles();
+  n_marked_segments = std::count(marks_.segment.begin(), marks_.segment.end(), 1);
+  Hasher hasher;
+  hasher.add(std::span<const char>(marks_.triangle));
+  hasher.add(std::span<const char>(marks_.segment));
+  marks_hash = hasher.hex();
+  seconds = timer.seconds();
+}
+
+void HoleMarker::mark_again(const Refinements& refinements, std::vector<TriangleId> redo) {
+  options_.redo.insert(options_.redo.end(), redo.begin(), redo.end());
+  share(executor_, options_.redo);
+  mark(refined_lengths(refinements));
+}
+
+void HoleMarker::grow_to_face(FaceId face) {
+  std::fill(marks_.triangle.begin() + mesh_.face_begin[face], marks_.triangle.begin() + mesh_.face_begin[face + 1], 1);
+}
+
+/// Collective. Which segments of curves go is decided by rank 0's lengths: all ranks act on it.
+void HoleMarker::request_lengths(const SizeField& field) {
+  const NodeId n_nodes = static_cast<NodeId>(mesh_.mesh.node_xyz.size()), n_on_edges = mesh_.inner_begin[0];
+  std::vector<char> is_needed(n_nodes, 0);
+  std::fill(is_needed.begin(), is_needed.begin() + n_on_edges, 1);
+  for (TriangleId t = share_.begin; t < share_.end; ++t)
+    for (const NodeId n : mesh_.mesh.triangles[t].n) is_needed[n] = 1;
+  wanted_.assign(n_nodes, 0);
+  int hint = 0;
+  for (NodeId n = 0; n < n_nodes; ++n)
+    if (is_needed[n]) wanted_[n] = field.size(mesh_.mesh.node_xyz[n], hint);
+  std::vector<double> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
+  share(executor_, on_edges);
+  std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
+}
+
+std::vector<double> HoleMarker::refined_lengths(const Refinements& refinements) const {
+  std::vector<double> wanted = wanted_;
+  const auto refine = [&](NodeId n, const Refinement& r) {
+    if (const double d = distance(mesh_.mesh.node_xyz[n], r.x); d < r.reach)
+      wanted[n] = std::min(wanted[n], r.length + kRefinementSlope * d);
+  };
+  for (const Refinement& r : refinements.all()) {
+    for (NodeId n = 0; n < mesh_.inner_begin[0]; ++n) refine(n, r);
+    for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
+      if (box_distance(model_.tables().face_box[f], r.x) <= r.reach)
+        for (NodeId n = mesh_.inner_begin[f]; n < mesh_.inner_begin[f + 1]; ++n) refine(n, r);
+  }
+  return wanted;
+}
+
+void HoleMarker::mark(const std::vector<double>& wanted) {
+  NodeExchange exchange;
+  if (executor_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
+  marks_ = mark_share(mesh_, share_, wanted, options_, exchange);
+  collect_marks();
+  dirty_faces_.clear();
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+    const auto first = marks_.triangle.begin() + mesh_.face_begin[f],
+               last = marks_.triangle.begin() + mesh_.face_begin[f + 1];
+    if (std::find(first, last, 1) != last) dirty_faces_.push_back(f);
+  }
+}
+
+/// Collective.
+std::vector<TouchedNode> HoleMarker::exchange(const std::vector<TouchedNode>& own) const {
+  Packer p;
+  p.add(own);
+  Bytes all;
+  for (const Bytes& bytes : executor_.gather(p.take())) all.insert(all.end(), bytes.begin(), bytes.end());
+  executor_.broadcast(all);
+  std::vector<TouchedNode> touched, part;
+  for (Unpacker u(all); !u.is_empty();) {
+    u.get(part);
+    touched.insert(touched.end(), part.begin(), part.end());
+  }
+  return touched;
+}
+
+/// Collective. The marks of all ranks' triangles on rank 0.
+void HoleMarker::collect_marks() {
+  if (executor_.size() == 1) return;
+  Packer p;
+  p.add(share_.first_triangle + share_.begin);
+  p.add(std::vector<char>(marks_.triangle.begin() + share_.begin, marks_.triangle.begin() + share_.end));
+  for (const Bytes& bytes : executor_.gather(p.take())) {
+    TriangleId first = 0;
+    std::vector<char> part;
+    Unpacker u(bytes);
+    u.get(first);
+    u.get(part);
+    std::copy(part.begin(), part.end(), marks_.triangle.begin() + first);
+  }
+}
+
+}  // namespace st

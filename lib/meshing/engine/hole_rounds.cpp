@@ -1,0 +1,226 @@
+#include "meshing/engine/hole_rounds.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/share.h"
+#include "meshing/engine/crossing_search.h"
+#include "meshing/engine/curve_tasks.h"
+#include "meshing/hole/hole_crossing.h"
+#include "meshing/hole/hole_merger.h"
+
+namespace st {
+namespace {
+
+constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it cannot be filled; then the whole face is done
+                                   // again
+constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
+
+void pack(Packer& p, const HoleRim& rim) {
+  p.add(rim.face);
+  p.add(rim.is_whole_face);
+  p.add(rim.is_turned);
+  p.add(rim.nodes);
+  p.add(rim.free_sides);
+  p.add(rim.cad_sides);
+}
+
+void unpack(Unpacker& u, HoleRim& rim) {
+  u.get(rim.face);
+  u.get(rim.is_whole_face);
+  u.get(rim.is_turned);
+  u.get(rim.nodes);
+  u.get(rim.free_sides);
+  u.get(rim.cad_sides);
+}
+
+void pack(Packer& p, const HoleFill& fill) {
+  p.add(fill.id);
+  p.add(fill.uv);
+  p.add(fill.inner);
+  p.add(fill.triangles);
+}
+
+void unpack(Unpacker& u, HoleFill& fill) {
+  u.get(fill.id);
+  u.get(fill.uv);
+  u.get(fill.inner);
+  u.get(fill.triangles);
+}
+
+}  // namespace
+
+std::vector<FacePatch> HoleRounds::all_patches() const {
+  std::vector<FacePatch> all;
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
+    all.push_back(make_hole_patch(f, holes_.marks(), *numbering_, fills_[f]));
+  return all;
+}
+
+void HoleRounds::mesh_edges() {
+  const std::vector<SegmentRun> runs = marked_runs(old_, holes_.marks());
+  const std::vector<int> least = min_segments_per_edge(model_.tables());
+  const auto make = [&](std::int32_t r) {
+    Box3 box;
+    for (std::int32_t i = runs[r].first; i <= runs[r].last; ++i) box.add(old_.edges.node_xyz[i]);
+    const RefinedField field(field_, refinements_.near(box));
+    return discretise_run(old_, runs[r], *model_.curve(runs[r].edge), field,
+                          {options_.max_turning_deg, least[runs[r].edge]});
+  };
+  update_ = update_edges(old_, runs, make_curve_nodes(static_cast<std::int32_t>(runs.size()), make, executor_));
+  request_curve_lengths();
+  numbering_.emplace(old_, update_);
+  result_.edges = update_.edges;
+}
+
+/// New nodes were asked for by the field, whatever was refined.
+void HoleRounds::request_curve_lengths() {
+  int hint = 0;
+  EdgeMesh& e = update_.edges;
+  for (std::size_t i = 0; i < e.node_t.size(); ++i)
+    if (e.node_previous[i] == kNone) e.node_request[i] = field_.size(e.node_xyz[i], hint);
+}
+
+/// Fills all holes; those where that fails grow and are filled again. No places: sizes do not help.
+std::vector<RefinementPoint> HoleRounds::mesh_regions() {
+  fills_.assign(model_.tables().n_faces(), {});
+  std::vector<FaceId> faces = holes_.dirty_faces();
+  for (std::size_t step = 0;; ++step) {
+    const std::vector<HoleRim> rims = find_rims(faces);
+    if (rims.empty()) return {};
+    faces.clear();
+    const bool can_grow = step <= std::size(kGrowth);
+    for (const std::int32_t i : fill(rims)) {
+      if (faces.empty() || faces.back() != rims[i].face) faces.push_back(rims[i].face);
+      if (!can_grow) continue;
+      ++result_.n_grown;
+      if (executor_.is_root()) grow(rims[i], step);
+    }
+    for (const FaceId f : faces) fills_[f].clear();
+    if (can_grow) continue;
+    failed_faces_ = faces;
+    return {};
+  }
+}
+
+/// By layers first, then to the whole face.
+void HoleRounds::grow(const HoleRim& rim, std::size_t step) {
+  if (step < std::size(kGrowth))
+    holes_.grow(rim.face, rim.triangles, kGrowth[step]);
+  else
+    holes_.grow_to_face(rim.face);
+}
+
+/// Collective. By face; on every rank, their triangles on rank 0.
+std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) const {
+  std::vector<HoleRim> rims;
+  if (executor_.is_root())
+    for (const FaceId f : faces)
+      for (HoleRim& rim : find_hole_rims(old_, holes_.marks(), f)) rims.push_back(std::move(rim));
+  if (executor_.size() == 1) return rims;
+  Packer p;
+  for (const HoleRim& rim : rims) pack(p, rim);
+  Bytes bytes = p.take();
+  executor_.broadcast(bytes);
+  if (executor_.is_root()) return rims;
+  for (Unpacker u(bytes); !u.is_empty();) unpack(u, rims.emplace_back());
+  return rims;
+}
+
+HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
+  HoleFill fill;
+  try {
+    const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
+    const auto surface = model_.surface(rim.face);
+    const FaceBoundary boundary = make_hole_boundary(model_, *surface, rim, holes_.marks(), *numbering_, field);
+    FaceMeshOptions options;
+    options.enhance_rounds = options_.enhance_rounds;
+    FaceMesh filled = mesh_face(*surface, boundary, field, options);
+    if (filled.cause == FailureCause::kNone && filled.n_folds == 0)
+      fill = make_hole_fill(rim, boundary, std::move(filled));
+  } catch (const Error&) {  // no triangles: the hole grows
+  }
+  int hint = 0;
+  for (FaceMesh::InnerNode& n : fill.inner) n.h = field_.size(n.x, hint);
+  return fill;
+}
+
+/// Collective. Fills the holes; returns those where it failed, ascending.
+std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
+  std::vector<std::int32_t> order(rims.size()), failed;
+  std::iota(order.begin(), order.end(), 0);
+  if (executor_.is_root())
+    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+      return rims[a].triangles.size() > rims[b].triangles.size();
+    });
+  share(executor_, order);
+  std::vector<HoleFill> fills(rims.size());
+  const auto compute = [&](std::int32_t task) {
+    Packer p;
+    pack(p, fill_hole(rims[task]));
+    return p.take();
+  };
+  executor_.run_tasks(static_cast<std::int32_t>(rims.size()), order, compute, [&](std::int32_t task, Bytes&& result) {
+    Unpacker u(result);
+    unpack(u, fills[task]);
+  });
+  for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
+    if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
+    fills_[rims[i].face].push_back(std::move(fills[i]));
+  }
+  share(executor_, failed);
+  return failed;
+}
+
+/// What was kept and what is new as one mesh.
+void HoleRounds::join() {
+  if (!failed_faces_.empty()) result_.mesh = {};
+  if (!failed_faces_.empty() || !executor_.is_root()) return;
+  renew_surrounded_nodes();
+  result_.edges = update_.edges;
+  result_.mesh = insert_fills(*numbering_, holes_.marks(), fills_);
+}
+
+/// Nodes that stay although all their triangles are new were asked for by the new sizes as well.
+void HoleRounds::renew_surrounded_nodes() {
+  std::vector<char> is_held(old_.inner_begin[0], 0);
+  const auto hold = [&](TriangleId t) {
+    for (NodeId n : old_.mesh.triangles[t].n)
+      if (n < old_.inner_begin[0]) is_held[n] = 1;
+  };
+  const std::vector<char>& is_marked = holes_.marks().triangle;
+  for (TriangleId t = 0; t < static_cast<TriangleId>(is_marked.size()); ++t)
+    if (!is_marked[t]) hold(t);
+  int hint = 0;
+  EdgeMesh& e = update_.edges;
+  for (std::size_t i = 0; i < e.node_t.size(); ++i)
+    if (const NodeId n = e.node_previous[i]; n != kNone && !is_held[n])
+      e.node_request[i] = field_.size(e.node_xyz[i], hint);
+}
+
+/// Both triangles of a pair are halved; one of the old mesh is made again. None where a face failed.
+std::vector<RefinementPoint> HoleRounds::find_crossings() {
+  std::vector<RefinementPoint> places;
+  if (!failed_faces_.empty() || !executor_.is_root()) return places;
+  const SurfaceMesh& m = result_.mesh;
+  const std::vector<TrianglePair> pairs = find_new_crossings(m, model_.tables().face_shell);
+  result_.n_crossing_pairs = static_cast<int>(pairs.size());
+  crossing_.clear();
+  for (const TrianglePair& pair : pairs)
+    for (const TriangleId t : {pair.a, pair.b}) {
+      if (places.size() >= kMaxCrossingPlaces) break;
+      const NodeId* n = m.triangles[t].n;
+      places.push_back(halve_triangle(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]));
+      if (m.triangle_previous[t] != kNone) crossing_.push_back(m.triangle_previous[t]);
+    }
+  return places;
+}
+
+void HoleRounds::choose_again(std::size_t) {
+  if (executor_.is_root()) log_info("refining where new triangles cross others");
+  holes_.mark_again(refinements_, crossing_);
+}
+
+}  // namespace st

@@ -1,0 +1,58 @@
+// Rounds over the holes of a mesh: marked segments of curves first, then the holes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "meshing/engine/hole_marker.h"
+#include "meshing/engine/mesh_rounds.h"
+#include "meshing/hole/hole_filler.h"
+
+namespace st {
+
+class HoleRounds : public MeshRounds {
+ public:
+  /// All references outlive the object. `holes`: its marks grow.
+  HoleRounds(HoleMarker& holes, const SizeField& field, const MeshOptions& options, const Executor& executor,
+             MeshResult& result)
+      : MeshRounds(field, kLimits, executor, result),
+        model_(holes.model()),
+        old_(holes.mesh()),
+        holes_(holes),
+        options_(options) {}
+
+  /// Faces whose holes could not be filled, whole face or not: on every rank. Where there are any, the result has no
+  /// mesh.
+  const std::vector<FaceId>& failed_faces() const { return failed_faces_; }
+  /// Local, on rank 0, after run(). Patches of all faces, those that stay included; none of failed faces.
+  std::vector<FacePatch> all_patches() const;
+
+ private:
+  static constexpr RoundLimits kLimits{.max_rounds = 0, .max_crossing_rounds = 4, .max_promising_rounds = 4};
+
+  void mesh_edges() override;
+  std::vector<RefinementPoint> mesh_regions() override;
+  void join() override;
+  std::vector<RefinementPoint> find_crossings() override;
+  void choose_again(std::size_t first_refinement) override;
+
+  void request_curve_lengths();
+  std::vector<HoleRim> find_rims(const std::vector<FaceId>& faces) const;
+  std::vector<std::int32_t> fill(const std::vector<HoleRim>& rims);
+  HoleFill fill_hole(const HoleRim& rim) const;
+  void grow(const HoleRim& rim, std::size_t step);
+  void renew_surrounded_nodes();
+
+  const Model& model_;
+  const HoleMesh& old_;
+  HoleMarker& holes_;
+  MeshOptions options_;
+  EdgeUpdate update_;
+  std::optional<HoleNumbering> numbering_;    // of update_
+  std::vector<std::vector<HoleFill>> fills_;  // [n_faces] on rank 0: of its holes; none: as it was, or failed
+  std::vector<FaceId> failed_faces_;
+  std::vector<TriangleId> crossing_;  // triangles of the old mesh that cross new ones, of the last search
+};
+
+}  // namespace st

@@ -1,0 +1,48 @@
+#include "meshing/engine/mesh_plan.h"
+
+#include <numeric>
+#include <utility>
+
+namespace st {
+
+MeshPlan plan_all(const MeshTopology& topology) {
+  std::vector<FaceId> faces(topology.tables().n_faces());
+  std::iota(faces.begin(), faces.end(), 0);
+  MeshPlan plan{{}, std::move(faces), EdgeMesh::of_edges(topology.tables().n_edges()), {}, {}};
+  for (EdgeId e = 0; e < topology.tables().n_edges(); ++e)
+    if (!topology.tables().edge_is_degenerate[e]) plan.edges.push_back(e);
+  return plan;
+}
+
+MeshPlan plan_part(const MeshTopology& topology, std::vector<FaceId> faces, EdgeMesh fixed) {
+  const ModelTables& t = topology.tables();
+  if (fixed.edge_offsets.empty()) fixed = EdgeMesh::of_edges(t.n_edges());
+  std::vector<char> used(t.n_edges(), 0);
+  for (const FaceId f : faces)
+    for (const EdgeId e : t.edges_of(f)) used[e] = 1;
+  for (const MeshTopology::Strip& strip : topology.strips())
+    if (used[strip.closed]) used[strip.kept] = 1;
+  MeshPlan plan{{}, std::move(faces), std::move(fixed), {}, {}};
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (used[e] && !t.edge_is_degenerate[e] && plan.kept_edges.n_nodes(e) == 0) plan.edges.push_back(e);
+  return plan;
+}
+
+MeshPlan plan_again(const MeshTopology& topology, std::vector<FaceId> faces, EdgeMesh edges,
+                    std::vector<FacePatch> patches, const std::vector<char>& keep_edge) {
+  const ModelTables& t = topology.tables();
+  std::vector<char> again(t.n_faces(), 0);
+  for (const FaceId f : faces) again[f] = 1;
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  MeshPlan plan{{}, std::move(faces), std::move(edges), std::move(patches), {}};
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    bool all = !t.edge_is_degenerate[e] && offsets[e + 1] > offsets[e] && (keep_edge.empty() || !keep_edge[e]);
+    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && again[edge_faces[i]];
+    if (all) plan.edges.push_back(e);
+  }
+  return plan;
+}
+
+}  // namespace st

@@ -1,0 +1,42 @@
+// What st-mesh and st-remesh make: edges, patches, failures, counts and times.
+#pragma once
+
+#include <vector>
+
+#include "mesh/failed_face.h"
+#include "mesh/surface_mesh.h"
+#include "meshing/face/face_mesher.h"
+#include "sizing/size_field.h"
+
+namespace st {
+
+struct MeshOptions {
+  int enhance_rounds = 5;       ///< of the enhancer in each face or hole
+  double max_turning_deg = 30;  ///< of a CAD edge along one segment
+  double merge_below = 0.05;    ///< of the requested length, see find_merged_features(); 0: nothing is merged
+};
+
+/// Where the time went, seconds on rank 0.
+struct MeshTimes {
+  double edges = 0, faces = 0, join = 0, crossing = 0;
+};
+
+/// The mesh of a model. Complete on rank 0 only; the edges are on every rank.
+struct MeshResult {
+  EdgeMesh edges;
+  std::vector<FacePatch> patches;        ///< by face; without triangles where the face failed
+  SurfaceMesh mesh;                      ///< the whole, where holes of one were filled and it was asked for
+  std::vector<FaceFailure> failures;     ///< by face
+  std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
+  std::vector<RefinementPoint> folds;    ///< places where a triangle is still turned against the surface
+  int n_rounds = 0, n_refinements = 0;
+  int n_crossing_pairs = 0;  ///< that are left; where holes were filled: of which one triangle at least is new
+  int n_grown = 0;           ///< holes that had to grow
+  MeshTimes times;
+};
+
+/// Local. Gives every new node the length that `field` requests there: what a later st-remesh compares with, whatever
+/// was refined since. Nodes with a number in the mesh before stay as they are.
+void store_requests(const SizeField& field, MeshResult& result);
+
+}  // namespace st

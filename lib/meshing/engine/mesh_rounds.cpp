@@ -1,0 +1,72 @@
+#include "meshing/engine/mesh_rounds.h"
+
+#include <cstdint>
+
+#include "base/log.h"
+#include "base/share.h"
+
+namespace st {
+namespace {
+
+constexpr double kLoopFloor = 1.0 / 16;  // of the requested length: refining loops, folds and narrow parts ends there
+constexpr std::uint64_t kFewCrossings = 200;  // places
+constexpr double kPromising = 0.8;            // of the places before: as many or less is getting better
+
+/// Adds the seconds of its life.
+class TimeAdder {
+ public:
+  explicit TimeAdder(double& total) : total_(total) {}
+  ~TimeAdder() { total_ += timer_.seconds(); }
+  TimeAdder(const TimeAdder&) = delete;
+  TimeAdder& operator=(const TimeAdder&) = delete;
+
+ private:
+  double& total_;
+  Timer timer_;
+};
+
+template <class Step>
+auto timed(double& total, const Step& step) {
+  const TimeAdder adder(total);
+  return step();
+}
+
+}  // namespace
+
+void MeshRounds::run() {
+  MeshTimes& times = result_.times;
+  std::uint64_t n_last = 0;  // places of the last search for crossings
+  for (int n_rounds = 1, n_crossing_rounds = 0;; ++n_rounds) {
+    timed(times.edges, [&] { mesh_edges(); });
+    const Places wanted = timed(times.faces, [&] { return mesh_regions(); });
+    ++result_.n_rounds;
+    if (n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
+    timed(times.join, [&] { join(); });
+    const Places crossings = timed(times.crossing, [&] { return find_crossings(); });
+    std::uint64_t n = crossings.size();
+    share(executor_, n);
+    const bool is_promising = n <= kFewCrossings || static_cast<double>(n) < kPromising * static_cast<double>(n_last);
+    if (n == 0 || n_crossing_rounds++ >= (is_promising ? limits_.max_promising_rounds : limits_.max_crossing_rounds))
+      return;
+    n_last = n;
+    if (!refine(crossings, is_promising ? limits_.promising_floor : kCrossingFloor)) return;
+  }
+}
+
+/// Collective. Rank 0's places become part of the field, no finer than `floor` times the request. False when none
+/// changes anything.
+bool MeshRounds::refine(const Places& places, double floor) {
+  const std::size_t n_before = refinements_.all().size();
+  if (executor_.is_root())
+    for (const RefinementPoint& p : places) refinements_.add(p, floor);
+  std::vector<Refinement> all = refinements_.all();
+  share(executor_, all);
+  refinements_.assign(std::move(all));
+  const std::size_t n_new = refinements_.all().size() - n_before;
+  if (n_new == 0) return false;
+  result_.n_refinements += static_cast<int>(n_new);
+  choose_again(n_before);
+  return true;
+}
+
+}  // namespace st

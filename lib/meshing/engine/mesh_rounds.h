@@ -1,0 +1,62 @@
+// The loop of the mesher: what cannot be meshed, folds or crosses gets smaller sizes and is meshed again.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/executor.h"
+#include "meshing/engine/mesh_result.h"
+#include "meshing/face/refinements.h"
+
+namespace st {
+
+inline constexpr double kCrossingFloor = 1.0 / 8;  ///< of the requested length: refining crossing triangles ends there
+
+/// Where refining ends.
+struct RoundLimits {
+  int max_rounds;                           ///< refinements of loops, folds and narrow parts
+  int max_crossing_rounds;                  ///< of crossing triangles
+  int max_promising_rounds;                 ///< likewise where few are left, or ever fewer;
+  double promising_floor = kCrossingFloor;  ///< it ends there, of the requested length
+};
+
+/// The rounds; what they mesh (the faces of a model, or the holes of a mesh) is in the steps that derived classes have.
+class MeshRounds {
+ public:
+  virtual ~MeshRounds() = default;
+  MeshRounds(const MeshRounds&) = delete;
+  MeshRounds& operator=(const MeshRounds&) = delete;
+
+  /// Collective. Counts and times go into the result; the rest is what the steps put there.
+  void run();
+
+ protected:
+  /// All references outlive the object.
+  MeshRounds(const SizeField& field, const RoundLimits& limits, const Executor& executor, MeshResult& result)
+      : field_(field), executor_(executor), result_(result), refinements_(field), limits_(limits) {}
+
+  const SizeField& field_;
+  const Executor& executor_;
+  MeshResult& result_;
+  Refinements refinements_;  // the same on every rank
+
+ private:
+  using Places = std::vector<RefinementPoint>;
+
+  // the steps of a round; collective, their places count on rank 0
+  virtual void mesh_edges() = 0;
+  /// Places that need smaller sizes before regions can be meshed.
+  virtual Places mesh_regions() = 0;
+  /// Puts the regions together.
+  virtual void join() = 0;
+  /// Places where triangles cross; none ends the rounds.
+  virtual Places find_crossings() = 0;
+  /// What is meshed in the next round, since refinements from this one on were added.
+  virtual void choose_again(std::size_t first_refinement) = 0;
+
+  bool refine(const Places& places, double floor);
+
+  RoundLimits limits_;
+};
+
+}  // namespace st

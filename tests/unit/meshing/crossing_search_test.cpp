@@ -1,0 +1,78 @@
+// Crossings of patches, searched for again after some of them changed.
+#include "meshing/engine/crossing_search.h"
+
+#include <gtest/gtest.h>
+
+#include "support/meshed.h"
+
+namespace st {
+namespace {
+
+using test::Meshed;
+
+/// Pushes the inside of a face of the box 60 x 40 x 20 through the other side.
+void push_through(const Meshed& box, FaceId f, FacePatch& patch) {
+  const Box3 all = box.model.tables().box();
+  const Vec3 inward = 0.5 * (all.lo + all.hi) - box.model.tables().face_box[f].center();
+  for (Vec3& x : patch.inner_xyz) x += 2.5 * inward;
+}
+
+TEST(CrossingSearch, finds_nothing_in_a_sound_mesh) {
+  const Meshed m("box", 4);
+  CrossingSearch search(m.model.tables().face_shell);
+  EXPECT_TRUE(search.run(m.numbering(), m.result.patches).empty());
+  EXPECT_EQ(search.n_pairs(), 0);
+}
+
+TEST(CrossingSearch, finds_a_patch_that_crosses_others_and_remembers_it) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  push_through(m, 0, patches[0]);
+  CrossingSearch search(m.model.tables().face_shell);
+  const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
+  EXPECT_EQ(places.size(), 2u * static_cast<std::size_t>(search.n_pairs()));
+  ASSERT_GT(search.n_pairs(), 0);
+  const std::vector<RefinementPoint> again = search.run(m.numbering(), patches);
+  ASSERT_EQ(again.size(), places.size()) << "nothing is new, and nothing forgotten";
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_TRUE(again[i].x == places[i].x);
+  patches[0] = m.result.patches[0];
+  search.renew(0);
+  EXPECT_TRUE(search.run(m.numbering(), patches).empty());
+}
+
+TEST(CrossingSearch, finds_what_a_renewed_patch_crosses) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  CrossingSearch search(m.model.tables().face_shell), whole(m.model.tables().face_shell);
+  ASSERT_TRUE(search.run(m.numbering(), patches).empty());
+  push_through(m, 3, patches[3]);
+  search.renew(3);
+  EXPECT_EQ(search.run(m.numbering(), patches).size(), whole.run(m.numbering(), patches).size());
+  EXPECT_GT(search.n_pairs(), 0);
+}
+
+TEST(CrossingSearch, halves_the_longest_side_of_a_triangle_at_its_centre) {
+  const RefinementPoint p = halve_triangle({0, 0, 0}, {3, 0, 0}, {0, 4, 0});
+  EXPECT_EQ(p.length, 2.5);
+  EXPECT_TRUE(p.x == (Vec3{1, 4.0 / 3, 0}));
+}
+
+TEST(CrossingSearch, finds_a_chord_that_two_flat_faces_share) {
+  const Meshed m("box", 200);  // every face two triangles: a chord of its own
+  for (const FacePatch& p : m.result.patches) ASSERT_EQ(p.triangles.size(), 2u);
+  std::vector<const FacePatch*> all;
+  for (const FacePatch& p : m.result.patches) all.push_back(&p);
+  const std::vector<char> fresh(6, 1), old(6, 0);
+  const BoundaryNumbering numbering = m.numbering();
+  const auto pairs = [&](const std::vector<const FacePatch*>& patches, const std::vector<char>& is_fresh) {
+    const WeldedPatches w = weld_patches(numbering.edges, m.model.tables().vertex_xyz, patches);
+    return find_repeated_chords(numbering, w, is_fresh).size();
+  };
+  EXPECT_EQ(pairs(all, fresh), 0u);
+  all[5] = all[0];
+  EXPECT_EQ(pairs(all, fresh), 1u) << "the chord, not the edges of the model";
+  EXPECT_EQ(pairs(all, old), 0u);
+}
+
+}  // namespace
+}  // namespace st

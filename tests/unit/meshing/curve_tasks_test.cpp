@@ -1,0 +1,40 @@
+// Curves made as tasks: each once, results in their places.
+#include "meshing/engine/curve_tasks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace st {
+namespace {
+
+/// Hands out tasks last first, so that results arrive out of order.
+class Backwards : public SerialExecutor {
+ public:
+  void run_tasks(std::int32_t n, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t)>& compute,
+                 const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    SerialExecutor::run_tasks(n, {order.rbegin(), order.rend()}, compute, collect);
+  }
+};
+
+TEST(CurveTasks, make_each_curve_once_and_keep_its_place) {
+  for (const std::int32_t n : {0, 1, 23, 24, 25, 100}) {
+    std::vector<int> n_calls(n, 0);
+    const auto make = [&](std::int32_t i) {
+      ++n_calls[i];
+      return CurveNodes{{0.0, i + 1.0}, {{0, 0, 0}, {double(i), 0, 0}}, {1.0, double(i)}};
+    };
+    const std::vector<CurveNodes> made = make_curve_nodes(n, make, Backwards());
+    ASSERT_EQ(static_cast<std::int32_t>(made.size()), n);
+    EXPECT_EQ(std::count(n_calls.begin(), n_calls.end(), 1), n);
+    for (std::int32_t i = 0; i < n; ++i) {
+      EXPECT_EQ(made[i].t, (std::vector<double>{0, i + 1.0}));
+      EXPECT_EQ(made[i].x[1].x, i);
+      EXPECT_EQ(made[i].h[1], i);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,214 @@
+// Marks, holes, fills and growth of a whole mesh at one rank.
+#include "meshing/engine/hole_rounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "mesh/checks.h"
+#include "meshing/engine/mesh_regions.h"
+#include "unit/mesh/shapes.h"
+#include "unit/meshing/hole_case.h"
+
+namespace st {
+namespace {
+
+using test::ShapeMesh;
+
+const SerialExecutor one_rank;
+
+/// A solid's mesh and what of it other sizes mark. `solid` and `field` outlive it.
+struct Marked {
+  HoleMesh old;
+  const SizeField& field;
+  HoleMarker holes;
+
+  Marked(const ShapeMesh& solid, const SizeField& f, const HoleMarkOptions& options = {})
+      : old(solid.mesh, solid.model.tables()),
+        field(f),
+        holes(solid.model, old, {0, static_cast<TriangleId>(solid.mesh.n_triangles()), 0, 0}, field, options,
+              one_rank) {
+    set_verbosity(Verbosity::kQuiet);
+  }
+  MeshResult fill(HoleOutput output = HoleOutput::kMesh) { return mesh_regions(holes, field, output, {}, one_rank); }
+  SurfaceMesh merged(const MeshResult& r) const {
+    OrientationReport report;
+    return merge_patches({r.edges, old.tables.vertex_xyz, old.tables.edge_vertices, r.patches, old.tables.face_group},
+                         report);
+  }
+};
+
+/// Sizes of the solid, smaller towards its first vertex.
+class FinerCorner : public SizeField {
+ public:
+  explicit FinerCorner(const ShapeMesh& solid)
+      : finer_(test::finer_at_a_corner(solid)), coarse_(solid.field.min_size()) {}
+  using SizeField::size;
+  double size(Vec3 x, int& hint) const override { return std::min(coarse_, finer_.size(x, hint)); }
+  double min_size() const override { return finer_.min_size(); }
+  double slope() const override { return finer_.slope(); }
+
+ private:
+  test::LinearField finer_;
+  double coarse_;
+};
+
+class RefilledSolid : public testing::TestWithParam<const char*> {};
+
+TEST_P(RefilledSolid, for_the_same_sizes_is_the_same_to_the_bit) {
+  const ShapeMesh solid(GetParam());
+  Marked m(solid, solid.field, test::nothing_changes());
+  EXPECT_EQ(m.holes.n_marked_triangles, 0);
+  EXPECT_TRUE(m.holes.dirty_faces().empty());
+  EXPECT_TRUE(shapes::same(m.fill().mesh, solid.mesh));
+}
+
+TEST_P(RefilledSolid, for_a_finer_corner_is_closed_and_unchanged_elsewhere_to_the_bit) {
+  const ShapeMesh solid(GetParam(), 0.05);
+  const FinerCorner field(solid);
+  Marked m(solid, field);
+  const std::vector<char> marked = m.holes.marks().triangle;
+  ASSERT_GT(m.holes.n_marked_triangles, 0);
+  ASSERT_LT(m.holes.n_marked_triangles, solid.mesh.n_triangles());
+  const MeshResult r = m.fill();
+  EXPECT_TRUE(r.failures.empty());
+  const SurfaceMesh& after = r.mesh;
+  EXPECT_TRUE(check_topology(after).passes());
+  EXPECT_TRUE(check_shape(after).passes());
+  EXPECT_GT(after.n_triangles(), solid.mesh.n_triangles());
+  std::vector<char> stays(solid.mesh.triangles.size(), 0);
+  for (TriangleId i = 0; i < after.n_triangles(); ++i) {
+    const TriangleId t = after.triangle_previous[i];
+    if (t == kNone) continue;
+    stays[t] = 1;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_TRUE(after.node_xyz[after.triangles[i].n[k]] == solid.mesh.node_xyz[solid.mesh.triangles[t].n[k]]) << t;
+      EXPECT_TRUE(after.corner_uv[3 * i + k] == solid.mesh.corner_uv[3 * t + k]) << t;
+    }
+  }
+  if (r.n_grown == 0 && r.n_rounds == 1) {
+    for (TriangleId t = 0; t < solid.mesh.n_triangles(); ++t) EXPECT_EQ(stays[t] != 0, marked[t] == 0) << t;
+  }
+  for (NodeId n = 0; n < after.n_nodes(); ++n) {
+    if (after.node_previous[n] == kNone) {
+      EXPECT_EQ(after.node_size[n], field.size(after.node_xyz[n])) << "new nodes have the length asked for";
+    }
+  }
+  Marked again(solid, field);
+  EXPECT_TRUE(shapes::same(after, again.merged(again.fill(HoleOutput::kPatches))))
+      << "what st-merge would make of the patches";
+}
+
+TEST_P(RefilledSolid, done_again_as_a_whole_is_what_st_mesh_makes) {
+  const ShapeMesh solid(GetParam());
+  HoleMarkOptions options = test::nothing_changes();
+  for (TriangleId t = 0; t < solid.mesh.n_triangles(); ++t) options.redo.push_back(t);
+  Marked m(solid, solid.field, options);
+  EXPECT_EQ(m.holes.n_marked_triangles, solid.mesh.n_triangles());
+  const SurfaceMesh after = m.fill().mesh;
+  EXPECT_TRUE(after.node_xyz == solid.mesh.node_xyz);
+  EXPECT_TRUE(after.corner_uv == solid.mesh.corner_uv);
+  ASSERT_EQ(after.n_triangles(), solid.mesh.n_triangles());
+  for (TriangleId t = 0; t < after.n_triangles(); ++t)
+    EXPECT_TRUE(std::equal(after.triangles[t].n, after.triangles[t].n + 3, solid.mesh.triangles[t].n)) << t;
+}
+
+INSTANTIATE_TEST_SUITE_P(, RefilledSolid, testing::ValuesIn(test::kSolids),
+                         [](const auto& info) { return std::string(info.param); });
+
+/// Cannot be asked inside the side z = 20 of the box 60 x 40 x 20 once it is armed.
+class FailingField : public FinerCorner {
+ public:
+  using FinerCorner::FinerCorner;
+  double size(Vec3 x, int& hint) const override {
+    if (is_armed && n_failures_left && x.z > 19.999 && x.x > 0.01 && x.x < 59.99 && x.y > 0.01 && x.y < 39.99) {
+      --n_failures_left;
+      throw Error(ExitCode::kInternal, "no size here");
+    }
+    return FinerCorner::size(x, hint);
+  }
+  bool is_armed = false;
+  mutable int n_failures_left = 1000;
+};
+
+/// The face all of whose nodes are at this height.
+FaceId face_at(const ShapeMesh& box, double z) {
+  for (FaceId f = 0; f < 6; ++f)
+    if (box.model.tables().face_box[f].lo.z > z - 1e-3 && box.model.tables().face_box[f].hi.z < z + 1e-3) return f;
+  return kNone;
+}
+
+/// The triangle at the node inside the face that is nearest to a place.
+TriangleId triangle_near(const ShapeMesh& box, const HoleMesh& old, FaceId f, Vec3 x) {
+  NodeId nearest = old.inner_begin[f];
+  for (NodeId n = nearest; n < old.inner_begin[f + 1]; ++n)
+    if (distance(box.mesh.node_xyz[n], x) < distance(box.mesh.node_xyz[nearest], x)) nearest = n;
+  TriangleId t = old.face_begin[f];
+  while (std::count(box.mesh.triangles[t].n, box.mesh.triangles[t].n + 3, nearest) == 0) ++t;
+  return t;
+}
+
+TEST(HoleRounds, grow_a_hole_to_the_whole_face_before_they_name_the_face_as_failed) {
+  const ShapeMesh box("box", 0.05);
+  FailingField field(box);
+  const FaceId top = face_at(box, 20);
+  ASSERT_NE(top, kNone);
+  HoleMarkOptions options;
+  options.redo = {triangle_near(box, HoleMesh(box.mesh, box.model.tables()), top, {30, 20, 20})};
+  Marked m(box, field, options);
+  field.is_armed = true;
+  MeshResult result;
+  HoleRounds rounds(m.holes, field, {}, one_rank, result);
+  rounds.run();
+  EXPECT_EQ(rounds.failed_faces(), std::vector<FaceId>{top});
+  EXPECT_GE(result.n_grown, 3) << "by a few layers, by more, to the whole face";
+  EXPECT_EQ(result.mesh.n_triangles(), 0);
+  for (TriangleId t = m.old.face_begin[top]; t < m.old.face_begin[top + 1]; ++t)
+    EXPECT_TRUE(m.holes.marks().triangle[t]);
+}
+
+TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
+  const ShapeMesh box("box", 0.05);
+  FailingField field(box);
+  const FaceId top = face_at(box, 20);
+  HoleMarkOptions options;
+  options.redo = {triangle_near(box, HoleMesh(box.mesh, box.model.tables()), top, {30, 20, 20})};
+  Marked m(box, field, options);
+  field.is_armed = true;
+  field.n_failures_left = 4;  // the hole as it is, grown twice, as a whole
+  const MeshResult r = m.fill();
+  EXPECT_TRUE(r.failures.empty());
+  EXPECT_TRUE(check_topology(r.mesh).passes());
+  NodeId n_kept = 0;
+  for (NodeId n = 0; n < r.mesh.n_nodes(); ++n) {
+    const NodeId before = r.mesh.node_previous[n];
+    if (before == kNone) continue;
+    ++n_kept;
+    EXPECT_TRUE(r.mesh.node_xyz[n] == box.mesh.node_xyz[before]);
+  }
+  EXPECT_GT(n_kept, box.mesh.n_nodes() / 4) << "other faces stay";
+}
+
+TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {
+  ShapeMesh box("box", 0.05);
+  const FinerCorner field(box);
+  const std::vector<char> marked = Marked(box, field).holes.marks().triangle;
+  // a node inside a face between triangles that go and such that stay
+  std::vector<char> goes(box.mesh.node_xyz.size(), 0), remains(box.mesh.node_xyz.size(), 0);
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    for (const NodeId n : box.mesh.triangles[i].n) (marked[i] ? goes : remains)[n] = 1;
+  NodeId around = 0;
+  while (!(goes[around] && remains[around] && box.mesh.node_entity_dim[around] == 2)) ++around;
+  for (std::size_t c = 0; c < box.mesh.corner_uv.size(); ++c)
+    if (box.mesh.triangles[c / 3].n[c % 3] == around) box.mesh.corner_uv[c] = box.mesh.corner_uv[c] + Vec2{25, 25};
+  const MeshResult r = Marked(box, field).fill();
+  EXPECT_GT(r.n_grown, 0);
+  EXPECT_TRUE(r.failures.empty());
+  EXPECT_TRUE(check_topology(r.mesh).passes());
+  EXPECT_TRUE(check_shape(r.mesh).passes());
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,136 @@
+// The loop of rounds, with steps that only say what they were asked.
+#include "meshing/engine/mesh_rounds.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+namespace st {
+namespace {
+
+const SerialExecutor one_rank;
+const UniformField one(1);
+
+/// Steps that write their letters: edges, regions, join, crossings, again.
+class Scripted : public MeshRounds {
+ public:
+  using Places = std::vector<RefinementPoint>;
+  using Script = std::function<Places(int call)>;
+
+  Scripted(const RoundLimits& limits, MeshResult& result, Script regions, Script crossings)
+      : MeshRounds(one, limits, one_rank, result), regions_(std::move(regions)), crossings_(std::move(crossings)) {}
+
+  std::string steps;
+  std::vector<std::size_t> first_refinements;
+  double shortest() const {
+    double length = 1;
+    for (const Refinement& r : refinements_.all()) length = std::min(length, r.length);
+    return length;
+  }
+
+ private:
+  void mesh_edges() override { steps += 'e'; }
+  Places mesh_regions() override {
+    steps += 'r';
+    return regions_(n_regions_++);
+  }
+  void join() override { steps += 'j'; }
+  Places find_crossings() override {
+    steps += 'c';
+    return crossings_(n_crossings_++);
+  }
+  void choose_again(std::size_t first_refinement) override {
+    steps += 'a';
+    first_refinements.push_back(first_refinement);
+  }
+
+  Script regions_, crossings_;
+  int n_regions_ = 0, n_crossings_ = 0;
+};
+
+const Scripted::Script kNothing = [](int) { return Scripted::Places(); };
+
+/// `n` places that no other call has, far from each other.
+Scripted::Places places(int call, int n) {
+  Scripted::Places list;
+  for (int i = 0; i < n; ++i) list.push_back({{100.0 * i, 100.0 * call, 0}, 0.5});
+  return list;
+}
+
+constexpr RoundLimits kLimits{
+    .max_rounds = 3, .max_crossing_rounds = 2, .max_promising_rounds = 5, .promising_floor = 0.125};
+
+TEST(MeshRounds, end_after_one_round_where_nothing_is_wrong) {
+  MeshResult result;
+  Scripted rounds(kLimits, result, kNothing, kNothing);
+  rounds.run();
+  EXPECT_EQ(rounds.steps, "erjc");
+  EXPECT_EQ(result.n_rounds, 1);
+  EXPECT_EQ(result.n_refinements, 0);
+}
+
+TEST(MeshRounds, refine_regions_so_many_times_and_look_for_crossings_then) {
+  MeshResult result;
+  Scripted rounds(
+      kLimits, result, [](int call) { return places(call, 2); }, kNothing);
+  rounds.run();
+  EXPECT_EQ(rounds.steps, "eraeraeraerjc");
+  EXPECT_EQ(result.n_rounds, 4);
+  EXPECT_EQ(result.n_refinements, 6);
+  EXPECT_EQ(rounds.first_refinements, (std::vector<std::size_t>{0, 2, 4}));
+}
+
+TEST(MeshRounds, do_not_mesh_again_for_places_that_are_as_fine_already) {
+  MeshResult result;
+  Scripted rounds(
+      kLimits, result, [](int) { return places(0, 2); }, kNothing);
+  rounds.run();
+  EXPECT_EQ(rounds.steps, "eraerjc");
+}
+
+TEST(MeshRounds, refine_a_crossing_down_to_its_floor) {
+  MeshResult result;
+  int n = 0;
+  Scripted rounds(kLimits, result, kNothing, [&](int call) {
+    n = call + 1;
+    return Scripted::Places{{{0, 0, 0}, std::ldexp(1.0, -n)}};
+  });
+  rounds.run();
+  EXPECT_EQ(n, 4) << "1/2, 1/4, 1/8, and once more where that is no change";
+  EXPECT_EQ(rounds.shortest(), 0.125);
+}
+
+TEST(MeshRounds, give_up_sooner_where_many_triangles_cross_and_do_not_get_fewer) {
+  MeshResult result;
+  Scripted rounds(kLimits, result, kNothing, [](int call) { return places(call, 300); });
+  rounds.run();
+  EXPECT_EQ(result.n_rounds, 1 + kLimits.max_crossing_rounds);
+}
+
+TEST(MeshRounds, go_on_where_few_triangles_cross) {
+  MeshResult result;
+  Scripted rounds(kLimits, result, kNothing, [](int call) { return places(call, 100); });
+  rounds.run();
+  EXPECT_EQ(result.n_rounds, 1 + kLimits.max_promising_rounds);
+}
+
+TEST(MeshRounds, count_refinements_of_regions_apart_from_those_of_crossings) {
+  MeshResult result;
+  Scripted rounds(
+      kLimits, result, [](int call) { return places(100 + call, call % 2); },
+      [](int call) { return places(call, call < 4); });
+  rounds.run();
+  EXPECT_EQ(rounds.steps,
+            "erjca"
+            "era"
+            "erjca"
+            "era"
+            "erjca"
+            "era"
+            "erjca"
+            "erjc");
+}
+
+}  // namespace
+}  // namespace st
