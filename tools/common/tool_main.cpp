@@ -107,15 +107,15 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.set_help_flag("-h,--help", "print this help and exit");
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
   app_.add_option("--options", options_file_,
-                  "option file (TOML: long option names without dashes); the command line wins")
+                  "read options from this file (TOML, long names without dashes); the command line wins")
       ->type_name("FILE");
   app_.add_flag_function(
       "--print-options", [](std::int64_t) {},
-      "print an option file with every option at its default, commented out, and exit");
+      "print an option file that lists every option with its default, and exit");
   app_.add_flag_function(
-      "--print-inputs", [](std::int64_t) {}, "print the input files that the options name, one per line, and exit");
-  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
-  app_.add_flag("-v,--verbose", verbose_, "say more")->excludes(quiet);
+      "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit");
+  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only");
+  app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet);
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
 }
 
