@@ -118,19 +118,19 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
                             f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
   }
   if (!failures_file.empty())
-    log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
+    log_warning(failures_file + ": boundaries and finished triangles of these faces; open it with ParaView");
   for (const RefinementPoint& p : m.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
   if (!m.folds.empty())
-    log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})",
+    log_warning(fmt::format("{} triangles point against their surface, the first near ({:.6g}, {:.6g}, {:.6g})",
                             m.folds.size(), m.folds[0].x.x, m.folds[0].x.y, m.folds[0].x.z));
   if (m.n_crossing_pairs)
     log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", m.n_crossing_pairs));
 
   if (!m.merged().empty())
-    log_info(
-        fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole "
-                    "faces{} (--merge-below 0: none)",
-                    m.merged().edge.size(), m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
+    log_info(fmt::format(
+        "merged small features: {} edges much shorter than the sizes, {} strips much narrower, {} of them whole "
+        "faces{} (--merge-below 0 merges nothing)",
+        m.merged().edge.size(), m.merged().strip_face.size(), closed.size(), first_of(t, m.merged())));
 
   StageSummary s;
   s.code = m.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;

@@ -236,7 +236,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   }
   if (!options_file_.empty()) apply_option_file(options_file_, name_, app_);
   if (!preset_.empty()) apply_option_text(find_preset(preset_).options, "preset " + preset_, name_, app_);
-  if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose exclude each other");
+  if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose cannot be used together; leave one out");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
   require_distinct_files();
   if (!lists_inputs) return std::nullopt;
@@ -278,10 +278,11 @@ void ToolMain::require_distinct_files() const {
   const std::vector<std::string> outputs = output_paths();
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
-      if (same(outputs[i], outputs[j])) throw Error(ExitCode::kUsage, outputs[i] + ": named twice as an output");
+      if (same(outputs[i], outputs[j]))
+        throw Error(ExitCode::kUsage, outputs[i] + ": given twice as an output; choose another name for one of them");
     for (const std::string& path : input_files())
       if (same(outputs[i], path))
-        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; name another output");
+        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; choose another output");
   }
 }
 

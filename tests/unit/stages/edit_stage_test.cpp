@@ -260,7 +260,7 @@ TEST_F(EditStage, refuses_to_tear_and_to_move_what_is_gone) {
   o.of = {"1,2"};
   EXPECT_ERROR(edit(o), kGeometry, "tear");
   o.extract = "3";
-  EXPECT_ERROR(edit(o), kUsage, "nothing of it is left");
+  EXPECT_ERROR(edit(o), kUsage, "nothing is left to move");
   o.of = {"1", "2"};
   EXPECT_ERROR(edit(o), kUsage, "--of is given 2 times");
 }
@@ -314,7 +314,7 @@ TEST_F(EditStage, leaves_word_of_a_motion_of_the_whole_and_of_nothing_else) {
   const Similarity motion = whole_motion("m.hdf", moved, hash);
   EXPECT_LE(distance(motion({1, 0, 0}), {1 + std::cos(radians(30)), 0.5, 0}), 1e-12);
   EXPECT_EQ(whole_motion("box.hdf", read_header(box), hash), Similarity());
-  EXPECT_ERROR(whole_motion("m.hdf", moved, "0123"), kMismatch, "was made of box.hdf, another geometry");
+  EXPECT_ERROR(whole_motion("m.hdf", moved, "0123"), kMismatch, "was made from box.hdf, which is not");
   o.extract = "1-4";
   EXPECT_ERROR(whole_motion("m.hdf", edit(o).header, hash), kMismatch, "not moved as a whole (--extract)");
   EXPECT_ERROR(whole_motion("m.hdf", edit(of_inputs({box, box})).header, hash), kMismatch, "2 geometries");
