@@ -149,10 +149,10 @@ name = "f"
 
 TEST(GroupsFile, refuses_keys_of_another_kind_of_group) {
   const std::string begin = "[[group]]\nname = \"te\"\n";
-  EXPECT_ERROR(parse(begin + "edges = 1\n"), kUsage, "edges: is no key of a group of faces but of edges");
+  EXPECT_ERROR(parse(begin + "edges = 1\n"), kUsage, "edges: is not a key of a group of faces but of edges");
   EXPECT_ERROR(parse(begin + "of = \"edges\"\nrole = \"wall\"\n"), kUsage,
-               "role: is no key of a group of edges but of faces");
-  EXPECT_ERROR(parse(begin + "of = \"edges\"\ntolerance = 1\n"), kUsage, "tolerance: is no key of a group of edges");
+               "role: is not a key of a group of edges but of faces");
+  EXPECT_ERROR(parse(begin + "of = \"edges\"\ntolerance = 1\n"), kUsage, "tolerance: is not a key of a group of edges");
   EXPECT_ERROR(parse(begin + "of = \"vertices\"\nbetween = [\"a\", \"b\"]\n"), kUsage, "between");
   EXPECT_ERROR(parse(begin + "of = \"edges\"\nbetween = [\"a\"]\n"), kUsage, "between: takes two names");
   EXPECT_ERROR(parse(begin + "of = \"lines\"\n"), kUsage, "of: 'lines' is unknown; write vertices, edges, faces");
