@@ -28,12 +28,12 @@ stop=${EPOCHREALTIME/[.,]/}
 
 if [ $status -eq 5 ]; then
   if [ "${ALLOW_INCOMPLETE:-}" = 1 ]; then
-    echo "workflow: going on although $artifact is incomplete" >&2
+    echo "workflow: continuing although $artifact is incomplete" >&2
     status=0
   else
     incomplete=${artifact%.hdf}.incomplete.hdf
     [ ! -f "$artifact" ] || mv "$artifact" "$incomplete"
-    echo "workflow: error: $incomplete is incomplete; look at it, or go on with ALLOW_INCOMPLETE=1" >&2
+    echo "workflow: error: $incomplete is incomplete; inspect it, or continue with ALLOW_INCOMPLETE=1" >&2
   fi
 fi
 milliseconds=$(((stop - start) / 1000))

@@ -22,7 +22,7 @@ options_of() {
   files=$("$bin/$stage" --options "$options" --print-inputs)
   while IFS= read -r file; do
     [ -n "$file" ] || continue
-    [ -f "$file" ] || { echo "workflow: error: $options names '$file', which is no file in $PWD" >&2; exit 3; }
+    [ -f "$file" ] || { echo "workflow: error: $options names '$file', which does not exist in $PWD" >&2; exit 3; }
     echo "input $(hash_of "$file") $file"
   done <<< "$files"
 }

@@ -5,7 +5,7 @@
 # exit codes: 2 OUT holds the results of another model, 3 there is no such model
 set -eu -o pipefail
 out=$1 model=$2
-[ -f "$model" ] || { echo "workflow: error: MODEL '$model' is no file" >&2; exit 3; }
+[ -f "$model" ] || { echo "workflow: error: MODEL '$model' does not exist" >&2; exit 3; }
 path=$(realpath "$model")
 hash=$(sha256sum < "$model" | cut -d' ' -f1)
 if [ -f "$out/model.ref" ]; then

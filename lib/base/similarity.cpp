@@ -112,7 +112,7 @@ Similarity parse_similarity(const std::string& text, const std::string& option) 
     if (!one)
       throw Error(ExitCode::kUsage,
                   option + ": '" + trimmed(step) +
-                      "' is no step; write 'rotate X Y Z DEGREES [at X Y Z]', 'hinge X Y Z X Y Z DEGREES', "
+                      "' is not a step; write 'rotate X Y Z DEGREES [at X Y Z]', 'hinge X Y Z X Y Z DEGREES', "
                       "'mirror X Y Z [at X Y Z]', 'scale F [at X Y Z]' or 'translate X Y Z', with ';' between steps");
     all = all.then(*one);
   }

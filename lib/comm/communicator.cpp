@@ -205,7 +205,7 @@ int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
 
 std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& arguments_without_np,
                                     const std::function<void(const std::string& text)>& on_error_text) {
-  if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is no number of ranks; give 1 or more");
+  if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is not a number of ranks; give 1 or more");
   if (n == 1 || launched_ranks() != 0) return std::nullopt;
   set_launch_environment();
   char self[4096];

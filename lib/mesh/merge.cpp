@@ -36,7 +36,7 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
       p.inner_size.size() != p.inner_xyz.size() || p.corner_uv.size() != 3 * p.triangles.size() ||
       (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
       (!p.triangle_previous.empty() && p.triangle_previous.size() != p.triangles.size()))
-    throw_bad_patch(p.face, "has arrays that do not fit each other");
+    throw_bad_patch(p.face, "has arrays of inconsistent lengths");
   const EdgeId n_edges = edges.n_edges();
   for (std::size_t i = 0; i < n_boundary; ++i) {
     const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
@@ -47,7 +47,7 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
     if (!on_vertex && (p.boundary_dim[i] != static_cast<std::uint8_t>(EntityDim::kEdge) || index < 1 ||
                        index + 1 >= edges.n_nodes(entity)))
       throw_bad_patch(p.face, "names node " + std::to_string(index) + " of edge " + std::to_string(entity + 1) +
-                                  ", which is no inner node of it");
+                                  ", which is not one of its inner nodes");
   }
   const auto n_nodes = static_cast<std::int64_t>(n_boundary + p.inner_xyz.size());
   for (const Triangle& t : p.triangles)

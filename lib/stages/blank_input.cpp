@@ -44,19 +44,21 @@ void find_unbalanced_edges(const SurfaceMesh& mesh, Defects& open, Defects& unba
 }
 
 void require_closed(const std::string& path, const SurfaceMesh& mesh) {
-  if (mesh.triangles.empty()) throw Error(ExitCode::kGeometry, path + ": no triangles to blank with");
+  if (mesh.triangles.empty())
+    throw Error(ExitCode::kGeometry, path + ": the mesh has no triangles; --blank needs a closed mesh");
   Defects open, unbalanced;
   find_unbalanced_edges(mesh, open, unbalanced);
   if (open.count > 0)
-    throw Error(ExitCode::kGeometry,
-                fmt::format("{}: open, so it has no inside to blank: {} edges have one triangle only, at {}; close it "
-                            "there (st-check names the faces)",
-                            path, open.count, places(open)));
+    throw Error(
+        ExitCode::kGeometry,
+        fmt::format("{}: the mesh is open and has no inside to blank: {} edges have only one triangle, at {}; close it "
+                    "there (st-check names the faces)",
+                    path, open.count, places(open)));
   if (unbalanced.count > 0)
     throw Error(
         ExitCode::kGeometry,
-        fmt::format("{}: has no clear inside to blank: at {} edges triangles meet that are not oriented alike, or "
-                    "that are inner walls, at {}; mesh the parts as one body",
+        fmt::format("{}: the mesh has no clear inside to blank: at {} edges triangles are not oriented alike, or "
+                    "form inner walls, at {}; mesh the parts as one body",
                     path, unbalanced.count, places(unbalanced)));
 }
 
@@ -64,7 +66,7 @@ void require_closed(const std::string& path, const SurfaceMesh& mesh) {
 
 void require_blank_side(const std::string& side) {
   if (side != "auto" && side != "inside" && side != "outside")
-    throw Error(ExitCode::kUsage, fmt::format("--blank-side '{}': auto, inside or outside expected", side));
+    throw Error(ExitCode::kUsage, fmt::format("--blank-side '{}': unknown; write auto, inside or outside", side));
 }
 
 BlankInput read_blank(const std::string& path, const std::string& side) {

@@ -50,8 +50,9 @@ std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
 std::string conformity_lines(const ConformityReport& c) {
   std::int64_t n_forced = 0;
   for (const ForcedPlace& p : c.forced) n_forced += p.n_edges;
-  const std::string forced =
-      n_forced ? fmt::format(" ({} edges in {} places forced short by the CAD apart)", n_forced, c.forced.size()) : "";
+  const std::string forced = n_forced ? fmt::format(" (without {} edges in {} places that the CAD forces to be short)",
+                                                    n_forced, c.forced.size())
+                                      : "";
   return fmt::format(
       "  {:<20} {:.1f} % of edges within {} to {} of the requested length{}, {:.1f} % of those inside faces; mean "
       "{:.3f}, 1 % to 99 %: "

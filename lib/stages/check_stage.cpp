@@ -90,7 +90,7 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest difference {:.3g} % ({}; chords explain {:.3g} %)", 100 * largest,
+    c.note = fmt::format("largest difference {:.3g} % ({}; chord error {:.3g} %)", 100 * largest,
                          face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
   return c;
 }
@@ -213,7 +213,7 @@ Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, 
   for (FaceId f = 0; f < tables.n_faces(); ++f) explained += chords.distance[f] * tables.face_area[f];
   const double cad = std::fabs(*tables.volume), difference = std::fabs(measure.volume - *tables.volume);
   if (difference > kTolerance * cad + explained) c.defects.add({});
-  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords and closed strips explain {:.3g} %)",
+  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chord error and closed strips: {:.3g} %)",
                        measure.volume / *tables.volume, 100 * explained / cad);
   return c;
 }
@@ -253,13 +253,13 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const Che
       {"closed", "open edges", f.topology.boundary_edges, true, open},
       {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
       {"oriented", "misoriented edges", f.topology.misoriented_edges, true, ""},
-      {"repeated-nodes", "triangles that name a node twice", f.topology.repeated_nodes, true, ""},
+      {"repeated-nodes", "triangles with the same node twice", f.topology.repeated_nodes, true, ""},
       {"zero-area", "triangles without area", f.shape.zero_area, true, ""},
-      {"duplicate-triangles", "triangles present twice", f.topology.duplicate_triangles, true, ""},
-      {"duplicate-nodes", "nodes at the place of another", f.shape.duplicate_nodes, true, ""},
+      {"duplicate-triangles", "triangles that occur twice", f.topology.duplicate_triangles, true, ""},
+      {"duplicate-nodes", "nodes at the same place as another node", f.shape.duplicate_nodes, true, ""},
       {"folds", "folds", f.shape.folds, true, "", allow.max_folds},
       {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
-      {"overlaps", "neighbours that lie on or cross each other", f.crossings.overlapping_neighbours, true, "",
+      {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
        std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
       {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
@@ -359,7 +359,7 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
     const std::vector<double> of_group = face_tolerances(tables.group_names());
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",
-            fmt::format("faces with a triangle's middle off the surface by more than {:.6g}{}", bound, own),
+            fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}", bound, own),
             {},
             true,
             ""};
@@ -399,7 +399,7 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
   } else if (o.geometry.empty()) {
     if (!o.sizing.empty())
       throw Error(ExitCode::kUsage,
-                  fmt::format("--sizing: {} is of another program, so it needs --geometry, too", o.mesh));
+                  fmt::format("--sizing: {} is a mesh of another program, which also needs --geometry", o.mesh));
     artifact.mesh = read_triangulation(o.mesh);
   } else {
     GeometryArtifact geometry = read_geometry(o.geometry);

@@ -41,7 +41,8 @@ void select_item(const std::string& item, const ModelTables& t, const std::strin
                  std::vector<std::uint8_t>& chosen) {
   if (const auto range = as_range(item)) {
     if (range->first < 1 || range->second > t.n_faces() || range->first > range->second)
-      throw Error(ExitCode::kUsage, fmt::format("{} '{}': there are faces 1 to {}", option, item, t.n_faces()));
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{} '{}': no such face; the model has faces 1 to {}", option, item, t.n_faces()));
     std::fill(chosen.begin() + (range->first - 1), chosen.begin() + range->second, 1);
     return;
   }
@@ -87,7 +88,7 @@ std::map<std::string, std::string> new_names(const std::map<std::string, std::st
       taken.push_back(renamed[name] = unique_path(prefix + "/" + name, taken));
     } else if (same->second != kind) {
       throw Error(ExitCode::kMismatch,
-                  fmt::format("--join: the group '{}' is of {} in one input and of {} in '{}'; make them alike "
+                  fmt::format("--join: the group '{}' holds {} in one input and {} in '{}'; make them equal "
                               "(st-import --groups), or leave it out of --join",
                               name, same->second, kind, prefix));
     }
@@ -146,7 +147,7 @@ std::vector<FaceId> select_faces(const std::string& names, const ModelTables& t,
   const std::vector<std::string> items = is_one_name ? std::vector{names} : split_names(names);
   if (items.empty())
     throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}': names nothing; write a group, a part, or faces such as 17,30-40", option, names));
+                fmt::format("{} '{}': nothing named; write a group, a part, or faces such as 17,30-40", option, names));
   for (const std::string& item : items) select_item(item, t, option, chosen);
   std::vector<FaceId> faces;
   for (FaceId f = 0; f < t.n_faces(); ++f)
@@ -158,8 +159,8 @@ std::vector<std::string> input_names(const std::string& given, const std::vector
                                      const std::vector<GeometryArtifact>& inputs) {
   const std::vector<std::string> names = split_names(given);
   if (!names.empty() && names.size() != paths.size())
-    throw Error(ExitCode::kUsage,
-                fmt::format("--as '{}': {} names for {} geometries; name each", given, names.size(), paths.size()));
+    throw Error(ExitCode::kUsage, fmt::format("--as '{}': {} names for {} geometries; give one name for each", given,
+                                              names.size(), paths.size()));
   std::vector<std::string> unique;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     std::string name = names.empty() ? std::filesystem::path(paths[i]).stem().string() : names[i];

@@ -22,14 +22,14 @@ Similarity whole_motion(const std::string& path, const ArtifactHeader& moved, co
   const auto fail = [&](const std::string& what) {
     throw Error(
         ExitCode::kMismatch,
-        fmt::format("{}: {}; give the geometry that st-edit --transform made of the raster's as a whole", path, what));
+        fmt::format("{}: {}; give the geometry of the raster as st-edit --transform moved it as a whole", path, what));
   };
   if (moved.content_hash == geometry_hash) return {};
   if (moved.tool != "st-edit")
-    fail(fmt::format("was made by {}, not moved by st-edit, and is another geometry than the raster's", moved.tool));
-  if (moved.inputs.size() != 1) fail(fmt::format("was put together of {} geometries", moved.inputs.size()));
+    fail(fmt::format("was made by {}, not moved by st-edit, and is not the geometry of the raster", moved.tool));
+  if (moved.inputs.size() != 1) fail(fmt::format("was joined from {} geometries", moved.inputs.size()));
   if (moved.inputs[0].hash != geometry_hash)
-    fail(fmt::format("was made of {}, another geometry than the raster's", moved.inputs[0].name));
+    fail(fmt::format("was made from {}, which is not the geometry of the raster", moved.inputs[0].name));
   const nlohmann::json options = nlohmann::json::parse(moved.options_json, nullptr, false);
   if (!options.is_object()) fail("does not say how it was made");
   for (const char* partial : {"extract", "remove", "of"})

@@ -67,10 +67,9 @@ std::vector<FaceId> all_faces(std::int32_t n) {
 
 std::vector<Similarity> parse_transforms(const EditStageOptions& o) {
   if (!o.of.empty() && o.of.size() != o.transforms.size())
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--of is given {} times, --transform {} times; give one for each, or none to move everything",
-                    o.of.size(), o.transforms.size()));
+    throw Error(ExitCode::kUsage, fmt::format("--of is given {} times, --transform {} times; give one --of for each "
+                                              "--transform, or none to move everything",
+                                              o.of.size(), o.transforms.size()));
   std::vector<Similarity> motions;
   for (const std::string& steps : o.transforms) motions.push_back(parse_similarity(steps, "--transform"));
   return motions;
@@ -136,7 +135,10 @@ std::vector<Move> resolve_moves(const EditStageOptions& o, const ModelTables& t,
     std::vector<FaceId> faces;
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (std::binary_search(wanted.begin(), wanted.end(), kept[i])) faces.push_back(static_cast<FaceId>(i));
-    if (faces.empty()) throw Error(ExitCode::kUsage, fmt::format("--of '{}': nothing of it is left to move", o.of[k]));
+    if (faces.empty())
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("--of '{}': --extract or --remove took all of it away; nothing is left to move", o.of[k]));
     moves.push_back({motions[k], std::move(faces)});
   }
   std::erase_if(moves, [](const Move& m) { return m.motion == Similarity(); });
@@ -217,7 +219,7 @@ void say(const EditStageOptions& o, const EditResult& r) {
   const PartCrossings& c = r.crossings;
   if (c.n_compared < c.n_near && c.found.size() < kMaxCrossings)
     log_warning(fmt::format(
-        "{}: {} of {} pairs of faces near each other were not looked at for crossings; st-check finds them in the mesh",
+        "{}: {} of {} pairs of close faces were not examined for crossings; st-check finds crossings in the mesh",
         o.output, c.n_near - c.n_compared, c.n_near));
 }
 

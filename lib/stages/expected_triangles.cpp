@@ -24,10 +24,11 @@ void require_countable_mesh(const ModelTables& tables, std::span<const double> f
   const double n_heaviest = kTrianglesPerWeight * weight[heaviest];
   throw Error(
       ExitCode::kUsage,
-      fmt::format("{}: asks for about {:.3g} triangles ({:.3g} of them on {}), and at most {:.0f} can be numbered; {}",
-                  sizing, n, n_heaviest, tables.face_label(heaviest), limit,
-                  n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
-                                     : "use larger lengths, or mesh parts with --faces"));
+      fmt::format(
+          "{}: these sizes need about {:.3g} triangles ({:.3g} of them on {}), but a mesh can have at most {:.0f}; {}",
+          sizing, n, n_heaviest, tables.face_label(heaviest), limit,
+          n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
+                             : "use larger lengths, or mesh parts with --faces"));
 }
 
 void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,

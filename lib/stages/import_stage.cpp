@@ -136,7 +136,7 @@ std::string repairs_in_words(const ImportResult& r) {
 /// The first findings as text; the rest is counted.
 void say(const std::string& model, const ImportResult& r) {
   if (!r.is_closed && r.n_free_edges == 0)
-    log_warning(fmt::format("{}: the model encloses no volume: its faces are in no shell", model));
+    log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
     log_warning(
         fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges "
@@ -228,7 +228,7 @@ void require_cad(const std::string& path) {
   if (const std::string format = triangulation_format(path); !format.empty())
     throw Error(
         ExitCode::kInput,
-        fmt::format("{}: is {}, not a CAD model; give it to st-prolong --blank, st-remesh or st-check", path, format));
+        fmt::format("{}: is {}, not a CAD model; use it with st-prolong --blank, st-remesh or st-check", path, format));
 }
 
 }  // namespace

@@ -197,8 +197,8 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
       o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
       flite.deviation, where, timer.seconds());
   if (flite.deviation > tolerance)
-    log_warning(fmt::format("{}: the tolerance of {:.3g} is not reached: {:.3g}{}", o.output, tolerance,
-                            flite.deviation, where));
+    log_warning(fmt::format("{}: the tolerance {:.3g} is not reached, the largest distance is {:.3g}{}", o.output,
+                            tolerance, flite.deviation, where));
   summary.json = dump({{"tool", "st-export"},
                        {"artifact", o.artifact},
                        {"output", o.output},

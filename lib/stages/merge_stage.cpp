@@ -55,8 +55,9 @@ EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& pa
     if (in_a && in_b && !has_same_nodes(a, b, e))
       throw Error(
           ExitCode::kMismatch,
-          fmt::format("edge {} has other nodes in {} than in {}; mesh the second part with the edges of the first",
-                      e + 1, path_b, path_a));
+          fmt::format(
+              "edge {} has different nodes in {} and in {}; mesh the second part with --edges and the first patches",
+              e + 1, path_b, path_a));
     const EdgeMesh& from = in_a ? a : b;
     both.append(from, e);
     for (const std::int32_t i : from.nodes(e)) both.node_request.push_back(from.requests()[i]);
@@ -69,15 +70,16 @@ void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& pat
   require_same_geometry(path_all, all.header, path, part.header);
   if (!(all.merged == part.merged))
     throw Error(ExitCode::kMismatch,
-                fmt::format("{} and {} merge other small features of the CAD; mesh the second part with --edges {}",
+                fmt::format("{} and {} merge different small features of the CAD; mesh the second part with --edges {}",
                             path_all, path, path_all));
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
   for (FacePatch& p : part.patches) {
     const auto same =
         std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
     if (same != all.patches.end())
-      throw Error(ExitCode::kMismatch,
-                  fmt::format("face {} is meshed in {} and in an earlier part; give each face once", p.face + 1, path));
+      throw Error(
+          ExitCode::kMismatch,
+          fmt::format("face {} is in {} and in an earlier patches file; mesh each face once", p.face + 1, path));
     all.patches.push_back(std::move(p));
   }
   all.is_complete = find_missing_faces(all).empty();
@@ -129,7 +131,8 @@ void warn_of_changes(const OrientationReport& report) {
     log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components,
                             list_faces(report.inside_out_faces)));
   if (report.n_one_sided)
-    log_warning(fmt::format("{} parts have one side only and cannot be oriented", report.n_one_sided));
+    log_warning(
+        fmt::format("{} parts are one-sided (like a Moebius strip) and cannot be oriented", report.n_one_sided));
 }
 
 MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs,

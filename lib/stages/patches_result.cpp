@@ -98,9 +98,9 @@ void warn(const ModelTables& t, const MeshResult& r, const std::string& failures
     log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause,
                             f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
   if (!failures_file.empty())
-    log_warning(failures_file + ": the boundaries of these faces and what was made of them, for ParaView");
+    log_warning(failures_file + ": boundaries and finished triangles of these faces; open it with ParaView");
   if (!r.folds.empty())
-    log_warning(fmt::format("{} triangles are turned against the surface, the first near ({:.6g}, {:.6g}, {:.6g})",
+    log_warning(fmt::format("{} triangles point against their surface, the first near ({:.6g}, {:.6g}, {:.6g})",
                             r.folds.size(), r.folds[0].x.x, r.folds[0].x.y, r.folds[0].x.z));
   if (r.n_crossing_pairs)
     log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
@@ -108,10 +108,10 @@ void warn(const ModelTables& t, const MeshResult& r, const std::string& failures
 
 void tell_merged(const ModelTables& t, const MergedFeatures& merged, std::size_t n_closed) {
   if (merged.empty()) return;
-  log_info(
-      fmt::format("merged for meshing: {} edges far shorter than the sizes, {} strips far narrower, {} of them whole "
-                  "faces{} (--merge-below 0: none)",
-                  merged.edge.size(), merged.strip_face.size(), n_closed, first_of(t, merged)));
+  log_info(fmt::format(
+      "merged small features: {} edges much shorter than the sizes, {} strips much narrower, {} of them whole "
+      "faces{} (--merge-below 0 merges nothing)",
+      merged.edge.size(), merged.strip_face.size(), n_closed, first_of(t, merged)));
 }
 
 nlohmann::json result_json(const ModelTables& t, const MeshResult& r) {

@@ -47,7 +47,7 @@ std::string to_text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x
 StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   Vec3 x;
   if (!parse_point(text, x))
-    throw Error(ExitCode::kUsage, fmt::format("--at '{}': three numbers expected, such as 1.5,0,-2", text));
+    throw Error(ExitCode::kUsage, fmt::format("--at '{}': not a point; write three numbers, such as 1.5,0,-2", text));
   const MappedSizing sizing = map_sizing(artifact);
   const CauseNames names = read_cause_names(artifact);
   const OctreeField& field = *sizing.field;
@@ -61,12 +61,12 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   const bool inside = is_inside(field.data().octree, frame.inverse()(x));
   StageSummary summary;
   summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
-  if (!inside) summary.line += "  outside the box of the model: the length at its border holds\n";
+  if (!inside) summary.line += "  outside the box of the octree: the length at its border applies\n";
   summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient),
                               norm(why.gradient), field.slope());
   summary.line += fmt::format("  cause     {}", cause);
   if (why.cause != kNone)
-    summary.line += fmt::format(", which asks for {:.6g}{} near {}, {:.4g}{} away", origin.length, unit,
+    summary.line += fmt::format(", which requires {:.6g}{} near {}, {:.4g}{} away", origin.length, unit,
                                 to_text(origin.xyz), distance(x, origin.xyz), unit);
   summary.line +=
       fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);

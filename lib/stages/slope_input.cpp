@@ -23,7 +23,7 @@ NamedSlope parse_slope(const std::string& item) {
       return result;
   }
   throw Error(ExitCode::kUsage,
-              fmt::format("--slope-of '{}': NAME=S with S in (0, 2] expected, such as WING=0.1", item));
+              fmt::format("--slope-of '{}': not understood; write NAME=S with S in (0, 2], such as WING=0.1", item));
 }
 
 /// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.

@@ -43,7 +43,7 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
 
 void add_background(BackgroundMesh&& mesh, const Similarity& motion, SourceInput& input) {
   if (mesh.n_anisotropic > 0)
-    log_warning(fmt::format("{} nodes of the background mesh are anisotropic: their smallest spacings are taken",
+    log_warning(fmt::format("{} nodes of the background mesh are anisotropic; their smallest spacing is used",
                             mesh.n_anisotropic));
   transform(motion, mesh);
   for (auto& tet : make_sources(mesh)) {

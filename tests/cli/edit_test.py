@@ -119,7 +119,7 @@ class TakeOut(EditTest):
     def test_errors_say_what_to_do_and_leave_nothing(self):
         refused = [(USAGE, ["--extract", "blok"], "did you mean 'block'"), (USAGE, ["--remove", "1-12"], "nothing would be left"),
                    (USAGE, ["--extract", "13"], "faces 1 to 12"), (GEOMETRY, ["--of", "1", "--transform", "translate 1 0 0"], "would tear"),
-                   (USAGE, ["--remove", "block", "--of", "block", "--transform", "scale 2"], "nothing of it is left"),
+                   (USAGE, ["--remove", "block", "--of", "block", "--transform", "scale 2"], "nothing is left to move"),
                    (GEOMETRY, ["--remove", "1", "--require-valid"], "open where it was closed")]
         for code, arguments, text in refused:
             self.expect_error(code, "st-edit", self.assembly, "-o", self.folder / "x.hdf", *arguments, says=text)

@@ -346,8 +346,8 @@ class EntityGroups(ToolTest):
         for suffix in ("msh", "vtu", "obj", "ply"):
             self.assertEqual(must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err, "")
         for suffix in ("stl", "ascii.stl", "fro"):
-            self.assertIn("3 are left out", must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err)
-        self.assertIn("3 are left out", must("st-merge", folder / "patches.hdf", "-o", folder / "again.hdf", "--export", folder / "m.stl").err)
+            self.assertIn("3 are not exported", must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err)
+        self.assertIn("3 are not exported", must("st-merge", folder / "patches.hdf", "-o", folder / "again.hdf", "--export", folder / "m.stl").err)
         msh = MshFile(folder / "m.msh")
         number = {name: (dim, n) for dim, n, name in msh.names}
         self.assertEqual((number["outline"][0], number["group_bc:uprights"][0], number["corner"][0]), (1, 1, 0))
@@ -450,7 +450,7 @@ class Tolerances(ToolTest):
     def test_refuses_a_group_by_numbers_that_repairs_changed(self):
         (self.folder / "groups.toml").write_text('[[group]]\nname = "far field"\nfaces = "7-12"\ntolerance = 1\n')
         self.expect_error(USAGE, "st-import", MODELS / "gappy_boxes.brep", "-o", self.folder / "g.hdf", "--groups", self.folder / "groups.toml", "--sew", "1",
-                          says=["was sewn by the tolerance of a group", "other numbers"])
+                          says=["was sewn by the tolerance of a group", "new numbers"])
 
     def test_takes_the_place_of_the_largest_deviation(self):
         for tolerance, bound, code in ((None, "0.001", INCOMPLETE), (5, "0.001", OK), (None, "5", OK), (0.001, "5", INCOMPLETE)):

@@ -47,10 +47,10 @@ class Limits(ToolTest):
         for ranks in RANKS:
             start = time.monotonic()
             self.expect_error(USAGE, "st-mesh", self.geometry(), sizing, "-o", self.folder / "p.hdf", *ranks,
-                              says=["sizing.hdf: asks for about", "triangles", "on face", "715827882", "larger lengths"])
+                              says=["sizing.hdf: these sizes need about", "triangles", "on face", "715827882", "larger lengths"])
             self.assertLess(time.monotonic() - start, 10)
         mesh = artifacts_of("assembly") / "mesh.hdf"
-        self.expect_error(USAGE, "st-remesh", mesh, self.geometry(), sizing, "-o", self.folder / "p.hdf", says="sizing.hdf: asks for about")
+        self.expect_error(USAGE, "st-remesh", mesh, self.geometry(), sizing, "-o", self.folder / "p.hdf", says="sizing.hdf: these sizes need about")
         self.expect_nothing_left(self.folder, "sizing.hdf")
 
     def test_an_expectation_beyond_whole_numbers_is_still_a_number(self):

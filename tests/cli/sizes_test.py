@@ -133,7 +133,7 @@ class Blanking(ToolTest):
         (self.folder / "out").mkdir()
         plate = artifacts_of("plate_with_hole")
         self.expect_error(GEOMETRY, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "mesh.hdf",
-                          says=["mesh.hdf", "open", "one triangle only, at ("])
+                          says=["mesh.hdf", "open", "only one triangle, at ("])
         self.expect_error(INPUT, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "raster.hdf", says="raster.hdf")
         self.expect_nothing_left(self.folder / "out")
 

@@ -32,7 +32,7 @@ expect "a removed option file comes back with the defaults and counts as an edit
 echo 'sources = ["wake.toml"]' > out/a/st-prolong.toml
 run MODEL=a.step
 expect "a file that an option names and that is missing stops make before anything runs" "$status $ran" "2 "
-missing="out/a/st-prolong.toml names 'wake.toml', which is no file"
+missing="out/a/st-prolong.toml names 'wake.toml', which does not exist"
 expect "and the message names both files" "$(grep -c "$missing" <<< "$said")" 1
 echo '[[source]]' > wake.toml
 run MODEL=a.step

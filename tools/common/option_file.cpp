@@ -67,7 +67,7 @@ std::vector<std::string> values_of(const toml::node& node, const std::string& wh
   std::vector<std::string> values;
   const auto add = [&](const toml::node& n) {
     const auto text = scalar_text(n);
-    if (!text) fail(where, key + ": takes text, a number, true or false, or a list of these");
+    if (!text) fail(where, key + ": takes a string, a number, true or false, or a list of these");
     values.push_back(*text);
   };
   if (const auto* list = node.as_array())
@@ -147,8 +147,8 @@ CLI::Option* open_list_option(const std::string& key, CLI::App& app) {
 /// Tables such as [[size]] stand in the option file itself: it is then one more file that the option names.
 void apply_list(const toml::node& node, const std::string& path, CLI::Option& option) {
   if (option.count() > 0 && option.get_expected_max() == 1)
-    fail(position(path, node.source()),
-         "tables stand here and '" + option.get_lnames().front() + "' names a file of them; keep one of both");
+    fail(position(path, node.source()), "tables are written here and '" + option.get_lnames().front() +
+                                            "' names a file with tables, too; keep one of them");
   option.add_result(path);
   option.run_callback();
 }

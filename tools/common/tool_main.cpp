@@ -107,15 +107,15 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.set_help_flag("-h,--help", "print this help and exit");
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
   app_.add_option("--options", options_file_,
-                  "option file (TOML: long option names without dashes); the command line wins")
+                  "read options from this file (TOML, long names without dashes); the command line wins")
       ->type_name("FILE");
   app_.add_flag_function(
       "--print-options", [](std::int64_t) {},
-      "print an option file with every option at its default, commented out, and exit");
+      "print an option file that lists every option with its default, and exit");
   app_.add_flag_function(
-      "--print-inputs", [](std::int64_t) {}, "print the input files that the options name, one per line, and exit");
-  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "say nothing but errors");
-  app_.add_flag("-v,--verbose", verbose_, "say more")->excludes(quiet);
+      "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit");
+  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only");
+  app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet);
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
 }
 
@@ -236,7 +236,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   }
   if (!options_file_.empty()) apply_option_file(options_file_, name_, app_);
   if (!preset_.empty()) apply_option_text(find_preset(preset_).options, "preset " + preset_, name_, app_);
-  if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose exclude each other");
+  if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose cannot be used together; leave one out");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
   require_distinct_files();
   if (!lists_inputs) return std::nullopt;
@@ -278,10 +278,11 @@ void ToolMain::require_distinct_files() const {
   const std::vector<std::string> outputs = output_paths();
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
-      if (same(outputs[i], outputs[j])) throw Error(ExitCode::kUsage, outputs[i] + ": named twice as an output");
+      if (same(outputs[i], outputs[j]))
+        throw Error(ExitCode::kUsage, outputs[i] + ": given twice as an output; choose another name for one of them");
     for (const std::string& path : input_files())
       if (same(outputs[i], path))
-        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; name another output");
+        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; choose another output");
   }
 }
 

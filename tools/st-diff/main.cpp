@@ -4,11 +4,11 @@
 
 int main(int argc, char** argv) {
   st::DiffStageOptions o;
-  st::ToolMain tool("st-diff", "Compares two artifacts of the same kind; exit 5 when they differ.",
+  st::ToolMain tool("st-diff", "Compares two artifacts of the same kind. Exit code 0: equal; 5: they differ.",
                     st::ToolMain::Kind::kReport);
-  tool.input("a", o.a, "artifact");
-  tool.input("b", o.b, "artifact of the same kind");
+  tool.input("a", o.a, "first artifact");
+  tool.input("b", o.b, "second artifact, of the same kind");
   tool.number("--tolerance", o.tolerance, "[0, 1]",
-              "for floating-point data, relative to the larger value; 0: bit for bit");
+              "allowed relative difference of floating-point numbers; 0: equal to the last bit");
   return tool.run(argc, argv, [&] { return st::run_diff(o); });
 }

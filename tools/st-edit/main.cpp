@@ -4,20 +4,19 @@
 
 int main(int argc, char** argv) {
   st::EditStageOptions o;
-  st::ToolMain tool("st-edit", "Puts geometries together, takes parts out of them, leaves parts out, moves them.");
-  tool.inputs("geometries", o.geometries, "geometry artifacts; several are put together");
+  st::ToolMain tool("st-edit", "Edits geometries: joins several into one, keeps or removes parts, moves parts.");
+  tool.inputs("geometries", o.geometries, "geometry artifacts; several are joined into one");
   tool.output(o.output);
-  tool.text("--as", o.as, "NAME,...", "names of the inputs in their order; those of their files when not given");
-  tool.text(
-      "--join", o.join, "NAMES",
-      "groups of the same name in several inputs become one; else the later ones get their input's name in front");
-  tool.text("--extract", o.extract, "NAMES", "keep only these: groups, parts, faces such as 17 or 3-7");
-  tool.text("--remove", o.remove, "NAMES", "leave these out");
-  tool.texts(
-      "--transform", o.transforms, "STEPS",
-      "move: 'rotate X Y Z DEG at X Y Z; hinge X Y Z X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'; repeatable");
+  tool.text("--as", o.as, "NAME,...", "names of the inputs, in order; default: the file names");
+  tool.text("--join", o.join, "NAMES",
+            "groups of this name in several inputs become one group; other later ones get their input's name in front");
+  tool.text("--extract", o.extract, "NAMES", "keep only these groups, parts or faces (17 or 3-7); default: everything");
+  tool.text("--remove", o.remove, "NAMES", "remove these groups, parts or faces (17 or 3-7)");
+  tool.texts("--transform", o.transforms, "STEPS",
+             "moves parts: 'rotate X Y Z DEG at X Y Z; hinge X Y Z X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'; "
+             "repeatable");
   tool.texts("--of", o.of, "NAMES",
-             "what the --transform at the same place moves; everything when not given; repeatable");
-  tool.flag("--require-valid", o.require_valid, "a result that is open, or whose parts cross, is an error (exit 4)");
+             "groups, parts or faces that the --transform of the same rank moves; default: everything; repeatable");
+  tool.flag("--require-valid", o.require_valid, "end with exit code 4 when the result is open or its parts cross");
   return tool.run(argc, argv, [&] { return st::run_edit(o); });
 }

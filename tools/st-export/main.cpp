@@ -6,9 +6,9 @@ int main(int argc, char** argv) {
   st::ExportStageOptions o;
   st::ToolMain tool(
       "st-export",
-      "Writes a mesh (.stl .ascii.stl .vtu .obj .ply .msh .fro), an octree (.vtu) or a geometry (FLITE .dat).");
+      "Converts a mesh (.stl .ascii.stl .vtu .obj .ply .msh .fro), sizes (.vtu .pos .bac) or a geometry (FLITE .dat).");
   tool.input("artifact", o.artifact, "mesh, raster, sizing, failures or geometry artifact");
-  tool.output(o.output, "file to write; its suffix decides the format");
-  tool.length("--tolerance", o.tolerance, "0.001%", "distance of FLITE curves and surfaces from the model");
+  tool.output(o.output, "file to write; its suffix selects the format");
+  tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");
   return tool.run(argc, argv, [&] { return st::run_export(o); });
 }

@@ -4,21 +4,22 @@
 
 int main(int argc, char** argv) {
   st::ImportStageOptions o;
-  st::ToolMain tool("st-import", "Reads a CAD model (STEP, IGES, BREP, FLITE) and writes its geometry artifact.");
-  tool.input("model", o.model, "CAD file");
+  st::ToolMain tool(
+      "st-import",
+      "Reads a CAD model (STEP, IGES, BREP, FLITE), repairs it where needed and writes a geometry artifact.");
+  tool.input("model", o.model, "CAD file: .step .stp .iges .igs .brep .dat .fli");
   tool.output(o.output);
-  tool.unit("--unit", o.unit, "unit of the artifact (mm, cm, m, in, ft); the file's own when not given");
-  tool.length("--small", o.small, "0.01%", "edges shorter and faces narrower than this are listed");
-  tool.length("--sew", o.sew, "0.01%", "free edges up to this far apart are joined");
+  tool.unit("--unit", o.unit, "length unit of the artifact: mm, cm, m, in or ft; default: the unit of the file");
+  tool.length("--small", o.small, "0.01%", "list edges shorter and faces narrower than this");
+  tool.length("--sew", o.sew, "0.01%", "join free edges that are at most this far apart");
   tool.text("--symmetry", o.symmetry, "AXIS=VALUE",
-            "cut or close the model at this plane (y=0; y=0- keeps the negative side)");
+            "cut or close the model at this plane: y=0 keeps the positive side, y=0- the negative side");
   tool.text("--farfield", o.farfield, "KIND:SIZE",
-            "the fluid around the model: box:20, sphere:50 (half width, radius in diagonals)");
-  tool.optional_input("--groups", o.groups,
-                      "groups of faces by name, part, colour, layer, place, surface, of edges and vertices (TOML)");
+            "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
+  tool.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   tool.number("--time-limit", o.time_limit, "(0, 1e9]",
-              "seconds of processor time (30 and 5 per megabyte when not given)");
-  tool.flag("--check", o.check, "report defects only, write nothing");
-  tool.flag("--require-closed", o.require_closed, "an open model is an error (exit 4)");
+              "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file");
+  tool.flag("--check", o.check, "print a report of the defects and write nothing");
+  tool.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
   return tool.run(argc, argv, [&] { return st::run_import(o); });
 }

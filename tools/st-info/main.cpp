@@ -9,11 +9,13 @@
 int main(int argc, char** argv) {
   std::string artifact, at;
   bool hash = false, groups = false;
-  st::ToolMain tool("st-info", "Says what an artifact is and from what it was made.", st::ToolMain::Kind::kReport);
+  st::ToolMain tool("st-info", "Prints what an artifact contains and what it was made from.",
+                    st::ToolMain::Kind::kReport);
   tool.input("artifact", artifact, "any artifact");
-  tool.flag("--hash", hash, "print the content hash alone");
-  tool.flag("--groups", groups, "list groups, parts and names of faces of a geometry, patches or mesh artifact");
-  tool.text("--at", at, "X,Y,Z", "print the length at a point of a sizing artifact, and why");
+  tool.flag("--hash", hash, "print the content hash only (32 hexadecimal digits)");
+  tool.flag("--groups", groups, "list the groups, parts and face names of a geometry, patches or mesh artifact");
+  tool.text("--at", at, "X,Y,Z",
+            "print the requested length at this point of a sizing artifact (model unit), and its cause");
   return tool.run(argc, argv, [&] {
     if (!at.empty()) return st::run_size_at(artifact, at);
     if (groups) return st::run_groups(artifact);

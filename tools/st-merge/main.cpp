@@ -4,11 +4,12 @@
 
 int main(int argc, char** argv) {
   st::MergeStageOptions o;
-  st::ToolMain tool("st-merge", "Merges patches into one oriented, checked mesh.");
+  st::ToolMain tool("st-merge", "Merges the patches of all faces into one oriented, checked surface mesh.");
   tool.inputs("patches", o.patches, "patches artifacts, one or several of the same geometry");
   tool.output(o.output);
   tool.outputs("--export", o.exports,
-               "further file to write, by suffix: .stl .ascii.stl .vtu .obj .ply .msh .fro; repeatable");
-  tool.flag("--allow-incomplete", o.allow_incomplete, "merge although faces are missing");
+               "also write the mesh to this file: .stl .ascii.stl .vtu .obj .ply .msh .fro; repeatable");
+  tool.flag("--allow-incomplete", o.allow_incomplete,
+            "merge even when faces are missing; the mesh is marked incomplete");
   return tool.run(argc, argv, [&] { return st::run_merge(o); });
 }

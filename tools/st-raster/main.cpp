@@ -4,23 +4,31 @@
 
 int main(int argc, char** argv) {
   st::RasterStageOptions o;
-  st::ToolMain tool("st-raster", "Samples the lengths that curvature and features ask for into an octree.");
+  st::ToolMain tool("st-raster",
+                    "Computes edge lengths from curvature, features and rules, and stores them in an octree.");
   tool.input("geometry", o.geometry, "geometry artifact");
   tool.output(o.output);
-  tool.length("--lmin", o.lmin, "lmax/64", "smallest length");
-  tool.length("--lmax", o.lmax, "2.5%", "largest length");
-  tool.number("--alpha", o.alpha_deg, "(0, 90]", "largest turning of the normal or tangent along one length, degrees");
-  tool.length("--chord", o.chord, "", "largest distance of a length's chord from the geometry");
-  tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
-  tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps and thin walls, down to lmin");
-  tool.number("--edge-cells", o.edge_cells, "[1, 100]", "lengths along each CAD edge at least, down to lmin");
-  tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX", "find trailing edges and give them these lengths");
-  tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX", "find leading edges and give them these lengths");
-  tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
+  tool.length("--lmin", o.lmin, "lmax/64", "smallest edge length that curvature and rules may set");
+  tool.length("--lmax", o.lmax, "2.5%", "largest edge length on walls");
+  tool.number("--alpha", o.alpha_deg, "(0, 90]",
+              "curvature angle: largest angle in degrees by which normal or tangent turn along one edge length");
+  tool.length("--chord", o.chord, "",
+              "largest chord error: distance between a straight edge and the geometry; default: no limit");
+  tool.optional_input("--sizes", o.sizes, "file with rules [[size]] for groups, faces and edges (TOML)");
+  tool.number("--gap-cells", o.gap_cells, "[1, 100]",
+              "proximity: edge lengths across gaps and thin walls, down to --lmin; default: off");
+  tool.number("--edge-cells", o.edge_cells, "[1, 100]",
+              "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1");
+  tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX",
+            "find trailing edges by shape and give them these edge lengths; default: off");
+  tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX",
+            "find leading edges by shape and give them these edge lengths; default: off");
+  tool.number("--cell-per-length", o.cell_per_length, "[1, 8]",
+              "octree cell size in edge lengths: larger means fewer cells");
   tool.number("--max-cells", o.max_cells, "[1, 2147483647]",
-              "refuse an octree with more cells; default: what fits 80% of the memory");
+              "refuse an octree with more cells than this; default: what 80% of the memory can hold");
   tool.flag("--allow-incomplete", o.allow_incomplete,
-            "exit code 0 although parts could not be sampled; the artifact is flagged");
+            "exit code 0 even when parts could not be sampled; the artifact is marked incomplete");
   tool.preset();
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
 }

@@ -4,21 +4,26 @@
 
 int main(int argc, char** argv) {
   st::RemeshStageOptions o;
-  st::ToolMain tool("st-remesh", "Redoes the triangles of a mesh that no longer respect the sizes.");
-  tool.input("mesh", o.mesh, "mesh artifact, or a triangulation of another program (STL, MSH, VTU, FRO)");
-  tool.input("geometry", o.geometry, "geometry artifact the mesh was made on");
-  tool.input("sizing", o.sizing, "new sizing artifact");
+  st::ToolMain tool("st-remesh", "Remeshes only the places of a mesh that no longer fit the sizes.");
+  tool.input("mesh", o.mesh, "mesh artifact, or a surface mesh of another program (STL, MSH, VTU, FRO)");
+  tool.input("geometry", o.geometry, "geometry artifact of the mesh");
+  tool.input("sizing", o.sizing, "sizing artifact with the new sizes");
   tool.output(o.output);
-  tool.output_instead("--merged", o.merged, "write the merged mesh to this artifact instead of patches");
+  tool.output_instead("--merged", o.merged, "write a merged mesh to this artifact instead of patches");
   tool.number("--too-long", o.too_long, "(1, 100]",
-              "an edge longer than this times the requested length is redone where the sizes changed");
-  tool.number("--too-short", o.too_short, "(0, 1)", "likewise an edge shorter than this");
-  tool.text("--keep", o.keep, "GROUP", "group of faces of which nothing changes");
-  tool.optional_array("--sizes-on-nodes", o.sizes_on_nodes,
-                      "lengths on the nodes of the mesh instead of the sizing's: point data of a .vtu or HDF5 file");
-  tool.length("--tolerance", o.tolerance, "", "how far nodes of another program's mesh may lie from the CAD");
-  tool.optional_input("--made-for", o.made_for, "sizing artifact that another program's mesh was made for");
-  tool.flag("--moved", o.moved, "the geometry is another one of the same topology: put the mesh onto it");
-  tool.flag("--dry-run", o.dry_run, "say how much would change, write nothing");
+              "where sizes changed, remesh edges longer than this times the requested length");
+  tool.number("--too-short", o.too_short, "(0, 1)",
+              "where sizes changed, remesh edges shorter than this times the requested length");
+  tool.text("--keep", o.keep, "GROUP", "do not change the faces, edges or vertices of this group");
+  tool.optional_array(
+      "--sizes-on-nodes", o.sizes_on_nodes,
+      "requested lengths at the nodes of the mesh (point data of a .vtu or HDF5 file) instead of the sizing");
+  tool.length(
+      "--tolerance", o.tolerance, "",
+      "largest distance from the CAD of the nodes of another program's mesh; default: 5% of the local edge length");
+  tool.optional_input("--made-for", o.made_for,
+                      "sizing artifact that the mesh of another program was made for; default: sizes are measured");
+  tool.flag("--moved", o.moved, "move the mesh onto a changed geometry of the same topology");
+  tool.flag("--dry-run", o.dry_run, "print how much would change and write nothing");
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
 }

@@ -156,8 +156,9 @@ void keep_one_side(ImportedShape& model, Cut& cut, const Box3& box, std::vector<
                    const std::string& path) {
   const int side = side_of(box, cut), asked = cut.plane.side;
   if (side != 0 && asked != 0 && side != asked)
-    throw Error(ExitCode::kGeometry,
-                path + ": all of the model is on the other side of the symmetry plane; give --symmetry the other sign");
+    throw Error(
+        ExitCode::kGeometry,
+        path + ": the whole model is on the other side of the symmetry plane; use the other sign in --symmetry");
   cut.plane.side = asked != 0 ? asked : side != 0 ? side : 1;
   if (side != 0) return;
   cut_model(model, cut, box, path);

@@ -169,7 +169,7 @@ void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, c
     if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
       throw Error(ExitCode::kUsage,
                   tables.face_label(f) +
-                      " was sewn by the tolerance of a group that no longer holds it: repairs gave the faces other "
+                      " was sewn by the tolerance of a group that no longer contains it: repairs gave the faces new "
                       "numbers; for groups with a tolerance select by place, part, layer or name");
 }
 

@@ -185,7 +185,7 @@ void require_apart(const ModelTables& t, const std::vector<char>& moves) {
   const auto fail = [&](const std::string& what, FaceId moving, FaceId staying) {
     throw Error(ExitCode::kGeometry, "the model would tear at " + what + ": " + t.face_label(moving) + " would move, " +
                                          t.face_label(staying) +
-                                         " beside it would not; name whole bodies, or move all of it");
+                                         " next to it would not; select whole bodies, or move everything");
   };
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     for (std::int32_t i = offsets[e] + 1; i < offsets[e + 1]; ++i)

@@ -58,7 +58,7 @@ Mask outline(const GroupRule& rule, const ModelTables& t) {
   Mask wanted = edges_of(faces, t);
   for (EdgeId e = 0; e < t.n_edges(); ++e) wanted[e] = wanted[e] && (n_uses[e] > n_inside[e] || n_uses[e] == 1);
   if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end() && !rule.is_optional)
-    fail_group(rule, "rim: these faces have no outline, they are closed; name fewer of them, or take 'on'");
+    fail_group(rule, "rim: these faces are closed and have no outline; select fewer faces, or use 'on'");
   return wanted;
 }
 
@@ -69,7 +69,7 @@ Mask mask_between(const GroupRule& rule, const ModelTables& t) {
   const std::vector<EdgeId> edges = edges_between(a, b, t);
   if (edges.empty() && !rule.is_optional)
     fail_group(rule, "between: '" + rule.between[0] + "' and '" + rule.between[1] +
-                         "' have no edge in common; faces that only touch, as those of two parts, have none");
+                         "' have no common edge; faces that only touch, such as those of two parts, have none");
   for (const EdgeId e : edges) wanted[e] = 1;
   return wanted;
 }
@@ -81,7 +81,7 @@ Mask select_edges(const GroupRule& rule, const ModelTables& t, std::span<const B
   if (!rule.rim.empty()) s.keep(outline(rule, t));
   if (!rule.on.empty()) s.keep(edges_of(faces_of(rule, "on", rule.on, t), t));
   s.select_boxes(edge_box, t.edge_tolerance);
-  if (s.has_selection()) return s.take("no edge meets its selection");
+  if (s.has_selection()) return s.take("no edge matches its selection");
   s.keep([&](EdgeId e) { return t.edge_name[e] == rule.name; });
   return s.take("no edge has this name");
 }
@@ -109,7 +109,7 @@ Mask select_vertices(const GroupRule& rule, const ModelTables& t) {
   for (VertexId v = 0; v < t.n_vertices(); ++v) box[v].add(t.vertex_xyz[v]);
   s.select_boxes(box, t.vertex_tolerance);
   if (!s.has_selection()) fail_group(rule, "vertices have no names; give vertices, on, inside or touching");
-  return s.take("no vertex meets its selection");
+  return s.take("no vertex matches its selection");
 }
 
 /// Puts the entities of one kind into their groups.
@@ -167,7 +167,7 @@ class EntityGrouper {
     if (rule.attributes == "{}") return;
     const GroupRule* const by = attributes_by_[g];
     if (by && rule.attributes != groups_[g].attributes)
-      fail_group(rule, "has other attributes than at " + by->where + "; give them once");
+      fail_group(rule, "has different attributes from those at " + by->where + "; give them once");
     groups_[g].attributes = rule.attributes;
     attributes_by_[g] = &rule;
   }

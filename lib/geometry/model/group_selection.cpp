@@ -12,7 +12,7 @@ namespace st {
 namespace {
 
 constexpr double kBoxSlack = 1e-6;  // of the model's diagonal: bounding boxes are made of samples and tolerances
-constexpr const char* kWhereNamesAre = "; st-info geometry.hdf --groups lists names, or say optional = true";
+constexpr const char* kWhereNamesAre = "; st-info geometry.hdf --groups lists names; or write optional = true";
 
 double coordinate(const GroupRule& rule, const CoordinateSpec& c, const ModelTables& t) {
   if (!c.is_in_metres) return c.value;
@@ -61,14 +61,15 @@ void GroupSelection::select_items(const char* key, const std::vector<std::string
   for (const std::string& item : items) {
     const auto range = as_range(item);
     if (!range) {
-      if (names.empty()) fail_group(rule_, plural + ": '" + item + "' is no number; " + plural + " have no names");
+      if (names.empty()) fail_group(rule_, plural + ": '" + item + "' is not a number; " + plural + " have no names");
       add_matches(
           key, item, [&](std::int32_t i) -> const std::string& { return names[i]; }, wanted);
       continue;
     }
     if (range->first < 1 || range->second > n || range->first > range->second)
-      fail_group(rule_, plural + ": " + item + " does not exist, there are " + plural + " 1 to " + std::to_string(n) +
-                            "; options such as --symmetry change numbers: take those of an import with the same ones");
+      fail_group(rule_,
+                 plural + ": " + item + " does not exist, there are " + plural + " 1 to " + std::to_string(n) +
+                     "; options such as --symmetry change numbers: use those of an import with the same options");
     std::fill(wanted.begin() + (range->first - 1), wanted.begin() + range->second, 1);
   }
   keep(wanted);

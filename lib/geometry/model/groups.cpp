@@ -28,7 +28,7 @@ Mask select_faces(const GroupRule& rule, const ModelTables& t) {
   s.select_boxes(t.face_box, t.face_tolerance);
   if (!rule.colors.empty()) s.keep([&](FaceId f) { return is_in(rule.colors, t.face_color[f]); });
   if (!rule.surfaces.empty()) s.keep([&](FaceId f) { return is_in(rule.surfaces, t.face_type[f]); });
-  if (s.has_selection()) return s.take("no face meets its selection");
+  if (s.has_selection()) return s.take("no face matches its selection");
   s.keep([&](FaceId f) { return t.group_name[t.face_group[f]] == rule.name; });
   return s.take("the CAD file has no group of this name");
 }
@@ -67,7 +67,7 @@ void describe(Group& group, const GroupRule& rule, const ModelTables& t) {
   const std::string attributes = attributes_of(rule, t);
   if (attributes == "{}") return;
   if (group.attributes_by && attributes != group.attributes)
-    fail_group(rule, "has other attributes than at " + group.attributes_by->where + "; give them once");
+    fail_group(rule, "has different attributes from those at " + group.attributes_by->where + "; give them once");
   group.attributes = attributes;
   group.attributes_by = &rule;
 }

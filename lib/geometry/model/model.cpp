@@ -102,7 +102,7 @@ Model::Model(ModelTables tables, std::vector<std::byte> brep)
                                       e.GetMessageString() + "); run st-import again");
   }
   if (impl_->faces.Extent() != tables_.n_faces() || impl_->edges.Extent() != tables_.n_edges())
-    throw Error(ExitCode::kInput, "the B-Rep of the geometry artifact does not fit its tables; run st-import again");
+    throw Error(ExitCode::kInput, "the B-Rep of the geometry artifact contradicts its tables; run st-import again");
 }
 
 Model::~Model() = default;

@@ -61,7 +61,7 @@ class EntryReader : TomlEntry {
     if (contains(kKeys[own], key)) return;
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
       if (contains(kKeys[kind], key))
-        fail(node, key + ": is no key of a group of " + kKinds[own] + " but of " + kKinds[kind] + "; allowed are " +
+        fail(node, key + ": is not a key of a group of " + kKinds[own] + " but of " + kKinds[kind] + "; allowed are " +
                        joined(kKeys[own]) + "; of = \"edges\" or \"vertices\" makes a group of these");
     fail(node, "unknown key '" + key + "' of a [[group]]; allowed are " + joined(kKeys[own]));
   }
@@ -106,21 +106,21 @@ class EntryReader : TomlEntry {
 
   std::string text(const std::string& key, const toml::node& node) const {
     const auto* s = node.as_string();
-    if (!s || s->get().empty()) fail(node, key + ": takes a text that is not empty");
+    if (!s || s->get().empty()) fail(node, key + ": takes a string that is not empty");
     return s->get();
   }
 
   std::string one_of(const std::string& key, const toml::node& node, const std::vector<std::string>& allowed) const {
     const std::string word = node.value_or(std::string());
     if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
-      fail(node, key + ": '" + word + "' is none; takes " + joined(allowed));
+      fail(node, key + ": '" + word + "' is unknown; write " + joined(allowed));
     return word;
   }
 
   void read_name(const toml::node& node) {
     rule_.name = text("name", node);
     if (std::any_of(rule_.name.begin(), rule_.name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }))
-      fail(node, "name: holds a control character; use letters and blanks");
+      fail(node, "name: contains a control character; use letters and blanks");
   }
 
   void read_table_name(const toml::node& node) {
@@ -128,7 +128,7 @@ class EntryReader : TomlEntry {
     const bool is_word =
         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
     if (!is_word || name.size() > 64)
-      fail(node, "table: '" + name + "' is no name of a table; use up to 64 letters, digits, '_' and '-'");
+      fail(node, "table: '" + name + "' is not a name of a table; use up to 64 letters, digits, '_' and '-'");
     rule_.table = name == "main" ? "" : name;
   }
 
@@ -186,7 +186,7 @@ class EntryReader : TomlEntry {
       for (const toml::node& n : *list) array.push_back(value_of(key, n));
       return array;
     }
-    fail(node, "attributes: " + key + ": takes a text, a number, true, false, or a list of these");
+    fail(node, "attributes: " + key + ": takes a string, a number, true, false, or a list of these");
   }
 
   void read_attributes(const toml::node& node) {
@@ -212,7 +212,7 @@ GroupsFile read_groups(const std::string& path) {
   const toml::table table = parse_toml(path, text, ExitCode::kUsage);
   for (const toml::table* entry : toml_list(path, table, {"group", "st-import", ExitCode::kUsage}))
     file.rules.push_back(EntryReader(path, *entry).run());
-  if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": no table [[group]] in it; see docs/groups.md");
+  if (file.rules.empty()) throw Error(ExitCode::kUsage, path + ": has no table [[group]]; see docs/groups.md");
   return file;
 }
 

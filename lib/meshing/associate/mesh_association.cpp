@@ -62,10 +62,10 @@ void require_same_box(const Box3& mesh, const Box3& model) {
   }
   const double off = std::max(norm(mesh.center() - model.center()), std::abs(mesh.diagonal() - model.diagonal()));
   if (off > kMaxBoxDifference * model.diagonal())
-    throw Error(ExitCode::kMismatch, "the mesh lies elsewhere or is of another geometry: its box is around " +
-                                         place(mesh.center()) + ", diagonal " + number(mesh.diagonal()) +
-                                         ", the geometry's around " + place(model.center()) + ", diagonal " +
-                                         number(model.diagonal()));
+    throw Error(ExitCode::kMismatch,
+                "the mesh is at another place than the geometry, or is of another geometry: its box is around " +
+                    place(mesh.center()) + ", diagonal " + number(mesh.diagonal()) + ", the geometry's around " +
+                    place(model.center()) + ", diagonal " + number(model.diagonal()));
 }
 
 NodeTolerance make_tolerance(const SurfaceMesh& mesh, const MeshEdges& edges, double diagonal,

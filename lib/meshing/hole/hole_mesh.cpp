@@ -25,7 +25,7 @@ void require_valid(const SurfaceMesh& m, const ModelTables& t) {
   const std::int32_t limit[] = {t.n_vertices(), t.n_edges(), t.n_faces()};
   for (std::size_t n = 0; n < m.node_xyz.size(); ++n) {
     const std::string node = "node " + std::to_string(n);
-    if (!is_finite(m.node_xyz[n]) || !std::isfinite(m.node_t[n])) fail("has " + node + " at no finite place");
+    if (!is_finite(m.node_xyz[n]) || !std::isfinite(m.node_t[n])) fail("has no finite coordinates at " + node + "");
     if (!(m.node_size[n] > 0) || !std::isfinite(m.node_size[n])) fail("has no positive length at " + node);
     if (m.node_entity_dim[n] > kInFace || m.node_entity[n] < 0 || m.node_entity[n] >= limit[m.node_entity_dim[n]])
       fail("has " + node + " on an entity that the geometry does not have");

@@ -62,7 +62,8 @@ class Mover {
 
  private:
   [[noreturn]] static void fail(const std::string& what) {
-    throw Error(ExitCode::kMismatch, "the geometry is not the mesh's one moved: " + what + "; mesh it with st-mesh");
+    throw Error(ExitCode::kMismatch,
+                "--moved: the geometry does not have the topology of the mesh: " + what + "; mesh it with st-mesh");
   }
 
   std::vector<EdgeId> edges_of(FaceId f) const {
@@ -102,7 +103,7 @@ class Mover {
                           : old_.node_entity_dim[n] == kOnEdge ? edge_seen[entity] == f
                                                                : entity == f;
         if (!fits)
-          fail("node " + std::to_string(n) + " of " + t_.face_label(f) + " lies on an entity that is not beside it");
+          fail("node " + std::to_string(n) + " of " + t_.face_label(f) + " lies on an entity that does not bound it");
       }
     }
   }

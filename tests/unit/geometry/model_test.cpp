@@ -18,7 +18,8 @@ TEST(Model, refuses_bytes_that_are_no_brep) {
 }
 
 TEST(Model, refuses_the_brep_of_another_model) {
-  EXPECT_ERROR(Model(test::import_shape("box").tables, test::import_shape("cylinder").brep), kInput, "does not fit");
+  EXPECT_ERROR(Model(test::import_shape("box").tables, test::import_shape("cylinder").brep), kInput,
+               "contradicts its tables");
 }
 
 TEST(Model, evaluators_have_the_bounds_of_the_tables) {

@@ -60,21 +60,21 @@ table = "main"
 TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
   const std::pair<const char*, const char*> cases[] = {
       {"nmae = \"x\"", "unknown key 'nmae'"},
-      {"name = \"\"", "name: takes a text"},
-      {"name = \"a\\nb\"", "name: holds a control character"},
+      {"name = \"\"", "name: takes a string"},
+      {"name = \"a\\nb\"", "name: contains a control character"},
       {"faces = 3", "name: is missing"},
       {"name = \"x\"\nfaces = []", "g.toml:3: faces: an empty list"},
       {"name = \"x\"\nfaces = [1.5]", "faces: takes a name"},
       {"name = \"x\"\nparts = 3", "parts: takes a name"},
-      {"name = \"x\"\ntable = \"a b\"", "table: 'a b' is no name"},
+      {"name = \"x\"\ntable = \"a b\"", "table: 'a b' is not a name"},
       {"name = \"x\"\ncolors = \"red\"", "colors: takes \"#rrggbb\""},
       {"name = \"x\"\ncolors = \"#-12345\"", "colors: takes"},
-      {"name = \"x\"\nsurfaces = \"blob\"", "surfaces: 'blob' is none; takes plane, cylinder"},
+      {"name = \"x\"\nsurfaces = \"blob\"", "surfaces: 'blob' is unknown; write plane, cylinder"},
       {"name = \"x\"\ninside = [1, 2, 3]", "inside: takes six coordinates"},
       {"name = \"x\"\ninside = [1, 0, 0, 0, 1, 1]", "the lower corner comes first"},
       {"name = \"x\"\ntouching = [0, 0, 0, \"3parsec\", 1, 1]", "touching: takes coordinates"},
       {"name = \"x\"\ntouching = [0, 0, nan, 1, 1, 1]", "touching: takes coordinates"},
-      {"name = \"x\"\nrole = \"wal\"", "role: 'wal' is none; takes wall, symmetry"},
+      {"name = \"x\"\nrole = \"wal\"", "role: 'wal' is unknown; write wall, symmetry"},
       {"name = \"x\"\ntolerance = -1", "tolerance: must be positive"},
       {"name = \"x\"\noptional = 1", "optional: takes true or false"},
       {"name = \"x\"\nattributes = 1", "attributes: takes a table"},
@@ -91,7 +91,7 @@ TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
 TEST(GroupsFile, without_groups_or_with_other_tables_is_refused) {
   TemporaryDirectory dir;
   write_bytes(dir / "empty.toml", "");
-  EXPECT_ERROR(read_groups(dir / "empty.toml"), kUsage, "no table [[group]]");
+  EXPECT_ERROR(read_groups(dir / "empty.toml"), kUsage, "has no table [[group]]");
   write_bytes(dir / "other.toml", "[[group]]\nname = \"x\"\n[[gruop]]\n");
   EXPECT_ERROR(read_groups(dir / "other.toml"), kUsage, "other.toml:3: unknown table 'gruop'");
   write_bytes(dir / "single.toml", "[group]\nname = \"x\"\n");
@@ -149,13 +149,13 @@ name = "f"
 
 TEST(GroupsFile, refuses_keys_of_another_kind_of_group) {
   const std::string begin = "[[group]]\nname = \"te\"\n";
-  EXPECT_ERROR(parse(begin + "edges = 1\n"), kUsage, "edges: is no key of a group of faces but of edges");
+  EXPECT_ERROR(parse(begin + "edges = 1\n"), kUsage, "edges: is not a key of a group of faces but of edges");
   EXPECT_ERROR(parse(begin + "of = \"edges\"\nrole = \"wall\"\n"), kUsage,
-               "role: is no key of a group of edges but of faces");
-  EXPECT_ERROR(parse(begin + "of = \"edges\"\ntolerance = 1\n"), kUsage, "tolerance: is no key of a group of edges");
+               "role: is not a key of a group of edges but of faces");
+  EXPECT_ERROR(parse(begin + "of = \"edges\"\ntolerance = 1\n"), kUsage, "tolerance: is not a key of a group of edges");
   EXPECT_ERROR(parse(begin + "of = \"vertices\"\nbetween = [\"a\", \"b\"]\n"), kUsage, "between");
   EXPECT_ERROR(parse(begin + "of = \"edges\"\nbetween = [\"a\"]\n"), kUsage, "between: takes two names");
-  EXPECT_ERROR(parse(begin + "of = \"lines\"\n"), kUsage, "of: 'lines' is none; takes vertices, edges, faces");
+  EXPECT_ERROR(parse(begin + "of = \"lines\"\n"), kUsage, "of: 'lines' is unknown; write vertices, edges, faces");
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(AssociatedMesh, that_lies_elsewhere_or_has_a_node_on_no_face_is_refused) {
   };
   SurfaceMesh moved = bare(solid.mesh);
   for (Vec3& x : moved.node_xyz) x.x += 0.2 * size;
-  EXPECT_NE(message(moved).find("lies elsewhere"), std::string::npos) << message(moved);
+  EXPECT_NE(message(moved).find("is at another place"), std::string::npos) << message(moved);
   SurfaceMesh dented = bare(solid.mesh);
   ASSERT_EQ(solid.mesh.node_entity_dim.back(), 2);
   dented.node_xyz.back() = dented.node_xyz.back() + Vec3{0.01 * size, 0.01 * size, 0.01 * size};

@@ -52,7 +52,7 @@ TEST(BlankInput, refuses_an_open_surface_with_the_places_of_its_edges) {
   TemporaryDirectory dir;
   write_cube_stl(dir / "a.stl", {kTetrahedron[0], kTetrahedron[1], kTetrahedron[2]});
   const std::string message = message_of(dir / "a.stl");
-  EXPECT_NE(message.find("3 edges have one triangle only"), std::string::npos) << message;
+  EXPECT_NE(message.find("3 edges have only one triangle"), std::string::npos) << message;
   EXPECT_NE(message.find("(0, 0.5, 0)"), std::string::npos) << message;
 }
 

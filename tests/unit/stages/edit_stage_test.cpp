@@ -113,7 +113,7 @@ TEST_F(EditStage, joins_groups_where_told_and_refuses_to_join_roles) {
   EXPECT_EQ(apart.tables.group_role, (std::vector<std::string>{"farfield", "farfield"}));
   o.geometries = {a, c};
   o.join = "*";
-  EXPECT_ERROR(edit(o), kMismatch, "'tunnel' is of faces with the role farfield");
+  EXPECT_ERROR(edit(o), kMismatch, "'tunnel' holds faces with the role farfield");
 }
 
 TEST_F(EditStage, keeps_groups_of_edges_and_vertices_apart_and_with_their_entities) {
@@ -195,7 +195,7 @@ TEST_F(EditStage, extracts_by_number_range_group_and_name_of_face) {
   EXPECT_ERROR(faces("flor", ""), kUsage, "did you mean 'floor'");
   EXPECT_ERROR(faces("7", ""), kUsage, "faces 1 to 6");
   EXPECT_ERROR(faces("0-2", ""), kUsage, "faces 1 to 6");
-  EXPECT_ERROR(faces(" ,", ""), kUsage, "names nothing");
+  EXPECT_ERROR(faces(" ,", ""), kUsage, "nothing named");
   EXPECT_ERROR(faces("1-3", "1-6"), kUsage, "nothing would be left");
 }
 
@@ -260,7 +260,7 @@ TEST_F(EditStage, refuses_to_tear_and_to_move_what_is_gone) {
   o.of = {"1,2"};
   EXPECT_ERROR(edit(o), kGeometry, "tear");
   o.extract = "3";
-  EXPECT_ERROR(edit(o), kUsage, "nothing of it is left");
+  EXPECT_ERROR(edit(o), kUsage, "nothing is left to move");
   o.of = {"1", "2"};
   EXPECT_ERROR(edit(o), kUsage, "--of is given 2 times");
 }
@@ -314,11 +314,11 @@ TEST_F(EditStage, leaves_word_of_a_motion_of_the_whole_and_of_nothing_else) {
   const Similarity motion = whole_motion("m.hdf", moved, hash);
   EXPECT_LE(distance(motion({1, 0, 0}), {1 + std::cos(radians(30)), 0.5, 0}), 1e-12);
   EXPECT_EQ(whole_motion("box.hdf", read_header(box), hash), Similarity());
-  EXPECT_ERROR(whole_motion("m.hdf", moved, "0123"), kMismatch, "was made of box.hdf, another geometry");
+  EXPECT_ERROR(whole_motion("m.hdf", moved, "0123"), kMismatch, "was made from box.hdf, which is not");
   o.extract = "1-4";
   EXPECT_ERROR(whole_motion("m.hdf", edit(o).header, hash), kMismatch, "not moved as a whole (--extract)");
   EXPECT_ERROR(whole_motion("m.hdf", edit(of_inputs({box, box})).header, hash), kMismatch, "2 geometries");
-  EXPECT_ERROR(whole_motion("box.hdf", read_header(box), "0123"), kMismatch, "another geometry");
+  EXPECT_ERROR(whole_motion("box.hdf", read_header(box), "0123"), kMismatch, "not the geometry of the raster");
 }
 
 }  // namespace

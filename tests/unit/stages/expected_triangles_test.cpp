@@ -39,7 +39,7 @@ TEST_F(ExpectedTriangles, count_on_the_faces_that_are_meshed) {
 
 TEST_F(ExpectedTriangles, name_the_number_the_heaviest_face_and_what_to_do) {
   const std::string whole = refusal(triangles_, {}, 500), one = refusal(triangles_, {}, 200);
-  EXPECT_TRUE(has(whole, "sizing.hdf: asks for about 800 triangles (300 of them on face 4") &&
+  EXPECT_TRUE(has(whole, "sizing.hdf: these sizes need about 800 triangles (300 of them on face 4") &&
               has(whole, "at most 500") && has(whole, "--faces"))
       << whole;
   EXPECT_TRUE(has(one, "larger --scale") && !has(one, "--faces")) << one;
