@@ -12,10 +12,15 @@ int main(int argc, char** argv) {
   tool.number("--alpha", o.alpha_deg, "(0, 90]", "largest turning of the normal or tangent along one length, degrees");
   tool.length("--chord", o.chord, "", "largest distance of a length's chord from the geometry");
   tool.optional_input("--sizes", o.sizes, "rules [[size]] for groups, faces and edges (TOML)");
-  tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps and thin walls, down to lmin");
+  tool.number("--gap-cells", o.gap_cells, "[1, 100]", "lengths across gaps in the flow, down to lmin");
+  tool.number("--wall-cells", o.wall_cells, "[1, 100]", "lengths across thin walls, inside the material, down to lmin");
   tool.number("--edge-cells", o.edge_cells, "[1, 100]", "lengths along each CAD edge at least, down to lmin");
   tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX", "find trailing edges and give them these lengths");
   tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX", "find leading edges and give them these lengths");
+  tool.text("--edge-size", o.edge_size, "LENGTH|none", "length at trailing edges and noses of lifting surfaces");
+  tool.number("--base-cells", o.base_cells, "[1, 100]", "lengths across the base of a blunt trailing edge");
+  tool.number("--chord-cells", o.chord_cells, "[1, 1000]",
+              "lengths along the local chord of a lifting surface at least");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   tool.number("--max-cells", o.max_cells, "[1, 2147483647]",
               "refuse an octree with more cells; default: what fits 80% of the memory");
