@@ -28,7 +28,7 @@ std::optional<double> unit_in_metres(const std::string& name) {
 
 LengthSpec parse_length(const std::string& text, const std::string& option) {
   const auto fail = [&](const std::string& why) -> LengthSpec {
-    throw Error(ExitCode::kUsage, option + ": '" + text + "' " + why + "; write 3, 0.1%, 0.25mm or 2in");
+    throw Error(ExitCode::kUsage, option + ": '" + text + "' " + why + "; write 3, 0.1%, 0.25mm, 2in or 0.3%chord");
   };
   LengthSpec spec;
   spec.text = text;
@@ -41,10 +41,14 @@ LengthSpec parse_length(const std::string& text, const std::string& option) {
   std::string unit(rest, end);
   unit.erase(std::remove_if(unit.begin(), unit.end(), [](unsigned char c) { return std::isspace(c); }), unit.end());
   if (unit.empty()) return spec;
-  if (unit == "%") {
-    spec.kind = LengthSpec::Kind::kPercentOfDiagonal;
-    return spec;
-  }
+  static const std::pair<const char*, LengthSpec::Kind> kShares[] = {{"%", LengthSpec::Kind::kPercentOfDiagonal},
+                                                                     {"%chord", LengthSpec::Kind::kPercentOfChord},
+                                                                     {"%span", LengthSpec::Kind::kPercentOfSpan}};
+  for (const auto& [share, kind] : kShares)
+    if (unit == share) {
+      spec.kind = kind;
+      return spec;
+    }
   const auto metres = unit_in_metres(unit);
   if (!metres) return fail("has an unknown unit");
   spec.kind = LengthSpec::Kind::kAbsolute;
@@ -52,22 +56,32 @@ LengthSpec parse_length(const std::string& text, const std::string& option) {
   return spec;
 }
 
-double resolve_length(const LengthSpec& spec, double diagonal, std::optional<double> unit_in_m,
-                      const std::string& option) {
+double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option) {
+  const auto of_wing = [&](const std::optional<double>& length) {
+    if (!length)
+      throw Error(ExitCode::kUsage, option + ": '" + spec.text +
+                                        "' refers to a wing, and there is no lifting surface; write a length or a per "
+                                        "cent of the diagonal, such as 0.1%");
+    return spec.value * 0.01 * *length;
+  };
   switch (spec.kind) {
     case LengthSpec::Kind::kModelUnit:
       return spec.value;
     case LengthSpec::Kind::kPercentOfDiagonal:
-      return spec.value * 0.01 * diagonal;
+      return spec.value * 0.01 * reference.diagonal;
+    case LengthSpec::Kind::kPercentOfChord:
+      return of_wing(reference.chord);
+    case LengthSpec::Kind::kPercentOfSpan:
+      return of_wing(reference.span);
     case LengthSpec::Kind::kAbsolute:
       break;
   }
-  if (!unit_in_m)
+  if (!reference.unit_in_m)
     throw Error(
         ExitCode::kUsage,
         option + ": '" + spec.text +
             "' has a unit but the model has none; give the model's unit with st-import --unit, or a plain number");
-  return spec.value / *unit_in_m;
+  return spec.value / *reference.unit_in_m;
 }
 
 }  // namespace st

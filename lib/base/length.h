@@ -1,4 +1,4 @@
-// Lengths as users write them: "0.25mm", "2in", "0.1%", "3".
+// Lengths as users write them: "0.25mm", "2in", "0.1%", "3", "0.3%chord".
 #pragma once
 
 #include <optional>
@@ -8,22 +8,33 @@ namespace st {
 
 /// A length as given on a command line or in an option file, before the model is known.
 struct LengthSpec {
-  enum class Kind { kModelUnit, kPercentOfDiagonal, kAbsolute };
+  enum class Kind { kModelUnit, kPercentOfDiagonal, kAbsolute, kPercentOfChord, kPercentOfSpan };
   Kind kind = Kind::kModelUnit;
   double value = 0;  ///< model unit, per cent, or metres
   std::string text;  ///< as the user wrote it
+
+  /// Known only where there is a lifting surface.
+  bool is_of_wing() const { return kind == Kind::kPercentOfChord || kind == Kind::kPercentOfSpan; }
+};
+
+/// What a length may refer to.
+struct LengthReference {
+  double diagonal = 0;                             ///< model unit
+  std::optional<double> unit_in_m = std::nullopt;  ///< empty for a model without a unit (BREP, FLITE)
+  std::optional<double> chord = std::nullopt;  ///< local chord of the lifting surface, model unit; empty where there is
+                                               ///< none
+  std::optional<double> span = std::nullopt;   ///< its span, model unit
 };
 
 /// Unit name (mm, cm, m, km, um, in, ft, any case; also millimetre, inch, foot ...) in metres; nullopt when unknown.
 std::optional<double> unit_in_metres(const std::string& name);
 
-/// Parses "3", "0.1%", "0.25mm", "2 in". Throws Error(kUsage) naming `option` for anything else, for a non-finite or a
-/// non-positive value.
+/// Parses "3", "0.1%", "0.25mm", "2 in", "0.3%chord", "1%span". Throws Error(kUsage) naming `option` for anything else,
+/// for a non-finite or a non-positive value.
 LengthSpec parse_length(const std::string& text, const std::string& option);
 
-/// The length in the model unit. `diagonal` in the model unit; `unit_in_m` is empty for a model without a unit (BREP,
-/// FLITE): an absolute length is then Error(kUsage) that names --unit.
-double resolve_length(const LengthSpec& spec, double diagonal, std::optional<double> unit_in_m,
-                      const std::string& option);
+/// The length in the model unit. Throws Error(kUsage) for an absolute length in a model without a unit (names --unit),
+/// and for one of chord or span where there is none.
+double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option);
 
 }  // namespace st

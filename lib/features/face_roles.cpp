@@ -113,4 +113,11 @@ FaceRoles face_roles(const ModelTables& t) {
   return roles;
 }
 
+bool is_material_ahead(const ModelTables& t, const FaceRoles& roles) {
+  const auto has = [&](FaceRole role) {
+    return std::find(roles.role.begin(), roles.role.end(), role) != roles.role.end();
+  };
+  return (has(FaceRole::kFarfield) && has(FaceRole::kWall)) || (t.volume && *t.volume < 0);
+}
+
 }  // namespace st

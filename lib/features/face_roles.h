@@ -23,4 +23,7 @@ struct FaceRoles {
 /// planes, no two of them opposite - the others as far field.
 FaceRoles face_roles(const ModelTables& tables);
 
+/// Normals of faces point into the material: the model is the domain around walls, or its solids are turned inward.
+bool is_material_ahead(const ModelTables& tables, const FaceRoles& roles);
+
 }  // namespace st

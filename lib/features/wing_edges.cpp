@@ -44,11 +44,7 @@ struct Station {
 class WingEdgeFinder {
  public:
   WingEdgeFinder(const Model& model, const FaceRoles& roles) : model_(model), t_(model.tables()), roles_(roles) {
-    const bool is_domain =
-        std::any_of(roles.role.begin(), roles.role.end(), [](FaceRole r) { return r == FaceRole::kFarfield; });
-    const bool has_walls =
-        std::any_of(roles.role.begin(), roles.role.end(), [](FaceRole r) { return r == FaceRole::kWall; });
-    is_turned_ = (is_domain && has_walls) || (t_.volume && *t_.volume < 0);
+    is_turned_ = is_material_ahead(t_, roles);
     uses_.resize(static_cast<std::size_t>(t_.n_edges()));
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       for (const LoopId l : t_.loops(f))
@@ -112,10 +108,11 @@ class WingEdgeFinder {
     return values.empty() ? 0 : values[values.size() / 2];
   }
 
-  WingEdge make(EdgeId e, WingEdgeKind kind, const std::vector<Station>& stations, double size) const {
+  WingEdge make(EdgeId e, WingEdgeKind kind, const std::vector<Station>& stations, double size,
+                FaceId base = kNone) const {
     std::vector<double> angles;
     for (const Station& s : stations) angles.push_back(s.angle);
-    return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size};
+    return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size, base};
   }
 
   std::optional<WingEdge> classify(EdgeId e) const {
@@ -211,7 +208,7 @@ class WingEdgeFinder {
     }
     if (n_agree < kAgreeing) return;
     for (std::size_t k = 0; k < 2; ++k)
-      found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width);
+      found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
   }
 
   // --- chains

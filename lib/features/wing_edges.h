@@ -22,10 +22,11 @@ const char* name_of(WingEdgeKind kind);
 struct WingEdge {
   EdgeId edge = kNone;
   WingEdgeKind kind = WingEdgeKind::kSharpTrailing;
-  Vec3 middle;        ///< on the edge, model unit
-  double length = 0;  ///< model unit
-  double angle = 0;   ///< of the material between the faces, radians; median over the edge
-  double size = 0;    ///< model unit: width of a blunt edge, median nose radius of a leading edge; 0 for a sharp edge
+  Vec3 middle;          ///< on the edge, model unit
+  double length = 0;    ///< model unit
+  double angle = 0;     ///< of the material between the faces, radians; median over the edge
+  double size = 0;      ///< model unit: width of a blunt edge, median nose radius of a leading edge; 0 for a sharp edge
+  FaceId base = kNone;  ///< of a blunt edge: the narrow face
 };
 
 /// Ascending by edge. Dihedral angle and curvature decide, at nine places along each edge, most of which must agree;

@@ -13,14 +13,15 @@ namespace st {
 /// orthogonal.
 struct GapPatch {
   Vec3 x;                               ///< on the surface, model unit
-  Vec3 normal;                          ///< unit, out of the solid
+  Vec3 normal;                          ///< unit, out of the material
   Vec3 axis_s, axis_t;                  ///< along u and v, roughly
   double s_lo = 0, s_hi = 0;            ///< model unit
   double t_lo = 0, t_hi = 0;            ///< model unit
   double k_ss = 0, k_st = 0, k_tt = 0;  ///< second derivatives of the height, 1/model unit
   double length = 0;                    ///< that the patch asks for otherwise, model unit
   double min_length = 0;                ///< floor, model unit
-  std::optional<int> gap_cells;         ///< lengths across gaps; nullopt: the patch is only seen by others
+  std::optional<int> gap_cells;         ///< lengths across gaps, ahead; nullopt: these do not matter
+  std::optional<int> wall_cells;        ///< lengths across walls, behind; nullopt: these do not matter
   std::int32_t cause = 0;               ///< packed
   std::uint32_t inside = 0x1ff;         ///< bit 3 * row + column: that probe lies inside the loops
 

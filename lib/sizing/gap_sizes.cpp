@@ -14,6 +14,14 @@ constexpr int kMaxDepth = 8;        // of tiles in tiles
 constexpr int kMaxParts = 4;        // into which a tile is cut each way at once
 constexpr int kFirstParts = 2;
 
+/// Lengths across what lies ahead (gap) or behind (wall) of a patch; 0: it does not matter.
+int cells_to(const GapPatch& patch, double along_normal) {
+  return (along_normal > 0 ? patch.gap_cells : patch.wall_cells).value_or(0);
+}
+
+/// As far as a patch has to look, in its lengths.
+int most_cells(const GapPatch& patch) { return std::max(patch.gap_cells.value_or(0), patch.wall_cells.value_or(0)); }
+
 /// A patch that may face another one, and a sphere around it.
 struct Facing {
   Vec3 center;
@@ -40,31 +48,31 @@ class GapTiler {
     double s_lo, s_hi, t_lo, t_hi;
   };
 
-  /// The nearest patch that a point sees.
+  /// The patch that a point sees and that asks for the smallest length.
   struct Sight {
-    double gap;                       // model unit; what the patch does not need to see is further away
-    const GapPatch* other = nullptr;  // none within the gap
+    double length;                    // of the patch where it sees nothing, model unit
+    double distance = 0;              // to the other patch along the normal, either sign, model unit
+    const GapPatch* other = nullptr;  // none: nothing asks for less
     Vec3 x;                           // where the other patch is met
   };
 
   Sight look(double s, double t) const {
     const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
-    Sight sight{*patch_.gap_cells * patch_.length, nullptr, {}};
+    Sight sight{patch_.length, 0, nullptr, {}};
     for (const Facing& f : facing_) {
       const Vec3 to = f.center - x;
       const double along = dot(to, n);
-      if (std::abs(along) - f.radius > sight.gap || norm2(to) - along * along > f.radius * f.radius) continue;
+      if (std::abs(along) - f.radius > most_cells(patch_) * sight.length ||
+          norm2(to) - along * along > f.radius * f.radius)
+        continue;
       const std::optional<double> d = f.patch->facing_distance(x, n);
-      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < sight.gap)
-        sight = {std::abs(*d), f.patch, x + *d * n};
+      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < cells_to(patch_, *d) * sight.length)
+        sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n};
     }
     return sight;
   }
 
-  static double asked_length(const GapPatch& patch, double gap) {
-    return std::max(gap / *patch.gap_cells, patch.min_length);
-  }
-  double length_at(double s, double t) const { return asked_length(patch_, look(s, t).gap); }
+  double length_at(double s, double t) const { return std::max(look(s, t).length, patch_.min_length); }
 
   /// Cuts the tile into n_s x n_t, and each part again while it is larger than its raster box.
   void cut(const Tile& tile, int n_s, int n_t, int depth) {
@@ -101,8 +109,9 @@ class GapTiler {
   /// Speaks for a patch on the other side that is so large that it may not see this one.
   void add_far_box(double s, double t) {
     const Sight sight = look(s, t);
-    if (!sight.other || !sight.other->gap_cells || !is_large(*sight.other)) return;
-    const double length = asked_length(*sight.other, sight.gap);
+    if (!sight.other || !cells_to(*sight.other, sight.distance) || !is_large(*sight.other)) return;
+    const double length =
+        std::max(std::abs(sight.distance) / cells_to(*sight.other, sight.distance), sight.other->min_length);
     if (length < sight.other->length) add_box(sight.x, length, sight.other->cause);
   }
 
@@ -129,9 +138,9 @@ GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length)
 
 void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
   const GapPatch& patch = patches_[i];
-  if (!patch.gap_cells) return;
+  if (most_cells(patch) == 0) return;
   std::vector<std::int32_t> ids;
-  tree_.find_facing(i, *patch.gap_cells * patch.length, ids);
+  tree_.find_facing(i, most_cells(patch) * patch.length, ids);
   if (ids.empty()) return;
   std::vector<Facing> facing;
   for (const std::int32_t id : ids) {

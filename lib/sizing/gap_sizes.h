@@ -15,11 +15,11 @@ class GapFinder {
   /// `patches` must outlive the object. Cost: O(n log n).
   GapFinder(std::span<const GapPatch> patches, double cell_per_length);
 
-  /// Appends raster boxes with 1/gap_cells of the distance, along the patch's normal to either side, to the next patch
-  /// that faces it (normals opposed by more than 135 degrees), where that is less than the patch asks for; never below
-  /// its min_length. Patches are paraboloids, so that distances between curved walls are those of the surfaces. The
-  /// boxes cover the part of the patch that sees a gap. Surfaces that touch make no gap. Nothing for a patch without
-  /// gap_cells.
+  /// Appends raster boxes with 1/gap_cells of the distance along the patch's normal, 1/wall_cells against it, to the
+  /// next patch that faces it (normals opposed by more than 135 degrees), where that is less than the patch asks for;
+  /// never below its min_length. Patches are paraboloids, so that distances between curved walls are those of the
+  /// surfaces. The boxes cover the part of the patch that sees a gap. Surfaces that touch make no gap. Nothing to a
+  /// side whose cells are not given.
   void add_boxes(std::size_t patch, std::vector<RasterBox>& boxes) const;
 
  private:

@@ -1,6 +1,7 @@
 #include "sizing/model_limits.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace st {
 namespace {
@@ -16,6 +17,7 @@ Limits finest(const Limits& a, const Limits& b) {
   both.alpha = std::min(a->alpha, b->alpha);
   both.chord = std::min(a->chord, b->chord);
   both.gap_cells = std::max(a->gap_cells, b->gap_cells);
+  both.wall_cells = std::max(a->wall_cells, b->wall_cells);
   both.edge_cells = std::max(a->edge_cells, b->edge_cells);
   both.min_length = std::min(both.min_length, both.max_length);
   return both;
@@ -29,8 +31,9 @@ struct FaceLimits {
 class LimitsMaker {
  public:
   LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
-              const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges)
-      : t_(t), roles_(roles), wall_(wall), rules_(rules) {
+              const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges,
+              std::span<const LiftingSurface> wings)
+      : t_(t), roles_(roles), wall_(wall), rules_(rules), wings_(wings) {
     for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t, wing_edges));
   }
 
@@ -38,12 +41,19 @@ class LimitsMaker {
     set_by_role();
     for (std::size_t r = 0; r < rules_.size(); ++r) apply_to_faces(r);
     collect_edges();
+    edge_is_ruled_.assign(edge_.size(), 0);
     for (std::size_t r = 0; r < rules_.size(); ++r)
-      for (const EdgeId e : targets_[r].edges)
-        if (!t_.edge_is_degenerate[e]) change(rules_[r], edge_[e]);
+      for (const EdgeId e : targets_[r].edges) {
+        edge_is_ruled_[e] = 1;
+        if (!t_.edge_is_degenerate[e])
+          change(
+              rules_[r], [&] { return edge_middle(e); }, edge_[e]);
+      }
     vertex_.resize(t_.n_vertices());
     for (std::size_t r = 0; r < rules_.size(); ++r)
-      for (const VertexId v : targets_[r].vertices) change(rules_[r], vertex_[v]);
+      for (const VertexId v : targets_[r].vertices)
+        change(
+            rules_[r], [&] { return t_.vertex_xyz[v]; }, vertex_[v]);
     return finish();
   }
 
@@ -65,8 +75,9 @@ class LimitsMaker {
   void apply_to_faces(std::size_t r) {
     const SizeRule& rule = rules_[r];
     const auto apply = [&](FaceId f) {
-      if (rule.for_surfaces) change(rule, face_.surface[f]);
-      if (rule.for_curves) change(rule, face_.curve[f]);
+      const auto middle = [&] { return t_.face_box[f].center(); };
+      if (rule.for_surfaces) change(rule, middle, face_.surface[f]);
+      if (rule.for_curves) change(rule, middle, face_.curve[f]);
     };
     for (const FaceId f : targets_[r].faces) apply(f);
     if (rule.has_selection()) return;
@@ -74,11 +85,32 @@ class LimitsMaker {
       if (roles_.role[f] == FaceRole::kWall) apply(f);
   }
 
-  void change(const SizeRule& rule, Limits& limits) const {
+  void change(const SizeRule& rule, const std::function<Vec3()>& place, Limits& limits) const {
     if (rule.is_sampled == false)
       limits.reset();
     else if (limits || rule.has_selection())
-      limits = changed_limits(rule, limits.value_or(wall_), roles_.reference_diagonal, t_.unit_in_m);
+      limits = changed_limits(rule, limits.value_or(wall_), reference_at(rule, place));
+  }
+
+  Vec3 edge_middle(EdgeId e) const {
+    return 0.5 * (t_.vertex_xyz[t_.edge_vertices[2 * static_cast<std::size_t>(e)]] +
+                  t_.vertex_xyz[t_.edge_vertices[2 * static_cast<std::size_t>(e) + 1]]);
+  }
+
+  /// Chord and span of the lifting surface that is nearest.
+  LengthReference reference_at(const SizeRule& rule, const std::function<Vec3()>& place) const {
+    LengthReference reference{roles_.reference_diagonal, t_.unit_in_m};
+    const bool needs_wing = (rule.lmin && rule.lmin->is_of_wing()) || (rule.lmax && rule.lmax->is_of_wing()) ||
+                            (rule.chord && rule.chord->is_of_wing());
+    double nearest = -1;
+    for (std::size_t w = 0; needs_wing && w < wings_.size(); ++w) {
+      const NearestChord own = wings_[w].nearest_chord(place());
+      if (nearest >= 0 && own.distance >= nearest) continue;
+      nearest = own.distance;
+      reference.chord = own.chord;
+      reference.span = wings_[w].span;
+    }
+    return reference;
   }
 
   void collect_edges() {
@@ -104,20 +136,38 @@ class LimitsMaker {
         limits.far_length = std::max(limits.far_length, own->max_length);
         limits.min_length = std::min(limits.min_length, own->min_length);
       }
-    for (const Limits& own : face_.surface) limits.wants_gaps = limits.wants_gaps || (own && own->gap_cells);
+    for (const Limits& own : face_.surface)
+      limits.wants_gaps = limits.wants_gaps || (own && (own->gap_cells || own->wall_cells));
+    limits.is_material_ahead = is_material_ahead(t_, roles_);
     for (const FaceId f : roles_.guessed) limits.far_length = std::max(limits.far_length, far_length(f));
     limits.far = wall_;
     limits.far.max_length = limits.far_length;
+    limit_by_chord(limits);
+    limits.edge_is_ruled = std::move(edge_is_ruled_);
     limits.face = std::move(face_.surface);
     limits.edge = std::move(edge_);
     limits.vertex = std::move(vertex_);
     return limits;
   }
 
+  /// Faces of lifting surfaces whose largest length nobody has set.
+  void limit_by_chord(ModelLimits& limits) const {
+    limits.face_wing.assign(face_.surface.size(), kNone);
+    if (!wall_.chord_cells) return;
+    for (std::size_t w = wings_.size(); w-- > 0;) {
+      for (const FaceId f : wings_[w].faces)
+        if (face_.surface[f] && face_.surface[f]->max_length == wall_.max_length)
+          limits.face_wing[f] = static_cast<std::int32_t>(w);
+      add_chord_lines(wings_[w], static_cast<std::int32_t>(w), limits.chords);
+    }
+  }
+
   const ModelTables& t_;
   const FaceRoles& roles_;
   const SamplingLimits& wall_;
   const std::vector<SizeRule>& rules_;
+  std::span<const LiftingSurface> wings_;
+  std::vector<std::uint8_t> edge_is_ruled_;
   std::vector<RuleTargets> targets_;
   FaceLimits face_;
   std::vector<Limits> edge_, vertex_;
@@ -126,8 +176,9 @@ class LimitsMaker {
 }  // namespace
 
 ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
-                         const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges) {
-  return LimitsMaker(t, roles, wall, rules, wing_edges).run();
+                         const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges,
+                         std::span<const LiftingSurface> wings) {
+  return LimitsMaker(t, roles, wall, rules, wing_edges, wings).run();
 }
 
 }  // namespace st

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "features/face_roles.h"
+#include "features/lifting_surface.h"
 #include "geometry/model/model.h"
 #include "sizing/size_limits.h"
 #include "sizing/size_rules.h"
+#include "sizing/wing_sizes.h"
 
 namespace st {
 
@@ -24,10 +26,14 @@ struct ModelLimits {
                                                       ///< symmetry planes only)
   std::vector<std::optional<SamplingLimits>> vertex;  ///< [n_vertices] its max_length is asked for there; nullopt: no
                                                       ///< rule names it
+  std::vector<std::uint8_t> edge_is_ruled;            ///< [n_edges] 1: a rule names the edge
+  std::vector<std::int32_t> face_wing;  ///< [n_faces] the lifting surface whose chord limits the face; kNone: none
+  std::vector<ChordLine> chords;        ///< of these surfaces
   SamplingLimits far;       ///< the walls' limits with max_length = far_length: for what is not sampled but traced
   double min_length = 0;    ///< smallest min_length of all
-  bool wants_gaps = false;  ///< some face has gap_cells
-  double far_length = 0;    ///< largest max_length of all: the length where nothing asks for less
+  bool wants_gaps = false;  ///< some face has gap_cells or wall_cells
+  bool is_material_ahead = false;  ///< normals of faces point into the material
+  double far_length = 0;           ///< largest max_length of all: the length where nothing asks for less
 
   /// Limits at which an edge is traced as part of a loop.
   const SamplingLimits& trace(EdgeId e) const { return edge[e] ? *edge[e] : far; }
@@ -39,8 +45,10 @@ inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
 /// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field
 /// there, so that a domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for
-/// a rule that selects nothing or contradicts itself. `wing_edges`: what detection found, where a rule asks for it.
+/// a rule that selects nothing or contradicts itself. `wing_edges`, `wings`: what detection found; lengths of chord and
+/// span refer to the lifting surface that is nearest to the face or edge.
 ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
-                         const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {});
+                         const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {},
+                         std::span<const LiftingSurface> wings = {});
 
 }  // namespace st

@@ -34,8 +34,14 @@ class FaceRaster {
   using CurvaturePatch = Patch<CurvatureProbe>;
 
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches)
-      : surface_(surface), loops_(loops), limits_(limits), cause_(cause), boxes_(boxes), patches_(patches) {
+             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches, const ChordLimit* chord)
+      : surface_(surface),
+        loops_(loops),
+        limits_(limits),
+        cause_(cause),
+        boxes_(boxes),
+        patches_(patches),
+        chord_(chord) {
     range_u_ = surface.u_max() - surface.u_min();
     range_v_ = surface.v_max() - surface.v_min();
     const SurfaceType type = surface.type();
@@ -76,7 +82,7 @@ class FaceRaster {
   bool visit(const CurvaturePatch& patch, const PatchSize& size, int& n_doubts) {
     bool is_doubtful = false;
     const double curvature = patch.n_inside > 0 ? patch_curvature(patch, is_doubtful) : boundary_curvature(patch);
-    const double length = allowed_length(curvature);
+    const double length = allowed_length(curvature, size.center);
     const bool is_large = size.extent > kFill * std::min(limits_.cell_per_length, kProbeReach) * length ||
                           (is_free_ && size.extent > limits_.max_length);
     const bool may_doubt = is_doubtful && n_doubts < kDoubts && size.extent > limits_.min_length;
@@ -135,8 +141,9 @@ class FaceRaster {
 
   // --- lengths
 
-  double allowed_length(double curvature) const {
+  double allowed_length(double curvature, Vec3 x) const {
     double length = curvature * limits_.max_length > limits_.alpha ? limits_.alpha / curvature : limits_.max_length;
+    if (chord_) length = std::min(length, chord_->at(x));
     if (curvature * length * length > 8 * limits_.chord)
       length = std::sqrt(8 * limits_.chord / curvature);  // sagitta of a flat arc
     return std::max(length, limits_.min_length);
@@ -220,6 +227,7 @@ class FaceRaster {
     result.length = length;
     result.min_length = limits_.min_length;
     result.gap_cells = limits_.gap_cells;
+    result.wall_cells = limits_.wall_cells;
     result.cause = cause_;
     if (patch.n_inside > 0) result.inside = 0;
     for (std::uint32_t k = 0; k < 9; ++k) result.inside |= std::uint32_t{patch.is_inside[k]} << k;
@@ -232,6 +240,7 @@ class FaceRaster {
   const std::int32_t cause_;
   std::vector<RasterBox>& boxes_;
   std::vector<GapPatch>* const patches_;
+  const ChordLimit* const chord_;
   FaceRasterReport report_;
   double range_u_ = 1, range_v_ = 1;
   bool is_free_ = true;  // curvature varies freely: not a plane, cylinder, cone, sphere or torus
@@ -240,10 +249,11 @@ class FaceRaster {
 }  // namespace
 
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
-                             std::int32_t cause, std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches) {
+                             std::int32_t cause, std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches,
+                             const ChordLimit* chord) {
   ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
   ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
-  return FaceRaster(surface, loops, limits, cause, boxes, patches).run();
+  return FaceRaster(surface, loops, limits, cause, boxes, patches, chord).run();
 }
 
 }  // namespace st

@@ -9,6 +9,7 @@
 #include "sizing/gap_patch.h"
 #include "sizing/octree.h"
 #include "sizing/size_limits.h"
+#include "sizing/wing_sizes.h"
 
 namespace st {
 
@@ -29,9 +30,10 @@ struct FaceRasterReport {
 /// noise of the parametrisation and is cut down to what the angles show. Sizes in space decide, so poles and stretched
 /// iso-lines cost nothing special. (The paper probes along iso-curves and adds boxes where stencil points lie too far
 /// apart; halving patches covers the surface by construction.) `patches`, where wanted, gets one patch per box whose
-/// middle is no singular point; normals are along du x dv. Throws TooManyCells beyond max_samples boxes.
+/// middle is no singular point; normals are along du x dv. `chord`, where given, is a second largest length that
+/// depends on the place. Throws TooManyCells beyond max_samples boxes.
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
                              std::int32_t cause, std::vector<RasterBox>& boxes,
-                             std::vector<GapPatch>* patches = nullptr);
+                             std::vector<GapPatch>* patches = nullptr, const ChordLimit* chord = nullptr);
 
 }  // namespace st

@@ -18,9 +18,13 @@ struct SamplingLimits {
   double cell_per_length = 2;  ///< edge of a raster box over its sample length
   double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry,
                                                            ///< model unit
-  std::optional<int> gap_cells = std::nullopt;   ///< lengths across gaps and thin walls; nullopt: gaps do not matter
+  std::optional<int> gap_cells = std::nullopt;   ///< lengths across gaps in the flow; nullopt: gaps do not matter
+  std::optional<int> wall_cells = std::nullopt;  ///< lengths across thin walls, inside the material; nullopt: walls do
+                                                 ///< not matter
   std::optional<int> edge_cells = std::nullopt;  ///< lengths along each CAD edge at least, down to min_length; nullopt:
                                                  ///< one
+  std::optional<int> chord_cells = std::nullopt;  ///< lengths along the local chord of a lifting surface at least;
+                                                  ///< nullopt: the chord does not matter
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 

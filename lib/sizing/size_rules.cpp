@@ -140,16 +140,16 @@ RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<c
   return targets;
 }
 
-SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal,
-                              std::optional<double> unit_in_m) {
+SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const LengthReference& reference) {
   const auto resolved = [&](const LengthSpec& spec, const char* key) {
-    return resolve_length(spec, diagonal, unit_in_m, text_of(rule.where, ": ", key));
+    return resolve_length(spec, reference, text_of(rule.where, ": ", key));
   };
   if (rule.lmin) limits.min_length = resolved(*rule.lmin, "lmin");
   if (rule.lmax) limits.max_length = resolved(*rule.lmax, "lmax");
   if (rule.chord) limits.chord = resolved(*rule.chord, "chord");
   if (rule.alpha_deg) limits.alpha = radians(*rule.alpha_deg);
   if (rule.gap_cells) limits.gap_cells = *rule.gap_cells > 0 ? rule.gap_cells : std::nullopt;
+  if (rule.wall_cells) limits.wall_cells = *rule.wall_cells > 0 ? rule.wall_cells : std::nullopt;
   if (rule.edge_cells) limits.edge_cells = *rule.edge_cells > 0 ? rule.edge_cells : std::nullopt;
   // The limit that the rule does not name gives way.
   if (rule.lmax && !rule.lmin) limits.min_length = std::min(limits.min_length, limits.max_length);

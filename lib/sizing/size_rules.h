@@ -28,6 +28,7 @@ struct SizeRule {
   std::optional<LengthSpec> lmin, lmax, chord;
   std::optional<double> alpha_deg;  ///< (0, 90]
   std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
+  std::optional<int> wall_cells;    ///< [1, 100]; 0: thin walls do not matter
   std::optional<int> edge_cells;    ///< [1, 100]; 0: one length along an edge will do
 
   bool has_selection() const {
@@ -49,9 +50,7 @@ struct RuleTargets {
 /// that meets nothing or an id that does not exist.
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables, std::span<const WingEdge> wing_edges = {});
 
-/// `limits` with what the rule says. `diagonal`: what per cents refer to, model unit. Throws Error(kUsage) when lmin
-/// exceeds lmax.
-SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, double diagonal,
-                              std::optional<double> unit_in_m);
+/// `limits` with what the rule says. `reference`: what per cents refer to. Throws Error(kUsage) when lmin exceeds lmax.
+SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const LengthReference& reference);
 
 }  // namespace st

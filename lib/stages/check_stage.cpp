@@ -355,7 +355,7 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
   const std::vector<DeviationStats>& faces = f.deviation->faces;
   if (!asked.max_deviation.empty()) {
     const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"),
-                                        tables.reference_diagonal(), tables.unit_in_m, "--max-deviation");
+                                        {tables.reference_diagonal(), tables.unit_in_m}, "--max-deviation");
     const std::vector<double> of_group = face_tolerances(tables.group_names());
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",

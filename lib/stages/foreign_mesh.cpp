@@ -60,8 +60,8 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
   const ModelTables& t = model.tables();
   AssociationOptions association;
   if (!options.tolerance.empty())
-    association.tolerance = resolve_length(parse_length(options.tolerance, "--tolerance"), t.reference_diagonal(),
-                                           t.unit_in_m, "--tolerance");
+    association.tolerance = resolve_length(parse_length(options.tolerance, "--tolerance"),
+                                           {t.reference_diagonal(), t.unit_in_m}, "--tolerance");
   const SurfaceMesh file = read_triangulation(path);
   ForeignMesh result;
   try {

@@ -186,7 +186,7 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   GeometryArtifact geometry = read_geometry(o.artifact);
   const double diagonal = geometry.tables.reference_diagonal();
   const double tolerance =
-      resolve_length(parse_length(o.tolerance, "--tolerance"), diagonal, geometry.tables.unit_in_m, "--tolerance");
+      resolve_length(parse_length(o.tolerance, "--tolerance"), {diagonal, geometry.tables.unit_in_m}, "--tolerance");
   require_writable(o.output);
   const FliteExport flite = make_flite(Model(std::move(geometry.tables), std::move(geometry.brep)), tolerance);
   write_text_file(o.output, flite_text(flite.file));

@@ -53,15 +53,40 @@ SizeRule detection_rule(const std::string& option, const std::string& word, cons
   return rule;
 }
 
+/// A length of --lmin, --lmax or --chord that refers to wings is a rule for all walls; the others resolve_limits()
+/// takes.
+std::optional<LengthSpec> wing_length(const std::string& text, const std::string& option) {
+  if (text.empty()) return std::nullopt;
+  const LengthSpec spec = parse_length(text, option);
+  return spec.is_of_wing() ? std::optional(spec) : std::nullopt;
+}
+
 std::vector<SizeRule> option_rules(const RasterStageOptions& o) {
   std::vector<SizeRule> rules;
+  SizeRule walls;
+  walls.lmin = wing_length(o.lmin, "--lmin");
+  walls.lmax = wing_length(o.lmax, "--lmax");
+  walls.chord = wing_length(o.chord, "--chord");
+  if (walls.lmin) walls.where += "--lmin ";
+  if (walls.lmax) walls.where += "--lmax ";
+  if (walls.chord) walls.where += "--chord ";
+  if (!walls.where.empty()) {
+    walls.where.pop_back();
+    rules.push_back(walls);
+  }
   if (!o.trailing_edges.empty()) rules.push_back(detection_rule("--trailing-edges", "trailing", o.trailing_edges));
   if (!o.leading_edges.empty()) rules.push_back(detection_rule("--leading-edges", "leading", o.leading_edges));
   return rules;
 }
 
+/// nullopt: "none".
+std::optional<LengthSpec> edge_size(const RasterStageOptions& o) {
+  return o.edge_size == "none" ? std::nullopt : std::optional(parse_length(o.edge_size, "--edge-size"));
+}
+
 void require_valid(const RasterStageOptions& o) {
   option_rules(o);
+  edge_size(o);
   if (!(o.alpha_deg > 0 && o.alpha_deg <= 90))
     throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
   if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8))
@@ -81,15 +106,18 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   if (!(diagonal > 0))
     throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
   SamplingLimits limits;
-  limits.max_length = o.lmax.empty() ? kDefaultMaxLength * diagonal
-                                     : resolve_length(parse_length(o.lmax, "--lmax"), diagonal, t.unit_in_m, "--lmax");
-  limits.min_length = o.lmin.empty() ? kDefaultMinLength * limits.max_length
-                                     : resolve_length(parse_length(o.lmin, "--lmin"), diagonal, t.unit_in_m, "--lmin");
+  const auto resolved = [&](const std::string& text, const std::string& option, double otherwise) {
+    if (text.empty() || wing_length(text, option)) return otherwise;
+    return resolve_length(parse_length(text, option), {diagonal, t.unit_in_m}, option);
+  };
+  limits.max_length = resolved(o.lmax, "--lmax", kDefaultMaxLength * diagonal);
+  limits.min_length = resolved(o.lmin, "--lmin", kDefaultMinLength * limits.max_length);
   limits.alpha = radians(o.alpha_deg);
-  if (!o.chord.empty())
-    limits.chord = resolve_length(parse_length(o.chord, "--chord"), diagonal, t.unit_in_m, "--chord");
+  limits.chord = resolved(o.chord, "--chord", limits.chord);
+  limits.chord_cells = o.chord_cells;
   limits.cell_per_length = o.cell_per_length;
   limits.gap_cells = o.gap_cells;
+  limits.wall_cells = o.wall_cells;
   limits.edge_cells = o.edge_cells;
   if (limits.min_length > limits.max_length)
     throw Error(ExitCode::kUsage, fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax",
@@ -97,9 +125,24 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   return limits;
 }
 
-std::vector<WingEdge> detect_edges(const Model& model, const FaceRoles& roles, const std::vector<SizeRule>& rules) {
-  const bool is_wanted = std::any_of(rules.begin(), rules.end(), [](const SizeRule& r) { return !r.detected.empty(); });
-  return is_wanted ? find_wing_edges(model, roles) : std::vector<WingEdge>();
+/// What detection found; on rank 0.
+struct Wings {
+  std::vector<WingEdge> edges;
+  std::vector<LiftingSurface> surfaces;
+  std::vector<RasterBox> boxes;  ///< what they ask for, besides curvature
+};
+
+/// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
+void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, ModelLimits& limits, Wings& wings) {
+  const std::optional<LengthSpec> size = edge_size(o);
+  if (!size || wings.surfaces.empty()) return;
+  const std::vector<Strip> strips = find_strips(model);
+  std::vector<std::uint8_t> is_left_out = limits.edge_is_ruled;
+  for (std::size_t e = 0; e < is_left_out.size(); ++e) is_left_out[e] |= !limits.edge[e];
+  WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
+  if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
+  for (const LiftingSurface& wing : wings.surfaces) raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
+  for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
 }
 
 std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
@@ -197,13 +240,16 @@ class RasterTasks {
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
+    std::optional<ChordLimit> chord;
+    if (limits_.face_wing[f] != kNone) chord.emplace(limits_.chords, limits_.face_wing[f], *limits->chord_cells);
     raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
-                limits_.wants_gaps ? &patches : nullptr);
-    if (model_.tables().face_is_reversed[f])
+                limits_.wants_gaps ? &patches : nullptr, chord ? &*chord : nullptr);
+    if ((model_.tables().face_is_reversed[f] != 0) != limits_.is_material_ahead)
       for (GapPatch& patch : patches) patch.flip();
     const auto strip =
         std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
-    if (strip != strips_.end() && strip->face == f)
+    if (strip != strips_.end() && strip->face == f && !limits_.edge_is_ruled[strip->edges[0]] &&
+        !limits_.edge_is_ruled[strip->edges[1]])
       raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
@@ -314,10 +360,17 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
                          {"alpha", o.alpha_deg},
                          {"cell_per_length", o.cell_per_length}};
   if (o.gap_cells) options["gap_cells"] = *o.gap_cells;
+  if (o.wall_cells) options["wall_cells"] = *o.wall_cells;
   if (o.edge_cells) options["edge_cells"] = *o.edge_cells;
   if (!o.trailing_edges.empty()) options["trailing_edges"] = o.trailing_edges;
   if (!o.leading_edges.empty()) options["leading_edges"] = o.leading_edges;
-  if (!o.chord.empty()) options["chord"] = limits.chord;
+  if (wing_length(o.chord, "--chord"))
+    options["chord"] = o.chord;
+  else if (!o.chord.empty())
+    options["chord"] = limits.chord;
+  options["edge_size"] = o.edge_size;
+  options["base_cells"] = o.base_cells;
+  options["chord_cells"] = o.chord_cells;
   header.options_json = options.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
@@ -364,20 +417,63 @@ nlohmann::json depth_json(const DepthLimit& depth) {
   return json;
 }
 
+nlohmann::json wings_json(const Wings& wings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const LiftingSurface& wing : wings.surfaces) {
+    std::vector<std::int32_t> edges, leading;
+    for (const TrailingEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
+    for (const EdgeId e : wing.leading) leading.push_back(e + 1);
+    list.push_back({{"trailing_edges", edges},
+                    {"leading_edges", leading},
+                    {"is_blunt", wing.is_blunt},
+                    {"span", wing.span},
+                    {"chord", {wing.least_chord, wing.median_chord, wing.largest_chord}}});
+  }
+  return list;
+}
+
+/// One line for each lifting surface, or one that there is none.
+void report_wings(const RasterStageOptions& o, const Wings& wings) {
+  if (wings.surfaces.empty()) log_info("no lifting surface found: --edge-size asks for nothing");
+  for (const LiftingSurface& wing : wings.surfaces)
+    log_info(
+        fmt::format("lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "
+                    "{} along edge and nose",
+                    wing.trailing.size(), wing.trailing.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span,
+                    wing.least_chord, wing.largest_chord, o.edge_size));
+}
+
+/// What the user asks for.
+struct AskedLimits {
+  const SamplingLimits& wall;
+  const std::vector<SizeRule>& rules;
+};
+
+/// On rank 0: finds lifting surfaces, samples them, and sets the limits of all else.
+ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const FaceRoles& roles,
+                        const AskedLimits& asked, Wings& wings) {
+  wings.edges = find_wing_edges(model, roles);
+  wings.surfaces = find_lifting_surfaces(model, roles, wings.edges);
+  ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.surfaces);
+  sample_wings(o, model, roles.reference_diagonal, limits, wings);
+  report_wings(o, wings);
+  return limits;
+}
+
 /// Incomplete: the artifact is written, and says so.
 ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
   return counts.n_failures == 0 || o.allow_incomplete ? ExitCode::kOk : ExitCode::kIncomplete;
 }
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts,
-                       std::size_t n_rules, std::size_t n_wing_edges, const PhaseTimes& times) {
+                       std::size_t n_rules, const Wings& wings, const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
   summary.code = code_of(o, counts);
   summary.line = fmt::format(
-      "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
-      a.numbers.min_length, a.numbers.max_length,
+      "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes,
+      n_cells, a.numbers.min_length, a.numbers.max_length, wings.surfaces.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = nlohmann::json{{"tool", "st-raster"},
                                 {"output", o.output},
@@ -389,7 +485,8 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                 {"alpha", a.numbers.alpha_deg},
                                 {"cell_per_length", a.numbers.cell_per_length},
                                 {"rules", n_rules},
-                                {"wing_edges", n_wing_edges},
+                                {"wing_edges", wings.edges.size()},
+                                {"lifting_surfaces", wings_json(wings)},
                                 {"gap_samples", counts.n_gap_boxes},
                                 {"not_sampled", counts.n_failures},
                                 {"beyond_depth", depth_json(counts.depth)},
@@ -417,14 +514,11 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
   const ArtifactHeader geometry_header = geometry.header;
   const Model model(std::move(geometry.tables), std::move(geometry.brep));
-  std::vector<WingEdge> wing_edges;
+  Wings wings;
   ModelLimits limits;
-  if (comm.is_root()) {
-    wing_edges = detect_edges(model, roles, rules);
-    limits = model_limits(model.tables(), roles, wall, rules, wing_edges);
-  }
-  share(comm, limits.face, limits.edge, limits.vertex, limits.far, limits.min_length, limits.wants_gaps,
-        limits.far_length);
+  if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);
+  share(comm, limits.face, limits.edge, limits.vertex, limits.edge_is_ruled, limits.face_wing, limits.chords,
+        limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);
   limit_samples(budget.max_samples, limits);
@@ -436,6 +530,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     Samples samples = sample_model(RasterTasks(model, limits), budget.max_samples, comm);
     times.end("sampling");
     if (comm.is_root()) counts = report_samples(samples);
+    counts.n_boxes += wings.boxes.size();
+    samples.own_boxes.insert(samples.own_boxes.end(), wings.boxes.begin(), wings.boxes.end());
     if (limits.wants_gaps) counts.n_gap_boxes = sample_gaps(samples, o.cell_per_length, budget.max_samples, comm);
     times.end("gaps");
     artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, budget.max_cells, comm);
@@ -459,7 +555,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   times.end("writing");
-  return summarize(o, artifact, counts, rules.size(), wing_edges.size(), times);
+  return summarize(o, artifact, counts, rules.size(), wings, times);
 }
 
 }  // namespace st

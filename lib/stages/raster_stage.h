@@ -17,11 +17,15 @@ struct RasterStageOptions {
   double alpha_deg = 10;          ///< largest turning of the normal or tangent along one length, degrees, (0, 90]
   std::string chord;              ///< largest distance of a length's chord from the geometry; empty: no limit
   std::string sizes;              ///< file of rules for groups, faces and edges; empty: none
-  std::optional<int> gap_cells;   ///< lengths across gaps and thin walls, [1, 100]
+  std::optional<int> gap_cells;   ///< lengths across gaps in the flow, [1, 100]
+  std::optional<int> wall_cells;  ///< lengths across thin walls, inside the material, [1, 100]
   std::optional<int> edge_cells;  ///< lengths along each CAD edge at least, [1, 100]
   std::string trailing_edges;     ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
   std::string leading_edges;      ///< likewise at leading edges
-  double cell_per_length = 2;     ///< raster boxes reach this many sample lengths, [1, 8]
+  std::string edge_size = "0.3%chord";  ///< length at trailing edges and noses of lifting surfaces; "none": off
+  int base_cells = 2;                   ///< lengths across the base of a blunt trailing edge, [1, 100]
+  int chord_cells = 30;                 ///< lengths along the local chord of a lifting surface at least, [1, 1000]
+  double cell_per_length = 2;           ///< raster boxes reach this many sample lengths, [1, 8]
   std::optional<int> max_cells;   ///< of the octree, >= 1: refused beyond; nullopt: what fits 80 % of the memory. No
                                   ///< part of the content
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled

@@ -84,7 +84,8 @@ class DetectedEdges(ToolTest):
         must("st-import", MODELS / "thin_plate.brep", "-o", plate)
         plain = must("st-raster", plate, "-o", r, "--json").json()
         fine = must("st-raster", plate, "-o", r, "--trailing-edges", "0.1:0.5", "--json").json()
-        self.assertEqual((plain["wing_edges"], fine["wing_edges"]), (0, 8))
+        self.assertEqual((plain["wing_edges"], fine["wing_edges"]), (8, 8))
+        self.assertEqual(plain["lifting_surfaces"], [], "a plate is no wing")
         self.assertGreater(fine["samples"], plain["samples"] + 4 * (100 + 60) / 0.5 / 2)
         (self.folder / "sizes.toml").write_text('[[size]]\ndetected = "trailing"\nlmin = 0.1\nlmax = 0.5\n')
         by_rule = must("st-raster", plate, "-o", r, "--sizes", self.folder / "sizes.toml", "--json").json()
@@ -100,6 +101,46 @@ class DetectedEdges(ToolTest):
         self.expect_nothing_left(self.folder, "sizes.toml")
 
 
+class LiftingSurfaces(ToolTest):
+    """Wing and flap: chords of 60 and 18, both with a blunt edge 0.5 wide."""
+
+    def sizes(self, *options):
+        """The raster's summary, and the lengths at trailing edge and nose of the wing, and in the middle of its base."""
+        g, r, s = (self.folder / name for name in ("g.hdf", "r.hdf", "s.hdf"))
+        must("st-import", MODELS / "wing_with_flap.step", "-o", g)
+        said = must("st-raster", g, "-o", r, *options, "--json").json()
+        must("st-prolong", r, "-o", s)
+        return said, [must("st-info", s, f"--at={at}", "--json").json()["length"] for at in ("60,50,0.25", "0,50,0", "30,50,3")]
+
+    def test_get_a_share_of_their_chord_by_default(self):
+        said, (trailing, nose, middle) = self.sizes("--base-cells", 1)
+        self.assertEqual([round(w["chord"][1]) for w in said["lifting_surfaces"]], [60, 18])
+        self.assertAlmostEqual(trailing, 0.003 * 60, delta=0.02)
+        self.assertAlmostEqual(nose, 0.003 * 60, delta=0.02)
+        self.assertLess(middle, 1.1 * 60 / 30)
+        self.assertGreater(self.sizes("--edge-size", "none", "--chord-cells", 1)[1][0], 1.5 * trailing)
+
+    def test_options_change_edge_base_and_chord(self):
+        default = self.sizes()[1]
+        self.assertLess(self.sizes("--edge-size", "0.1%chord")[1][1], 0.5 * default[1])
+        self.assertLess(self.sizes("--base-cells", 6)[1][0], 0.6 * default[0])
+        self.assertLess(self.sizes("--chord-cells", 100)[1][2], 0.5 * default[2])
+        self.assertAlmostEqual(self.sizes("--edge-size", "0.4", "--base-cells", 1)[1][1], 0.4, delta=0.04)
+
+    def test_the_option_for_detected_edges_wins(self):
+        self.assertAlmostEqual(self.sizes("--trailing-edges", "1:1")[1][0], 1, delta=0.15)
+
+    def test_lengths_may_be_shares_of_chord_and_span(self):
+        self.assertAlmostEqual(self.sizes("--lmin", "2%chord")[1][1], 1.2, delta=0.2)
+        (self.folder / "sizes.toml").write_text('[[size]]\nlmax = "1%span"\n')
+        self.assertLess(self.sizes("--sizes", self.folder / "sizes.toml")[1][2], 1.05)
+        self.expect_error(USAGE, "st-raster", artifacts_of("box") / "geometry.hdf", "-o", self.folder / "r.hdf", "--lmax", "3%chord",
+                          says=["--lmax", "no lifting surface"])
+
+    def test_do_not_depend_on_the_number_of_ranks(self):
+        self.assertEqual(len({self.sizes("--np", n)[0]["hash"] for n in (1, 2, 3)}), 1)
+
+
 class Gaps(ToolTest):
     def length_in_the_wall(self, *options):
         """Of a tube whose wall is 0.4 thick, and the raster's summary."""
@@ -112,20 +153,20 @@ class Gaps(ToolTest):
     def test_a_thin_wall_gets_the_lengths_asked_for(self):
         self.assertGreater(self.length_in_the_wall()[0], 0.7)
         for n in (1, 2):
-            self.assertAlmostEqual(self.length_in_the_wall("--gap-cells", n)[0], 0.4 / n, delta=0.03 * 0.4 / n)
-        self.assertAlmostEqual(self.length_in_the_wall("--gap-cells", 4)[0], 0.15, delta=0.02)  # lmin
+            self.assertAlmostEqual(self.length_in_the_wall("--wall-cells", n)[0], 0.4 / n, delta=0.03 * 0.4 / n)
+        self.assertAlmostEqual(self.length_in_the_wall("--wall-cells", 4)[0], 0.15, delta=0.02)  # lmin
 
     def test_a_rule_asks_for_gaps_of_some_faces_only(self):
         rules = self.folder / "sizes.toml"
-        rules.write_text("[[size]]\ngap_cells = 2\n")
+        rules.write_text("[[size]]\nwall_cells = 2\n")
         self.assertAlmostEqual(self.length_in_the_wall("--sizes", rules)[0], 0.2, delta=0.006)
-        rules.write_text("[[size]]\nfaces = [1, 2, 3, 4, 5, 6]\ngap_cells = 0\n")
-        some = self.length_in_the_wall("--gap-cells", 2, "--sizes", rules)[1]
-        everywhere = self.length_in_the_wall("--gap-cells", 2)[1]
+        rules.write_text("[[size]]\nfaces = [1, 2, 3, 4, 5, 6]\nwall_cells = 0\n")
+        some = self.length_in_the_wall("--wall-cells", 2, "--sizes", rules)[1]
+        everywhere = self.length_in_the_wall("--wall-cells", 2)[1]
         self.assertGreater(everywhere["gap_samples"], some["gap_samples"])
 
     def test_the_result_does_not_depend_on_the_number_of_ranks(self):
-        self.assertEqual(len({self.length_in_the_wall("--gap-cells", 1, "--np", n)[1]["hash"] for n in (1, 2, 3)}), 1)
+        self.assertEqual(len({self.length_in_the_wall("--wall-cells", 1, "--np", n)[1]["hash"] for n in (1, 2, 3)}), 1)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,9 @@ const std::vector<Preset>& presets() {
 [st-raster]
 lmax = "5%"
 alpha = 20
+edge-size = "0.6%chord"
+base-cells = 1
+chord-cells = 15
 [st-prolong]
 slope = 0.3
 )"},
@@ -24,7 +27,9 @@ slope = 0.2
       {"rans", "viscous flow: drag", R"(
 [st-raster]
 alpha = 7
-lmin = "0.01%"
+lmin = "0.002%"
+edge-size = "0.1%chord"
+base-cells = 4
 [st-prolong]
 slope = 0.15
 )"},
@@ -32,6 +37,10 @@ slope = 0.15
 [st-raster]
 lmax = "1.5%"
 alpha = 5
+lmin = "0.002%"
+edge-size = "0.1%chord"
+base-cells = 4
+chord-cells = 60
 [st-prolong]
 slope = 0.12
 )"},

@@ -16,13 +16,19 @@ int main(int argc, char** argv) {
               "largest chord error: distance between a straight edge and the geometry; default: no limit");
   tool.optional_input("--sizes", o.sizes, "file with rules [[size]] for groups, faces and edges (TOML)");
   tool.number("--gap-cells", o.gap_cells, "[1, 100]",
-              "proximity: edge lengths across gaps and thin walls, down to --lmin; default: off");
+              "proximity: edge lengths across gaps in the flow, down to --lmin; default: off");
+  tool.number("--wall-cells", o.wall_cells, "[1, 100]",
+              "edge lengths across thin walls, inside the material, down to --lmin; default: off");
   tool.number("--edge-cells", o.edge_cells, "[1, 100]",
               "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1");
   tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX",
             "find trailing edges by shape and give them these edge lengths; default: off");
   tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX",
             "find leading edges by shape and give them these edge lengths; default: off");
+  tool.text("--edge-size", o.edge_size, "LENGTH|none", "edge length at trailing edges and noses of lifting surfaces");
+  tool.number("--base-cells", o.base_cells, "[1, 100]", "edge lengths across the base of a blunt trailing edge");
+  tool.number("--chord-cells", o.chord_cells, "[1, 1000]",
+              "smallest number of edge lengths along the local chord of a lifting surface");
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]",
               "octree cell size in edge lengths: larger means fewer cells");
   tool.number("--max-cells", o.max_cells, "[1, 2147483647]",

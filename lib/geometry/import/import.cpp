@@ -156,7 +156,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
   const std::string& sew = options.sew;
   if (sew.empty()) return limits;
   const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
-  limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), diagonal, unit.in_m, "--sew");
+  limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), {diagonal, unit.in_m}, "--sew");
   return limits;
 }
 
@@ -203,8 +203,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
     result.findings.push_back(
         {FindingKind::kEmptyGroup, "group \"" + group.name + "\"", {}, 0, false, member_of(group)});
   require_sewn_faces(model, result.tables, options);
-  const double small =
-      resolve_length(parse_length(options.small, "--small"), result.tables.reference_diagonal(), unit.in_m, "--small");
+  const double small = resolve_length(parse_length(options.small, "--small"),
+                                      {result.tables.reference_diagonal(), unit.in_m}, "--small");
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);

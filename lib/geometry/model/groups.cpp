@@ -50,7 +50,7 @@ struct Table {
 std::string attributes_of(const GroupRule& rule, const ModelTables& t) {
   if (!rule.tolerance) return rule.attributes;
   const double tolerance =
-      resolve_length(*rule.tolerance, t.reference_diagonal(), t.unit_in_m, rule.where + ": tolerance");
+      resolve_length(*rule.tolerance, {t.reference_diagonal(), t.unit_in_m}, rule.where + ": tolerance");
   char text[40];
   const std::string number(text, std::to_chars(text, text + sizeof text, tolerance).ptr);
   return "{\"tolerance\":" + number + (rule.attributes == "{}" ? "" : ",") + rule.attributes.substr(1);

@@ -8,7 +8,7 @@ namespace st {
 namespace {
 
 constexpr const char* kKeys =
-    "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, edge_cells";
+    "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells";
 
 /// One table [[size]].
 class RuleReader : TomlEntry {
@@ -18,9 +18,10 @@ class RuleReader : TomlEntry {
   SizeRule run() {
     for (const auto& [key, node] : table()) read(std::string(key.str()), node);
     const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg ||
-                      rule_.gap_cells || rule_.edge_cells;
+                      rule_.gap_cells || rule_.wall_cells || rule_.edge_cells;
     if (!asks)
-      fail(table(), "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells, edge_cells or sample");
+      fail(table(),
+           "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells or sample");
     return std::move(rule_);
   }
 
@@ -50,6 +51,8 @@ class RuleReader : TomlEntry {
       read_alpha(node);
     else if (key == "gap_cells")
       rule_.gap_cells = count(key, node);
+    else if (key == "wall_cells")
+      rule_.wall_cells = count(key, node);
     else if (key == "edge_cells")
       rule_.edge_cells = count(key, node);
     else

@@ -293,7 +293,7 @@ class SourceTable {
     const auto* s = node.as_string();
     if (!s) fail(std::string(key) + ": a length expected, such as 0.2 or \"5mm\"", &node);
     try {
-      return resolve_length(parse_length(s->get(), key), scale_.diagonal, scale_.unit_in_m, key);
+      return resolve_length(parse_length(s->get(), key), {scale_.diagonal, scale_.unit_in_m}, key);
     } catch (const Error& e) {
       fail(e.what(), &node);
     }

@@ -22,23 +22,31 @@ ExitCode code_of(const std::function<void()>& action) {
 TEST(Length, plain_number_is_in_the_model_unit) {
   const LengthSpec spec = parse_length("3.5", "--lmin");
   EXPECT_EQ(spec.kind, LengthSpec::Kind::kModelUnit);
-  EXPECT_EQ(resolve_length(spec, 100, 0.001, "--lmin"), 3.5);
-  EXPECT_EQ(resolve_length(spec, 100, std::nullopt, "--lmin"), 3.5);
+  EXPECT_EQ(resolve_length(spec, {100, 0.001}, "--lmin"), 3.5);
+  EXPECT_EQ(resolve_length(spec, {100, std::nullopt}, "--lmin"), 3.5);
 }
 
 TEST(Length, per_cent_is_of_the_diagonal) {
-  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.1%", "--lmin"), 250, 0.001, "--lmin"), 0.25);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.1%", "--lmin"), {250, 0.001}, "--lmin"), 0.25);
+}
+
+TEST(Length, of_chord_and_span_needs_a_lifting_surface) {
+  const LengthSpec chord = parse_length("0.5%chord", "--edge-size"), span = parse_length("2 %span", "--edge-size");
+  EXPECT_TRUE(chord.is_of_wing() && span.is_of_wing() && !parse_length("1%", "--edge-size").is_of_wing());
+  EXPECT_DOUBLE_EQ(resolve_length(chord, {100, std::nullopt, 4, 30}, "--edge-size"), 0.02);
+  EXPECT_DOUBLE_EQ(resolve_length(span, {100, std::nullopt, 4, 30}, "--edge-size"), 0.6);
+  EXPECT_EQ(code_of([&] { resolve_length(chord, {100, 0.001}, "--edge-size"); }), ExitCode::kUsage);
 }
 
 TEST(Length, unit_is_converted_to_the_model_unit) {
-  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.25mm", "--lmin"), 1, 1.0, "--lmin"), 0.00025);
-  EXPECT_DOUBLE_EQ(resolve_length(parse_length("2in", "--lmin"), 1, 0.001, "--lmin"), 50.8);
-  EXPECT_DOUBLE_EQ(resolve_length(parse_length(" 2 IN ", "--lmin"), 1, 0.0254, "--lmin"), 2);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("0.25mm", "--lmin"), {1, 1.0}, "--lmin"), 0.00025);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length("2in", "--lmin"), {1, 0.001}, "--lmin"), 50.8);
+  EXPECT_DOUBLE_EQ(resolve_length(parse_length(" 2 IN ", "--lmin"), {1, 0.0254}, "--lmin"), 2);
 }
 
 TEST(Length, unit_needs_a_model_with_a_unit_and_the_message_names_the_remedy) {
   try {
-    resolve_length(parse_length("0.25mm", "--lmin"), 1, std::nullopt, "--lmin");
+    resolve_length(parse_length("0.25mm", "--lmin"), {1, std::nullopt}, "--lmin");
     FAIL() << "a length with a unit was taken for a model without one";
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::kUsage);

@@ -15,7 +15,7 @@ const Frame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 SamplingLimits limits(double max_length, double min_length, int gap_cells = 4) {
   SamplingLimits result{min_length, max_length, radians(10), 2};
-  result.gap_cells = gap_cells;
+  result.gap_cells = result.wall_cells = gap_cells;
   return result;
 }
 
@@ -64,6 +64,31 @@ TEST(GapSizes, put_n_lengths_between_two_plates_everywhere) {
   }
 }
 
+TEST(GapSizes, tell_gaps_in_the_flow_from_walls) {
+  for (const bool is_slot : {true, false})
+    for (const bool wants_gaps : {true, false}) {
+      SamplingLimits own = limits(1, 0.01);
+      (wants_gaps ? own.wall_cells : own.gap_cells).reset();
+      std::vector<GapPatch> patches;
+      add_patches(plate(0), is_slot ? Normals::kAlong : Normals::kAgainst, own, patches, 0);
+      add_patches(plate(0.4), is_slot ? Normals::kAgainst : Normals::kAlong, own, patches, 1);
+      EXPECT_EQ(gaps(patches).empty(), is_slot != wants_gaps) << is_slot << wants_gaps;
+    }
+}
+
+TEST(GapSizes, take_the_smaller_length_of_a_gap_and_a_wall) {
+  SamplingLimits own = limits(1, 0.01);
+  own.gap_cells = 2;
+  own.wall_cells = 5;
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, own, patches, 0);  // 0.2 of flow ahead, 0.4 of material behind
+  add_patches(plate(0.2), Normals::kAgainst, own, patches, 1);
+  add_patches(plate(-0.4), Normals::kAgainst, own, patches, 2);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  EXPECT_NEAR(length_at(boxes, {5, 5, 0}, 0), 0.08, 1e-6) << "0.4 / 5, not 0.2 / 2";
+  EXPECT_NEAR(length_at(boxes, {5, 5, 0.2}, 1), 0.1, 1e-6);
+}
+
 TEST(GapSizes, ask_for_nothing_without_a_facing_surface) {
   const auto boxes_with_second = [](double z, Normals normals) {
     std::vector<GapPatch> patches;
@@ -82,6 +107,7 @@ TEST(GapSizes, stay_above_the_smallest_length_and_keep_to_the_faces_that_ask) {
   add_patches(plate(0), Normals::kAlong, limits(1, 0.2), patches, 0);
   SamplingLimits silent = limits(1, 0.01);
   silent.gap_cells.reset();
+  silent.wall_cells.reset();
   add_patches(plate(0.4), Normals::kAgainst, silent, patches, 1);
   const std::vector<RasterBox> boxes = gaps(patches);
   ASSERT_FALSE(boxes.empty());

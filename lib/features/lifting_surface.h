@@ -1,0 +1,56 @@
+// Wings, tails, blades and nacelle lips: trailing edge, nose, chord and span, station by station.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "features/wing_edges.h"
+
+namespace st {
+
+/// A place on a trailing edge.
+struct ChordStation {
+  double share = 0;          ///< of the edge's length, from its start, in [0, 1]
+  Vec3 trailing = {};        ///< on the edge, model unit
+  double chord = 0;          ///< from there to the nose, model unit, > 0
+  bool is_measured = false;  ///< false: taken over from stations around, where the profile ends in something else
+  Vec3 nose = {};            ///< on the CAD within the facets' deflection; of measured stations only
+  FaceId nose_face = kNone;
+};
+
+/// Stations along one CAD edge, in ascending order of `share`, first 0 and last 1.
+struct TrailingEdge {
+  EdgeId edge = kNone;
+  FaceId base = kNone;  ///< of a blunt edge: the narrow face between it and its partner
+  std::vector<ChordStation> stations;
+
+  /// Local chord at a share of the edge's length, linear between stations, model unit.
+  double chord_at(double share) const;
+};
+
+/// A local chord, and how far away it runs; model unit.
+struct NearestChord {
+  double chord = 0, distance = 0;
+};
+
+/// A lifting surface: all trailing edges that hang together, pieces, kinks and both sides of a blunt one alike.
+struct LiftingSurface {
+  bool is_blunt = false;
+  std::vector<TrailingEdge> trailing;  ///< ascending by edge
+  std::vector<EdgeId> leading;         ///< CAD edges along the nose, ascending; a nose inside a face has none
+  std::vector<FaceId> faces;           ///< that measured profiles cross, ascending
+  double span = 0;                     ///< along the trailing edge, model unit
+  double least_chord = 0, median_chord = 0, largest_chord = 0;  ///< model unit
+
+  /// The chord of the measured station that passes nearest to a place. Cost: linear in stations.
+  NearestChord nearest_chord(Vec3 x) const;
+};
+
+/// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
+/// half of 24 stations per edge or more, and whose span is at least half their chord, and whose base is at most 6 per
+/// cent of it. Profiles are cut square to an axis of space or square to the edge, whichever shows more of them. By
+/// first edge. Local. Cost: a coarse triangulation of the walls where there are any trailing edges.
+std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
+                                                  std::span<const WingEdge> edges);
+
+}  // namespace st

@@ -1,0 +1,45 @@
+// The profile of a wing: where a plane cuts it, from the trailing edge to the nose.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/model/facets.h"
+
+namespace st {
+
+/// A cut through a lifting surface.
+struct Profile {
+  Vec3 nose;                  ///< the point furthest from the trailing edge, model unit
+  FaceId nose_face = kNone;   ///< that it lies on
+  double chord = 0;           ///< from the trailing edge to the nose, model unit
+  double thickness = 0;       ///< largest, over the chord
+  std::vector<FaceId> faces;  ///< that the cut crosses, ascending
+};
+
+/// Cuts a model's facets by planes and measures what is found.
+class ProfileCutter {
+ public:
+  /// `facets` must outlive the object.
+  explicit ProfileCutter(const Facets& facets);
+
+  /// The part of the cut by the plane through `trailing_edge` with this unit normal that hangs together with the point,
+  /// if it is the profile of a lifting surface: two sides at every station along the chord, 1 to 35 per cent thick,
+  /// thickest in the middle, thin towards the trailing edge, with a rounded nose; else nullopt. `reach`: how far from
+  /// the point the cut may begin, model unit. Cost: linear in the facets.
+  std::optional<Profile> cut(Vec3 trailing_edge, Vec3 normal, double reach) const;
+
+ private:
+  /// Where the plane crosses a facet, from one of its sides to another one.
+  struct Segment {
+    Vec3 end[2];
+    std::uint64_t side[2];  ///< of the mesh: equal ones hang together
+    FaceId face;
+  };
+  std::vector<Segment> all_segments(Vec3 origin, Vec3 normal) const;
+  std::vector<Segment> part_at(Vec3 origin, double reach, std::vector<Segment> segments) const;
+
+  const Facets& facets_;
+};
+
+}  // namespace st

@@ -1,0 +1,81 @@
+#include "geometry/model/facets.h"
+
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <numeric>
+
+#include "base/assert.h"
+#include "geometry/brep/compound.h"
+#include "geometry/model/model_editor.h"
+
+namespace st {
+namespace {
+
+constexpr double kSame = 1e-7;  // of the box of all nodes: nearer ones are one
+
+void add_face(const TopoDS_Face& face, FaceId id, Facets& facets) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+  if (mesh.IsNull()) return;
+  const auto first = static_cast<std::int32_t>(facets.xyz.size());
+  for (int i = 1; i <= mesh->NbNodes(); ++i) {
+    const gp_Pnt p = mesh->Node(i).Transformed(location.Transformation());
+    facets.xyz.push_back({p.X(), p.Y(), p.Z()});
+  }
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    std::array<int, 3> n;
+    mesh->Triangle(i).Get(n[0], n[1], n[2]);
+    facets.triangle.push_back({first + n[0] - 1, first + n[1] - 1, first + n[2] - 1});
+    facets.face.push_back(id);
+  }
+}
+
+/// Nodes that nearly coincide, along any axis of space by sorting, become the first of them.
+void weld(Facets& facets) {
+  Box3 box;
+  for (const Vec3& x : facets.xyz) box.add(x);
+  const double tolerance = kSame * box.diagonal();
+  std::vector<std::int32_t> order(facets.xyz.size()), one(facets.xyz.size(), kNone);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return facets.xyz[a].x < facets.xyz[b].x; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (one[order[i]] != kNone) continue;
+    one[order[i]] = order[i];
+    const Vec3 x = facets.xyz[order[i]];
+    for (std::size_t j = i + 1; j < order.size() && facets.xyz[order[j]].x - x.x <= tolerance; ++j)
+      if (one[order[j]] == kNone && distance(facets.xyz[order[j]], x) <= tolerance) one[order[j]] = order[i];
+  }
+  for (auto& triangle : facets.triangle)
+    for (std::int32_t& node : triangle) node = one[node];
+}
+
+}  // namespace
+
+Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits) {
+  ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
+  const Model::Impl& brep = ModelEditor::brep(model);
+  Facets facets;
+  try {
+    std::vector<TopoDS_Shape> faces;
+    for (std::size_t f = 0; f < is_wanted.size(); ++f)
+      if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1));
+    BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
+    BRepMesh_IncrementalMesh(copy.Shape(), limits.deflection, false, limits.angle, false);
+    for (std::size_t f = 0; f < is_wanted.size(); ++f)
+      if (is_wanted[f])
+        add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(static_cast<int>(f) + 1))), static_cast<FaceId>(f), facets);
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+  weld(facets);
+  return facets;
+}
+
+}  // namespace st

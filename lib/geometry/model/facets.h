@@ -1,0 +1,29 @@
+// A coarse triangulation of the CAD, for measuring: chords, thicknesses. No mesh for a flow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/model/model.h"
+
+namespace st {
+
+/// How closely facets follow the surfaces.
+struct FacetLimits {
+  double deflection = 0;       ///< largest distance from the surface, model unit, > 0
+  double angle = radians(20);  ///< largest turning of the normal or tangent along a facet, radians
+};
+
+/// Triangles of faces; where two faces share an edge, their triangles share its nodes.
+struct Facets {
+  std::vector<Vec3> xyz;                              ///< [n_nodes] model unit
+  std::vector<std::array<std::int32_t, 3>> triangle;  ///< [n_triangles] nodes, in no certain orientation
+  std::vector<FaceId> face;                           ///< [n_triangles] ascending
+};
+
+/// Facets of the faces with `is_wanted` ([n_faces] 1: yes), by OpenCASCADE's BRepMesh, one thread. Faces that it cannot
+/// do are left out. Local. Cost: some microseconds per facet.
+Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits);
+
+}  // namespace st

@@ -1,0 +1,150 @@
+#include "sizing/wing_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "features/arc_table.h"
+
+namespace st {
+namespace {
+
+constexpr double kFinestBase = 0.25;  // of the length at the edge: thinner bases get fewer cells
+constexpr int kMaxBoxes = 100000;     // along one edge
+constexpr int kGap = 2;               // stations: noses further apart are not joined
+
+class WingRaster {
+ public:
+  WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
+      : model_(model), wing_(wing), sizes_(sizes), boxes_(boxes) {}
+
+  void add_edge(const TrailingEdge& trailing) {
+    const auto curve = model_.curve(trailing.edge);
+    const ArcTable arc(*curve);
+    walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), [&](double share) {
+      return Place{curve->point(arc.parameter_at(share)), length_of(trailing.chord_at(share))};
+    });
+  }
+
+  void add_noses(const TrailingEdge& trailing) {
+    std::vector<const ChordStation*> run;
+    int n_missed = 0;
+    for (const ChordStation& s : trailing.stations) {
+      if (!s.is_measured) {
+        if (++n_missed > kGap) end_run(run);
+        continue;
+      }
+      n_missed = 0;
+      run.push_back(&s);
+    }
+    end_run(run);
+  }
+
+  void add_base(const Strip& strip, const TrailingEdge& trailing) {
+    walk(strip.length, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
+      const double at = share * static_cast<double>(strip.stations.size() - 1);
+      const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
+      const Strip::Station &a = strip.stations[i], &b = strip.stations[i + 1];
+      const double part = at - static_cast<double>(i), width = a.width + part * (b.width - a.width);
+      const double edge = length_of(trailing.chord_at(share));
+      const double length = std::clamp(width / sizes_.base_cells, kFinestBase * edge, edge);
+      return Place{a.x + part * (b.x - a.x), std::max(length, floor_of(trailing.chord_at(share)))};
+    });
+  }
+
+ private:
+  struct Place {
+    Vec3 x;
+    double length;  // asked for there
+  };
+
+  LengthReference reference_of(double chord) const {
+    LengthReference reference = sizes_.reference;
+    reference.chord = chord;
+    reference.span = wing_.span;
+    return reference;
+  }
+  double floor_of(double chord) const {
+    return sizes_.least ? resolve_length(*sizes_.least, reference_of(chord), "--lmin") : 0;
+  }
+  double length_of(double chord) const {
+    return std::max(resolve_length(sizes_.edge_size, reference_of(chord), "--edge-size"), floor_of(chord));
+  }
+
+  /// Boxes one length apart; `place_at` takes a share of the way.
+  template <class PlaceAt>
+  void walk(double way, std::int32_t cause, const PlaceAt& place_at) {
+    double share = 0;
+    for (int n = 0; n < kMaxBoxes; ++n) {
+      const Place place = place_at(std::min(share, 1.0));
+      boxes_.push_back({place.x, static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
+                        static_cast<float>(place.length), cause});
+      if (share >= 1) return;
+      share += std::max(place.length / way, 1.0 / kMaxBoxes);
+    }
+  }
+
+  /// Along the noses of stations in a row, half a station beyond either end.
+  void end_run(std::vector<const ChordStation*>& run) {
+    for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+      const ChordStation &a = *run[i], &b = *run[i + 1];
+      const double before = i == 0 ? 0.5 : 0, after = i + 2 == run.size() ? 0.5 : 0;
+      walk((1 + before + after) * distance(a.nose, b.nose), pack_cause(CauseKind::kFace, a.nose_face),
+           [&](double share) {
+             const double part = share * (1 + before + after) - before;
+             const double chord = a.chord + std::clamp(part, 0.0, 1.0) * (b.chord - a.chord);
+             return Place{a.nose + part * (b.nose - a.nose), length_of(chord)};
+           });
+    }
+    run.clear();
+  }
+
+  const Model& model_;
+  const LiftingSurface& wing_;
+  const WingSizes& sizes_;
+  std::vector<RasterBox>& boxes_;
+};
+
+}  // namespace
+
+void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::span<const Strip> strips,
+                 std::span<const std::uint8_t> is_left_out, std::vector<RasterBox>& boxes) {
+  const auto is_ruled = [&](EdgeId e) { return is_left_out[e] != 0; };
+  const bool has_noses = std::none_of(wing.leading.begin(), wing.leading.end(), is_ruled);
+  WingRaster raster(model, wing, sizes, boxes);
+  for (const TrailingEdge& trailing : wing.trailing) {
+    if (!is_ruled(trailing.edge)) raster.add_edge(trailing);
+    const auto strip = std::find_if(strips.begin(), strips.end(), [&](const Strip& s) {
+      return s.face == trailing.base && s.edges[0] == trailing.edge;
+    });
+    const bool is_second = trailing.base != kNone && strip == strips.end();  // of a blunt edge: the same noses again
+    if (has_noses && !is_second) raster.add_noses(trailing);
+    if (strip != strips.end() && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1]))
+      raster.add_base(*strip, trailing);
+  }
+}
+
+void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines) {
+  for (const TrailingEdge& trailing : wing.trailing)
+    for (const ChordStation& s : trailing.stations)
+      if (s.is_measured) lines.push_back({s.nose, s.trailing, s.chord, index});
+}
+
+ChordLimit::ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int chord_cells)
+    : chord_cells_(chord_cells) {
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(lines_),
+               [&](const ChordLine& line) { return line.wing == wing; });
+}
+
+double ChordLimit::at(Vec3 x) const {
+  double nearest = std::numeric_limits<double>::infinity(), chord = nearest;
+  for (const ChordLine& line : lines_) {
+    const double d = segment_distance(x, line.nose, line.trailing);
+    if (d >= nearest) continue;
+    nearest = d;
+    chord = line.chord;
+  }
+  return chord / chord_cells_;
+}
+
+}  // namespace st

@@ -1,0 +1,54 @@
+// Sizes of lifting surfaces, from their own chord: trailing edge, nose, base, and the cells in between.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/length.h"
+#include "features/lifting_surface.h"
+#include "features/strip.h"
+#include "sizing/octree.h"
+
+namespace st {
+
+/// What is asked for.
+struct WingSizes {
+  LengthSpec edge_size;       ///< along trailing edges and noses; chord and span are local
+  int base_cells = 2;         ///< lengths across the base of a blunt trailing edge, down to a quarter of edge_size
+  LengthReference reference;  ///< of lengths that are not the wing's
+  std::optional<LengthSpec> least;  ///< nothing is finer; nullopt: no floor
+  double cell_per_length = 2;       ///< edge of a raster box over its length
+};
+
+/// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
+/// Edges and bases in `is_left_out` ([n_edges] 1: a rule says what they get) are passed over; with one of the leading
+/// edges all noses are. Local. Throws Error(kUsage).
+void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::span<const Strip> strips,
+                 std::span<const std::uint8_t> is_left_out, std::vector<RasterBox>& boxes);
+
+/// A local chord as the sampling of faces uses it.
+struct ChordLine {
+  Vec3 nose, trailing;    ///< model unit
+  double chord = 0;       ///< model unit
+  std::int32_t wing = 0;  ///< index of the lifting surface
+};
+
+/// Appends the measured stations.
+void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines);
+
+/// The largest length on one face of a lifting surface: a share of the local chord.
+class ChordLimit {
+ public:
+  /// Of the lines of `wing`; without any there is no limit.
+  ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int chord_cells);
+  /// That of the nearest line, model unit; infinity without lines. Linear in lines.
+  double at(Vec3 x) const;
+
+ private:
+  std::vector<ChordLine> lines_;
+  int chord_cells_;
+};
+
+}  // namespace st

@@ -1,0 +1,90 @@
+// Lifting surfaces: chord and span behind trailing edges.
+#include "features/lifting_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+std::vector<LiftingSurface> wings_of(const Model& model, const FaceRoles& roles) {
+  return find_lifting_surfaces(model, roles, find_wing_edges(model, roles));
+}
+
+std::vector<LiftingSurface> wings_of(const std::string& shape) {
+  const Model model = test::make_model(shape);
+  return wings_of(model, face_roles(model.tables()));
+}
+
+void expect_wing_of_chord_10(const LiftingSurface& wing) {
+  EXPECT_NEAR(wing.span, 30, 1e-6);
+  EXPECT_NEAR(wing.least_chord, 10, 0.02);
+  EXPECT_NEAR(wing.largest_chord, 10, 0.02);
+  EXPECT_EQ(wing.leading.size(), 1u);
+  for (const TrailingEdge& edge : wing.trailing)
+    for (const ChordStation& s : edge.stations) {
+      EXPECT_NEAR(s.trailing.x, 10, 1e-6);
+      EXPECT_NEAR(s.chord, 10, 0.02);
+      if (s.is_measured) {
+        EXPECT_NEAR(s.nose.x, 0, 0.02);
+      }
+    }
+}
+
+TEST(LiftingSurface, has_the_chord_and_the_span_of_a_sharp_wing) {
+  const std::vector<LiftingSurface> wings = wings_of("sharp_wing");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_FALSE(wings[0].is_blunt);
+  EXPECT_EQ(wings[0].trailing.size(), 1u);
+  EXPECT_EQ(wings[0].faces.size(), 2u) << "upper and lower side";
+  expect_wing_of_chord_10(wings[0]);
+}
+
+TEST(LiftingSurface, counts_both_sides_of_a_blunt_edge_as_one) {
+  const std::vector<LiftingSurface> wings = wings_of("blunt_wing");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_TRUE(wings[0].is_blunt);
+  EXPECT_EQ(wings[0].trailing.size(), 2u);
+  EXPECT_EQ(wings[0].trailing[0].base, wings[0].trailing[1].base);
+  expect_wing_of_chord_10(wings[0]);
+}
+
+TEST(LiftingSurface, is_found_in_a_domain) {
+  const Model model = test::make_model("wing_in_box");
+  FaceRoles roles = face_roles(model.tables());
+  for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+    if (model.tables().face_box[f].diagonal() > 50) roles.role[f] = FaceRole::kFarfield;
+  EXPECT_EQ(wings_of(model, roles).size(), 1u);
+}
+
+TEST(LiftingSurface, is_no_plate_and_no_plain_body) {
+  for (const char* shape : {"thin_plate", "wedge_strip", "box", "cylinder", "cone", "drilled_block", "stepped_box"})
+    EXPECT_TRUE(wings_of(shape).empty()) << shape;
+}
+
+TEST(LiftingSurface, knows_the_chord_near_a_place) {
+  const std::vector<LiftingSurface> wings = wings_of("sharp_wing");
+  ASSERT_EQ(wings.size(), 1u);
+  const NearestChord nearest = wings[0].nearest_chord({5, 2, 15});
+  EXPECT_NEAR(nearest.chord, 10, 0.02);
+  EXPECT_NEAR(nearest.distance, 2, 0.1);
+}
+
+TEST(TrailingEdge, is_linear_between_stations) {
+  TrailingEdge edge;
+  edge.stations.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) edge.stations[i].share = 0.5 * static_cast<double>(i);
+  edge.stations[0].chord = edge.stations[1].chord = 4;
+  edge.stations[2].chord = 2;
+  EXPECT_EQ(edge.chord_at(0), 4);
+  EXPECT_EQ(edge.chord_at(0.25), 4);
+  EXPECT_EQ(edge.chord_at(0.75), 3);
+  EXPECT_EQ(edge.chord_at(1), 2);
+}
+
+}  // namespace
+}  // namespace st

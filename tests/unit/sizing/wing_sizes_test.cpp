@@ -1,0 +1,102 @@
+// Sizes along trailing edges and noses.
+#include "sizing/wing_sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+struct Sampled {
+  std::vector<RasterBox> boxes;
+  std::vector<RasterBox> with(CauseKind kind) const {
+    std::vector<RasterBox> own;
+    for (const RasterBox& b : boxes)
+      if (cause_kind(b.cause) == kind) own.push_back(b);
+    return own;
+  }
+};
+
+Sampled sample(const std::string& shape, const WingSizes& sizes, std::vector<EdgeId> left_out = {}) {
+  const Model model = test::make_model(shape);
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<WingEdge> edges = find_wing_edges(model, roles);
+  std::vector<std::uint8_t> is_left_out(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  for (const WingEdge& w : edges)
+    if (std::find(left_out.begin(), left_out.end(), static_cast<EdgeId>(w.kind)) != left_out.end())
+      is_left_out[w.edge] = 1;
+  Sampled s;
+  for (const LiftingSurface& wing : find_lifting_surfaces(model, roles, edges))
+    raster_wing(model, wing, sizes, find_strips(model), is_left_out, s.boxes);
+  return s;
+}
+
+WingSizes share_of_chord(const std::string& text) { return {parse_length(text, "--edge-size"), 2, {30, {}}, {}, 2}; }
+
+TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
+  const Sampled s = sample("sharp_wing", share_of_chord("0.5%chord"));
+  for (const double x : {0.0, 10.0}) {
+    std::vector<double> z;
+    for (const RasterBox& b : s.boxes)
+      if (std::abs(b.center.x - x) < 0.03) z.push_back(b.center.z);
+    std::sort(z.begin(), z.end());
+    ASSERT_GT(z.size(), 500u);
+    EXPECT_LT(z.front(), 0.1);
+    EXPECT_GT(z.back(), 29.9);
+    for (std::size_t i = 1; i < z.size(); ++i) EXPECT_LE(z[i] - z[i - 1], 0.0505);
+  }
+  for (const RasterBox& b : s.boxes) EXPECT_NEAR(b.length, 0.05, 1e-4);
+}
+
+TEST(WingSizes, lay_cells_across_a_blunt_base) {
+  const Sampled s = sample("blunt_wing", share_of_chord("0.5%chord"));
+  const std::vector<RasterBox> edges = s.with(CauseKind::kEdge);
+  ASSERT_FALSE(edges.empty());
+  for (const RasterBox& b : edges) EXPECT_NEAR(b.length, 0.05, 1e-4);
+  std::size_t n_base = 0;
+  for (const RasterBox& b : s.with(CauseKind::kFace))
+    if (b.center.x > 9) {
+      EXPECT_NEAR(b.length, 0.5 * 0.0252, 1e-4);
+      ++n_base;
+    }
+  EXPECT_GT(n_base, 1000u);
+}
+
+TEST(WingSizes, do_not_lay_more_cells_across_a_base_than_a_quarter_of_the_edges_length_allows) {
+  for (const RasterBox& b : sample("blunt_wing", share_of_chord("4%chord")).with(CauseKind::kFace))
+    if (b.center.x > 9) {
+      EXPECT_NEAR(b.length, 0.1, 1e-3);
+    }
+}
+
+TEST(WingSizes, leave_out_what_a_rule_names) {
+  const auto trailing = static_cast<EdgeId>(WingEdgeKind::kBluntTrailing),
+             leading = static_cast<EdgeId>(WingEdgeKind::kLeading);
+  for (const RasterBox& b : sample("blunt_wing", share_of_chord("1%chord"), {trailing}).boxes) EXPECT_LT(b.center.x, 5);
+  for (const RasterBox& b : sample("blunt_wing", share_of_chord("1%chord"), {leading}).boxes) EXPECT_GT(b.center.x, 5);
+}
+
+TEST(WingSizes, take_other_lengths_and_a_floor) {
+  for (const RasterBox& b : sample("sharp_wing", share_of_chord("1%span")).boxes) EXPECT_NEAR(b.length, 0.3, 1e-4);
+  for (const RasterBox& b : sample("sharp_wing", share_of_chord("0.2")).boxes) EXPECT_NEAR(b.length, 0.2, 1e-6);
+  WingSizes sizes = share_of_chord("0.1%chord");
+  sizes.least = parse_length("0.25", "--lmin");
+  for (const RasterBox& b : sample("sharp_wing", sizes).boxes) EXPECT_NEAR(b.length, 0.25, 1e-6);
+}
+
+TEST(ChordLimit, is_a_share_of_the_nearest_chord_of_its_own_surface) {
+  const std::vector<ChordLine> lines = {
+      {{0, 0, 0}, {4, 0, 0}, 4, 0}, {{0, 0, 9}, {2, 0, 9}, 2, 0}, {{0, 0, 5}, {1, 0, 5}, 1, 1}};
+  const ChordLimit limit(lines, 0, 20);
+  EXPECT_DOUBLE_EQ(limit.at({1, 0, 1}), 0.2);
+  EXPECT_DOUBLE_EQ(limit.at({1, 0, 6}), 0.1);
+  EXPECT_EQ(ChordLimit(lines, 7, 20).at({}), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace st
