@@ -28,6 +28,7 @@
 #include "sizing/raster_face.h"
 #include "sizing/raster_strip.h"
 #include "stages/cell_budget.h"
+#include "stages/coarse_surface.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
 
@@ -197,10 +198,13 @@ class RasterTasks {
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
+    const std::size_t n_before = boxes.size();
     raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
                 limits_.wants_gaps ? &patches : nullptr);
-    if (model_.tables().face_is_reversed[f])
+    if (model_.tables().face_is_reversed[f]) {
       for (GapPatch& patch : patches) patch.flip();
+      for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
+    }
     const auto strip =
         std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
     if (strip != strips_.end() && strip->face == f)
@@ -317,6 +321,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   if (o.edge_cells) options["edge_cells"] = *o.edge_cells;
   if (!o.trailing_edges.empty()) options["trailing_edges"] = o.trailing_edges;
   if (!o.leading_edges.empty()) options["leading_edges"] = o.leading_edges;
+  if (o.surface) options["surface"] = true;
   if (!o.chord.empty()) options["chord"] = limits.chord;
   header.options_json = options.dump();
   header.unit = geometry.unit;
@@ -445,13 +450,15 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
+  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
+                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
+  if (o.surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
+  times.end("surface");
   times.gather(comm);
   if (!comm.is_root()) return {};
 
   warn_of_depth(counts.depth);
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
-  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
-                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   artifact.group_name = model.tables().group_name;
   artifact.face_group = model.tables().face_group;

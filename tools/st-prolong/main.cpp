@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
             "moves sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
   tool.optional_input("--geometry", o.geometry,
                       "the raster's geometry as st-edit --transform moved it: the octree moves with it");
-  tool.optional_input("--blank", o.blank, "closed mesh: what lies inside it passes no lengths to the flow");
+  tool.optional_input("--blank", o.blank, "closed mesh that lengths do not pass, instead of the raster's own surface");
+  tool.flag("--no-blank", o.no_blank, "let lengths pass through solids");
   tool.text("--blank-side", o.blank_side, "SIDE",
             "what is blanked: inside, outside (of a meshed fluid domain) or auto");
   tool.optional_input("--sample", o.sample, "CSV of points at which to write the lengths");

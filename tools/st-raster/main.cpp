@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   tool.number("--cell-per-length", o.cell_per_length, "[1, 8]", "raster boxes reach this many sample lengths");
   tool.number("--max-cells", o.max_cells, "[1, 2147483647]",
               "refuse an octree with more cells; default: what fits 80% of the memory");
+  tool.flag("--surface", o.surface,
+            "store the surface of a closed model: st-prolong lets no length pass through solids");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "exit code 0 although parts could not be sampled; the artifact is flagged");
   tool.preset();
