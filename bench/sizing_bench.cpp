@@ -149,7 +149,7 @@ void bench_accuracy(const std::string& path) {
     }
     seed_lengths(samples, kSlope, raster);
     storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
-    hold_samples(raster.shape.view(), samples, {}, storage->lengths);
+    hold_samples(raster.shape.view(), samples, nullptr, storage->lengths);
     const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1},
                             storage);
     std::vector<double> errors;

@@ -9,6 +9,7 @@
 
 #include "base/limits.h"
 #include "base/predicates.h"
+#include "mesh/adjacency.h"
 
 namespace st {
 namespace {
@@ -41,18 +42,31 @@ struct Cube {
 struct CellParts {
   std::array<std::int8_t, kSamples> part{};  // 0, 1 or kNoFlow
   Vec3 spare;                                // a point of the flow where no sample is one
-  bool has_spare = false;
+  std::int8_t spare_part = kNoFlow;
 
-  bool has(int p) const { return has_spare ? p == 0 : std::find(part.begin(), part.end(), p) != part.end(); }
+  bool has(int p) const { return spare_part == p || std::find(part.begin(), part.end(), p) != part.end(); }
+};
+
+/// A triangle of the surface in the cell at hand.
+struct Piece {
+  TriangleId triangle = kNone;
+  ClippedTriangle polygon;
+  Vec3 middle, area;  // area: towards the flow
 };
 
 class Blanker {
  public:
-  Blanker(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side)
-      : octree_(octree), neighbours_(neighbours), surface_(surface), flow_sign_(side == BlankSide::kInside ? 1 : -1) {}
+  Blanker(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+          std::span<const Triangle> open_edges)
+      : open_edges_(open_edges),
+        octree_(octree),
+        neighbours_(neighbours),
+        surface_(surface),
+        flow_sign_(side == BlankSide::kInside ? 1 : -1) {}
 
   Blanking run() {
     cut_ = find_cut_cells(octree_, surface_);
+    leave_holes_open();
     box_triangles();
     colour_cut_cells();
     colour_the_rest();
@@ -67,6 +81,21 @@ class Blanker {
   }
   bool is_cut(std::int32_t leaf) const { return result_.colour[leaf] == CellColour::kCut; }
 
+  /// Where the surface has an open edge nothing is known: such cells count as not cut.
+  void leave_holes_open() {
+    if (open_edges_.empty()) return;
+    const CutCells open = find_cut_cells(octree_, {surface_.points, open_edges_});
+    CutCells kept;
+    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
+      if (std::binary_search(open.leaf.begin(), open.leaf.end(), cut_.leaf[i])) continue;
+      const std::span<const TriangleId> triangles = cut_.triangles(i);
+      kept.leaf.push_back(cut_.leaf[i]);
+      kept.triangle.insert(kept.triangle.end(), triangles.begin(), triangles.end());
+      kept.offsets.push_back(static_cast<std::int64_t>(kept.triangle.size()));
+    }
+    cut_ = std::move(kept);
+  }
+
   void colour_cut_cells() {
     result_.colour.assign(octree_.leaf_keys.size(), CellColour::kFlow);
     cut_index_.assign(octree_.leaf_keys.size(), kNone);
@@ -76,14 +105,20 @@ class Blanker {
     }
   }
 
+  /// An open surface has no inside: all is flow.
+  CellColour colour_at(Vec3 x) const {
+    if (!open_edges_.empty()) return CellColour::kFlow;
+    const bool is_inside = winding_number(surface_, x) > 0;
+    return is_inside == (flow_sign_ < 0) ? CellColour::kFlow : CellColour::kBlanked;
+  }
+
   /// One ray for each region of uncut cells, and its colour for all of them.
   void colour_the_rest() {
     std::vector<std::uint8_t> is_known(octree_.leaf_keys.size(), 0);
     std::vector<std::int32_t> front;
     for (std::int32_t seed = 0; seed < octree_.n_leaves(); ++seed) {
       if (is_cut(seed) || is_known[seed]) continue;
-      const bool is_inside = winding_number(surface_, octree_.leaf_center(seed)) > 0;
-      const CellColour colour = is_inside == (flow_sign_ < 0) ? CellColour::kFlow : CellColour::kBlanked;
+      const CellColour colour = colour_at(octree_.leaf_center(seed));
       front.assign(1, seed);
       is_known[seed] = 1;
       while (!front.empty()) {
@@ -168,7 +203,10 @@ class Blanker {
       const int g = group[s];
       parts.part[s] = vote[g] <= 0 ? kNoFlow : g == largest[1] ? 1 : 0;
     }
-    if (largest[0] == kNone) set_spare(cell, parts);
+    if (largest[0] == kNone)
+      set_spare(cell, find_largest_piece([](const Piece&) { return true; }), 0, parts);
+    else if (largest[1] == kNone)
+      set_hidden_part(cell, parts);
     return parts;
   }
 
@@ -226,13 +264,30 @@ class Blanker {
     return flow_sign_ * sign;
   }
 
-  void set_spare(const Cube& cell, CellParts& parts) const {
+  /// Null: none is wanted.
+  template <class IsWanted>
+  const Piece* find_largest_piece(const IsWanted& is_wanted) const {
     const Piece* largest = nullptr;
     for (const Piece& piece : pieces_)
-      if (!largest || norm2(piece.area) > norm2(largest->area)) largest = &piece;
+      if (is_wanted(piece) && (!largest || norm2(piece.area) > norm2(largest->area))) largest = &piece;
+    return largest;
+  }
+
+  /// A surface that turns its back to all samples of the flow bounds a part of its own, too thin for a sample.
+  void set_hidden_part(const Cube& cell, CellParts& parts) const {
+    const Piece* hidden = find_largest_piece([&](const Piece& piece) {
+      for (int s = 0; s < kSamples; ++s)
+        if (parts.part[s] == 0 && dot(piece.area, cell.sample(s) - piece.middle) > 0) return false;
+      return true;
+    });
+    if (hidden) set_spare(cell, hidden, 1, parts);
+  }
+
+  /// A point just off the surface, in the flow.
+  static void set_spare(const Cube& cell, const Piece* piece, std::int8_t part, CellParts& parts) {
     constexpr double kOff = 1e-3;  // of the half edge
-    parts.spare = largest ? largest->middle + kOff * cell.half * normalized(largest->area) : cell.center;
-    parts.has_spare = true;
+    parts.spare = piece ? piece->middle + kOff * cell.half * normalized(piece->area) : cell.center;
+    parts.spare_part = part;
   }
 
   /// The plane between the surface that looks to the first part and the one that looks to the second.
@@ -240,11 +295,13 @@ class Blanker {
     const Cube cell = cube(cut_.leaf[i]);
     std::array<Vec3, 2> sum;
     std::array<int, 2> count{};
-    for (int s = 0; s < kSamples; ++s)
-      if (const int p = parts_[i].part[s]; p != kNoFlow) {
-        sum[p] += cell.sample(s);
-        ++count[p];
-      }
+    const auto add = [&](int p, Vec3 x) {
+      if (p == kNoFlow) return;
+      sum[p] += x;
+      ++count[p];
+    };
+    for (int s = 0; s < kSamples; ++s) add(parts_[i].part[s], cell.sample(s));
+    add(parts_[i].spare_part, parts_[i].spare);
     const Vec3 across = sum[0] / count[0] - sum[1] / count[1];
     Vec3 normal;
     for (const Piece& piece : pieces_) normal += (dot(piece.area, across) < 0 ? -1.0 : 1.0) * piece.area;
@@ -301,6 +358,7 @@ class Blanker {
     if (to_part == 1 && !(is_cut(to) && parts_[cut_index_[to]].has(1))) return false;
     if (result_.colour[to] == CellColour::kBlanked) return true;
     if (result_.colour[from] == CellColour::kBlanked) return false;
+    if (!is_cut(from) && !is_cut(to)) return true;
     return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
   }
 
@@ -327,7 +385,7 @@ class Blanker {
     const Cube own = cube(leaf);
     if (!is_cut(leaf)) return own.nearest(x);
     const CellParts& parts = parts_[cut_index_[leaf]];
-    if (parts.has_spare) return parts.spare;
+    if (parts.spare_part == part) return parts.spare;
     Vec3 nearest = without ? *without : own.center;
     double least = std::numeric_limits<double>::infinity();
     for (int s = 0; s < kSamples; ++s) {
@@ -343,12 +401,8 @@ class Blanker {
   struct TriangleBox {
     float lo_x, lo_y, lo_z, hi_x, hi_y, hi_z;
   };
-  struct Piece {
-    TriangleId triangle = kNone;
-    ClippedTriangle polygon;
-    Vec3 middle, area;  // area: towards the flow
-  };
 
+  const std::span<const Triangle> open_edges_;
   const OctreeView& octree_;
   const Neighbours& neighbours_;
   const SurfaceView& surface_;
@@ -368,9 +422,20 @@ std::int32_t Blanking::find_split(std::int32_t leaf) const {
   return it != split_leaf.end() && *it == leaf ? static_cast<std::int32_t>(it - split_leaf.begin()) : kNone;
 }
 
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface,
-                     BlankSide side) {
-  return Blanker(octree, neighbours, surface, side).run();
+std::vector<Triangle> find_open_edges(const SurfaceView& surface) {
+  std::vector<Triangle> open;
+  EdgeTable(surface.triangles, static_cast<std::int64_t>(surface.points.size()))
+      .for_each_edge([&](NodeId low, NodeId high, std::span<const SideId> sides) {
+        std::ptrdiff_t balance = 0;
+        for (const SideId side : sides) balance += side_start(surface.triangles, side) == low ? 1 : -1;
+        if (balance != 0) open.push_back({{low, high, high}});
+      });
+  return open;
+}
+
+Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+                     std::span<const Triangle> open_edges) {
+  return Blanker(octree, neighbours, surface, side, open_edges).run();
 }
 
 }  // namespace st

@@ -15,6 +15,15 @@ enum class CellColour : std::uint8_t { kFlow = 0, kCut = 1, kBlanked = 2 };
 /// Which side of a closed surface is no flow.
 enum class BlankSide { kInside, kOutside };
 
+/// A surface that separates flow from no flow, normals out of its inside.
+struct BlankSurface {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  BlankSide side = BlankSide::kInside;
+
+  SurfaceView view() const { return {points, triangles}; }
+};
+
 /// A cell in which the surface separates two parts of the flow (a wall thinner than the cell): which of them a point
 /// belongs to.
 struct CellSplit {
@@ -39,6 +48,7 @@ struct Blanking {
   std::vector<std::int32_t> site_links;  ///< [n_leaves + n_split] row of `links`; kNone: all links are open, to first
                                          ///< parts
   std::vector<OpenLinks> links;
+  double flow_along_normals = 0;  ///< 1: normals of the model point into the flow, -1: out of it, 0: unknown
 
   std::int32_t n_sites() const { return static_cast<std::int32_t>(site_links.size()); }
   /// kNone: not split.
@@ -48,9 +58,14 @@ struct Blanking {
 /// Cells that the surface cuts, one ray per region for the rest, colouring; then the links near the surface: a length
 /// passes between flow and flow where the surface does not lie between, from flow to what is blanked, never from there
 /// to flow. Where the surface separates the flow in a cell, the cell has two parts (more are taken together).
-/// Precondition: closed, oriented surface (normals out of its inside). Local; a few microseconds per cut cell.
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface,
-                     BlankSide side);
+/// Precondition: oriented surface (normals out of its inside), closed but for `open_edges`: where these lie cells count
+/// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell.
+Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+                     std::span<const Triangle> open_edges = {});
+
+/// Edges along which not as many triangles run one way as the other, each as a triangle with a repeated node.
+/// Precondition: triangles that touch have common nodes.
+std::vector<Triangle> find_open_edges(const SurfaceView& surface);
 
 /// Calls f(site, step) for each site that a length passes to from `site`. `blanking` may be null: each leaf is a site.
 template <class F>

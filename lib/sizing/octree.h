@@ -18,12 +18,26 @@ constexpr std::int32_t pack_cause(CauseKind kind, std::int32_t id) { return id *
 constexpr CauseKind cause_kind(std::int32_t cause) { return static_cast<CauseKind>(cause & 3); }
 constexpr std::int32_t cause_id(std::int32_t cause) { return cause >> 2; }
 
+/// A direction in three bytes; 128, 128, 128: unknown.
+struct SmallNormal {
+  std::uint8_t x = 128, y = 128, z = 128;  ///< of the unit vector, times 127, plus 128
+
+  SmallNormal() = default;
+  explicit SmallNormal(Vec3 unit) : x(round(unit.x)), y(round(unit.y)), z(round(unit.z)) {}
+  explicit operator Vec3() const { return Vec3{x - 128.0, y - 128.0, z - 128.0} / 127; }
+  SmallNormal reversed() const { return SmallNormal(-Vec3(*this)); }
+
+ private:
+  static std::uint8_t round(double v) { return static_cast<std::uint8_t>(127 * v + 128.5); }
+};
+
 /// A sample of the geometry: the cube center +- half asks for `length`. Its edge is cell_per_length times the length.
 struct RasterBox {
   Vec3 center;       ///< model unit
   float half = 0;    ///< half the edge, model unit, > 0
   float length = 0;  ///< sample length, model unit, > 0
   std::int32_t cause = kNone;
+  SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
 };
 
 /// The shape of an octree over arrays that somebody else owns (vectors, or a mapped artifact).

@@ -186,24 +186,23 @@ CellLengths bounded_lengths(std::span<const float> stored_length, std::span<cons
   return cells;
 }
 
-/// The second part of a split cell starts from the same.
-void add_second_parts(const Blanking& blanking, CellLengths& cells) {
+}  // namespace
+
+void add_second_parts(const Blanking& blanking, RasterOctree& octree) {
   for (const std::int32_t leaf : blanking.split_leaf) {
-    cells.length.push_back(cells.length[leaf]);
-    cells.cause.push_back(cells.cause[leaf]);
+    octree.stored_length.push_back(octree.stored_length[leaf]);
+    octree.stored_cause.push_back(octree.stored_cause[leaf]);
   }
 }
-
-}  // namespace
 
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
                          std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
                          const Blanking* blanking) {
-  ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && stored_cause.size() == octree.leaf_keys.size());
+  ST_ASSERT(stored_length.size() == octree.leaf_keys.size() + (blanking ? blanking->split_leaf.size() : 0));
+  ST_ASSERT(stored_cause.size() == stored_length.size());
   ST_ASSERT(options.cell_slope.empty() || options.cell_slope.size() == octree.leaf_keys.size());
   ST_ASSERT(options.slope > 0 && options.max_length > 0);
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
-  if (blanking) add_second_parts(*blanking, lengths);
   const Neighbours neighbours(octree);
   pass_lengths(octree.edge, neighbours, blanking, options, lengths);
   ProlongedLengths result;
@@ -225,7 +224,7 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
 std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking) {
-  ST_ASSERT(stored_length.size() == octree.leaf_keys.size() && seed_slope.size() == octree.leaf_keys.size());
+  ST_ASSERT(seed_slope.size() == octree.leaf_keys.size());
   std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
   for (float& slope : kinds)
     if (!(slope > 0)) slope = static_cast<float>(options.slope);
@@ -235,8 +234,9 @@ std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float
   std::vector<std::int32_t> label;
   for (const float slope : cell_slope)
     label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));
+  if (blanking)
+    for (const std::int32_t leaf : blanking->split_leaf) label.push_back(label[leaf]);
   CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
-  if (blanking) add_second_parts(*blanking, lengths);
   pass_lengths(octree.edge, Neighbours(octree), blanking, {options.slope, options.max_length}, lengths);
   std::vector<float> result;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)

@@ -23,8 +23,12 @@ struct ProlongOptions {
                                            ///< Empty: `slope` everywhere
 };
 
+/// Appends what the second parts of split leaves start from: what their leaf stores.
+void add_second_parts(const Blanking& blanking, RasterOctree& octree);
+
 /// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives
-/// to the cell that its length comes from (0: options.slope). `seed_slope` is [n_leaves]. Unique, as prolong().
+/// to the cell that its length comes from (0: options.slope). `seed_slope` is [n_leaves], `stored_length` as in
+/// prolong(). Unique, as prolong().
 std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking = nullptr);
@@ -33,7 +37,7 @@ std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float
 /// a, b that touch at a face, an edge or a corner. Minimum over paths of sums rounded in path order: a unique fixed
 /// point, so the result is exactly reproducible; equal lengths take the smallest cause. Then the least-squares
 /// gradient. O(n) in practice. Precondition: balanced octree. With `blanking` (may be null) lengths pass through its
-/// open links only; both parts of a split cell start from what the cell stores.
+/// open links only, and the stored arrays are [n_sites], see add_second_parts().
 ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
                          std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
                          const Blanking* blanking = nullptr);

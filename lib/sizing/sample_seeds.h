@@ -18,6 +18,7 @@ struct LengthSample {
   float xyz[3] = {0, 0, 0};  ///< model unit
   float length = 0;          ///< model unit, > 0
   std::int32_t cause = kNone;
+  SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
 };
 
 /// The samples of the boxes in an order that does not depend on theirs.
@@ -30,9 +31,14 @@ void forget_samples(RasterOctree& octree);
 /// of the samples within one length of which the cell comes; equal ones take the smaller cause.
 void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOctree& octree);
 
-/// Lowers cells, and second parts of split leaves (`split_leaf`, see Blanking), in which the linear length at the place
-/// of a sample is more than the sample's. No centre gets below all samples of its cell.
-void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples,
-                  std::span<const std::int32_t> split_leaf, ProlongedLengths& lengths);
+/// Likewise with a surface in the octree: a sample asks for its length in its own cell, on the side of the surface that
+/// it lies on, and in the cells to which a length passes from there. `octree` after add_second_parts().
+void seed_lengths(std::span<const LengthSample> samples, double slope, const Blanking& blanking,
+                  const Neighbours& neighbours, RasterOctree& octree);
+
+/// Lowers cells, and second parts of split leaves, in which the linear length at the place of a sample is more than the
+/// sample's. No centre gets below all samples of its cell. `blanking` may be null.
+void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, const Blanking* blanking,
+                  ProlongedLengths& lengths);
 
 }  // namespace st

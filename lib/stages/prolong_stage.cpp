@@ -36,6 +36,8 @@ void require_valid(const ProlongStageOptions& o) {
     throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
+  if (o.no_blank && !o.blank.empty())
+    throw Error(ExitCode::kUsage, "--no-blank and --blank exclude each other: leave out one");
   parse_slopes(o.slope_of);
   if (o.target_triangles && o.scale != 1)
     throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
@@ -46,6 +48,7 @@ std::string options_json(const ProlongStageOptions& o, double scale) {
   Json json = {{"slope", o.slope}, {"scale", scale}};
   if (!o.slope_of.empty()) json["slope_of"] = o.slope_of;
   if (!o.blank.empty()) json["blank_side"] = o.blank_side;
+  if (o.no_blank) json["no_blank"] = true;
   if (!o.transform.empty()) json["transform"] = o.transform;
   if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
   if (o.allow_incomplete) json["allow_incomplete"] = true;
@@ -102,6 +105,66 @@ MovedGeometry read_moved(const ProlongStageOptions& o, const ArtifactHeader& ras
   return {whole_motion(o.geometry, geometry, raster.geometry_hash), geometry.content_hash, {file}};
 }
 
+/// The surface that lengths do not pass, in the octree's own frame; without triangles: there is none.
+struct Barrier {
+  BlankSurface surface;
+  double flow_along_normals = 0;  ///< see Blanking
+  std::vector<InputRef> file;     ///< of --blank
+};
+
+Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const Similarity& to_octree) {
+  if (o.no_blank) return {};
+  if (o.blank.empty()) {
+    const double along = raster.surface.side == BlankSide::kInside ? 1 : -1;
+    return {std::move(raster.surface), along, {}};
+  }
+  BlankInput blank = read_blank(o.blank, o.blank_side);
+  if (to_octree != Similarity()) transform(to_octree, blank.mesh);
+  return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side}, 0, {blank.file}};
+}
+
+/// Samples to the cells around them, and where lengths may pass.
+void seed_and_blank(const Barrier& barrier, double slope, RasterArtifact& raster, Blanking& blanking) {
+  if (barrier.surface.triangles.empty()) return seed_lengths(raster.samples, slope, raster.octree);
+  const OctreeView octree = raster.octree.shape.view();
+  const Neighbours neighbours(octree);
+  blanking = blank_cells(octree, neighbours, barrier.surface.view(), barrier.surface.side,
+                         find_open_edges(barrier.surface.view()));
+  blanking.flow_along_normals = barrier.flow_along_normals;
+  add_second_parts(blanking, raster.octree);
+  seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
+}
+
+/// Slope of each cell; empty: o.slope everywhere. Raises the slope that the field as a whole promises.
+std::vector<float> cell_slopes(const ProlongStageOptions& o, const RasterArtifact& raster,
+                               const OctreeView& raster_octree, const Blanking* blanking, double& largest) {
+  const std::vector<NamedSlope> slopes = parse_slopes(o.slope_of);
+  if (slopes.empty()) return {};
+  for (const NamedSlope& s : slopes) largest = std::max(largest, s.slope);
+  const OctreeView octree = raster.octree.shape.view();
+  return spread_slopes(octree, raster.octree.stored_length, seed_slopes(slopes, raster, raster_octree, octree),
+                       {o.slope, raster.numbers.far_length}, blanking);
+}
+
+/// Prolongs what the raster and `input` ask for; `sizing` gets shape, lengths, blanking and slope.
+void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier,
+                  const OctreeView& raster_octree, RasterArtifact& raster, SizingArtifact& sizing) {
+  if (!raster.samples.empty()) forget_samples(raster.octree);
+  if (!input.sources.empty())
+    raster.octree =
+        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
+  seed_and_blank(barrier, o.slope, raster, sizing.blanking);
+  const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
+  sizing.slope = o.slope;
+  ProlongOptions options{o.slope, raster.numbers.far_length};
+  const std::vector<float> cell_slope = cell_slopes(o, raster, raster_octree, blanking, sizing.slope);
+  options.cell_slope = cell_slope;
+  const OctreeView octree = raster.octree.shape.view();
+  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
+  hold_samples(octree, raster.samples, blanking, sizing.lengths);
+  sizing.shape = std::move(raster.octree.shape);
+}
+
 SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
   const MovedGeometry moved = read_moved(o, raster.header);
   const Similarity to_octree = moved.motion.inverse();
@@ -111,39 +174,16 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
-  sizing.slope = o.slope;
   const OctreeShape raster_shape = raster.octree.shape;
-  if (!raster.samples.empty()) forget_samples(raster.octree);
-  if (!input.sources.empty())
-    raster.octree =
-        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
-  const OctreeView octree = raster.octree.shape.view();
-  seed_lengths(raster.samples, o.slope, raster.octree);
-  if (!o.blank.empty()) {
-    BlankInput blank = read_blank(o.blank, o.blank_side);
-    if (moved.motion != Similarity()) transform(to_octree, blank.mesh);
-    sizing.blanking = blank_cells(octree, Neighbours(octree), blank.view(), blank.side);
-    input.files.push_back(blank.file);
-  }
-  const Blanking* blanking = o.blank.empty() ? nullptr : &sizing.blanking;
-  ProlongOptions options{o.slope, raster.numbers.far_length};
-  std::vector<float> cell_slope;
-  if (const std::vector<NamedSlope> slopes = parse_slopes(o.slope_of); !slopes.empty()) {
-    const std::vector<float> seeds = seed_slopes(slopes, raster, raster_shape.view(), octree);
-    cell_slope = spread_slopes(octree, raster.octree.stored_length, seeds, options, blanking);
-    options.cell_slope = cell_slope;
-    for (const NamedSlope& s : slopes)
-      sizing.slope = std::max(sizing.slope, s.slope);  // what the field as a whole promises
-  }
-  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  hold_samples(octree, raster.samples, sizing.blanking.split_leaf, sizing.lengths);
-  sizing.shape = std::move(raster.octree.shape);
+  const Barrier barrier = find_barrier(o, raster, to_octree);
+  make_lengths(o, input, barrier, raster_shape.view(), raster, sizing);
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);
   const OctreeField field(sizing.field_data(), nullptr);
   const std::vector<FaceWeight> weights = face_weights(raster.faces, raster_shape.view(), field);
   sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
+  input.files.insert(input.files.end(), barrier.file.begin(), barrier.file.end());
   input.files.insert(input.files.begin(), moved.file.begin(), moved.file.end());
   sizing.header = sizing_header(o, raster.header, sizing.scale, input.files);
   sizing.header.geometry_hash = moved.hash;

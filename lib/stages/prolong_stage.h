@@ -23,8 +23,9 @@ struct ProlongStageOptions {
   std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:
                           ///< that one
   std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
-  std::string blank;  ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
-                      ///< none
+  std::string blank;      ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
+                          ///< the raster's own surface
+  bool no_blank = false;  ///< lengths pass through solids
   std::string blank_side = "auto";  ///< "inside", "outside", or "auto": outside when a group of the mesh is the far
                                     ///< field
   std::string sample;               ///< CSV of points at which lengths are written to `sample_output`; empty: none

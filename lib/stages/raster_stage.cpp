@@ -28,6 +28,7 @@
 #include "sizing/raster_face.h"
 #include "sizing/raster_strip.h"
 #include "stages/cell_budget.h"
+#include "stages/coarse_surface.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
 
@@ -240,11 +241,15 @@ class RasterTasks {
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
+    const bool is_reversed = model_.tables().face_is_reversed[f] != 0;
+    const std::size_t n_before = boxes.size();
     std::optional<ChordLimit> chord;
     if (limits_.face_wing[f] != kNone) chord.emplace(limits_.chords, limits_.face_wing[f], *limits->chord_cells);
     raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
                 limits_.wants_gaps ? &patches : nullptr, chord ? &*chord : nullptr);
-    if ((model_.tables().face_is_reversed[f] != 0) != limits_.is_material_ahead)
+    if (is_reversed)
+      for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
+    if (is_reversed != limits_.is_material_ahead)
       for (GapPatch& patch : patches) patch.flip();
     const auto strip =
         std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
@@ -371,6 +376,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["edge_size"] = o.edge_size;
   options["base_cells"] = o.base_cells;
   options["chord_cells"] = o.chord_cells;
+  if (o.surface) options["surface"] = true;
   header.options_json = options.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
@@ -541,13 +547,15 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
+  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
+                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
+  if (o.surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
+  times.end("surface");
   times.gather(comm);
   if (!comm.is_root()) return {};
 
   warn_of_depth(counts.depth);
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
-  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
-                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
   artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
   artifact.group_name = model.tables().group_name;
   artifact.face_group = model.tables().face_group;

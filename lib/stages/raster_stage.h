@@ -28,6 +28,7 @@ struct RasterStageOptions {
   double cell_per_length = 2;           ///< raster boxes reach this many sample lengths, [1, 8]
   std::optional<int> max_cells;   ///< of the octree, >= 1: refused beyond; nullopt: what fits 80 % of the memory. No
                                   ///< part of the content
+  bool surface = false;           ///< store a coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
 };
 

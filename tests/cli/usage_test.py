@@ -13,9 +13,9 @@ N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-m
 OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
     "st-edit": {"--output": "edited.hdf", "--as": "", "--join": "", "--extract": "", "--remove": "", "--transform": "", "--of": "", "--require-valid": ""},
-    "st-raster": {"--preset": "", "--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--wall-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--edge-size": "0.3%chord", "--base-cells": "2", "--chord-cells": "30", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--allow-incomplete": ""},
+    "st-raster": {"--preset": "", "--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--wall-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--edge-size": "0.3%chord", "--base-cells": "2", "--chord-cells": "30", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--surface": "", "--allow-incomplete": ""},
     "st-prolong": {"--preset": "", "--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
-                   "--slope-of": "", "--blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv", "--allow-incomplete": ""},
+                   "--slope-of": "", "--blank": "", "--no-blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv", "--allow-incomplete": ""},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
     "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},

@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
             "move sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
   tool.optional_input("--geometry", o.geometry,
                       "geometry of the raster after st-edit --transform; the octree moves with it");
-  tool.optional_input("--blank", o.blank, "closed mesh: what lies inside it passes no lengths to the flow");
+  tool.optional_input("--blank", o.blank, "closed mesh that lengths do not pass, instead of the raster's own surface");
+  tool.flag("--no-blank", o.no_blank, "let lengths pass through solids");
   tool.text("--blank-side", o.blank_side, "SIDE",
             "side that is blanked: inside, outside (of a meshed fluid domain) or auto");
   tool.optional_input("--sample", o.sample, "CSV file of points at which lengths are written to --sample-output");

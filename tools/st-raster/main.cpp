@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
               "octree cell size in edge lengths: larger means fewer cells");
   tool.number("--max-cells", o.max_cells, "[1, 2147483647]",
               "refuse an octree with more cells than this; default: what 80% of the memory can hold");
+  tool.flag("--surface", o.surface,
+            "store the surface of a closed model, so that st-prolong lets no length pass through solids");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "exit code 0 even when parts could not be sampled; the artifact is marked incomplete");
   tool.preset();

@@ -31,6 +31,12 @@ struct Element<CellSplit> {
 };
 
 template <>
+struct Element<SmallNormal> {
+  static constexpr ElementType type = ElementType::kUint8;
+  static constexpr std::size_t count = 3;
+};
+
+template <>
 struct Element<CellColour> : Element<std::uint8_t> {};
 
 namespace {
@@ -39,6 +45,7 @@ constexpr int kOpenSizingVersion = 2;     // of a sizing without a surface in it
 constexpr int kUnmovedSizingVersion = 3;  // of one whose octree lies where it was made
 constexpr int kPlainRasterVersion = 2;    // of a raster without samples
 constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
+constexpr int kPartialRasterVersion = 4;  // of an incomplete one; from here on not_sampled is written
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -51,6 +58,10 @@ constexpr const char* kStoredCause = "/st/octree/stored_cause";
 constexpr const char* kSamplePoint = "/st/sample/point";
 constexpr const char* kSampleLength = "/st/sample/length";
 constexpr const char* kSampleCause = "/st/sample/cause";
+constexpr const char* kSampleNormal = "/st/sample/normal";
+constexpr const char* kSurfacePoint = "/st/surface/point";
+constexpr const char* kSurfaceTriangle = "/st/surface/triangle";
+constexpr const char* kFlowInside = "flow_inside";
 constexpr const char* kCell = "/st/octree/cell";
 constexpr const char* kCause = "/st/octree/cause";
 constexpr const char* kColour = "/st/octree/colour";
@@ -124,7 +135,9 @@ OctreeShape read_shape(const Hdf5Reader& file) {
 void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples) {
   std::vector<float> points, lengths;
   std::vector<std::int32_t> causes;
+  std::vector<SmallNormal> normals;
   for (const LengthSample& s : samples) {
+    normals.push_back(s.normal);
     points.insert(points.end(), s.xyz, s.xyz + 3);
     lengths.push_back(s.length);
     causes.push_back(s.cause);
@@ -132,16 +145,32 @@ void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples) {
   file.write<float>(kSamplePoint, points, 3);
   file.write<float>(kSampleLength, lengths);
   file.write<std::int32_t>(kSampleCause, causes);
+  file.write<SmallNormal>(kSampleNormal, normals);
 }
 
 std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
   const std::vector<float> lengths = file.read<float>(kSampleLength), points = file.read<float>(kSamplePoint, 3);
   const std::vector<std::int32_t> causes = file.read_rows<std::int32_t>(kSampleCause, lengths.size());
   if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
+  std::vector<SmallNormal> normals(lengths.size());
+  if (file.has(kSampleNormal)) normals = file.read_rows<SmallNormal>(kSampleNormal, lengths.size());
   std::vector<LengthSample> samples;
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, lengths[i], causes[i]});
+    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, lengths[i], causes[i], normals[i]});
   return samples;
+}
+
+void write_surface(Hdf5Writer& file, const BlankSurface& surface) {
+  file.write<Vec3>(kSurfacePoint, surface.points);
+  file.write<Triangle>(kSurfaceTriangle, surface.triangles);
+  file.set_attribute(kSizing, kFlowInside, std::int64_t{surface.side == BlankSide::kOutside});
+}
+
+BlankSurface read_surface(const Hdf5Reader& file) {
+  BlankSurface surface{file.read<Vec3>(kSurfacePoint), file.read<Triangle>(kSurfaceTriangle), BlankSide::kInside};
+  for (const Triangle& t : surface.triangles) require_ids(file, kSurfaceTriangle, t.n, surface.points.size());
+  if (file.int_attribute(kSizing, kFlowInside) != 0) surface.side = BlankSide::kOutside;
+  return surface;
 }
 
 FaceCells read_face_cells(const Hdf5Reader& file) {
@@ -254,14 +283,16 @@ std::string cause_text(const CauseNames& names, std::int32_t cause) {
 std::string write_raster(const std::string& path, const RasterArtifact& raster) {
   ArtifactHeader header = raster.header;
   header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kSampledRasterVersion;
-  if (raster.n_not_sampled > 0) header.schema_version = kRasterVersion;
+  if (raster.n_not_sampled > 0) header.schema_version = kPartialRasterVersion;
+  if (!raster.surface.triangles.empty()) header.schema_version = kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
-  if (raster.n_not_sampled > 0) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
+  if (header.schema_version >= kPartialRasterVersion) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
   if (!raster.samples.empty()) write_samples(file, raster.samples);
+  if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
   file.write<float>(kFaceArea, raster.faces.area);
@@ -282,12 +313,14 @@ RasterArtifact read_raster(const std::string& path) {
   RasterArtifact raster;
   raster.header = file.header();
   raster.numbers = read_numbers(file);
-  if (raster.header.schema_version >= kRasterVersion) raster.n_not_sampled = file.int_attribute(kSizing, kNotSampled);
+  if (raster.header.schema_version >= kPartialRasterVersion)
+    raster.n_not_sampled = file.int_attribute(kSizing, kNotSampled);
   raster.octree.shape = read_shape(file);
   const std::size_t n = raster.octree.shape.leaf_keys.size();
   raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
   raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
   if (file.has(kSamplePoint)) raster.samples = read_samples(file);
+  if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
   raster.faces = read_face_cells(file);
   raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
   if (!file.has(kFaceGroup)) return raster;  // written before groups were

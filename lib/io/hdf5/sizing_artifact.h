@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/hdf5/artifact.h"
+#include "sizing/blanking.h"
 #include "sizing/face_cells.h"
 #include "sizing/octree.h"
 #include "sizing/octree_field.h"
@@ -15,7 +16,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 4, kSizingVersion = 4;
+inline constexpr int kRasterVersion = 5, kSizingVersion = 4;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -43,6 +44,7 @@ struct RasterArtifact {
   SizingNumbers numbers;
   RasterOctree octree;
   std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
+  BlankSurface surface;               ///< coarse triangles of a closed model; empty: not closed
   FaceCells faces;                    ///< where in the octree each face lies, with its area there
   CauseNames names;
   std::int64_t n_not_sampled = 0;        ///< faces and batches of edges that could not be sampled; > 0: the raster is

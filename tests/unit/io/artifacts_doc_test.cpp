@@ -82,6 +82,8 @@ RasterArtifact sample_raster() {
   r.octree.stored_length.resize(15, 1);
   r.octree.stored_cause.resize(15);
   r.samples.resize(11);
+  r.surface.points.resize(13);
+  r.surface.triangles.resize(6, {{0, 1, 2}});
   r.faces.offsets = {0, 3, 6, 7};
   r.faces.leaf.resize(7);
   r.faces.area.resize(7, 1);

@@ -48,11 +48,31 @@ SizingArtifact sample_sizing() {
   return sizing;
 }
 
+void expect_equal(const BlankSurface& a, const BlankSurface& b) {
+  EXPECT_EQ(a.side, b.side);
+  EXPECT_EQ(a.points, b.points);
+  ASSERT_EQ(a.triangles.size(), b.triangles.size());
+  for (std::size_t t = 0; t < a.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(a.triangles[t].n[k], b.triangles[t].n[k]);
+}
+
 class SizingArtifacts : public testing::Test {
  protected:
   std::string file(const std::string& name) const { return dir_ / name; }
   TemporaryDirectory dir_;
 };
+
+TEST_F(SizingArtifacts, a_raster_keeps_its_surface_and_the_normals_of_its_samples) {
+  RasterArtifact raster = sample_raster();
+  raster.samples[3].normal = SmallNormal({0.6, -0.8, 0});
+  raster.surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 2, 1}}}, BlankSide::kOutside};
+  write_raster(file("a.hdf"), raster);
+  const RasterArtifact read = read_raster(file("a.hdf"));
+  expect_equal(read.surface, raster.surface);
+  EXPECT_LT(distance(Vec3(read.samples[3].normal), {0.6, -0.8, 0}), 0.01);
+  EXPECT_EQ(Vec3(read.samples[4].normal), Vec3{});
+  EXPECT_EQ(read.header.schema_version, 5);
+}
 
 TEST_F(SizingArtifacts, a_raster_of_which_parts_are_missing_says_so_and_older_programs_refuse_it) {
   RasterArtifact raster = sample_raster();

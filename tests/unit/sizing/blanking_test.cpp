@@ -8,6 +8,7 @@
 
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
+#include "sizing/sample_seeds.h"
 #include "unit/sizing/cases.h"
 
 namespace st {
@@ -62,6 +63,7 @@ std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const Surf
   s->raster = build_octree(test::kUnitBox, boxes);
   const OctreeView octree = s->raster.shape.view();
   if (surface) s->blanking = blank_cells(octree, Neighbours(octree), surface->view(), side);
+  if (surface) add_second_parts(s->blanking, s->raster);
   s->lengths = prolong(octree, s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest},
                        surface ? &s->blanking : nullptr);
   s->field = std::make_unique<OctreeField>(
@@ -230,6 +232,51 @@ TEST(WindingNumber, is_exact_where_rays_meet_edges_and_corners) {
         ASSERT_EQ(winding_number(box.view(), {x - 1, y, z}), 0);
         ASSERT_EQ(winding_number(box.view(), {x, y + 1, z}), 0);
       }
+}
+
+/// Samples on both sides of a plate thinner than the cells: each side keeps its own.
+TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
+  for (const double z : {0.4531, 0.4711, 0.4999}) {
+    const Surface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
+    std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.45}, 0.0625F);
+    boxes.erase(boxes.begin());
+    const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
+    boxes.push_back({{0.5, 0.5, z + 0.006}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
+    boxes.push_back({{0.52, 0.5, z}, 0.03F, 0.02F, below, SmallNormal({0, 0, -1})});
+    RasterOctree raster = build_octree(test::kUnitBox, boxes);
+    forget_samples(raster);
+    const OctreeView octree = raster.shape.view();
+    const Neighbours neighbours(octree);
+    Blanking blanking = blank_cells(octree, neighbours, plate.view(), BlankSide::kInside);
+    blanking.flow_along_normals = 1;
+    add_second_parts(blanking, raster);
+    const std::vector<LengthSample> samples = sorted_samples(boxes);
+    seed_lengths(samples, kSlope, blanking, neighbours, raster);
+    ProlongedLengths lengths =
+        prolong(octree, raster.stored_length, raster.stored_cause, {kSlope, kLargest}, &blanking);
+    hold_samples(octree, samples, &blanking, lengths);
+    const OctreeField field({octree, lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf, blanking.split,
+                             lengths.second_cells, lengths.second_cause},
+                            nullptr);
+    for (const double off : {0.0005, 0.02, 0.1, 0.2}) {
+      EXPECT_NE(field.explain({0.5, 0.5, z + 0.006 + off}).cause, below) << z << " " << off;
+      EXPECT_EQ(field.explain({0.5, 0.5, z - off}).cause, below) << z << " " << off;
+    }
+    EXPECT_GE(field.SizeField::size({0.5, 0.5, z + 0.0065}), 0.15);
+    EXPECT_LE(field.SizeField::size({0.5, 0.5, z - 0.0005}), 0.03);
+  }
+}
+
+/// Nothing is known at a hole, and nothing is blanked.
+TEST(Blanking, leaves_a_hole_open_and_still_separates_what_is_far_from_it) {
+  Surface plate = box_surface({-0.5, -0.5, 0.4531}, {1.5, 1.5, 0.4591}, 1);
+  plate.triangles.pop_back();
+  const RasterOctree raster = build_octree(test::kUnitBox, fine_spot({0.5, 0.5, 0.7}, 0.0625F));
+  const OctreeView octree = raster.shape.view();
+  const std::vector<Triangle> open = find_open_edges(plate.view());
+  ASSERT_FALSE(open.empty());
+  const Blanking blanking = blank_cells(octree, Neighbours(octree), plate.view(), BlankSide::kInside, open);
+  EXPECT_EQ(std::count(blanking.colour.begin(), blanking.colour.end(), CellColour::kBlanked), 0);
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+#include "stages/coarse_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/log.h"
+#include "base/share.h"
+#include "geometry/model/model_state.h"
+#include "mesh/merge.h"
+#include "meshing/engine/model_mesher.h"
+#include "sizing/octree_field.h"
+#include "sizing/prolong.h"
+
+namespace st {
+namespace {
+
+constexpr double kSlope = 0.2;
+constexpr double kCoarser = 3;      // than the raster's lengths: a ninth of the triangles
+constexpr int kCrossingRounds = 2;  // a few triangles may cross
+
+/// Lengths that grow through everything, on every rank. What cells store is exact enough here.
+std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
+  std::vector<CellLength> cells;
+  if (executor.is_root())
+    cells = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause,
+                    {kSlope, raster.numbers.far_length})
+                .cells;
+  share(executor, cells);
+  return cells;
+}
+
+void warn_of_holes(const std::vector<FaceFailure>& failures) {
+  if (failures.empty()) return;
+  log_warning(fmt::format("{} faces, {} the first, have no coarse mesh: sizes may pass through the solid there",
+                          failures.size(), failures.front().face + 1));
+}
+
+}  // namespace
+
+BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
+                                 const Executor& executor) {
+  if (!is_closed(model.tables(), report_edge_uses(model.tables()).n_free)) return {};
+  const std::vector<CellLength> cells = prolong_openly(raster, executor);
+  OctreeFieldData data;
+  data.octree = raster.octree.shape.view();
+  data.cells = cells;
+  data.slope = kSlope;
+  data.scale = kCoarser;
+  const OctreeField field(data, nullptr);
+  ModelMesherOptions options;
+  options.max_crossing_rounds = options.max_promising_rounds = kCrossingRounds;
+  ModelMesher mesher(model, field, {}, options, executor);
+  mesher.run();
+  if (!executor.is_root()) return {};
+  warn_of_holes(mesher.failures);
+  OrientationReport orientation;
+  const ModelTables& t = mesher.tables();
+  std::erase_if(mesher.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  SurfaceMesh mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
+  BlankSurface surface{std::move(mesh.node_xyz), std::move(mesh.triangles), BlankSide::kInside};
+  if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kFarfield) != roles.role.end())
+    surface.side = BlankSide::kOutside;
+  return surface;
+}
+
+}  // namespace st

@@ -1,0 +1,18 @@
+// The surface of a closed model as a few triangles: what tells st-prolong where the flow is.
+#pragma once
+
+#include "base/executor.h"
+#include "features/face_roles.h"
+#include "geometry/model/model.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "sizing/blanking.h"
+
+namespace st {
+
+/// Collective. Meshes the model at a multiple of the raster's own sizes; complete on rank 0, the same at every number
+/// of ranks. Empty when the model is not closed. A face that cannot be meshed leaves a hole, and a warning. `raster`:
+/// shape on every rank, lengths and samples on rank 0.
+BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
+                                 const Executor& executor);
+
+}  // namespace st
