@@ -9,7 +9,7 @@
 #include "base/share.h"
 #include "geometry/model/model_state.h"
 #include "mesh/merge.h"
-#include "meshing/engine/model_mesher.h"
+#include "meshing/engine/mesh_regions.h"
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
 
@@ -17,8 +17,7 @@ namespace st {
 namespace {
 
 constexpr double kSlope = 0.2;
-constexpr double kCoarser = 3;      // than the raster's lengths: a ninth of the triangles
-constexpr int kCrossingRounds = 2;  // a few triangles may cross
+constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the triangles
 
 /// Lengths that grow through everything, on every rank. What cells store is exact enough here.
 std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
@@ -49,16 +48,15 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   data.slope = kSlope;
   data.scale = kCoarser;
   const OctreeField field(data, nullptr);
-  ModelMesherOptions options;
-  options.max_crossing_rounds = options.max_promising_rounds = kCrossingRounds;
-  ModelMesher mesher(model, field, {}, options, executor);
-  mesher.run();
+  const MeshOptions options;
+  const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
+  MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};
-  warn_of_holes(mesher.failures);
+  warn_of_holes(result.failures);
   OrientationReport orientation;
-  const ModelTables& t = mesher.tables();
-  std::erase_if(mesher.patches, [](const FacePatch& p) { return p.triangles.empty(); });
-  SurfaceMesh mesh = merge_patches({mesher.edges, t.vertex_xyz, t.edge_vertices, mesher.patches, {}}, orientation);
+  const ModelTables& t = topology.tables();
+  std::erase_if(result.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  SurfaceMesh mesh = merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, result.patches, {}}, orientation);
   BlankSurface surface{std::move(mesh.node_xyz), std::move(mesh.triangles), BlankSide::kInside};
   if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kFarfield) != roles.role.end())
     surface.side = BlankSide::kOutside;

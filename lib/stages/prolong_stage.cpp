@@ -34,6 +34,8 @@ void require_valid(const ProlongStageOptions& o) {
     throw Error(ExitCode::kUsage, fmt::format("--scale {}: not a positive number", o.scale));
   if (o.target_triangles && *o.target_triangles < 4)
     throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
+  if (o.family && !(*o.family > 1 && *o.family <= 4))
+    throw Error(ExitCode::kUsage, fmt::format("--family {}: not in (1, 4]", *o.family));
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
   if (o.no_blank && !o.blank.empty())
@@ -232,12 +234,31 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   return summary;
 }
 
+/// "out/sizing.hdf" and "coarse" -> "out/sizing-coarse.hdf".
+std::string family_member(const std::string& path, const std::string& level) {
+  std::filesystem::path p(path);
+  p.replace_filename(p.stem().string() + "-" + level + p.extension().string());
+  return p.string();
+}
+
+/// The same size field with all lengths times `factor`.
+void write_scaled(const std::string& path, SizingArtifact sizing, double factor) {
+  sizing.scale *= factor;
+  Json options = Json::parse(sizing.header.options_json);
+  options["scale"] = sizing.scale;
+  sizing.header.options_json = options.dump();
+  write_sizing(path, sizing);
+  log_info(fmt::format("  {}: lengths times {:.4g}", path, factor));
+}
+
 }  // namespace
 
 StageSummary run_prolong(const ProlongStageOptions& o) {
   const Timer timer;
   require_valid(o);
   require_writable(o.output);
+  const std::string coarse = family_member(o.output, "coarse"), fine = family_member(o.output, "fine");
+  if (o.family) require_writable(coarse), require_writable(fine);
   if (!o.sample.empty()) require_writable(o.sample_output);
   RasterArtifact raster = read_raster(o.raster);
   require_complete(o, raster);
@@ -247,6 +268,10 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
                  o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
+  if (o.family) {
+    write_scaled(coarse, sizing, *o.family);
+    write_scaled(fine, sizing, 1 / *o.family);
+  }
   return summarize(o, sizing, timer.seconds());
 }
 

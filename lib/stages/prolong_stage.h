@@ -22,6 +22,8 @@ struct ProlongStageOptions {
                           ///< are
   std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:
                           ///< that one
+  std::optional<double> family;  ///< (1, 4]: also OUTPUT-coarse and OUTPUT-fine, lengths times and by this; nullopt:
+                                 ///< one
   std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
   std::string blank;      ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
                           ///< the raster's own surface

@@ -52,6 +52,15 @@ class Presets(unittest.TestCase):
         by_line = self.sizing_hash(["--preset", "fine", "--lmax", "4%"], [])
         self.assertEqual(by_file, by_line)
 
+    def test_a_family_has_the_lengths_times_and_by_the_ratio(self):
+        raster, sizing = WORK / "raster.hdf", WORK / "member.hdf"
+        summary("st-raster", self.geometry, "-o", raster)
+        summary("st-prolong", raster, "-o", sizing, "--family", "1.5")
+        for level, scale in (("coarse", "1.5"), ("fine", repr(1 / 1.5))):
+            summary("st-prolong", raster, "-o", WORK / "alone.hdf", "--scale", scale)
+            same = run("st-diff", WORK / f"member-{level}.hdf", WORK / "alone.hdf")
+            self.assertEqual(same.returncode, 0, level + same.stdout)
+
     def test_an_unknown_preset_is_refused_with_the_names(self):
         done = run("st-raster", self.geometry, "--preset", "ranz")
         self.assertEqual(done.returncode, 2)

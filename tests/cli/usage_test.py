@@ -14,7 +14,7 @@ OPTIONS = {
     "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
     "st-edit": {"--output": "edited.hdf", "--as": "", "--join": "", "--extract": "", "--remove": "", "--transform": "", "--of": "", "--require-valid": ""},
     "st-raster": {"--preset": "", "--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--wall-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--edge-size": "0.3%chord", "--base-cells": "2", "--chord-cells": "30", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--surface": "", "--allow-incomplete": ""},
-    "st-prolong": {"--preset": "", "--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
+    "st-prolong": {"--preset": "", "--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--family": "", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
                    "--slope-of": "", "--blank": "", "--no-blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv", "--allow-incomplete": ""},
     "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
     "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
@@ -50,7 +50,7 @@ REFUSED = {
         "--preset": ["ranz"],
         "--np": ["0", "-2", "x"],
     },
-    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
+    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
     "st-check": {

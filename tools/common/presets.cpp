@@ -12,6 +12,9 @@ const std::vector<Preset>& presets() {
 [st-raster]
 lmax = "5%"
 alpha = 20
+edge-size = "1%chord"
+base-cells = 1
+chord-cells = 15
 edge-size = "0.6%chord"
 base-cells = 1
 chord-cells = 15
@@ -21,6 +24,8 @@ slope = 0.3
       {"euler", "inviscid flow, and panel methods", R"(
 [st-raster]
 alpha = 10
+edge-size = "0.3%chord"
+base-cells = 2
 [st-prolong]
 slope = 0.2
 )"},
@@ -36,7 +41,11 @@ slope = 0.15
       {"fine", "viscous flow on the fine mesh of a study", R"(
 [st-raster]
 lmax = "1.5%"
+lmin = "0.005%"
 alpha = 5
+edge-size = "0.07%chord"
+base-cells = 6
+chord-cells = 60
 lmin = "0.002%"
 edge-size = "0.1%chord"
 base-cells = 4

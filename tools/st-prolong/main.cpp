@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   tool.number("--scale", o.scale, "(0, 1e6]", "factor that multiplies every length");
   tool.number("--target-triangles", o.target_triangles, "[4, 2e9]",
               "scale all lengths so that the mesh has about this many triangles; default: no scaling");
+  tool.number("--family", o.family, "(1, 4]",
+              "grid family: also write OUTPUT-coarse and OUTPUT-fine, lengths multiplied and divided by this ratio");
   tool.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
   tool.optional_input("--background", o.background,
                       "background mesh with edge lengths: .bac, .ba3 or .msh (version 2.2)");
