@@ -40,15 +40,16 @@ class WingRaster {
     end_run(run);
   }
 
+  /// Along one long edge of the base; `strip` is measured from the other one, perhaps.
   void add_base(const Strip& strip, const TrailingEdge& trailing) {
-    walk(strip.length, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
-      const double at = share * static_cast<double>(strip.stations.size() - 1);
-      const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
-      const Strip::Station &a = strip.stations[i], &b = strip.stations[i + 1];
-      const double part = at - static_cast<double>(i), width = a.width + part * (b.width - a.width);
-      const double edge = length_of(trailing.chord_at(share));
+    const auto curve = model_.curve(trailing.edge);
+    const ArcTable arc(*curve);
+    const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
+    walk(arc.length(), pack_cause(CauseKind::kFace, strip.face), [&](double share) {
+      const double chord = trailing.chord_at(share), edge = length_of(chord);
+      const double width = width_at(strip, is_turned ? 1 - share : share);
       const double length = std::clamp(width / sizes_.base_cells, kFinestBase * edge, edge);
-      return Place{a.x + part * (b.x - a.x), std::max(length, floor_of(trailing.chord_at(share)))};
+      return Place{curve->point(arc.parameter_at(share)), std::max(length, floor_of(chord))};
     });
   }
 
@@ -57,6 +58,13 @@ class WingRaster {
     Vec3 x;
     double length;  // asked for there
   };
+
+  static double width_at(const Strip& strip, double share) {
+    const double at = share * static_cast<double>(strip.stations.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
+    const double part = at - static_cast<double>(i);
+    return strip.stations[i].width + part * (strip.stations[i + 1].width - strip.stations[i].width);
+  }
 
   LengthReference reference_of(double chord) const {
     LengthReference reference = sizes_.reference;
@@ -114,13 +122,11 @@ void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes
   WingRaster raster(model, wing, sizes, boxes);
   for (const TrailingEdge& trailing : wing.trailing) {
     if (!is_ruled(trailing.edge)) raster.add_edge(trailing);
-    const auto strip = std::find_if(strips.begin(), strips.end(), [&](const Strip& s) {
-      return s.face == trailing.base && s.edges[0] == trailing.edge;
-    });
-    const bool is_second = trailing.base != kNone && strip == strips.end();  // of a blunt edge: the same noses again
-    if (has_noses && !is_second) raster.add_noses(trailing);
-    if (strip != strips.end() && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1]))
-      raster.add_base(*strip, trailing);
+    const auto strip =
+        std::find_if(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == trailing.base; });
+    const bool has_base = trailing.base != kNone && strip != strips.end();
+    if (has_noses && !(has_base && strip->edges[1] == trailing.edge)) raster.add_noses(trailing);
+    if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
   }
 }
 

@@ -241,14 +241,13 @@ std::string family_member(const std::string& path, const std::string& level) {
   return p.string();
 }
 
-/// The same size field with all lengths times `factor`.
-void write_scaled(const std::string& path, SizingArtifact sizing, double factor) {
-  sizing.scale *= factor;
-  Json options = Json::parse(sizing.header.options_json);
-  options["scale"] = sizing.scale;
-  sizing.header.options_json = options.dump();
+/// The size field of the same options with all lengths times `scale`.
+void write_member(ProlongStageOptions o, const std::string& path, double scale) {
+  o.scale = scale;
+  o.target_triangles.reset();
+  SizingArtifact sizing = prolong_raster(o, read_raster(o.raster));
   write_sizing(path, sizing);
-  log_info(fmt::format("  {}: lengths times {:.4g}", path, factor));
+  log_info(fmt::format("  {}: scale {:.4g}", path, scale));
 }
 
 }  // namespace
@@ -269,8 +268,8 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   if (o.family) {
-    write_scaled(coarse, sizing, *o.family);
-    write_scaled(fine, sizing, 1 / *o.family);
+    write_member(o, coarse, sizing.scale * *o.family);
+    write_member(o, fine, sizing.scale / *o.family);
   }
   return summarize(o, sizing, timer.seconds());
 }

@@ -164,7 +164,7 @@ class Refused(ToolTest):
 
     def test_mesh_elsewhere(self):
         self.mesh.x = self.mesh.x + [0, 0, 10]
-        self.expect(["elsewhere"])
+        self.expect(["at another place"])
 
     def test_mesh_of_another_model(self):
         self.expect(["of another geometry"], good=artifacts_of("cone"))

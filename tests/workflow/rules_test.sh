@@ -62,7 +62,7 @@ run MODEL=a.step LAUNCH=env NP=3
 expect "a launcher and a number of ranks exclude each other" "$status $ran" "2 "
 said=$(cd "$source" && make help)
 commands=$(sed -n '3,7s/^ *make MODEL=wing.step *\([a-zA-Z]*\).*/\1/p' <<< "$said" | tr '\n' ' ')
-expect "help starts with the five commands of a user" "$commands" "mesh again remesh EXPORT LAUNCH "
+expect "help starts with the five commands of a user" "$commands" "mesh after remesh EXPORT LAUNCH "
 expect "plain make at the top knows the same rules" "$said" "$(make -f "$source/Makefile.workflow" help)"
 
 run MODEL=a.step OUT=b BLANK=1

@@ -15,9 +15,6 @@ alpha = 20
 edge-size = "1%chord"
 base-cells = 1
 chord-cells = 15
-edge-size = "0.6%chord"
-base-cells = 1
-chord-cells = 15
 [st-prolong]
 slope = 0.3
 )"},
@@ -32,23 +29,18 @@ slope = 0.2
       {"rans", "viscous flow: drag", R"(
 [st-raster]
 alpha = 7
-lmin = "0.002%"
 edge-size = "0.1%chord"
 base-cells = 4
+chord-cells = 40
 [st-prolong]
 slope = 0.15
 )"},
       {"fine", "viscous flow on the fine mesh of a study", R"(
 [st-raster]
 lmax = "1.5%"
-lmin = "0.005%"
 alpha = 5
 edge-size = "0.07%chord"
 base-cells = 6
-chord-cells = 60
-lmin = "0.002%"
-edge-size = "0.1%chord"
-base-cells = 4
 chord-cells = 60
 [st-prolong]
 slope = 0.12

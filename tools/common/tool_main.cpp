@@ -177,7 +177,9 @@ void ToolMain::unit(const std::string& flag, std::string& value, const std::stri
 }
 
 void ToolMain::text(const std::string& flag, std::string& value, const std::string& type, const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name(type));
+  CLI::Option* option = app_.add_option(flag, value, help)->type_name(type);
+  if (!value.empty()) option->capture_default_str();
+  file_options_.push_back(option);
 }
 
 void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
