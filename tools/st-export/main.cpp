@@ -4,9 +4,9 @@
 
 int main(int argc, char** argv) {
   st::ExportStageOptions o;
-  st::ToolMain tool(
-      "st-export",
-      "Converts a mesh (.stl .ascii.stl .vtu .obj .ply .msh .fro), sizes (.vtu .pos .bac) or a geometry (FLITE .dat).");
+  st::ToolMain tool("st-export",
+                    "Converts a mesh (.stl .vtu .obj .ply .msh .ugrid .su2 .bdf .mesh .off .smesh .poly .fro), sizes "
+                    "(.vtu .pos .bac) or a geometry (FLITE .dat).");
   tool.input("artifact", o.artifact, "mesh, raster, sizing, failures or geometry artifact");
   tool.output(o.output, "file to write; its suffix selects the format");
   tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");

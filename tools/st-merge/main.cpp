@@ -7,8 +7,7 @@ int main(int argc, char** argv) {
   st::ToolMain tool("st-merge", "Merges the patches of all faces into one oriented, checked surface mesh.");
   tool.inputs("patches", o.patches, "patches artifacts, one or several of the same geometry");
   tool.output(o.output);
-  tool.outputs("--export", o.exports,
-               "also write the mesh to this file: .stl .ascii.stl .vtu .obj .ply .msh .fro; repeatable");
+  tool.outputs("--export", o.exports, "also write the mesh to this file: a suffix that st-export knows; repeatable");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "merge even when faces are missing; the mesh is marked incomplete");
   return tool.run(argc, argv, [&] { return st::run_merge(o); });
