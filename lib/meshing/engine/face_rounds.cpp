@@ -138,7 +138,9 @@ FaceMesh FaceRounds::mesh_in(const Surface& surface, FaceId f, const FaceBoundar
   if (boundary.nodes.empty() && topology_.strip_of(f)) return {};
   FaceMeshOptions options;
   options.enhance_rounds = options_.enhance_rounds;
-  return mesh_face(surface, boundary, RefinedField(field_, refinements_.near(tables_.face_box[f])), options);
+  const std::vector<Refinement> near = refinements_.near(tables_.face_box[f]);
+  if (near.empty()) return mesh_face(surface, boundary, field_, options);  // spares one call for each length
+  return mesh_face(surface, boundary, RefinedField(field_, near), options);
 }
 
 Bytes FaceRounds::compute_face(FaceId f) const {
