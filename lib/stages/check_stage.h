@@ -5,38 +5,67 @@
 #include <string>
 #include <vector>
 
+#include "base/number_option.h"
 #include "stages/summary.h"
 
 namespace st {
 
 /// What unattended runs ask of a mesh; nothing set: not asked.
 struct CheckThresholds {
-  int max_folds = 0;                  ///< folds accepted
-  int max_crossings = 0;              ///< crossing pairs of triangles and overlapping neighbours accepted, together
-  std::optional<double> min_quality;  ///< [0, 1] of every triangle, 4 sqrt(3) A / (l1^2 + l2^2 + l3^2)
-  std::optional<double> min_mean_quality;  ///< [0, 1]
-  std::optional<double> min_p1_quality;    ///< [0, 1] first percentile
-  std::optional<double> min_angle_deg;     ///< (0, 60] of every triangle
-  std::optional<int> max_free_sharp;     ///< >= 0: triangles below list_below_deg that nothing in the CAD forces; needs
-                                         ///< the geometry
-  std::optional<double> max_jump;        ///< >= 1: sqrt of the area ratio of neighbours, 99.9th percentile
-  std::optional<double> min_size_share;  ///< [0, 1] share of edges within 0.7 to 1.4 of the request, those the CAD
-                                         ///< forces apart; needs the sizing
+  int max_folds = 0;
+  static constexpr NumberOption kMaxFolds{"--max-folds", "N", "[0, 1000000000]",
+                                          "number of folded edges accepted (neighbouring triangles turned over)"};
+  int max_crossings = 0;
+  static constexpr NumberOption kMaxCrossings{"--max-crossings", "N", "[0, 1000000000]",
+                                              "number of crossing or overlapping pairs of triangles accepted"};
+  std::optional<double> min_quality;
+  static constexpr NumberOption kMinQuality{
+      "--min-quality", "F", "[0, 1]",
+      "smallest quality accepted of any triangle (1: equilateral); default: not checked"};
+  std::optional<double> min_mean_quality;
+  static constexpr NumberOption kMinMeanQuality{
+      "--min-mean-quality", "F", "[0, 1]", "smallest mean quality of all triangles accepted; default: not checked"};
+  std::optional<double> min_p1_quality;
+  static constexpr NumberOption kMinP1Quality{"--min-p1-quality", "F", "[0, 1]",
+                                              "smallest first percentile of quality accepted; default: not checked"};
+  std::optional<double> min_angle_deg;
+  static constexpr NumberOption kMinAngle{"--min-angle", "DEG", "(0, 60]",
+                                          "smallest angle accepted of any triangle, in degrees; default: not checked"};
+  std::optional<int> max_free_sharp;
+  static constexpr NumberOption kMaxFreeSharp{"--max-free-sharp", "N", "[0, 1000000000]",
+                                              "number of triangles below --list-below accepted that the CAD does not "
+                                              "force; needs --geometry; default: not checked"};
+  std::optional<double> max_jump;
+  static constexpr NumberOption kMaxJump{
+      "--max-jump", "F", "[1, 1000000]",
+      "largest size ratio of neighbouring triangles accepted, 99.9th percentile; default: not checked"};
+  std::optional<double> min_size_share;
+  static constexpr NumberOption kMinSizeShare{
+      "--min-size-share", "F", "[0, 1]",
+      "smallest share accepted of edges within 0.7 to 1.4 times the requested length, without those that the CAD "
+      "forces; needs --sizing; default: not checked"};
   std::string max_deviation;  ///< length: of every triangle's midpoint from its surface; empty: not asked; needs the
                               ///< geometry
-  std::optional<double> max_normal_deviation_deg;  ///< (0, 180] of every triangle's normal from its surface's; needs
-                                                   ///< the geometry
+  std::optional<double> max_normal_deviation_deg;
+  static constexpr NumberOption kMaxNormalDeviation{
+      "--max-normal-deviation", "DEG", "(0, 180]",
+      "largest angle accepted between a triangle and its surface, in degrees; needs --geometry; default: not checked"};
 };
 
 struct CheckStageOptions {
   std::string mesh;      ///< mesh artifact
   std::string geometry;  ///< optional: areas per face, open edges allowed only where the CAD has free edges, deviation
   std::string sizing;    ///< optional: conformity of edge lengths to the sizes
-  double area_tolerance = 0.01;  ///< largest relative difference between mesh and CAD area of a face beyond what chords
-                                 ///< explain
+  double area_tolerance = 0.01;
+  static constexpr NumberOption kAreaTolerance{
+      "--area-tolerance", "F", "(0, 1]",
+      "largest relative difference between mesh and CAD area of a face, after the chord error"};
   CheckThresholds thresholds;
   std::vector<std::string> reports;  ///< JSON files to write: everything, per model, group and face, with histograms
-  double list_below_deg = 10;  ///< triangles with a smaller angle are listed by their cause, (0, 60]; with the geometry
+  double list_below_deg = 10;
+  static constexpr NumberOption kListBelow{
+      "--list-below", "DEG", "(0, 60]",
+      "triangles with an angle below this, in degrees, are listed by cause; needs --geometry"};
 
   /// Throws Error(kUsage) for a threshold whose geometry or sizing is not given.
   void validate() const;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/number_option.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -11,14 +12,17 @@ namespace st {
 struct ImportStageOptions {
   std::string model;  ///< CAD file: STEP, IGES or BREP
   std::string output = "geometry.hdf";
-  std::string unit;                  ///< convert to this unit; empty: the file's own
-  std::string small = "0.01%";       ///< length: edges shorter and faces narrower than this are listed
-  std::string sew;                   ///< length: largest gap between free edges to close; empty: 0.01% of the diagonal
-  std::optional<double> time_limit;  ///< s of processor time; absent: 30 and 5 per megabyte of the file
-  std::string symmetry, farfield;    ///< of ImportOptions; empty: none
-  std::string groups;                ///< groups file (TOML); empty: the groups of the CAD file
-  bool check = false;                ///< report only, write nothing
-  bool require_closed = false;       ///< an open model is an error (exit 4)
+  std::string unit;             ///< convert to this unit; empty: the file's own
+  std::string small = "0.01%";  ///< length: edges shorter and faces narrower than this are listed
+  std::string sew;              ///< length: largest gap between free edges to close; empty: 0.01% of the diagonal
+  std::optional<double> time_limit;
+  static constexpr NumberOption kTimeLimit{
+      "--time-limit", "SECONDS", "(0, 1e9]",
+      "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file"};
+  std::string symmetry, farfield;  ///< of ImportOptions; empty: none
+  std::string groups;              ///< groups file (TOML); empty: the groups of the CAD file
+  bool check = false;              ///< report only, write nothing
+  bool require_closed = false;     ///< an open model is an error (exit 4)
 };
 
 /// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/number_option.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -13,8 +14,10 @@ StageSummary run_info(const std::string& artifact);
 StageSummary run_hash(const std::string& artifact);
 
 struct DiffStageOptions {
-  std::string a, b;      ///< two artifacts of the same schema
-  double tolerance = 0;  ///< relative to the larger value, for floating-point data; 0: bits
+  std::string a, b;  ///< two artifacts of the same schema
+  double tolerance = 0;
+  static constexpr NumberOption kTolerance{
+      "--tolerance", "F", "[0, 1]", "allowed relative difference of floating-point numbers; 0: equal to the last bit"};
 };
 /// Code kOk when equal within the tolerance, kIncomplete when not (says where first, and how much).
 StageSummary run_diff(const DiffStageOptions& options);

@@ -22,12 +22,9 @@ namespace st {
 namespace {
 
 void require_valid(const MeshStageOptions& o) {
-  if (o.enhance_rounds < 0 || o.enhance_rounds > 10)
-    throw Error(ExitCode::kUsage, fmt::format("--enhance-rounds {}: not in [0, 10]", o.enhance_rounds));
-  if (!(o.merge_below >= 0 && o.merge_below <= 0.2))
-    throw Error(ExitCode::kUsage, fmt::format("--merge-below {}: not in [0, 0.2]", o.merge_below));
-  if (!(o.max_turning_deg > 0 && o.max_turning_deg <= 60))
-    throw Error(ExitCode::kUsage, fmt::format("--max-turning {}: not in (0, 60] degrees", o.max_turning_deg));
+  o.kEnhanceRounds.require(o.enhance_rounds);
+  o.kMergeBelow.require(o.merge_below);
+  o.kMaxTurning.require(o.max_turning_deg);
 }
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {

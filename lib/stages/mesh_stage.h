@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/number_option.h"
 #include "comm/communicator.h"
 #include "stages/summary.h"
 
@@ -12,13 +13,19 @@ struct MeshStageOptions {
   std::string geometry;  ///< geometry artifact
   std::string sizing;    ///< sizing artifact
   std::string output = "patches.hdf";
-  std::string faces;            ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
-  std::string group;            ///< mesh the faces of this group only; empty: all
-  std::string edges;            ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
-  int enhance_rounds = 5;       ///< rounds of the enhancer, [0, 10]
-  double merge_below = 0.05;    ///< of the requested length: shorter edges and narrower strips are merged, [0, 0.2]; 0:
-                                ///< none
-  double max_turning_deg = 30;  ///< largest turning of a CAD edge along one segment, degrees, (0, 60]
+  std::string faces;  ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
+  std::string group;  ///< mesh the faces of this group only; empty: all
+  std::string edges;  ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
+  int enhance_rounds = 5;
+  static constexpr NumberOption kEnhanceRounds{"--enhance-rounds", "N", "[0, 10]",
+                                               "rounds of mesh improvement: swaps, smoothing, collapses"};
+  double merge_below = 0.05;
+  static constexpr NumberOption kMergeBelow{
+      "--merge-below", "F", "[0, 0.2]",
+      "merge CAD edges shorter and strips narrower than this times the requested length; 0: merge nothing"};
+  double max_turning_deg = 30;
+  static constexpr NumberOption kMaxTurning{
+      "--max-turning", "DEG", "(0, 60]", "largest angle in degrees by which a CAD edge turns along one mesh segment"};
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

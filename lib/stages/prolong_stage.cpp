@@ -29,13 +29,10 @@ using Json = nlohmann::ordered_json;
 constexpr double kMostExact = 9e15;  // triangles that are still written as a whole number
 
 void require_valid(const ProlongStageOptions& o) {
-  if (!(o.slope > 0 && o.slope <= 2)) throw Error(ExitCode::kUsage, fmt::format("--slope {}: not in (0, 2]", o.slope));
-  if (!(o.scale > 0) || !std::isfinite(o.scale))
-    throw Error(ExitCode::kUsage, fmt::format("--scale {}: not a positive number", o.scale));
-  if (o.target_triangles && *o.target_triangles < 4)
-    throw Error(ExitCode::kUsage, fmt::format("--target-triangles {}: at least 4 expected", *o.target_triangles));
-  if (o.family && !(*o.family > 1 && *o.family <= 4))
-    throw Error(ExitCode::kUsage, fmt::format("--family {}: not in (1, 4]", *o.family));
+  o.kSlope.require(o.slope);
+  o.kScale.require(o.scale);
+  o.kTargetTriangles.require(o.target_triangles);
+  o.kFamily.require(o.family);
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
   if (o.no_blank && !o.blank.empty())

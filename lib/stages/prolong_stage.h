@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number_option.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -12,9 +13,12 @@ namespace st {
 struct ProlongStageOptions {
   std::string raster;  ///< raster artifact
   std::string output = "sizing.hdf";
-  double slope = 0.2;    ///< largest change of length per distance, (0, 2]
+  double slope = 0.2;
+  static constexpr NumberOption kSlope{"--slope", "S", "(0, 2]",
+                                       "largest change of edge length per distance; 0.2 is a growth rate of 1.2"};
   std::string slope_of;  ///< "WING=0.1, FLAP=0.15": slope where lengths come from faces of these names; empty: none
-  double scale = 1.0;    ///< multiplies every length, > 0
+  double scale = 1.0;
+  static constexpr NumberOption kScale{"--scale", "F", "(0, 1e6]", "factor that multiplies every length"};
   std::vector<std::string> sources;  ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same
                                      ///< name
   std::string background;            ///< background mesh (.bac, .ba3, .msh); empty: none
@@ -22,9 +26,14 @@ struct ProlongStageOptions {
                           ///< are
   std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:
                           ///< that one
-  std::optional<double> family;  ///< (1, 4]: also OUTPUT-coarse and OUTPUT-fine, lengths times and by this; nullopt:
-                                 ///< one
-  std::optional<int> target_triangles;  ///< scales all lengths so that the mesh has about this many triangles
+  std::optional<double> family;
+  static constexpr NumberOption kFamily{
+      "--family", "RATIO", "(1, 4]",
+      "grid family: also write OUTPUT-coarse and OUTPUT-fine, lengths multiplied and divided by this ratio"};
+  std::optional<int> target_triangles;
+  static constexpr NumberOption kTargetTriangles{
+      "--target-triangles", "N", "[4, 2e9]",
+      "scale all lengths so that the mesh has about this many triangles; default: no scaling"};
   std::string blank;      ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
                           ///< the raster's own surface
   bool no_blank = false;  ///< lengths pass through solids

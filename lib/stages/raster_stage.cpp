@@ -88,10 +88,14 @@ std::optional<LengthSpec> edge_size(const RasterStageOptions& o) {
 void require_valid(const RasterStageOptions& o) {
   option_rules(o);
   edge_size(o);
-  if (!(o.alpha_deg > 0 && o.alpha_deg <= 90))
-    throw Error(ExitCode::kUsage, fmt::format("--alpha {}: not in (0, 90] degrees", o.alpha_deg));
-  if (!(o.cell_per_length >= 1 && o.cell_per_length <= 8))
-    throw Error(ExitCode::kUsage, fmt::format("--cell-per-length {}: not in [1, 8]", o.cell_per_length));
+  o.kAlpha.require(o.alpha_deg);
+  o.kGapCells.require(o.gap_cells);
+  o.kWallCells.require(o.wall_cells);
+  o.kEdgeCells.require(o.edge_cells);
+  o.kBaseCells.require(o.base_cells);
+  o.kChordCells.require(o.chord_cells);
+  o.kCellPerLength.require(o.cell_per_length);
+  o.kMaxCells.require(o.max_cells);
 }
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {

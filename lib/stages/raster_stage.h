@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/number_option.h"
 #include "comm/communicator.h"
 #include "stages/summary.h"
 
@@ -12,22 +13,41 @@ namespace st {
 struct RasterStageOptions {
   std::string geometry;  ///< geometry artifact
   std::string output = "raster.hdf";
-  std::string lmin;               ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
-  std::string lmax;               ///< largest length; empty: 2.5 % of the diagonal
-  double alpha_deg = 10;          ///< largest turning of the normal or tangent along one length, degrees, (0, 90]
-  std::string chord;              ///< largest distance of a length's chord from the geometry; empty: no limit
-  std::string sizes;              ///< file of rules for groups, faces and edges; empty: none
-  std::optional<int> gap_cells;   ///< lengths across gaps in the flow, [1, 100]
-  std::optional<int> wall_cells;  ///< lengths across thin walls, inside the material, [1, 100]
-  std::optional<int> edge_cells;  ///< lengths along each CAD edge at least, [1, 100]
-  std::string trailing_edges;     ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
-  std::string leading_edges;      ///< likewise at leading edges
+  std::string lmin;  ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
+  std::string lmax;  ///< largest length; empty: 2.5 % of the diagonal
+  double alpha_deg = 10;
+  static constexpr NumberOption kAlpha{
+      "--alpha", "DEG", "(0, 90]",
+      "curvature angle: largest angle in degrees by which normal or tangent turn along one edge length"};
+  std::string chord;  ///< largest distance of a length's chord from the geometry; empty: no limit
+  std::string sizes;  ///< file of rules for groups, faces and edges; empty: none
+  std::optional<int> gap_cells;
+  static constexpr NumberOption kGapCells{
+      "--gap-cells", "N", "[1, 100]", "proximity: edge lengths across gaps in the flow, down to --lmin; default: off"};
+  std::optional<int> wall_cells;
+  static constexpr NumberOption kWallCells{
+      "--wall-cells", "N", "[1, 100]",
+      "edge lengths across thin walls, inside the material, down to --lmin; default: off"};
+  std::optional<int> edge_cells;
+  static constexpr NumberOption kEdgeCells{
+      "--edge-cells", "N", "[1, 100]",
+      "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1"};
+  std::string trailing_edges;  ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
+  std::string leading_edges;   ///< likewise at leading edges
   std::string edge_size = "0.3%chord";  ///< length at trailing edges and noses of lifting surfaces; "none": off
-  int base_cells = 2;                   ///< lengths across the base of a blunt trailing edge, [1, 100]
-  int chord_cells = 30;                 ///< lengths along the local chord of a lifting surface at least, [1, 1000]
-  double cell_per_length = 2;           ///< raster boxes reach this many sample lengths, [1, 8]
-  std::optional<int> max_cells;   ///< of the octree, >= 1: refused beyond; nullopt: what fits 80 % of the memory. No
-                                  ///< part of the content
+  int base_cells = 2;
+  static constexpr NumberOption kBaseCells{"--base-cells", "N", "[1, 100]",
+                                           "edge lengths across the base of a blunt trailing edge"};
+  int chord_cells = 30;
+  static constexpr NumberOption kChordCells{
+      "--chord-cells", "N", "[1, 1000]", "smallest number of edge lengths along the local chord of a lifting surface"};
+  double cell_per_length = 2;
+  static constexpr NumberOption kCellPerLength{"--cell-per-length", "N", "[1, 8]",
+                                               "octree cell size in edge lengths: larger means fewer cells"};
+  std::optional<int> max_cells;
+  static constexpr NumberOption kMaxCells{
+      "--max-cells", "N", "[1, 2147483647]",
+      "refuse an octree with more cells than this; default: what 80% of the memory can hold"};
   bool surface = false;           ///< store a coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
 };

@@ -31,9 +31,8 @@ namespace st {
 namespace {
 
 void require_valid(const RemeshStageOptions& o) {
-  if (!(o.too_long > 1)) throw Error(ExitCode::kUsage, fmt::format("--too-long {}: must be larger than 1", o.too_long));
-  if (!(o.too_short > 0 && o.too_short < 1))
-    throw Error(ExitCode::kUsage, fmt::format("--too-short {}: not in (0, 1)", o.too_short));
+  o.kTooLong.require(o.too_long);
+  o.kTooShort.require(o.too_short);
 }
 
 std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std::vector<NodeId>& file_node) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/number_option.h"
 #include "comm/communicator.h"
 #include "stages/mesh_stage.h"
 #include "stages/summary.h"
@@ -14,10 +15,13 @@ struct RemeshStageOptions {
   std::string geometry;  ///< geometry artifact the mesh was made on
   std::string sizing;    ///< new sizing artifact
   std::string output = "patches.hdf";
-  std::string merged;     ///< mesh artifact to write instead of `output`, merged already; empty: none
-  double too_long = 1.4;  ///< where the sizes changed, an edge longer than this times the requested length is redone, >
-                          ///< 1
-  double too_short = 0.7;      ///< likewise shorter than, (0, 1)
+  std::string merged;  ///< mesh artifact to write instead of `output`, merged already; empty: none
+  double too_long = 1.4;
+  static constexpr NumberOption kTooLong{
+      "--too-long", "F", "(1, 100]", "where sizes changed, remesh edges longer than this times the requested length"};
+  double too_short = 0.7;
+  static constexpr NumberOption kTooShort{
+      "--too-short", "F", "(0, 1)", "where sizes changed, remesh edges shorter than this times the requested length"};
   std::string keep;            ///< group of which nothing changes; empty: none
   std::string sizes_on_nodes;  ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's;
                                ///< empty: none

@@ -7,9 +7,12 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "stages/prolong_stage.h"
 
 namespace st {
 namespace {
+
+constexpr NumberOption kSlope = ProlongStageOptions::kSlope;
 
 NamedSlope parse_slope(const std::string& item) {
   const std::size_t equals = item.rfind('=');
@@ -18,12 +21,13 @@ NamedSlope parse_slope(const std::string& item) {
     result.name = trimmed(std::string_view(item).substr(0, equals));
     const std::string number = trimmed(std::string_view(item).substr(equals + 1));
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.slope);
-    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() && result.slope > 0 &&
-        result.slope <= 2)
+    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() &&
+        kSlope.refusal(result.slope).empty())
       return result;
   }
   throw Error(ExitCode::kUsage,
-              fmt::format("--slope-of '{}': not understood; write NAME=S with S in (0, 2], such as WING=0.1", item));
+              fmt::format("--slope-of '{}': not understood; write NAME=S with S in {}, such as WING=0.1", item,
+                          kSlope.interval));
 }
 
 /// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.

@@ -11,7 +11,7 @@ namespace st {
 /// Slope of the faces of one name, else of a group or part (find_faces, face_labels.h).
 struct NamedSlope {
   std::string name;
-  double slope = 0;  ///< (0, 2]
+  double slope = 0;  ///< as ProlongStageOptions::slope
 };
 
 /// "WING=0.1, FLAP=0.15". Throws Error(kUsage).

@@ -64,7 +64,7 @@ class Presets(unittest.TestCase):
     def test_an_unknown_preset_is_refused_with_the_names(self):
         done = run("st-raster", self.geometry, "--preset", "ranz")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("preview | euler | rans | fine", done.stderr)
+        self.assertIn("preview, euler, rans, fine", done.stderr)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """The command lines of the tools: help, versions, options, option files, summaries."""
+import re
 import shutil
 import subprocess
 import sys
@@ -9,25 +10,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
-# Every option with the default that --help shows; "" for none.
-OPTIONS = {
-    "st-import": {"--output": "geometry.hdf", "--unit": "", "--small": "0.01%", "--sew": "0.01%", "--symmetry": "", "--farfield": "", "--groups": "", "--time-limit": "", "--check": "", "--require-closed": ""},
-    "st-edit": {"--output": "edited.hdf", "--as": "", "--join": "", "--extract": "", "--remove": "", "--transform": "", "--of": "", "--require-valid": ""},
-    "st-raster": {"--preset": "", "--output": "raster.hdf", "--lmin": "lmax/64", "--lmax": "2.5%", "--alpha": "10", "--chord": "", "--sizes": "", "--gap-cells": "", "--wall-cells": "", "--edge-cells": "", "--trailing-edges": "", "--leading-edges": "", "--edge-size": "0.3%chord", "--base-cells": "2", "--chord-cells": "30", "--cell-per-length": "2", "--np": "1", "--max-cells": "", "--surface": "", "--allow-incomplete": ""},
-    "st-prolong": {"--preset": "", "--output": "sizing.hdf", "--slope": "0.2", "--scale": "1", "--family": "", "--target-triangles": "", "--sources": "", "--background": "", "--transform": "", "--geometry": "",
-                   "--slope-of": "", "--blank": "", "--no-blank": "", "--blank-side": "", "--sample": "", "--sample-output": "sizes.csv", "--allow-incomplete": ""},
-    "st-mesh": {"--output": "patches.hdf", "--faces": "", "--group": "", "--edges": "", "--enhance-rounds": "5", "--merge-below": "0.05", "--max-turning": "30", "--np": "1"},
-    "st-remesh": {"--output": "patches.hdf", "--merged": "", "--sizes-on-nodes": "", "--tolerance": "", "--made-for": "", "--moved": "", "--too-long": "1.4", "--too-short": "0.7", "--keep": "", "--dry-run": "", "--np": "1"},
-    "st-merge": {"--output": "mesh.hdf", "--export": "", "--allow-incomplete": ""},
-    "st-check": {
-        "--geometry": "", "--sizing": "", "--area-tolerance": "0.01", "--report": "", "--max-folds": "0", "--max-crossings": "0", "--min-quality": "",
-        "--min-mean-quality": "", "--min-p1-quality": "", "--min-angle": "", "--max-jump": "", "--min-size-share": "", "--max-deviation": "",
-        "--max-normal-deviation": "", "--list-below": "10", "--max-free-sharp": "",
-    },
-    "st-info": {"--hash": "", "--groups": "", "--at": ""},
-    "st-diff": {"--tolerance": "0"},
-    "st-export": {"--output": "", "--tolerance": "0.001%"},
-}
+# Options of all tools, which the pages describe in words.
+COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json"}
+HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
     "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
@@ -77,35 +62,48 @@ def inputs(tool):
     return [f"input{i}" for i in range(N_INPUTS[tool])] + (["-o", "out.stl"] if tool == "st-export" else [])
 
 
+def options_in_help(tool):
+    """Option -> (its head, such as "--alpha DEG:(0, 90]=10", its text)."""
+    lines = must(tool, "--help").out.split("\n")
+    options = {}
+    for line, following in zip(lines, lines[1:]):
+        if line.startswith("  -"):
+            head, text = (line, following) if following.startswith(" " * HELP_COLUMN) else (line[:HELP_COLUMN], line[HELP_COLUMN:])
+            options[re.search(r"--[\w-]+", head)[0]] = (re.sub(r" Excludes: \S+", "", head).strip(), text.strip())
+    return options
+
+
+def options_in_page(tool):
+    """Option -> cells of its row in the table of options: name and type of the value, default, range."""
+    page = Path(__file__).resolve().parents[2] / "docs" / f"{tool}.md"
+    rows = [line.split("|") for line in page.read_text().split("\n") if line.startswith("| `-")]
+    return {re.search(r"--[\w-]+", row[1])[0]: (row[1].strip(" `"), row[2].strip(), row[3].strip()) for row in rows}
+
+
 class Help(ToolTest):
-    def test_help_exits_0_and_shows_every_option_with_its_default(self):
+    def test_help_exits_0_and_shows_what_all_tools_have(self):
         for tool in TOOLS:
             run = must(tool, "--help")
             self.assertEqual(run.err, "")
             self.assertEqual(must(tool, "-h").out, run.out)
-            for option, default in {**OPTIONS[tool], "--options": "", "--quiet": "", "--verbose": "", "--json": "", "--version": ""}.items():
-                lines = [line for line in run.out.split("\n") if line.startswith("  -") and option in line.split()[0].split(",")]
-                self.assertTrue(lines, f"{tool} --help does not show {option}")
-                if default:
-                    self.assertIn("=" + default, lines[0], f"{tool} {option}")
+            self.assertLess(COMMON, set(options_in_help(tool)), tool)
 
-    def test_help_shows_no_option_that_is_not_tested_here(self):
-        known = {"--help", "--version", "--options", "--print-options", "--print-inputs"}
-        known |= {"--quiet", "--verbose", "--json"}
+    def test_page_of_a_tool_has_the_options_defaults_and_ranges_of_help(self):
         for tool in TOOLS:
-            names = {w for line in must(tool, "--help").out.split("\n") if line.startswith("  -") for w in line.split()[0].split(",")}
-            shown = {n for n in names if n.startswith("--")}
-            self.assertEqual(shown - known, set(OPTIONS[tool]), tool)
+            shown, documented = options_in_help(tool), options_in_page(tool)
+            self.assertEqual(set(documented), set(shown) - COMMON, tool)
+            for option, (name, default, interval) in documented.items():
+                head, text = shown[option]
+                said = re.search("; default: (.*)$", text)  # in words where no value of the option stands for it
+                value = "" if said or not default else " REQUIRED" if default == "(required)" else "=" + default
+                self.assertEqual(name + (":" + interval if interval else "") + value, head, tool)
+                if said:
+                    self.assertEqual(default, said[1], f"{tool} {option}")
 
-    def test_doc_page_of_a_tool_names_every_option_and_default(self):
-        docs = Path(__file__).resolve().parents[2] / "docs"
+    def test_every_range_in_help_is_tested_here(self):
         for tool in TOOLS:
-            rows = [line.split("|") for line in (docs / f"{tool}.md").read_text().split("\n") if line.startswith("| `")]
-            documented = {name.strip("`"): row[2].strip() for row in rows for name in row[1].strip().strip("`").replace(",", " ").split() if name.startswith("--")}
-            self.assertEqual(set(documented), set(OPTIONS[tool]), tool)
-            for option, default in OPTIONS[tool].items():
-                if default:
-                    self.assertEqual(documented[option], default, f"{tool} {option}")
+            bounded = {option for option, (head, _) in options_in_help(tool).items() if re.search(r":[\[(].*,", head)}
+            self.assertLessEqual(bounded, set(REFUSED.get(tool, {})), tool)
 
     def test_version_names_the_tool(self):
         for tool in TOOLS:

@@ -102,10 +102,10 @@ void apply(const std::string& key, const toml::node& node, const std::string& pa
 
 /// A default as TOML: numbers and booleans bare, text quoted.
 std::string toml_default(const CLI::Option& option) {
-  const std::string type = option.get_type_name(), text = option.get_default_str();
+  const std::string text = option.get_default_str();
+  double number = 0;
   if (option.get_expected_max() == 0) return "false";  // a flag
-  const bool is_bare = type.starts_with("NUMBER") || type.starts_with("INTEGER");
-  return is_bare ? text : '"' + text + '"';
+  return CLI::detail::lexical_cast(text, number) ? text : '"' + text + '"';
 }
 
 /// What a file says to one tool, by key.

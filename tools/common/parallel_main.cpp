@@ -55,7 +55,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
   begin(argc, argv);
   app_.add_option("--np", n_ranks_,
                   "number of MPI ranks; the tool starts itself under mpirun; same result for every number")
-      ->type_name("INTEGER")
+      ->type_name("N")
       ->capture_default_str();
   std::optional<std::string> text;
   std::optional<int> job_code;  // of ranks that were started here

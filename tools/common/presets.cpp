@@ -51,7 +51,7 @@ slope = 0.12
 
 std::string preset_names() {
   std::string names;
-  for (const Preset& p : presets()) names += (names.empty() ? "" : " | ") + p.name;
+  for (const Preset& p : presets()) names += (names.empty() ? "" : ", ") + p.name;
   return names;
 }
 

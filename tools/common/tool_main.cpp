@@ -9,7 +9,6 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/length.h"
 #include "base/log.h"
@@ -45,32 +44,14 @@ void install_signal_handlers() {
   }
 }
 
-/// An interval as people write it: "(0, 90]".
-struct Interval {
-  explicit Interval(const std::string& written) : text(written) {
-    char comma = 0;
-    std::istringstream stream(written);
-    stream >> open >> lo >> comma >> hi >> close;
-    if (!stream || comma != ',' || (open != '(' && open != '[') || (close != ')' && close != ']'))
-      throw std::logic_error("bad interval " + written);
-  }
-  bool contains(double v) const { return (open == '(' ? v > lo : v >= lo) && (close == ')' ? v < hi : v <= hi); }
-
-  std::string text;
-  char open = 0, close = 0;
-  double lo = 0, hi = 0;
-};
-
 /// The reading is left to CLI11; only the bounds are checked here, so that "not a number" has one message.
-CLI::Validator in_interval(const std::string& written) {
-  const Interval interval(written);
+CLI::Validator in_interval(const NumberOption& option) {
   return CLI::Validator(
-      [interval](std::string& text) {
+      [option](std::string& text) {
         double value = 0;
-        if (!CLI::detail::lexical_cast(text, value)) return "'" + text + "' is not a number";
-        return interval.contains(value) ? std::string() : "must be in " + interval.text + ", not " + text;
+        return CLI::detail::lexical_cast(text, value) ? option.refusal(value) : "'" + text + "' is not a number";
       },
-      interval.text);
+      option.interval);
 }
 
 CLI::Validator a_length(const std::string& flag) {
@@ -187,24 +168,8 @@ void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, 
   file_options_.push_back(app_.add_option(flag, values, help)->type_name(type)->allow_extra_args(false));
 }
 
-void ToolMain::number(const std::string& flag, double& value, const std::string& interval, const std::string& help) {
-  file_options_.push_back(
-      app_.add_option(flag, value, help)->type_name("NUMBER")->capture_default_str()->check(in_interval(interval)));
-}
-
-void ToolMain::number(const std::string& flag, int& value, const std::string& interval, const std::string& help) {
-  file_options_.push_back(
-      app_.add_option(flag, value, help)->type_name("INTEGER")->capture_default_str()->check(in_interval(interval)));
-}
-
-void ToolMain::number(const std::string& flag, std::optional<double>& value, const std::string& interval,
-                      const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name("NUMBER")->check(in_interval(interval)));
-}
-
-void ToolMain::number(const std::string& flag, std::optional<int>& value, const std::string& interval,
-                      const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name("INTEGER")->check(in_interval(interval)));
+void ToolMain::add_number(const NumberOption& option, CLI::Option* bound) {
+  file_options_.push_back(bound->type_name(option.unit)->check(in_interval(option)));
 }
 
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
@@ -212,7 +177,8 @@ void ToolMain::flag(const std::string& flag, bool& value, const std::string& hel
 }
 
 void ToolMain::preset() {
-  text("--preset", preset_, preset_names(), "settings for a purpose, below all other options (docs/presets.md)");
+  text("--preset", preset_, "NAME",
+       "settings for a purpose, which all other options override (docs/presets.md): " + preset_names());
 }
 
 void ToolMain::begin(int argc, char** argv) {

@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "base/number_option.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -20,7 +22,7 @@ class Communicator;
 ///   ToolMain tool("st-prolong", "Makes the mesh size specification from a raster.");
 ///   tool.input("raster", o.raster, "raster artifact");
 ///   tool.output(o.output);
-///   tool.number("--slope", o.slope, "(0, 2]", "largest change of length per distance");
+///   tool.number(o.kSlope, o.slope);
 ///   return tool.run(argc, argv, [&] { return run_prolong(o); });
 class ToolMain {
  public:
@@ -56,14 +58,13 @@ class ToolMain {
   /// The same, repeatable.
   void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
              const std::string& help);
-  /// A number within `interval`, written "(0, 90]"; the same text appears in --help and in the error.
-  void number(const std::string& flag, double& value, const std::string& interval, const std::string& help);
-  void number(const std::string& flag, int& value, const std::string& interval, const std::string& help);
-  /// The same for what is off unless it is given.
-  void number(const std::string& flag, std::optional<double>& value, const std::string& interval,
-              const std::string& help);
-  /// A whole number that may be left out.
-  void number(const std::string& flag, std::optional<int>& value, const std::string& interval, const std::string& help);
+  /// A number, bound to the field that `option` describes: double, int or std::optional of them.
+  template <class T>
+  void number(const NumberOption& option, T& value) {
+    CLI::Option* bound = app_.add_option(option.flag, value, option.help);
+    if constexpr (std::is_arithmetic_v<T>) bound->capture_default_str();
+    add_number(option, bound);
+  }
   void flag(const std::string& flag, bool& value, const std::string& help);
   /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
   void preset();
@@ -75,6 +76,7 @@ class ToolMain {
   int run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage);
 
  private:
+  void add_number(const NumberOption& option, CLI::Option* bound);
   /// Signal handlers, and --json ahead of parsing: a usage error is reported as JSON, too.
   void begin(int argc, char** argv);
   /// Command line, then option file. Returns the text of --help, --version or --print-... when asked for. Throws

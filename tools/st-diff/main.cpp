@@ -8,7 +8,6 @@ int main(int argc, char** argv) {
                     st::ToolMain::Kind::kReport);
   tool.input("a", o.a, "first artifact");
   tool.input("b", o.b, "second artifact, of the same kind");
-  tool.number("--tolerance", o.tolerance, "[0, 1]",
-              "allowed relative difference of floating-point numbers; 0: equal to the last bit");
+  tool.number(o.kTolerance, o.tolerance);
   return tool.run(argc, argv, [&] { return st::run_diff(o); });
 }

@@ -17,8 +17,7 @@ int main(int argc, char** argv) {
   tool.text("--farfield", o.farfield, "KIND:SIZE",
             "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
   tool.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
-  tool.number("--time-limit", o.time_limit, "(0, 1e9]",
-              "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file");
+  tool.number(o.kTimeLimit, o.time_limit);
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
   tool.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
   return tool.run(argc, argv, [&] { return st::run_import(o); });

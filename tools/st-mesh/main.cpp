@@ -13,11 +13,8 @@ int main(int argc, char** argv) {
   tool.text("--group", o.group, "NAME", "mesh the faces of this group or part only; default: all");
   tool.optional_input("--edges", o.edges,
                       "patches meshed earlier: their nodes on CAD edges are reused, so that both fit together");
-  tool.number("--enhance-rounds", o.enhance_rounds, "[0, 10]",
-              "rounds of mesh improvement: swaps, smoothing, collapses");
-  tool.number("--merge-below", o.merge_below, "[0, 0.2]",
-              "merge CAD edges shorter and strips narrower than this times the requested length; 0: merge nothing");
-  tool.number("--max-turning", o.max_turning_deg, "(0, 60]",
-              "largest angle in degrees by which a CAD edge turns along one mesh segment");
+  tool.number(o.kEnhanceRounds, o.enhance_rounds);
+  tool.number(o.kMergeBelow, o.merge_below);
+  tool.number(o.kMaxTurning, o.max_turning_deg);
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
 }

@@ -9,14 +9,12 @@ int main(int argc, char** argv) {
       "Makes the size field from a raster, sources and a background mesh; limits the growth of edge lengths.");
   tool.input("raster", o.raster, "raster artifact");
   tool.output(o.output);
-  tool.number("--slope", o.slope, "(0, 2]", "largest change of edge length per distance; 0.2 is a growth rate of 1.2");
+  tool.number(o.kSlope, o.slope);
   tool.text("--slope-of", o.slope_of, "NAME=S,...",
             "slope of lengths that come from faces of this name, group or part, such as WING=0.1");
-  tool.number("--scale", o.scale, "(0, 1e6]", "factor that multiplies every length");
-  tool.number("--target-triangles", o.target_triangles, "[4, 2e9]",
-              "scale all lengths so that the mesh has about this many triangles; default: no scaling");
-  tool.number("--family", o.family, "(1, 4]",
-              "grid family: also write OUTPUT-coarse and OUTPUT-fine, lengths multiplied and divided by this ratio");
+  tool.number(o.kScale, o.scale);
+  tool.number(o.kTargetTriangles, o.target_triangles);
+  tool.number(o.kFamily, o.family);
   tool.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
   tool.optional_input("--background", o.background,
                       "background mesh with edge lengths: .bac, .ba3 or .msh (version 2.2)");

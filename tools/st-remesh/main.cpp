@@ -10,10 +10,8 @@ int main(int argc, char** argv) {
   tool.input("sizing", o.sizing, "sizing artifact with the new sizes");
   tool.output(o.output);
   tool.output_instead("--merged", o.merged, "write a merged mesh to this artifact instead of patches");
-  tool.number("--too-long", o.too_long, "(1, 100]",
-              "where sizes changed, remesh edges longer than this times the requested length");
-  tool.number("--too-short", o.too_short, "(0, 1)",
-              "where sizes changed, remesh edges shorter than this times the requested length");
+  tool.number(o.kTooLong, o.too_long);
+  tool.number(o.kTooShort, o.too_short);
   tool.text("--keep", o.keep, "GROUP", "do not change the faces, edges or vertices of this group");
   tool.optional_array(
       "--sizes-on-nodes", o.sizes_on_nodes,
