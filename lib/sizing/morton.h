@@ -1,6 +1,7 @@
 // Morton (Z-order) keys of octree cells: 20 bits per axis, interleaved, x lowest.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace st {
@@ -48,4 +49,29 @@ inline int octant(std::uint64_t key, int level) { return static_cast<int>(key >>
 inline std::uint32_t cell_extent(int level) { return 1u << (kMaxLevel - level); }
 
 }  // namespace morton
+
+inline constexpr int kCornerBits = 21;  ///< corners of cells lie at 0 .. 2^20
+
+/// A corner as one number: a step along axis k adds 1 << (k * kCornerBits).
+inline std::uint64_t pack_corner(GridPoint p) {
+  return p.x | static_cast<std::uint64_t>(p.y) << kCornerBits | static_cast<std::uint64_t>(p.z) << (2 * kCornerBits);
+}
+
+/// Inverse of pack_corner().
+inline GridPoint unpack_corner(std::uint64_t corner) {
+  constexpr std::uint64_t mask = (1u << kCornerBits) - 1;
+  return {static_cast<std::uint32_t>(corner & mask), static_cast<std::uint32_t>(corner >> kCornerBits & mask),
+          static_cast<std::uint32_t>(corner >> (2 * kCornerBits))};
+}
+
+/// Corners of the cell with this key and level, x fastest (VTK's voxel).
+inline std::array<std::uint64_t, 8> packed_corners(std::uint64_t key, int level) {
+  const GridPoint p = morton::decode(key);
+  const std::uint32_t e = morton::cell_extent(level);
+  std::array<std::uint64_t, 8> corners;
+  for (std::uint32_t c = 0; c < 8; ++c)
+    corners[c] = pack_corner({p.x + (c & 1) * e, p.y + (c >> 1 & 1) * e, p.z + (c >> 2) * e});
+  return corners;
+}
+
 }  // namespace st

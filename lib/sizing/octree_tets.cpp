@@ -8,18 +8,6 @@
 namespace st {
 namespace {
 
-constexpr int kCornerBits = 21;  // corners lie at 0 .. 2^20
-
-std::uint64_t pack(GridPoint p) {
-  return p.x | static_cast<std::uint64_t>(p.y) << kCornerBits | static_cast<std::uint64_t>(p.z) << (2 * kCornerBits);
-}
-
-GridPoint unpack(std::uint64_t key) {
-  constexpr std::uint64_t mask = (1u << kCornerBits) - 1;
-  return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> kCornerBits & mask),
-          static_cast<std::uint32_t>(key >> (2 * kCornerBits))};
-}
-
 class TetMaker {
  public:
   explicit TetMaker(const OctreeView& octree) : octree_(octree) {}
@@ -32,16 +20,13 @@ class TetMaker {
 
  private:
   void collect_corners() {
-    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) {
-      const GridPoint p = morton::decode(octree_.leaf_keys[leaf]);
-      const std::uint32_t e = morton::cell_extent(octree_.leaf_levels[leaf]);
-      for (std::uint32_t c = 0; c < 8; ++c)
-        corners_.push_back(pack({p.x + (c & 1) * e, p.y + (c >> 1 & 1) * e, p.z + (c >> 2) * e}));
-    }
+    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf)
+      for (const std::uint64_t c : packed_corners(octree_.leaf_keys[leaf], octree_.leaf_levels[leaf]))
+        corners_.push_back(c);
     sort_unique(corners_);
     const double unit = octree_.edge / kCoordinateEnd;
     for (const std::uint64_t key : corners_) {
-      const GridPoint p = unpack(key);
+      const GridPoint p = unpack_corner(key);
       result_.node_xyz.push_back({octree_.lo.x + p.x * unit, octree_.lo.y + p.y * unit, octree_.lo.z + p.z * unit});
     }
     result_.n_corners = static_cast<std::int64_t>(corners_.size());
@@ -56,7 +41,7 @@ class TetMaker {
   }
 
   void fill_leaf(std::int32_t leaf) {
-    const std::uint64_t lo = pack(morton::decode(octree_.leaf_keys[leaf]));
+    const std::uint64_t lo = pack_corner(morton::decode(octree_.leaf_keys[leaf]));
     const std::uint64_t e = morton::cell_extent(octree_.leaf_levels[leaf]);
     apex_ = static_cast<std::int32_t>(result_.n_corners) + leaf;
     constexpr std::uint64_t step[3] = {1, 1ull << kCornerBits, 1ull << (2 * kCornerBits)};

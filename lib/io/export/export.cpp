@@ -3,8 +3,8 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cstring>
 #include <limits>
-#include <optional>
 
 #include "base/limits.h"
 #include "io/export/export.h"
@@ -198,6 +198,7 @@ struct Format {
   const char* suffix;
   void (*write)(Output&, const SurfaceMesh&);
   bool has_entity_groups;  ///< holds groups of edges and vertices
+  bool has_mapbc = false;  ///< a list of boundaries is written next to the mesh: NAME.mapbc for NAME.ugrid
 };
 
 /// A suffix with two dots stands before the one that it ends with.
@@ -209,9 +210,9 @@ constexpr Format kFormats[] = {
     {".ply", export_ply, true},
     {".msh", export_msh, true},
     {".fro", export_fro, false},
-    {".lb8.ugrid", export_lb8_ugrid, false},
-    {".b8.ugrid", export_b8_ugrid, false},
-    {".ugrid", export_ugrid, false},
+    {".lb8.ugrid", export_lb8_ugrid, false, true},
+    {".b8.ugrid", export_b8_ugrid, false, true},
+    {".ugrid", export_ugrid, false, true},
     {".su2", export_su2, false},
     {".bdf", export_nastran, false},
     {".nas", export_nastran, false},
@@ -243,13 +244,6 @@ const Format& format_of(const std::string& path) {
                                     "' for an export; use one of " + known_suffixes());
 }
 
-/// The list of boundaries beside a UGRID file.
-std::optional<std::string> mapbc_beside(const std::string& path) {
-  for (const std::string suffix : {".lb8.ugrid", ".b8.ugrid", ".ugrid"})
-    if (has_suffix(path, suffix)) return path.substr(0, path.size() - suffix.size()) + ".mapbc";
-  return std::nullopt;
-}
-
 }  // namespace
 
 void require_export_suffix(const std::string& path) { format_of(path); }
@@ -258,8 +252,8 @@ std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
   const Format& format = format_of(path);
   Output out(path);
   format.write(out, mesh);
-  if (const auto list = mapbc_beside(path)) {
-    Output boundaries(*list);
+  if (format.has_mapbc) {
+    Output boundaries(path.substr(0, path.size() - std::strlen(format.suffix)) + ".mapbc");
     export_mapbc(boundaries, mesh);
     boundaries.commit();
   }

@@ -17,7 +17,6 @@ namespace st {
 namespace {
 
 constexpr std::uint8_t kVtkVoxel = 11, kVtkHexahedron = 12;
-constexpr int kCornerBits = 21;  // corners lie at 0 .. 2^20
 
 /// What is shown: one value per leaf.
 struct CellData {
@@ -26,26 +25,6 @@ struct CellData {
   std::vector<std::uint8_t> colour;  // empty: nothing is blanked
   Similarity frame;                  // where the octree lies
 };
-
-std::uint64_t pack_corner(GridPoint p) {
-  return p.x | static_cast<std::uint64_t>(p.y) << kCornerBits | static_cast<std::uint64_t>(p.z) << (2 * kCornerBits);
-}
-
-GridPoint unpack_corner(std::uint64_t key) {
-  constexpr std::uint64_t mask = (1u << kCornerBits) - 1;
-  return {static_cast<std::uint32_t>(key & mask), static_cast<std::uint32_t>(key >> kCornerBits & mask),
-          static_cast<std::uint32_t>(key >> (2 * kCornerBits))};
-}
-
-/// Corners of a leaf in VTK's voxel order: x fastest.
-std::array<std::uint64_t, 8> leaf_corners(const OctreeView& octree, std::size_t leaf) {
-  const GridPoint p = morton::decode(octree.leaf_keys[leaf]);
-  const std::uint32_t extent = morton::cell_extent(octree.leaf_levels[leaf]);
-  std::array<std::uint64_t, 8> corners;
-  for (std::uint32_t c = 0; c < 8; ++c)
-    corners[c] = pack_corner({p.x + (c & 1) * extent, p.y + (c >> 1 & 1) * extent, p.z + (c >> 2) * extent});
-  return corners;
-}
 
 std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays& arrays) {
   const std::vector<std::int32_t> level(octree.leaf_levels.begin(), octree.leaf_levels.end());
@@ -60,7 +39,7 @@ std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays&
          "      </CellData>\n";
 }
 
-/// Places of a cell's corners among those of leaf_corners: VTK's voxels lie along the axes, hexahedra need not.
+/// Places of a cell's corners among packed_corners(): VTK's voxels lie along the axes, hexahedra need not.
 std::array<int, 8> corner_order(const Similarity& frame) {
   if (frame == Similarity()) return {0, 1, 2, 3, 4, 5, 6, 7};
   return frame.is_mirrored() ? std::array{4, 5, 7, 6, 0, 1, 3, 2} : std::array{0, 1, 3, 2, 4, 5, 7, 6};
@@ -72,7 +51,7 @@ std::string points_and_cells(const OctreeView& octree, const Similarity& frame, 
   std::vector<std::uint64_t> corners;
   corners.reserve(8 * n);
   for (std::size_t leaf = 0; leaf < n; ++leaf)
-    for (const std::uint64_t c : leaf_corners(octree, leaf)) corners.push_back(c);
+    for (const std::uint64_t c : packed_corners(octree.leaf_keys[leaf], octree.leaf_levels[leaf])) corners.push_back(c);
   sort_unique(corners);
   n_points = corners.size();
   std::vector<double> xyz;
@@ -87,7 +66,7 @@ std::string points_and_cells(const OctreeView& octree, const Similarity& frame, 
   std::vector<std::int64_t> connectivity, offsets;
   connectivity.reserve(8 * n);
   for (std::size_t leaf = 0; leaf < n; ++leaf) {
-    const std::array<std::uint64_t, 8> of_leaf = leaf_corners(octree, leaf);
+    const std::array<std::uint64_t, 8> of_leaf = packed_corners(octree.leaf_keys[leaf], octree.leaf_levels[leaf]);
     for (const int k : order)
       connectivity.push_back(std::lower_bound(corners.begin(), corners.end(), of_leaf[k]) - corners.begin());
     offsets.push_back(static_cast<std::int64_t>(8 * (leaf + 1)));
