@@ -1,13 +1,23 @@
 // Who runs the tasks of a job: one rank or several. The only way in which algorithms meet other ranks.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include "base/packer.h"
 
 namespace st {
+
+/// Tasks in the order in which they are best handed out; ties by number.
+inline std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
+  std::vector<std::int32_t> order(weight.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
+  return order;
+}
 
 /// The ranks of a job. `comm` has the one over MPI; SerialExecutor is the one of tests and of callers without ranks.
 class Executor {

@@ -1,4 +1,4 @@
-// Plain-old-data arrays to bytes and back, for messages between ranks.
+// Values to bytes and back, for messages between ranks.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -13,19 +14,33 @@ namespace st {
 
 using Bytes = std::vector<std::byte>;
 
-/// Appends values to a byte buffer.
+/// A struct that names the fields to be sent: `static auto fields(auto& x) { return std::tie(x.a, x.b); }`.
+template <class T>
+concept HasFields = requires(T& x) {
+  T::fields(x);
+};
+
+/// Appends values to a byte buffer: plain old data, structs with fields, and vectors of both.
 class Packer {
  public:
   template <class T>
   void add(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    append(&value, sizeof value);
+    if constexpr (HasFields<T>) {
+      std::apply([this](const auto&... field) { (add(field), ...); }, T::fields(value));
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      append(&value, sizeof value);
+    }
   }
   template <class T>
   void add(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     add(static_cast<std::uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(T));
+    if constexpr (HasFields<T>) {
+      for (const T& value : values) add(value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      append(values.data(), values.size() * sizeof(T));
+    }
   }
   void add(const std::string& text) { add(std::vector<char>(text.begin(), text.end())); }
   Bytes take() { return std::move(bytes_); }
@@ -45,17 +60,25 @@ class Unpacker {
   explicit Unpacker(const Bytes& bytes) : bytes_(bytes) {}
   template <class T>
   void get(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    read(&value, sizeof value);
+    if constexpr (HasFields<T>) {
+      std::apply([this](auto&... field) { (get(field), ...); }, T::fields(value));
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      read(&value, sizeof value);
+    }
   }
   template <class T>
   void get(std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     std::uint64_t n = 0;
     get(n);
-    if (n > (bytes_.size() - position_) / sizeof(T)) throw std::runtime_error("message too short");
+    if (n > (bytes_.size() - position_) / (HasFields<T> ? 1 : sizeof(T))) throw std::runtime_error("message too short");
     values.resize(n);
-    read(values.data(), n * sizeof(T));
+    if constexpr (HasFields<T>) {
+      for (T& value : values) get(value);
+    } else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      read(values.data(), n * sizeof(T));
+    }
   }
   bool is_empty() const { return position_ == bytes_.size(); }
   void get(std::string& text) {
@@ -73,5 +96,18 @@ class Unpacker {
   const Bytes& bytes_;
   std::size_t position_ = 0;
 };
+
+template <class... Values>
+Bytes packed(const Values&... values) {
+  Packer packer;
+  (packer.add(values), ...);
+  return packer.take();
+}
+
+template <class... Values>
+void unpack(const Bytes& bytes, Values&... values) {
+  Unpacker unpacker(bytes);
+  (unpacker.get(values), ...);
+}
 
 }  // namespace st

@@ -12,15 +12,9 @@ template <class... Values>
 void share(const Executor& executor, Values&... values) {
   if (executor.size() == 1) return;
   Bytes bytes;
-  if (executor.is_root()) {
-    Packer p;
-    (p.add(values), ...);
-    bytes = p.take();
-  }
+  if (executor.is_root()) bytes = packed(values...);
   executor.broadcast(bytes);
-  if (executor.is_root()) return;
-  Unpacker u(bytes);
-  (u.get(values), ...);
+  if (!executor.is_root()) unpack(bytes, values...);
 }
 
 }  // namespace st

@@ -1,6 +1,7 @@
 #include "mesh/edge_mesh.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/limits.h"
 
@@ -12,11 +13,6 @@ void add_range(std::vector<T>& to, const std::vector<T>& from, IdRange range) {
   to.insert(to.end(), from.begin() + range.first(), from.begin() + range.first() + range.size());
 }
 
-void end_edge(EdgeMesh& m) {
-  if (m.edge_offsets.empty()) m.edge_offsets.push_back(0);
-  m.edge_offsets.push_back(checked_id(m.node_t.size(), "nodes on edges"));
-}
-
 }  // namespace
 
 EdgeMesh EdgeMesh::of_edges(EdgeId n_edges) {
@@ -25,18 +21,21 @@ EdgeMesh EdgeMesh::of_edges(EdgeId n_edges) {
   return mesh;
 }
 
-void EdgeMesh::append(const CurveNodes& nodes) {
-  node_t.insert(node_t.end(), nodes.t.begin(), nodes.t.end());
-  node_xyz.insert(node_xyz.end(), nodes.x.begin(), nodes.x.end());
-  node_size.insert(node_size.end(), nodes.h.begin(), nodes.h.end());
-  end_edge(*this);
+EdgeMesh EdgeMesh::of_curve(std::vector<double> t, std::vector<Vec3> xyz, std::vector<double> size) {
+  EdgeMesh mesh;
+  mesh.edge_offsets = {0, checked_id(t.size(), "nodes on a curve")};
+  mesh.node_t = std::move(t);
+  mesh.node_xyz = std::move(xyz);
+  mesh.node_size = std::move(size);
+  return mesh;
 }
 
 void EdgeMesh::append(const EdgeMesh& other, EdgeId e) {
   add_range(node_t, other.node_t, other.nodes(e));
   add_range(node_xyz, other.node_xyz, other.nodes(e));
   add_range(node_size, other.node_size, other.nodes(e));
-  end_edge(*this);
+  if (edge_offsets.empty()) edge_offsets.push_back(0);
+  edge_offsets.push_back(checked_id(node_t.size(), "nodes on edges"));
 }
 
 bool has_same_nodes(const EdgeMesh& a, const EdgeMesh& b, EdgeId e) {

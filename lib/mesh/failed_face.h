@@ -22,6 +22,11 @@ struct FailedFace {
   std::vector<EdgeId> segment_edge;         ///< [n_segments] CAD edge
   std::vector<Triangle> triangles;          ///< so far, counter-clockwise in (u,v); need not fit together
   std::vector<Vec3> places;                 ///< where the loops cross, or where the triangulation broke
+
+  static auto fields(auto& f) {
+    return std::tie(f.face, f.xyz, f.uv, f.size, f.segment_nodes, f.segment_loop, f.segment_edge, f.triangles,
+                    f.places);
+  }
 };
 
 }  // namespace st

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/face_labels.h"
@@ -33,6 +34,11 @@ struct FacePatch {
   std::vector<NodeId> inner_previous;  ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone:
                                        ///< new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
+
+  static auto fields(auto& p) {
+    return std::tie(p.face, p.n_boundary, p.boundary_dim, p.boundary_entity, p.boundary_index, p.inner_xyz, p.inner_uv,
+                    p.inner_size, p.triangles, p.corner_uv, p.inner_previous, p.triangle_previous);
+  }
 };
 
 /// CAD features far below the requested lengths, merged for meshing only (virtual topology). All ids 0-based, ascending
@@ -44,6 +50,10 @@ struct MergedFeatures {
   std::vector<std::uint8_t> strip_is_opposed;    ///< [n_strips] 1: they run against each other
   bool empty() const { return edge.empty() && strip_face.empty(); }
   bool operator==(const MergedFeatures&) const = default;
+
+  static auto fields(auto& m) {
+    return std::tie(m.edge, m.strip_face, m.strip_kept, m.strip_closed, m.strip_is_opposed);
+  }
 };
 
 /// Faces of strips that are closed all along, so that they have no triangles: both long edges have nodes, all of them

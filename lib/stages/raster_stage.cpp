@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <utility>
 
 #include "base/length.h"
@@ -148,13 +147,6 @@ void sample_wings(const RasterStageOptions& o, const Model& model, double diagon
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
   for (const LiftingSurface& wing : wings.surfaces) raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
-}
-
-std::vector<std::int32_t> heaviest_first(const std::vector<double>& work) {
-  std::vector<std::int32_t> order(work.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return work[a] > work[b]; });
-  return order;
 }
 
 /// The work cut into tasks: first batches of edges, then one task per face.

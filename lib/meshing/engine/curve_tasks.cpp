@@ -1,9 +1,8 @@
 #include "meshing/engine/curve_tasks.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "base/packer.h"
+#include "base/share.h"
 
 namespace st {
 namespace {
@@ -12,35 +11,23 @@ constexpr std::int32_t kCurvesPerTask = 24;
 
 }  // namespace
 
-std::vector<CurveNodes> make_curve_nodes(std::int32_t n, const std::function<CurveNodes(std::int32_t i)>& make,
-                                         const Executor& executor) {
+EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int32_t i)>& make,
+                          const Executor& executor) {
   const std::int32_t n_tasks = (n + kCurvesPerTask - 1) / kCurvesPerTask;
-  std::vector<std::int32_t> order(n_tasks);
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<Bytes> results(n_tasks);
+  std::vector<EdgeMesh> parts(n_tasks);
   const auto compute = [&](std::int32_t task) {
-    Packer p;
-    for (std::int32_t i = task * kCurvesPerTask; i < std::min(n, (task + 1) * kCurvesPerTask); ++i) {
-      const CurveNodes nodes = make(i);
-      p.add(nodes.t);
-      p.add(nodes.x);
-      p.add(nodes.h);
-    }
-    return p.take();
+    EdgeMesh part;
+    for (std::int32_t i = task * kCurvesPerTask; i < std::min(n, (task + 1) * kCurvesPerTask); ++i)
+      part.append(make(i));
+    return packed(part);
   };
-  executor.run_tasks(n_tasks, order, compute,
-                     [&](std::int32_t task, Bytes&& result) { results[task] = std::move(result); });
-  Bytes all;
-  for (const Bytes& bytes : results) all.insert(all.end(), bytes.begin(), bytes.end());
-  executor.broadcast(all);
-  std::vector<CurveNodes> nodes(n);
-  Unpacker u(all);
-  for (CurveNodes& c : nodes) {
-    u.get(c.t);
-    u.get(c.x);
-    u.get(c.h);
-  }
-  return nodes;
+  executor.run_tasks(n_tasks, heaviest_first(std::vector<double>(n_tasks, 1)), compute,
+                     [&](std::int32_t task, Bytes&& result) { unpack(result, parts[task]); });
+  EdgeMesh all = EdgeMesh::of_edges(0);
+  for (const EdgeMesh& part : parts)
+    for (EdgeId i = 0; i < part.n_edges(); ++i) all.append(part, i);
+  share(executor, all);
+  return all;
 }
 
 }  // namespace st

@@ -10,8 +10,8 @@
 
 namespace st {
 
-/// Collective. `make(i)` for i in [0, n), each on any rank; the results on every rank. `make` is pure.
-std::vector<CurveNodes> make_curve_nodes(std::int32_t n, const std::function<CurveNodes(std::int32_t i)>& make,
-                                         const Executor& executor);
+/// Collective. `make(i)`, the nodes of one curve, for i in [0, n), each on any rank; all on every rank. `make` is pure.
+EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int32_t i)>& make,
+                          const Executor& executor);
 
 }  // namespace st

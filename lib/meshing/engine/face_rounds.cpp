@@ -1,7 +1,6 @@
 #include "meshing/engine/face_rounds.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -20,13 +19,6 @@ constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
 constexpr int kSamples = 32;      // of a curve, for its box
 constexpr double kMargin = 0.05;  // of the box's diagonal: the curve may leave the box of its samples
-
-std::vector<std::int32_t> heaviest_first(const std::vector<double>& weight) {
-  std::vector<std::int32_t> order(weight.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
-  return order;
-}
 
 Box3 box_of(const Curve& curve) {
   Box3 box;
@@ -78,39 +70,45 @@ void FaceRounds::mesh_edges() {
     own.push_back(e);
     if (const auto* strip = topology_.strip_kept_at(e)) strips.push_back(strip);
   }
-  std::vector<CurveNodes> fresh(tables_.n_edges());
-  std::vector<CurveNodes> made = make_curve_nodes(
+  EdgeMesh fresh = make_curve_nodes(
       static_cast<std::int32_t>(own.size()), [&](std::int32_t i) { return make_edge(own[i]); }, executor_);
-  for (std::size_t i = 0; i < own.size(); ++i) fresh[own[i]] = std::move(made[i]);
-  made = make_curve_nodes(
-      static_cast<std::int32_t>(strips.size()),
-      [&](std::int32_t i) { return make_mirrored(*strips[i], fresh[strips[i]->kept]); }, executor_);
-  for (std::size_t i = 0; i < strips.size(); ++i) fresh[strips[i]->closed] = std::move(made[i]);
+  std::vector<EdgeId> place(tables_.n_edges(), kNone);  // in `fresh`
+  for (EdgeId i = 0; i < fresh.n_edges(); ++i) place[own[i]] = i;
+  const auto mirror = [&](std::int32_t i) {
+    EdgeMesh kept;
+    kept.append(fresh, place[strips[i]->kept]);
+    return make_mirrored(*strips[i], kept);
+  };
+  const EdgeMesh mirrored = make_curve_nodes(static_cast<std::int32_t>(strips.size()), mirror, executor_);
+  for (EdgeId i = 0; i < mirrored.n_edges(); ++i) {
+    place[strips[i]->closed] = fresh.n_edges();
+    fresh.append(mirrored, i);
+  }
   EdgeMesh next;
   for (EdgeId e = 0; e < tables_.n_edges(); ++e)
-    fresh[e].t.empty() ? next.append(result_.edges, e) : next.append(fresh[e]);
+    place[e] == kNone ? next.append(result_.edges, e) : next.append(fresh, place[e]);
   result_.edges = std::move(next);
   numbering_.emplace(topology_, result_.edges);
 }
 
-void FaceRounds::end_at_vertices(EdgeId e, CurveNodes& nodes) const {
-  nodes.x.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * e]];
-  nodes.x.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * e + 1]];
+void FaceRounds::end_at_vertices(EdgeId e, EdgeMesh& nodes) const {
+  nodes.node_xyz.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * e]];
+  nodes.node_xyz.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * e + 1]];
 }
 
-CurveNodes FaceRounds::make_edge(EdgeId e) const {
+EdgeMesh FaceRounds::make_edge(EdgeId e) const {
   const auto curve = model_.curve(e);
   const RefinedField field(field_, refinements_.near(box_of(*curve)));
-  CurveNodes nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
+  EdgeMesh nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
   end_at_vertices(e, nodes);
   return nodes;
 }
 
 /// The nodes of a strip's other edge follow those of the kept one.
-CurveNodes FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const CurveNodes& kept) const {
+EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const {
   const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
-  CurveNodes nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
-                                  {options_.merge_below, tolerance});
+  EdgeMesh nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
+                                {options_.merge_below, tolerance});
   end_at_vertices(strip.closed, nodes);
   return nodes;
 }
@@ -158,29 +156,20 @@ Bytes FaceRounds::compute_face(FaceId f) const {
     mesh.cause = FailureCause::kError;
     error = e.what();
   }
-  Packer packer;
-  pack(packer, patch);
-  packer.add(mesh.cause);
-  packer.add(error);
-  packer.add(mesh.refinement);
-  packer.add(mesh.n_folds);
-  if (mesh.cause != FailureCause::kNone) pack(packer, describe_failure(*numbering_, f, boundary, mesh));
-  return packer.take();
+  FailedFace failed;
+  if (mesh.cause != FailureCause::kNone) failed = describe_failure(*numbering_, f, boundary, mesh);
+  return packed(patch, mesh.cause, error, mesh.refinement, mesh.n_folds, failed);
 }
 
 /// Local, on rank 0. What compute_face() packed; returns the places that need smaller sizes.
 std::vector<RefinementPoint> FaceRounds::take_face(FaceId f, const Bytes& bytes) {
-  Unpacker u(bytes);
   std::vector<RefinementPoint> wanted;
+  FailedFace failed;
   int n_folds = 0;
   FaceOutcome& o = outcomes_[f];
-  unpack(u, result_.patches[f]);
-  u.get(o.cause);
-  u.get(o.error);
-  u.get(wanted);
-  u.get(n_folds);
+  unpack(bytes, result_.patches[f], o.cause, o.error, wanted, n_folds, failed);
   failed_faces_.erase(f);
-  if (o.cause != FailureCause::kNone) unpack(u, failed_faces_[f]);
+  if (o.cause != FailureCause::kNone) failed_faces_[f] = std::move(failed);
   o.fold_places = n_folds ? wanted : std::vector<RefinementPoint>();
   o.cause_xyz = wanted.empty() ? tables_.face_box[f].center() : wanted[0].x;
   crossings_.renew(f);
@@ -203,7 +192,7 @@ void FaceRounds::join() {
     }
     failed_faces_.clear();
   }
-  share(executor_, edges.edge_offsets, edges.node_t, edges.node_xyz, edges.node_size);
+  share(executor_, edges);
   numbering_.emplace(topology_, edges);
 }
 

@@ -41,9 +41,9 @@ class FaceRounds : public MeshRounds {
   std::vector<RefinementPoint> find_crossings() override;
   void choose_again(std::size_t first_refinement) override;
 
-  CurveNodes make_edge(EdgeId e) const;
-  CurveNodes make_mirrored(const MeshTopology::Strip& strip, const CurveNodes& kept) const;
-  void end_at_vertices(EdgeId e, CurveNodes& nodes) const;
+  EdgeMesh make_edge(EdgeId e) const;
+  EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
+  void end_at_vertices(EdgeId e, EdgeMesh& nodes) const;
   FaceMesh mesh_in(const Surface& surface, FaceId f, const FaceBoundary& boundary) const;
   Bytes compute_face(FaceId f) const;
   std::vector<RefinementPoint> take_face(FaceId f, const Bytes& bytes);

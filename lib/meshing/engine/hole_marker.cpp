@@ -80,31 +80,22 @@ void HoleMarker::mark(const std::vector<double>& wanted) {
 
 /// Collective.
 std::vector<TouchedNode> HoleMarker::exchange(const std::vector<TouchedNode>& own) const {
-  Packer p;
-  p.add(own);
-  Bytes all;
-  for (const Bytes& bytes : executor_.gather(p.take())) all.insert(all.end(), bytes.begin(), bytes.end());
-  executor_.broadcast(all);
   std::vector<TouchedNode> touched, part;
-  for (Unpacker u(all); !u.is_empty();) {
-    u.get(part);
+  for (const Bytes& bytes : executor_.gather(packed(own))) {
+    unpack(bytes, part);
     touched.insert(touched.end(), part.begin(), part.end());
   }
+  share(executor_, touched);
   return touched;
 }
 
 /// Collective. The marks of all ranks' triangles on rank 0.
 void HoleMarker::collect_marks() {
   if (executor_.size() == 1) return;
-  Packer p;
-  p.add(share_.first_triangle + share_.begin);
-  p.add(std::vector<char>(marks_.triangle.begin() + share_.begin, marks_.triangle.begin() + share_.end));
-  for (const Bytes& bytes : executor_.gather(p.take())) {
-    TriangleId first = 0;
-    std::vector<char> part;
-    Unpacker u(bytes);
-    u.get(first);
-    u.get(part);
+  TriangleId first = share_.first_triangle + share_.begin;
+  std::vector<char> part(marks_.triangle.begin() + share_.begin, marks_.triangle.begin() + share_.end);
+  for (const Bytes& bytes : executor_.gather(packed(first, part))) {
+    unpack(bytes, first, part);
     std::copy(part.begin(), part.end(), marks_.triangle.begin() + first);
   }
 }

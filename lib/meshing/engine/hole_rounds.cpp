@@ -1,7 +1,6 @@
 #include "meshing/engine/hole_rounds.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -17,38 +16,6 @@ namespace {
 constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it cannot be filled; then the whole face is done
                                    // again
 constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
-
-void pack(Packer& p, const HoleRim& rim) {
-  p.add(rim.face);
-  p.add(rim.is_whole_face);
-  p.add(rim.is_turned);
-  p.add(rim.nodes);
-  p.add(rim.free_sides);
-  p.add(rim.cad_sides);
-}
-
-void unpack(Unpacker& u, HoleRim& rim) {
-  u.get(rim.face);
-  u.get(rim.is_whole_face);
-  u.get(rim.is_turned);
-  u.get(rim.nodes);
-  u.get(rim.free_sides);
-  u.get(rim.cad_sides);
-}
-
-void pack(Packer& p, const HoleFill& fill) {
-  p.add(fill.id);
-  p.add(fill.uv);
-  p.add(fill.inner);
-  p.add(fill.triangles);
-}
-
-void unpack(Unpacker& u, HoleFill& fill) {
-  u.get(fill.id);
-  u.get(fill.uv);
-  u.get(fill.inner);
-  u.get(fill.triangles);
-}
 
 }  // namespace
 
@@ -119,13 +86,7 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
   if (executor_.is_root())
     for (const FaceId f : faces)
       for (HoleRim& rim : find_hole_rims(old_, holes_.marks(), f)) rims.push_back(std::move(rim));
-  if (executor_.size() == 1) return rims;
-  Packer p;
-  for (const HoleRim& rim : rims) pack(p, rim);
-  Bytes bytes = p.take();
-  executor_.broadcast(bytes);
-  if (executor_.is_root()) return rims;
-  for (Unpacker u(bytes); !u.is_empty();) unpack(u, rims.emplace_back());
+  share(executor_, rims);
   return rims;
 }
 
@@ -137,35 +98,27 @@ HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
     const FaceBoundary boundary = make_hole_boundary(model_, *surface, rim, holes_.marks(), *numbering_, field);
     FaceMeshOptions options;
     options.enhance_rounds = options_.enhance_rounds;
-    FaceMesh filled = mesh_face(*surface, boundary, field, options);
-    if (filled.cause == FailureCause::kNone && filled.n_folds == 0)
-      fill = make_hole_fill(rim, boundary, std::move(filled));
+    const FaceMesh filled = mesh_face(*surface, boundary, field, options);
+    if (filled.cause == FailureCause::kNone && filled.n_folds == 0) fill = make_hole_fill(rim, boundary, filled);
   } catch (const Error&) {  // no triangles: the hole grows
   }
   int hint = 0;
-  for (FaceMesh::InnerNode& n : fill.inner) n.h = field_.size(n.x, hint);
+  for (FaceNode& n : fill.nodes)
+    if (n.id == kNone) n.h = field_.size(n.x, hint);
   return fill;
 }
 
 /// Collective. Fills the holes; returns those where it failed, ascending.
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
-  std::vector<std::int32_t> order(rims.size()), failed;
-  std::iota(order.begin(), order.end(), 0);
-  if (executor_.is_root())
-    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-      return rims[a].triangles.size() > rims[b].triangles.size();
-    });
-  share(executor_, order);
+  std::vector<double> weight;
+  for (const HoleRim& rim : rims) weight.push_back(static_cast<double>(rim.triangles.size()));
+  share(executor_, weight);
   std::vector<HoleFill> fills(rims.size());
-  const auto compute = [&](std::int32_t task) {
-    Packer p;
-    pack(p, fill_hole(rims[task]));
-    return p.take();
-  };
-  executor_.run_tasks(static_cast<std::int32_t>(rims.size()), order, compute, [&](std::int32_t task, Bytes&& result) {
-    Unpacker u(result);
-    unpack(u, fills[task]);
-  });
+  std::vector<std::int32_t> failed;
+  executor_.run_tasks(
+      static_cast<std::int32_t>(rims.size()), heaviest_first(weight),
+      [&](std::int32_t task) { return packed(fill_hole(rims[task])); },
+      [&](std::int32_t task, Bytes&& result) { unpack(result, fills[task]); });
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
     if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));

@@ -64,7 +64,7 @@ SurfaceMesh merge_result(const ModelTables& t, const MeshResult& result) {
 MeshTopology merge_small_features(const Model& model, const SizeField& field, double below, const Executor& executor) {
   MergedFeatures merged;
   if (executor.is_root()) merged = find_merged_features(model, field, below);
-  share(executor, merged.edge, merged.strip_face, merged.strip_kept, merged.strip_closed, merged.strip_is_opposed);
+  share(executor, merged);
   return MeshTopology(model.tables(), std::move(merged));
 }
 

@@ -85,15 +85,13 @@ class FaceMesher {
     std::map<std::int32_t, std::vector<std::int32_t>> same;
     node_of_.resize(boundary_.nodes.size());
     for (std::size_t i = 0; i < boundary_.nodes.size(); ++i) {
-      const FaceBoundary::Node& b = boundary_.nodes[i];
-      MeshNode n;
+      const FaceNode& b = boundary_.nodes[i];
+      MeshNode n{b};
       n.p = {b.uv.x * work_.scale.x, b.uv.y * work_.scale.y};
       work_.evaluate(n);
       n.normal = reliable_normal(n);
       n.x = b.x;
-      n.h = n.request = b.h;
-      n.id = b.id;
-      n.is_pole = b.is_pole;
+      n.request = b.h;
       std::vector<std::int32_t>& twins = same[b.id];
       std::int32_t found = kNone;
       for (std::int32_t t : twins) {
@@ -122,12 +120,11 @@ class FaceMesher {
   /// The normal a little inside where the parametrisation is singular at the boundary.
   Vec3 reliable_normal(const MeshNode& n) const {
     if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
-    const Vec2 uv = work_.to_uv(n.p),
-               middle{0.5 * (surface_.u_min() + surface_.u_max()), 0.5 * (surface_.v_min() + surface_.v_max())};
+    const Vec2 middle{0.5 * (surface_.u_min() + surface_.u_max()), 0.5 * (surface_.v_min() + surface_.v_max())};
     MeshNode inside = n;
-    inside.p = n.p + 0.01 * Vec2{(middle.x - uv.x) * work_.scale.x, (middle.y - uv.y) * work_.scale.y};
+    inside.p = n.p + 0.01 * Vec2{(middle.x - n.uv.x) * work_.scale.x, (middle.y - n.uv.y) * work_.scale.y};
     work_.evaluate(inside);
-    return n.is_pole ? Vec3{} : inside.normal;
+    return inside.normal;
   }
 
   void add_segments() {
@@ -173,7 +170,7 @@ class FaceMesher {
       for (std::int32_t v : t.v) {
         if (number[v] == kNone && v >= first_inner) {
           number[v] = n_boundary + static_cast<std::int32_t>(result.inner.size());
-          result.inner.push_back({work_.to_uv(m.nodes[v].p), m.nodes[v].x, m.nodes[v].h});
+          result.inner.push_back(m.nodes[v]);
         }
         result.corners.push_back(number[v]);
       }

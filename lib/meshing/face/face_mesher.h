@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/ids.h"
-#include "base/vec.h"
 #include "geometry/shape/surface.h"
+#include "meshing/face/face_node.h"
 #include "meshing/face/failure_cause.h"
 #include "sizing/size_field.h"
 
@@ -15,14 +14,7 @@ namespace st {
 
 /// The loops of a face as nodes in (u,v) and segments between them.
 struct FaceBoundary {
-  struct Node {
-    Vec2 uv;
-    Vec3 x;                   ///< space, model unit
-    double h = 0;             ///< requested length
-    std::int32_t id = kNone;  ///< node outside the face; equal for seam twins and for the nodes of a pole
-    bool is_pole = false;     ///< on a degenerate edge
-  };
-  std::vector<Node> nodes;
+  std::vector<FaceNode> nodes;
   std::vector<std::pair<std::int32_t, std::int32_t>> segments;  ///< node pairs; interior on the left
 };
 
@@ -38,13 +30,7 @@ struct RefinementPoint {
 };
 
 struct FaceMesh {
-  /// Nodes: first the boundary's (same order as FaceBoundary::nodes), then inner ones.
-  struct InnerNode {
-    Vec2 uv;
-    Vec3 x;
-    double h = 0;
-  };
-  std::vector<InnerNode> inner;
+  std::vector<FaceNode> inner;
   std::vector<std::int32_t> corners;  ///< [3*n] boundary node i as i, inner node j as n_boundary + j; counter-clockwise
                                       ///< in (u,v)
   FailureCause cause = FailureCause::kNone;  ///< kNone: meshed

@@ -23,7 +23,7 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
     }
     number[by_id[i].second] = patch.n_boundary - 1;
   }
-  for (const FaceMesh::InnerNode& n : mesh.inner) {
+  for (const FaceNode& n : mesh.inner) {
     patch.inner_xyz.push_back(n.x);
     patch.inner_uv.push_back(n.uv);
     patch.inner_size.push_back(n.h);
@@ -37,32 +37,6 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
     for (std::int32_t k : c) patch.corner_uv.push_back(uv(k));
   }
   return patch;
-}
-
-void pack(Packer& p, const FacePatch& f) {
-  p.add(f.face);
-  p.add(f.n_boundary);
-  p.add(f.boundary_dim);
-  p.add(f.boundary_entity);
-  p.add(f.boundary_index);
-  p.add(f.inner_xyz);
-  p.add(f.inner_uv);
-  p.add(f.inner_size);
-  p.add(f.triangles);
-  p.add(f.corner_uv);
-}
-
-void unpack(Unpacker& u, FacePatch& f) {
-  u.get(f.face);
-  u.get(f.n_boundary);
-  u.get(f.boundary_dim);
-  u.get(f.boundary_entity);
-  u.get(f.boundary_index);
-  u.get(f.inner_xyz);
-  u.get(f.inner_uv);
-  u.get(f.inner_size);
-  u.get(f.triangles);
-  u.get(f.corner_uv);
 }
 
 }  // namespace st

@@ -1,7 +1,6 @@
-// A face's patch: made from its mesh, sent between ranks.
+// A face's patch: made from its mesh.
 #pragma once
 
-#include "base/packer.h"
 #include "geometry/model/model.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face/face_boundary.h"
@@ -12,8 +11,5 @@ namespace st {
 /// A face's mesh as a patch: boundary nodes once each, triangles out of the solid.
 FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
                      const BoundaryNumbering& numbering);
-
-void pack(Packer& p, const FacePatch& patch);
-void unpack(Unpacker& u, FacePatch& patch);
 
 }  // namespace st

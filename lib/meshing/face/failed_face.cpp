@@ -38,7 +38,7 @@ LoopEdge edge_of(const BoundaryNumbering& numbering, const std::vector<LoopEdge>
 
 void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& boundary, FailedFace& f) {
   const std::vector<LoopEdge> edges = loop_edges(numbering.tables, f.face);
-  for (const FaceBoundary::Node& n : boundary.nodes) {
+  for (const FaceNode& n : boundary.nodes) {
     f.xyz.push_back(n.x);
     f.uv.push_back(n.uv);
     f.size.push_back(n.h);
@@ -69,7 +69,7 @@ void add_edges(const BoundaryNumbering& numbering, FailedFace& f) {
 }
 
 void add_triangles(const FaceMesh& mesh, FailedFace& f) {
-  for (const FaceMesh::InnerNode& n : mesh.inner) {
+  for (const FaceNode& n : mesh.inner) {
     f.xyz.push_back(n.x);
     f.uv.push_back(n.uv);
     f.size.push_back(n.h);
@@ -92,30 +92,6 @@ FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, con
     add_boundary(numbering, boundary, f), add_triangles(mesh, f);
   for (const RefinementPoint& p : mesh.refinement) f.places.push_back(p.x);
   return f;
-}
-
-void pack(Packer& p, const FailedFace& f) {
-  p.add(f.face);
-  p.add(f.xyz);
-  p.add(f.uv);
-  p.add(f.size);
-  p.add(f.segment_nodes);
-  p.add(f.segment_loop);
-  p.add(f.segment_edge);
-  p.add(f.triangles);
-  p.add(f.places);
-}
-
-void unpack(Unpacker& u, FailedFace& f) {
-  u.get(f.face);
-  u.get(f.xyz);
-  u.get(f.uv);
-  u.get(f.size);
-  u.get(f.segment_nodes);
-  u.get(f.segment_loop);
-  u.get(f.segment_edge);
-  u.get(f.triangles);
-  u.get(f.places);
 }
 
 }  // namespace st

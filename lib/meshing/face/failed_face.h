@@ -1,7 +1,6 @@
-// The record of a face that could not be meshed, and its way between ranks.
+// The record of a face that could not be meshed.
 #pragma once
 
-#include "base/packer.h"
 #include "mesh/failed_face.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
@@ -12,8 +11,5 @@ namespace st {
 /// it, without (u,v).
 FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
                             const FaceMesh& mesh);
-
-void pack(Packer& p, const FailedFace& f);
-void unpack(Unpacker& u, FailedFace& f);
 
 }  // namespace st

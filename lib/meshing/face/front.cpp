@@ -330,7 +330,8 @@ Metric metric_of(Vec3 du, Vec3 dv) {
 }
 
 void FaceWork::evaluate(MeshNode& n) const {
-  const SurfacePoint s = surface->evaluate(to_uv(n.p));
+  n.uv = {n.p.x / scale.x, n.p.y / scale.y};
+  const SurfacePoint s = surface->evaluate(n.uv);
   n.x = s.x;
   n.du = s.du / scale.x;
   n.dv = s.dv / scale.y;

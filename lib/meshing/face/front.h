@@ -21,8 +21,7 @@ struct FaceWork {
   std::size_t max_nodes = 0;  ///< more is a runaway: the front stops
   int hint = 0;
 
-  Vec2 to_uv(Vec2 p) const { return {p.x / scale.x, p.y / scale.y}; }
-  /// Fills x, du, dv and the normal of a node from its p.
+  /// Fills uv, x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
   /// Square of the circumradius of triangle t in space; large where it does not resolve the surface (seam twins,
   /// sheets).

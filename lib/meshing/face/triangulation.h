@@ -6,23 +6,17 @@
 #include <optional>
 #include <vector>
 
-#include "base/ids.h"
-#include "base/vec.h"
+#include "meshing/face/face_node.h"
 
 namespace st {
 
-/// A node of a face: in the plane and in space.
-struct MeshNode {
-  Vec2 p;                   ///< scaled parameter plane
-  Vec3 x;                   ///< space, model unit
-  Vec3 du, dv;              ///< derivatives by the scaled parameters
-  Vec3 normal;              ///< unit normal du x dv; zero at a pole
-  double h = 0;             ///< edge length to aim at: the request, limited by growth and turning
-  double request = 0;       ///< edge length that the field asks for
-  std::int32_t id = kNone;  ///< the boundary node's id outside the face; equal for seam twins and the nodes of a pole;
-                            ///< kNone inside
-  bool is_pole = false;     ///< one of the plane nodes of a degenerate edge
-  bool is_kept = false;     ///< of a ring about a narrow part: not to be collapsed
+/// A node of a face in the plane. Its `h` is the edge length to aim at: the request, limited by growth and turning.
+struct MeshNode : FaceNode {
+  Vec2 p{};              ///< scaled parameter plane
+  Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
+  Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
+  double request = 0;    ///< edge length that the field requests
+  bool is_kept = false;  ///< of a ring about a narrow part: not to be collapsed
 };
 
 /// Plane nodes of one pole: one point in space, no side between them.

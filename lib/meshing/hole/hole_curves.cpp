@@ -36,22 +36,21 @@ std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks
   return runs;
 }
 
-CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
-                          const CurveMeshOptions& options) {
+EdgeMesh discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
+                        const CurveMeshOptions& options) {
   const EdgeMesh& m = mesh.edges;
   const int n_kept = m.n_nodes(run.edge) - 1 - (run.last - run.first);
   CurveMeshOptions part = options;
   part.min_segments = std::max(1, options.min_segments - n_kept);
-  CurveNodes nodes = discretise_curve(CurvePart(curve, m.node_t[run.first], m.node_t[run.last]), field, part);
-  nodes.t.front() = m.node_t[run.first];
-  nodes.t.back() = m.node_t[run.last];
-  nodes.x.front() = m.node_xyz[run.first];
-  nodes.x.back() = m.node_xyz[run.last];
+  EdgeMesh nodes = discretise_curve(CurvePart(curve, m.node_t[run.first], m.node_t[run.last]), field, part);
+  nodes.node_t.front() = m.node_t[run.first];
+  nodes.node_t.back() = m.node_t[run.last];
+  nodes.node_xyz.front() = m.node_xyz[run.first];
+  nodes.node_xyz.back() = m.node_xyz[run.last];
   return nodes;
 }
 
-EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& runs,
-                        const std::vector<CurveNodes>& fresh) {
+EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& runs, const EdgeMesh& fresh) {
   const EdgeMesh& old = mesh.edges;
   EdgeUpdate u;
   u.old_to_new.assign(old.node_t.size(), kNone);
@@ -63,7 +62,7 @@ EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& run
     u.edges.node_request.push_back(request);
     u.edges.node_previous.push_back(previous);
   };
-  std::size_t r = 0;
+  EdgeId r = 0;
   for (EdgeId e = 0; e < old.n_edges(); ++e) {
     double end_size = 0;  // at the end of a run that was just replaced
     for (std::int32_t i = old.first_node(e); i < old.first_node(e) + old.n_nodes(e); ++i) {
@@ -71,11 +70,12 @@ EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& run
       add(old.node_t[i], old.node_xyz[i], end_size > 0 ? end_size : old.node_size[i], old.node_size[i],
           mesh.edge_node[i]);
       end_size = 0;
-      if (r == runs.size() || runs[r].first != i || runs[r].edge != e) continue;
-      const CurveNodes& n = fresh[r];
-      u.edges.node_size.back() = n.h.front();
-      for (std::size_t k = 1; k + 1 < n.t.size(); ++k) add(n.t[k], n.x[k], n.h[k], n.h[k], kNone);
-      end_size = n.h.back();
+      if (r == fresh.n_edges() || runs[r].first != i || runs[r].edge != e) continue;
+      const std::int32_t first = fresh.first_node(r), last = first + fresh.n_nodes(r) - 1;
+      u.edges.node_size.back() = fresh.node_size[first];
+      for (std::int32_t k = first + 1; k < last; ++k)
+        add(fresh.node_t[k], fresh.node_xyz[k], fresh.node_size[k], fresh.node_size[k], kNone);
+      end_size = fresh.node_size[last];
       i = runs[r++].last - 1;
     }
     u.edges.edge_offsets.push_back(checked_id(u.edges.node_t.size(), "nodes on CAD edges"));

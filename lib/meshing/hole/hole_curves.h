@@ -20,8 +20,8 @@ std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks
 
 /// Nodes of a run; the first and the last are the nodes that stay, to the bit. `min_segments` of the whole edge are
 /// left. Local, pure.
-CurveNodes discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
-                          const CurveMeshOptions& options);
+EdgeMesh discretise_run(const HoleMesh& mesh, const SegmentRun& run, const Curve& curve, const SizeField& field,
+                        const CurveMeshOptions& options);
 
 /// The edges with new nodes in their runs.
 struct EdgeUpdate {
@@ -29,8 +29,7 @@ struct EdgeUpdate {
   std::vector<std::int32_t> old_to_new;  ///< [old edges.node_t] into edges.node_*; kNone: inside a run
 };
 
-/// `fresh` [runs]: what discretise_run gave for each.
-EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& runs,
-                        const std::vector<CurveNodes>& fresh);
+/// `fresh`: what discretise_run gave, run by run.
+EdgeUpdate update_edges(const HoleMesh& mesh, const std::vector<SegmentRun>& runs, const EdgeMesh& fresh);
 
 }  // namespace st

@@ -53,7 +53,7 @@ class HoleBoundaryMaker {
     throw Error(ExitCode::kInternal, t_.face_label(face_) + ": " + what);
   }
 
-  NodeId node_of(std::int32_t local) const { return rim_.nodes[local].node; }
+  NodeId node_of(std::int32_t local) const { return rim_.nodes[local].id; }
   Vec2 uv_of(std::int32_t local) const { return rim_.nodes[local].uv; }
 
   void find_coedges() {
@@ -279,9 +279,10 @@ void add_known_nodes(const PatchNodes& nodes, const HoleNumbering& numbering, Fa
 }
 
 void add_fill(const HoleFill& fill, const PatchNodes& nodes, FacePatch& p) {
-  const auto n_rim = static_cast<std::int32_t>(fill.id.size()),
-             n_known = p.n_boundary + static_cast<std::int32_t>(p.inner_xyz.size());
-  for (const FaceMesh::InnerNode& n : fill.inner) {
+  std::vector<std::int32_t> number;
+  for (const FaceNode& n : fill.nodes) {
+    number.push_back(n.id == kNone ? p.n_boundary + static_cast<std::int32_t>(p.inner_xyz.size()) : nodes.number(n.id));
+    if (n.id != kNone) continue;
     p.inner_xyz.push_back(n.x);
     p.inner_uv.push_back(n.uv);
     p.inner_size.push_back(n.h);
@@ -289,8 +290,8 @@ void add_fill(const HoleFill& fill, const PatchNodes& nodes, FacePatch& p) {
   }
   for (Triangle t : fill.triangles) {
     for (NodeId& n : t.n) {
-      p.corner_uv.push_back(n < n_rim ? fill.uv[n] : fill.inner[n - n_rim].uv);
-      n = n < n_rim ? nodes.number(fill.id[n]) : n_known + n - n_rim;
+      p.corner_uv.push_back(fill.nodes[n].uv);
+      n = number[n];
     }
     p.triangles.push_back(t);
     p.triangle_previous.push_back(kNone);
@@ -317,13 +318,10 @@ FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, cons
   return HoleBoundaryMaker(model, surface, rim, marks, numbering, field).run();
 }
 
-HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh) {
+HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh) {
   HoleFill fill;
-  for (const FaceBoundary::Node& n : boundary.nodes) {
-    fill.id.push_back(n.id);
-    fill.uv.push_back(n.uv);
-  }
-  fill.inner = std::move(mesh.inner);
+  fill.nodes = boundary.nodes;
+  fill.nodes.insert(fill.nodes.end(), mesh.inner.begin(), mesh.inner.end());
   for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
     const std::int32_t* c = &mesh.corners[i];
     fill.triangles.push_back({{c[0], c[rim.is_turned ? 2 : 1], c[rim.is_turned ? 1 : 2]}});
@@ -341,7 +339,8 @@ FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumberi
   for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
     for (int k = 0; k < 3 && kept(i); ++k) nodes.add(numbering.number(m.triangles[i].n[k]));
   for (const HoleFill& fill : fills)
-    for (std::int32_t id : fill.id) nodes.add(id);
+    for (const FaceNode& n : fill.nodes)
+      if (n.id != kNone) nodes.add(n.id);
   nodes.number_all();
   FacePatch p;
   p.face = face;

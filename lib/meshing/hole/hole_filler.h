@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "meshing/face/face_mesher.h"
@@ -35,16 +36,16 @@ struct HoleNumbering {
 FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks,
                                 const HoleNumbering& numbering, const SizeField& field);
 
-/// A filled hole: nodes on its boundary first, then new ones.
+/// A filled hole.
 struct HoleFill {
-  std::vector<std::int32_t> id;  ///< [n_boundary] by HoleNumbering
-  std::vector<Vec2> uv;          ///< [n_boundary]
-  std::vector<FaceMesh::InnerNode> inner;
+  std::vector<FaceNode> nodes;      ///< on its boundary, by id of HoleNumbering; then new ones, with id kNone
   std::vector<Triangle> triangles;  ///< of these nodes, oriented as the old mesh; empty: it could not be filled
+
+  static auto fields(auto& f) { return std::tie(f.nodes, f.triangles); }
 };
 
 /// `mesh`: mesh_face of `boundary`.
-HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
+HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh);
 
 /// The face's patch: unmarked triangles as they were, then those of the fills of its holes. Without fills all triangles
 /// are as they were.

@@ -45,7 +45,7 @@ class Inserter {
       for (const HoleFill& fill : fills_[f])
         for (const Triangle& t : fill.triangles)
           for (NodeId n : t.n)
-            if (n < static_cast<NodeId>(fill.id.size()) && fill.id[n] < numbering_.first_inner) place_[fill.id[n]] = 0;
+            if (const std::int32_t id = fill.nodes[n].id; id != kNone && !numbering_.is_inner(id)) place_[id] = 0;
     }
   }
 
@@ -55,7 +55,7 @@ class Inserter {
       n_nodes += cad_.inner_begin[f + 1] - cad_.inner_begin[f];
       n_triangles += cad_.face_size(f);
       for (const HoleFill& fill : fills_[f]) {
-        n_nodes += fill.inner.size();
+        n_nodes += fill.nodes.size();
         n_triangles += fill.triangles.size();
       }
     }
@@ -160,8 +160,7 @@ class Inserter {
     for (const HoleFill& fill : fills_[f])
       for (const Triangle& t : fill.triangles)
         for (NodeId n : t.n)
-          if (n < static_cast<NodeId>(fill.id.size()) && numbering_.is_inner(fill.id[n]))
-            inner_place_[fill.id[n] - first_id_] = 0;
+          if (const std::int32_t id = fill.nodes[n].id; numbering_.is_inner(id)) inner_place_[id - first_id_] = 0;
     for (NodeId n = cad_.inner_begin[f]; n < cad_.inner_begin[f + 1]; ++n)
       if (NodeId& place = inner_place_[n - cad_.inner_begin[f]]; place != kNone)
         place = add(old_.node_xyz[n], EntityDim::kFace, f, 0, old_.node_size[n], n);
@@ -170,18 +169,15 @@ class Inserter {
   NodeId placed(std::int32_t id) const { return numbering_.is_inner(id) ? inner_place_[id - first_id_] : place_[id]; }
 
   void add_fill(const HoleFill& fill, FaceId f) {
-    const auto n_rim = static_cast<NodeId>(fill.id.size());
-    std::vector<NodeId> place(n_rim + fill.inner.size(), kNone);
+    std::vector<NodeId> place(fill.nodes.size(), kNone);
     for (const Triangle& t : fill.triangles)
       for (NodeId n : t.n) place[n] = 0;
-    for (NodeId i = 0; i < n_rim; ++i)
-      if (place[i] != kNone) place[i] = placed(fill.id[i]);
-    for (std::size_t i = 0; i < fill.inner.size(); ++i)
-      if (NodeId& n = place[n_rim + i]; n != kNone)
-        n = add(fill.inner[i].x, EntityDim::kFace, f, 0, fill.inner[i].h, kNone);
+    for (std::size_t i = 0; i < place.size(); ++i)
+      if (const FaceNode& n = fill.nodes[i]; place[i] != kNone)
+        place[i] = n.id == kNone ? add(n.x, EntityDim::kFace, f, 0, n.h, kNone) : placed(n.id);
     for (const Triangle& t : fill.triangles) {
       mesh_.triangles.push_back({{place[t.n[0]], place[t.n[1]], place[t.n[2]]}});
-      for (NodeId n : t.n) mesh_.corner_uv.push_back(n < n_rim ? fill.uv[n] : fill.inner[n - n_rim].uv);
+      for (NodeId n : t.n) mesh_.corner_uv.push_back(fill.nodes[n].uv);
     }
     mesh_.triangle_previous.resize(mesh_.triangles.size(), kNone);
   }

@@ -122,18 +122,16 @@ HoleMesh::StripNodes HoleMesh::closed_strip_nodes(const std::vector<NodeId>& fir
   for (const MeshTopology::Strip& strip : topology.strips()) {
     const EdgeId kept = strip.kept, closed = strip.closed;
     const NodeId begin = first_on_edge[kept], end = first_on_edge[kept + 1];
-    CurveNodes nodes{{tables.edge_range[2 * kept]}, {{}}, {0}};
-    for (NodeId n = begin; n < end; ++n) nodes.t.push_back(mesh.node_t[n]);
-    nodes.t.push_back(tables.edge_range[2 * kept + 1]);
-    nodes.x.resize(nodes.t.size());
-    nodes.h.resize(nodes.t.size());
-    const CurveNodes mirrored = mirror_nodes(*model->curve(kept), nodes, *model->curve(closed), strip.is_opposed, {});
+    const std::vector<double> mirrored =
+        mirror_nodes(*model->curve(kept), std::span(mesh.node_t).subspan(begin, end - begin), *model->curve(closed),
+                     strip.is_opposed)
+            .node_t;
     NodeId own = first_on_edge[closed];
     auto& on_closed = result[closed];
-    for (std::size_t k = 1; k + 1 < mirrored.t.size(); ++k) {
-      const NodeId i = strip.mirrored(static_cast<std::int32_t>(k), static_cast<std::int32_t>(mirrored.t.size()));
-      const bool is_open = own < first_on_edge[closed + 1] && mesh.node_t[own] == mirrored.t[k];
-      on_closed.push_back({is_open ? own++ : begin + i - 1, mirrored.t[k]});
+    for (std::size_t k = 1; k + 1 < mirrored.size(); ++k) {
+      const NodeId i = strip.mirrored(static_cast<std::int32_t>(k), static_cast<std::int32_t>(mirrored.size()));
+      const bool is_open = own < first_on_edge[closed + 1] && mesh.node_t[own] == mirrored[k];
+      on_closed.push_back({is_open ? own++ : begin + i - 1, mirrored[k]});
     }
     if (own != first_on_edge[closed + 1])
       fail("does not have the nodes on edge " + std::to_string(closed + 1) + " that go with those on edge " +

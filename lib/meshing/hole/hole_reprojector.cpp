@@ -171,24 +171,20 @@ class Mover {
     const auto [own_begin, own_end] = nodes_on(closed);
     if (own_begin == own_end) return;
     SurfaceMesh& m = result_.mesh;
-    CurveNodes nodes{{t_.edge_range[2 * kept]}, {}, {}};
-    nodes.t.insert(nodes.t.end(), m.node_t.begin() + begin, m.node_t.begin() + end);
-    nodes.t.push_back(t_.edge_range[2 * kept + 1]);
-    nodes.x.resize(nodes.t.size());
-    nodes.h.resize(nodes.t.size());
-    const CurveNodes mirrored = mirror_nodes(*model_.curve(kept), nodes, *model_.curve(closed), strip.is_opposed, {});
+    const EdgeMesh mirrored = mirror_nodes(*model_.curve(kept), std::span(m.node_t).subspan(begin, end - begin),
+                                           *model_.curve(closed), strip.is_opposed);
     std::size_t last = 0;
     for (std::size_t own = own_begin; own < own_end; ++own) {
       std::size_t partner = begin;
       for (std::size_t n = begin; n < end; ++n)
         if (distance(old_.node_xyz[n], old_.node_xyz[own]) < distance(old_.node_xyz[partner], old_.node_xyz[own]))
           partner = n;
-      const std::size_t i = partner - begin + 1, k = strip.is_opposed ? mirrored.t.size() - 1 - i : i;
-      if (k <= last || k + 1 >= mirrored.t.size())
+      const std::size_t i = partner - begin + 1, k = strip.is_opposed ? mirrored.node_t.size() - 1 - i : i;
+      if (k <= last || k + 1 >= mirrored.node_t.size())
         fail("the nodes on the narrow strip of " + t_.face_label(strip.face) + " cannot be followed");
       last = k;
-      m.node_t[own] = mirrored.t[k];
-      m.node_xyz[own] = mirrored.x[k];
+      m.node_t[own] = mirrored.node_t[k];
+      m.node_xyz[own] = mirrored.node_xyz[k];
     }
   }
 

@@ -154,7 +154,8 @@ class RimFinder {
       if (number == kNone) {
         const std::int32_t corner = node_corner_[*n];
         number = static_cast<std::int32_t>(rim.nodes.size());
-        rim.nodes.push_back({node_at(corner), mesh_.corner_uv[corner], mesh_.node_xyz[node_at(corner)]});
+        const NodeId node = node_at(corner);
+        rim.nodes.push_back({mesh_.corner_uv[corner], mesh_.node_xyz[node], 0, node});
       }
       *n = number;
     }

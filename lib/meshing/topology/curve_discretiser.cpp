@@ -28,7 +28,7 @@ class Discretiser {
   Discretiser(const Curve& curve, const SizeField& field, const CurveMeshOptions& options)
       : curve_(curve), field_(field), max_turning_(radians(options.max_turning_deg)) {}
 
-  CurveNodes run(int min_segments) {
+  EdgeMesh run(int min_segments) {
     sample();
     integrate();
     find_stops();
@@ -128,20 +128,20 @@ class Discretiser {
     }
   }
 
-  CurveNodes place() {
-    CurveNodes nodes;
-    nodes.t.push_back(curve_.t_min());
-    for (std::size_t part = 0; part < n_segments_.size(); ++part) place_part(part, nodes.t);
-    const int n = static_cast<int>(nodes.t.size()) - 1;
-    if (!(share_.back() > 0) || !strictly_increasing(nodes.t))
-      for (int k = 0; k <= n; ++k) nodes.t[k] = curve_.t_min() + (curve_.t_max() - curve_.t_min()) * k / n;
-    nodes.t.back() = curve_.t_max();
-    for (double t : nodes.t) {
-      const Sample s = at(t);
-      nodes.x.push_back(s.x);
-      nodes.h.push_back(s.h);
+  EdgeMesh place() {
+    std::vector<double> t{curve_.t_min()}, h;
+    std::vector<Vec3> x;
+    for (std::size_t part = 0; part < n_segments_.size(); ++part) place_part(part, t);
+    const int n = static_cast<int>(t.size()) - 1;
+    if (!(share_.back() > 0) || !strictly_increasing(t))
+      for (int k = 0; k <= n; ++k) t[k] = curve_.t_min() + (curve_.t_max() - curve_.t_min()) * k / n;
+    t.back() = curve_.t_max();
+    for (const double at_t : t) {
+      const Sample s = at(at_t);
+      x.push_back(s.x);
+      h.push_back(s.h);
     }
-    return nodes;
+    return EdgeMesh::of_curve(std::move(t), std::move(x), std::move(h));
   }
 
   /// Equal shares between two stops; the first one's node is there.
@@ -177,7 +177,7 @@ class Discretiser {
 
 }  // namespace
 
-CurveNodes discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options) {
+EdgeMesh discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options) {
   return Discretiser(curve, field, options).run(options.min_segments);
 }
 

@@ -21,6 +21,6 @@ struct CurveMeshOptions {
 /// of the curve's own get larger angles, so that places where the curve turns within next to no length do not make rows
 /// of tiny segments. A corner (more than max_turning at once) is one node, unless within a quarter of a length of an
 /// end or another corner. Local, pure.
-CurveNodes discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
+EdgeMesh discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
 
 }  // namespace st

@@ -258,21 +258,31 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   return merged;
 }
 
-CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,
-                        const MergeLimit& limit) {
+EdgeMesh mirror_nodes(const Curve& kept, const EdgeMesh& nodes, const Curve& closed, bool is_opposed,
+                      const MergeLimit& limit) {
   const ArcTable a(kept), b(closed);
-  const std::size_t n = nodes.t.size();
-  CurveNodes result;
+  const std::size_t n = nodes.node_t.size();
+  std::vector<double> t, h;
+  std::vector<Vec3> x;
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = is_opposed ? n - 1 - k : k;
-    const double share = k == 0 ? 0 : k + 1 == n ? 1 : a.share_at(nodes.t[i]);
+    const double share = k == 0 ? 0 : k + 1 == n ? 1 : a.share_at(nodes.node_t[i]);
     const double own = is_opposed && k > 0 && k + 1 < n ? 1 - share : share;
-    result.t.push_back(k == 0 ? closed.t_min() : k + 1 == n ? closed.t_max() : b.parameter_at(own));
-    const Vec3 x = closed.point(result.t.back());
-    result.x.push_back(distance(x, nodes.x[i]) < limit.at(nodes.h[i]) ? nodes.x[i] : x);
-    result.h.push_back(nodes.h[i]);
+    t.push_back(k == 0 ? closed.t_min() : k + 1 == n ? closed.t_max() : b.parameter_at(own));
+    h.push_back(nodes.node_size[i]);
+    const Vec3 at = closed.point(t.back());
+    x.push_back(distance(at, nodes.node_xyz[i]) < limit.at(h.back()) ? nodes.node_xyz[i] : at);
   }
-  return result;
+  return EdgeMesh::of_curve(std::move(t), std::move(x), std::move(h));
+}
+
+EdgeMesh mirror_nodes(const Curve& kept, std::span<const double> inner_t, const Curve& closed, bool is_opposed) {
+  std::vector<double> t{kept.t_min()};
+  t.insert(t.end(), inner_t.begin(), inner_t.end());
+  t.push_back(kept.t_max());
+  const std::size_t n = t.size();
+  return mirror_nodes(kept, EdgeMesh::of_curve(std::move(t), std::vector<Vec3>(n), std::vector<double>(n)), closed,
+                      is_opposed, {});
 }
 
 }  // namespace st

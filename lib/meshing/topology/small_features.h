@@ -1,6 +1,7 @@
 // Virtual topology for meshing: short edges drawn together, narrow strips closed. The CAD and its ids stay.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geometry/model/model.h"
@@ -26,9 +27,12 @@ struct MergeLimit {
 /// Deterministic, local.
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
 
-/// Nodes on the other long edge of a strip for those on the kept one: as many, at the same shares of the length, in the
-/// other edge's own direction. Where the strip is narrower than the limit they are the kept edge's own points.
-CurveNodes mirror_nodes(const Curve& kept, const CurveNodes& nodes, const Curve& closed, bool is_opposed,
-                        const MergeLimit& limit);
+/// Nodes on the other long edge of a strip for those on the kept one (`nodes`, of this curve alone): as many, at the
+/// same shares of the length, in the other edge's own direction. Where the strip is narrower than the limit they are
+/// the kept edge's own points.
+EdgeMesh mirror_nodes(const Curve& kept, const EdgeMesh& nodes, const Curve& closed, bool is_opposed,
+                      const MergeLimit& limit);
+/// Likewise for nodes inside the kept edge; the points are those of the other curve.
+EdgeMesh mirror_nodes(const Curve& kept, std::span<const double> inner_t, const Curve& closed, bool is_opposed);
 
 }  // namespace st

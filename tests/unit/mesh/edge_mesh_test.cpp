@@ -5,14 +5,14 @@
 namespace st {
 namespace {
 
-CurveNodes nodes(double first, int n) {
-  CurveNodes c;
+EdgeMesh nodes(double first, int n) {
+  std::vector<double> t;
+  std::vector<Vec3> xyz;
   for (int i = 0; i < n; ++i) {
-    c.t.push_back(first + i);
-    c.x.push_back({first + i, 0, 0});
-    c.h.push_back(1);
+    t.push_back(first + i);
+    xyz.push_back({first + i, 0, 0});
   }
-  return c;
+  return EdgeMesh::of_curve(t, xyz, std::vector<double>(n, 1));
 }
 
 TEST(EdgeMesh, has_the_nodes_of_its_edges_in_their_order) {

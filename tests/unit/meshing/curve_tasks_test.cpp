@@ -23,15 +23,16 @@ TEST(CurveTasks, make_each_curve_once_and_keep_its_place) {
     std::vector<int> n_calls(n, 0);
     const auto make = [&](std::int32_t i) {
       ++n_calls[i];
-      return CurveNodes{{0.0, i + 1.0}, {{0, 0, 0}, {double(i), 0, 0}}, {1.0, double(i)}};
+      return EdgeMesh::of_curve({0.0, i + 1.0}, {{0, 0, 0}, {double(i), 0, 0}}, {1.0, double(i)});
     };
-    const std::vector<CurveNodes> made = make_curve_nodes(n, make, Backwards());
-    ASSERT_EQ(static_cast<std::int32_t>(made.size()), n);
+    const EdgeMesh made = make_curve_nodes(n, make, Backwards());
+    ASSERT_EQ(made.n_edges(), n);
     EXPECT_EQ(std::count(n_calls.begin(), n_calls.end(), 1), n);
     for (std::int32_t i = 0; i < n; ++i) {
-      EXPECT_EQ(made[i].t, (std::vector<double>{0, i + 1.0}));
-      EXPECT_EQ(made[i].x[1].x, i);
-      EXPECT_EQ(made[i].h[1], i);
+      ASSERT_EQ(made.n_nodes(i), 2);
+      EXPECT_EQ(made.node_t[2 * i + 1], i + 1.0);
+      EXPECT_EQ(made.node_xyz[2 * i + 1].x, i);
+      EXPECT_EQ(made.node_size[2 * i + 1], i);
     }
   }
 }

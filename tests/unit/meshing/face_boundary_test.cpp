@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(, Boundary,
 
 TEST(FaceBoundary, cuts_a_pole_into_nodes_of_one_point) {
   const FaceCase c("sphere", UniformField(1.5));
-  std::map<std::int32_t, std::vector<FaceBoundary::Node>> poles;
+  std::map<std::int32_t, std::vector<FaceNode>> poles;
   for (const auto& n : c.boundary.nodes)
     if (n.is_pole) poles[n.id].push_back(n);
   ASSERT_EQ(poles.size(), 2u);

@@ -72,7 +72,7 @@ struct Prepared {
       for (const std::int32_t v : t.v) {
         if (number[v] == kNone) {
           number[v] = static_cast<std::int32_t>(boundary.nodes.size() + result.inner.size());
-          result.inner.push_back({work.to_uv(nodes[v].p), nodes[v].x, nodes[v].h});
+          result.inner.push_back(nodes[v]);
         }
         result.corners.push_back(number[v]);
       }
@@ -109,8 +109,8 @@ struct Prepared {
     return all;
   }
   /// One plane node for all that have an id and a place in common.
-  std::int32_t add(const FaceBoundary::Node& b, std::int32_t index) {
-    MeshNode n;
+  std::int32_t add(const FaceNode& b, std::int32_t index) {
+    MeshNode n{b};
     n.p = {b.uv.x * work.scale.x, b.uv.y * work.scale.y};
     for (std::size_t i = 0; i < work.mesh.nodes.size(); ++i)
       if (work.mesh.nodes[i].id == b.id && norm(work.mesh.nodes[i].p - n.p) < 1e-6 * b.h)
@@ -118,9 +118,7 @@ struct Prepared {
     work.evaluate(n);
     if (b.is_pole) n.normal = {};
     n.x = b.x;
-    n.h = n.request = b.h;
-    n.id = b.id;
-    n.is_pole = b.is_pole;
+    n.request = b.h;
     work.mesh.nodes.push_back(n);
     to_boundary.push_back(index);
     return static_cast<std::int32_t>(work.mesh.nodes.size()) - 1;

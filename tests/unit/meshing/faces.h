@@ -51,11 +51,11 @@ inline EdgeMesh discretise_edges(const Model& model, const SizeField& field) {
   const std::vector<int> least = min_segments_per_edge(t);
   EdgeMesh m;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    CurveNodes n;
+    EdgeMesh n = EdgeMesh::of_edges(1);
     if (!t.edge_is_degenerate[e]) {
       n = discretise_curve(*model.curve(e), field, {30, least[e]});
-      n.x.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
-      n.x.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
+      n.node_xyz.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
+      n.node_xyz.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
     }
     m.append(n);
   }

@@ -83,12 +83,10 @@ TEST(FailedFace, survives_the_way_between_ranks) {
   const auto surface = m.model.surface(0);
   const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
   const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh_face(*surface, boundary, m.field, {}));
-  Packer packer;
-  pack(packer, f);
-  const Bytes bytes = packer.take();
+  const Bytes bytes = packed(f);
   Unpacker unpacker(bytes);
   FailedFace g;
-  unpack(unpacker, g);
+  unpacker.get(g);
   EXPECT_TRUE(unpacker.is_empty());
   EXPECT_EQ(g.segment_nodes, f.segment_nodes);
   EXPECT_EQ(g.segment_edge, f.segment_edge);

@@ -56,9 +56,8 @@ struct Refilled {
   }
   EdgeUpdate redone_edges() const {
     const std::vector<SegmentRun> runs = marked_runs(holes, marks);
-    std::vector<CurveNodes> fresh;
-    for (const SegmentRun& r : runs)
-      fresh.push_back(discretise_run(holes, r, *solid.model.curve(r.edge), field, {30, 1}));
+    EdgeMesh fresh = EdgeMesh::of_edges(0);
+    for (const SegmentRun& r : runs) fresh.append(discretise_run(holes, r, *solid.model.curve(r.edge), field, {30, 1}));
     return update_edges(holes, runs, fresh);
   }
   void fill(FaceId f) {
@@ -68,9 +67,9 @@ struct Refilled {
     const auto surface = solid.model.surface(f);
     for (const HoleRim& rim : rims.back()) {
       bounds.back().push_back(make_hole_boundary(solid.model, *surface, rim, marks, numbering, field));
-      FaceMesh mesh = mesh_face(*surface, bounds.back().back(), field, {});
+      const FaceMesh mesh = mesh_face(*surface, bounds.back().back(), field, {});
       EXPECT_EQ(mesh.cause, FailureCause::kNone);
-      fills.back().push_back(make_hole_fill(rim, bounds.back().back(), std::move(mesh)));
+      fills.back().push_back(make_hole_fill(rim, bounds.back().back(), mesh));
     }
   }
 };

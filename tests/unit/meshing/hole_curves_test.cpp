@@ -13,8 +13,8 @@ TEST(HoleCurves, leave_an_edge_the_segments_it_needs_counting_those_that_stay) {
   ASSERT_GE(last - first, 4);
   const UniformField coarse(1e3 * box.field.min_size());
   for (const auto& [n_kept, n_segments] : {std::pair(0, 3), {1, 2}, {2, 1}, {3, 1}}) {
-    const CurveNodes n = discretise_run(holes, {0, first, last - n_kept}, *box.model.curve(0), coarse, {30, 3});
-    EXPECT_EQ(static_cast<int>(n.t.size()) - 1, n_segments) << n_kept << " stay";
+    const EdgeMesh n = discretise_run(holes, {0, first, last - n_kept}, *box.model.curve(0), coarse, {30, 3});
+    EXPECT_EQ(static_cast<int>(n.node_t.size()) - 1, n_segments) << n_kept << " stay";
   }
 }
 
@@ -25,14 +25,15 @@ TEST(HoleCurves, keep_the_nodes_at_the_ends_of_a_run_to_the_bit_and_give_them_th
   const std::int32_t first = holes.edges.edge_offsets[0] + 1, last = first + 2;
   const UniformField fine(0.3 * box.field.min_size());
   const std::vector<SegmentRun> runs{{0, first, last}};
-  const std::vector<CurveNodes> fresh{discretise_run(holes, runs[0], *box.model.curve(0), fine, {30, 1})};
-  EXPECT_TRUE(fresh[0].x.front() == holes.edges.node_xyz[first] && fresh[0].x.back() == holes.edges.node_xyz[last]);
-  EXPECT_TRUE(fresh[0].t.front() == holes.edges.node_t[first] && fresh[0].t.back() == holes.edges.node_t[last]);
+  const EdgeMesh fresh = discretise_run(holes, runs[0], *box.model.curve(0), fine, {30, 1});
+  EXPECT_TRUE(fresh.node_xyz.front() == holes.edges.node_xyz[first] &&
+              fresh.node_xyz.back() == holes.edges.node_xyz[last]);
+  EXPECT_TRUE(fresh.node_t.front() == holes.edges.node_t[first] && fresh.node_t.back() == holes.edges.node_t[last]);
 
   const EdgeUpdate u = update_edges(holes, runs, fresh);
-  ASSERT_EQ(
-      u.edges.edge_offsets[1] - u.edges.edge_offsets[0],
-      holes.edges.edge_offsets[1] - holes.edges.edge_offsets[0] - 2 + static_cast<std::int32_t>(fresh[0].t.size()) - 1);
+  ASSERT_EQ(u.edges.edge_offsets[1] - u.edges.edge_offsets[0], holes.edges.edge_offsets[1] -
+                                                                   holes.edges.edge_offsets[0] - 2 +
+                                                                   static_cast<std::int32_t>(fresh.node_t.size()) - 1);
   EXPECT_EQ(u.old_to_new[first + 1], kNone) << "inside the run";
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(holes.edges.node_t.size()); ++i) {
     const std::int32_t n = u.old_to_new[i];

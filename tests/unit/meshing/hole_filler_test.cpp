@@ -84,16 +84,16 @@ TEST_P(HoleFiller, takes_the_sides_to_triangles_that_stay_as_they_are) {
       std::set<std::pair<std::int32_t, std::int32_t>> segments;
       for (const auto& [i, j] : b.segments) segments.insert({b.nodes[i].id, b.nodes[j].id});
       std::set<std::pair<NodeId, NodeId>> sides;
-      for (const HoleRim::Side& s : rim.free_sides) sides.insert({rim.nodes[s.first].node, rim.nodes[s.second].node});
+      for (const HoleRim::Side& s : rim.free_sides) sides.insert({rim.nodes[s.first].id, rim.nodes[s.second].id});
       for (const HoleRim::Side& s : rim.free_sides) {
-        if (sides.count({rim.nodes[s.second].node, rim.nodes[s.first].node})) continue;  // to a pole, from both sides
-        const std::int32_t first = hole.numbering.number(rim.nodes[s.first].node),
-                           second = hole.numbering.number(rim.nodes[s.second].node);
+        if (sides.count({rim.nodes[s.second].id, rim.nodes[s.first].id})) continue;  // to a pole, from both sides
+        const std::int32_t first = hole.numbering.number(rim.nodes[s.first].id),
+                           second = hole.numbering.number(rim.nodes[s.second].id);
         if (first == second) continue;
         EXPECT_TRUE(segments.count({first, second})) << first << " - " << second;
         ++n_free;
       }
-      for (const FaceBoundary::Node& n : b.nodes) {
+      for (const FaceNode& n : b.nodes) {
         if (hole.numbering.is_inner(n.id)) {
           EXPECT_TRUE(n.x == solid.mesh.node_xyz[hole.numbering.mesh_node(n.id)]);
         }
@@ -185,7 +185,7 @@ TEST(HoleBoundary, has_a_pole_where_its_triangles_go) {
   ASSERT_FALSE(hole.bounds[0].empty());
   std::map<std::int32_t, int> pole_nodes;
   for (const FaceBoundary& b : hole.bounds[0])
-    for (const FaceBoundary::Node& n : b.nodes)
+    for (const FaceNode& n : b.nodes)
       if (n.is_pole) {
         ++pole_nodes[n.id];
         EXPECT_LE(distance(n.x, {0, 0, 10}), 1e-9);

@@ -54,10 +54,10 @@ TEST(HoleRims, of_one_triangle_are_its_three_sides_in_its_direction) {
   EXPECT_TRUE(rim.cad_sides.empty());
   ASSERT_EQ(rim.free_sides.size(), 3u);
   std::set<std::pair<NodeId, NodeId>> sides, wanted;
-  for (const HoleRim::Side& s : rim.free_sides) sides.insert({rim.nodes[s.first].node, rim.nodes[s.second].node});
+  for (const HoleRim::Side& s : rim.free_sides) sides.insert({rim.nodes[s.first].id, rim.nodes[s.second].id});
   for (int k = 0; k < 3; ++k) wanted.insert({b.box.mesh.triangles[t].n[k], b.box.mesh.triangles[t].n[(k + 1) % 3]});
   EXPECT_EQ(sides, wanted);
-  for (const HoleRim::Node& n : rim.nodes) EXPECT_TRUE(n.x == b.box.mesh.node_xyz[n.node]);
+  for (const FaceNode& n : rim.nodes) EXPECT_TRUE(n.x == b.box.mesh.node_xyz[n.id]);
 }
 
 TEST(HoleRims, of_two_neighbours_leave_out_the_side_between_them) {
@@ -97,7 +97,7 @@ TEST(HoleRims, have_sides_on_cad_edges_apart) {
   const HoleRim rim = find_hole_rims(b.holes, b.marks, b.box.mesh.triangle_face[t]).at(0);
   ASSERT_EQ(rim.cad_sides.size(), 1u);
   EXPECT_EQ(rim.free_sides.size(), 2u);
-  EXPECT_EQ(rim.nodes[rim.cad_sides[0].first].node, b.box.mesh.triangles[t].n[0]);
+  EXPECT_EQ(rim.nodes[rim.cad_sides[0].first].id, b.box.mesh.triangles[t].n[0]);
 }
 
 TEST(HoleRims, of_a_whole_face_say_so_and_have_no_sides) {

@@ -36,7 +36,8 @@ TEST(MeshPlan, of_a_part_has_the_edges_of_its_faces_that_have_no_nodes) {
   EXPECT_TRUE(plan_part(m.topology, {0}, m.result.edges).edges.empty());
   const EdgeId bare = t.edges_of(0)[1];
   EdgeMesh others;
-  for (EdgeId e = 0; e < t.n_edges(); ++e) e == bare ? others.append(CurveNodes()) : others.append(m.result.edges, e);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    e == bare ? others.append(EdgeMesh::of_edges(1)) : others.append(m.result.edges, e);
   EXPECT_EQ(plan_part(m.topology, {0}, others).edges, std::vector<EdgeId>{bare});
 }
 

@@ -10,7 +10,7 @@ const UniformField two(2);
 
 MeshResult refined_edge() {
   MeshResult r;
-  r.edges.append(CurveNodes{{0, 1, 2}, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {2, 1, 2}});
+  r.edges = EdgeMesh::of_curve({0, 1, 2}, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {2, 1, 2});
   return r;
 }
 
