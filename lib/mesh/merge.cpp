@@ -12,8 +12,6 @@ namespace st {
 
 namespace {
 
-constexpr NodeId kUsed = 0;
-
 [[noreturn]] void throw_bad_patch(FaceId face, const std::string& what) {
   throw Error(ExitCode::kInput, "face " + std::to_string(face + 1) + ": its patch " + what + "; mesh the model again");
 }
@@ -56,90 +54,6 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
         throw_bad_patch(p.face, "has a triangle with node " + std::to_string(n) + " of " + std::to_string(n_nodes));
 }
 
-std::vector<std::uint8_t> used_nodes(const FacePatch& p) {
-  std::vector<std::uint8_t> used(p.n_boundary + p.inner_xyz.size(), 0);
-  for (const Triangle& t : p.triangles)
-    for (const NodeId n : t.n) used[n] = 1;
-  return used;
-}
-
-class Welder {
- public:
-  Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, std::span<const FacePatch* const> patches)
-      : edges_(edges), vertex_xyz_(vertex_xyz), patches_(patches) {}
-
-  WeldedPatches run() {
-    mark_used();
-    number_boundary();
-    welded_.patch_begin.push_back(0);
-    welded_.inner_begin.push_back(0);
-    for (const FacePatch* p : patches_) append(*p);
-    return std::move(welded_);
-  }
-
- private:
-  NodeId& boundary_number(const FacePatch& p, std::int32_t i) {
-    const std::int32_t entity = p.boundary_entity[i];
-    if (p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)) return welded_.vertex[entity];
-    return welded_.edge_node[edges_.first_node(entity) + p.boundary_index[i]];
-  }
-
-  /// Marks the vertices and edge nodes that triangles use; makes room for the nodes and triangles of all.
-  void mark_used() {
-    welded_.vertex.assign(vertex_xyz_.size(), kNone);
-    welded_.edge_node.assign(edges_.node_xyz.size(), kNone);
-    std::size_t n_inner = 0, n_triangles = 0;
-    for (const FacePatch* p : patches_) {
-      require_valid(edges_, vertex_xyz_.size(), *p);
-      const std::vector<std::uint8_t> used = used_nodes(*p);
-      for (std::int32_t i = 0; i < p->n_boundary; ++i)
-        if (used[i]) boundary_number(*p, i) = kUsed;
-      n_inner += std::count(used.begin() + p->n_boundary, used.end(), 1);
-      n_triangles += p->triangles.size();
-    }
-    const auto n_used = [](const std::vector<NodeId>& v) { return std::count(v.begin(), v.end(), kUsed); };
-    const std::size_t n_nodes = n_used(welded_.vertex) + n_used(welded_.edge_node) + n_inner;
-    require_countable(n_nodes, "nodes of all patches");
-    require_countable(n_triangles, "triangles of all patches", kMaxTriangles);
-    welded_.points.reserve(n_nodes);
-    welded_.inner.reserve(n_inner);
-    welded_.triangles.reserve(n_triangles);
-  }
-
-  NodeId add_point(Vec3 x) {
-    welded_.points.push_back(x);
-    return static_cast<NodeId>(welded_.points.size()) - 1;
-  }
-
-  void number_boundary() {
-    for (std::size_t v = 0; v < welded_.vertex.size(); ++v)
-      if (welded_.vertex[v] != kNone) welded_.vertex[v] = add_point(vertex_xyz_[v]);
-    for (std::size_t i = 0; i < welded_.edge_node.size(); ++i)
-      if (welded_.edge_node[i] != kNone) welded_.edge_node[i] = add_point(edges_.node_xyz[i]);
-    welded_.n_boundary = static_cast<NodeId>(welded_.points.size());
-  }
-
-  void append(const FacePatch& p) {
-    const std::vector<std::uint8_t> used = used_nodes(p);
-    std::vector<NodeId> number(used.size(), kNone);
-    for (std::int32_t i = 0; i < p.n_boundary; ++i) number[i] = boundary_number(p, i);
-    for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) {
-      if (!used[p.n_boundary + i]) continue;
-      number[p.n_boundary + i] = add_point(p.inner_xyz[i]);
-      welded_.inner.push_back(static_cast<std::int32_t>(i));
-    }
-    for (const Triangle& t : p.triangles)
-      welded_.triangles.push_back({{number[t.n[0]], number[t.n[1]], number[t.n[2]]}});
-    welded_.patch_begin.push_back(static_cast<TriangleId>(welded_.triangles.size()));
-    welded_.inner_begin.push_back(static_cast<NodeId>(welded_.inner.size()));
-  }
-
-  const EdgeMesh& edges_;
-  std::span<const Vec3> vertex_xyz_;
-  std::span<const FacePatch* const> patches_;
-  WeldedPatches welded_;
-};
-
 /// Requested length at each vertex: from the edge of lowest id that ends there.
 std::vector<double> vertex_sizes(const MergeInput& in) {
   std::vector<double> size(in.vertex_xyz.size(), 0);
@@ -153,24 +67,7 @@ std::vector<double> vertex_sizes(const MergeInput& in) {
   return size;
 }
 
-void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size) {
-  mesh.node_entity_dim.push_back(static_cast<std::uint8_t>(dim));
-  mesh.node_entity.push_back(entity);
-  mesh.node_t.push_back(t);
-  mesh.node_size.push_back(size);
-}
-
-/// What the mesh says of its nodes on vertices and edges.
-void describe_boundary_nodes(const MergeInput& in, const WeldedPatches& w, SurfaceMesh& mesh) {
-  const std::vector<double> size = vertex_sizes(in);
-  for (std::size_t v = 0; v < w.vertex.size(); ++v)
-    if (w.vertex[v] != kNone) describe_node(mesh, EntityDim::kVertex, static_cast<std::int32_t>(v), 0, size[v]);
-  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
-    for (const std::int32_t i : in.edges.nodes(e))
-      if (w.edge_node[i] != kNone) describe_node(mesh, EntityDim::kEdge, e, in.edges.node_t[i], in.edges.requests()[i]);
-}
-
-/// Likewise of the inner nodes and the triangles of one face. `inner`: its inner nodes that are in the mesh.
+/// What the mesh says of the inner nodes and the triangles of one face. `inner`: its inner nodes that are in the mesh.
 void describe_patch(const MergeInput& in, const FacePatch& p, std::span<const std::int32_t> inner, SurfaceMesh& mesh) {
   for (const std::int32_t i : inner) describe_node(mesh, EntityDim::kFace, p.face, 0, p.inner_size[i]);
   mesh.corner_uv.insert(mesh.corner_uv.end(), p.corner_uv.begin(), p.corner_uv.end());
@@ -179,18 +76,7 @@ void describe_patch(const MergeInput& in, const FacePatch& p, std::span<const st
   mesh.triangle_group.insert(mesh.triangle_group.end(), p.triangles.size(), has_group ? in.face_group[p.face] : 0);
 }
 
-/// Numbers of boundary nodes in the mesh that a remeshing started from.
-void add_previous_of_edges(const MergeInput& in, const WeldedPatches& w, SurfaceMesh& mesh) {
-  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
-    for (const std::int32_t i : in.edges.nodes(e)) {
-      const bool is_first = i == in.edges.first_node(e),
-                 is_last = i + 1 == in.edges.first_node(e) + in.edges.n_nodes(e);
-      const NodeId n = is_first || is_last ? w.vertex[in.edge_vertices[2 * e + (is_first ? 0 : 1)]] : w.edge_node[i];
-      if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
-    }
-}
-
-/// Likewise of inner nodes and triangles.
+/// Numbers of inner nodes and triangles in the mesh that a remeshing started from.
 void add_previous_of_patch(const FacePatch& p, std::span<const std::int32_t> inner, NodeId first, SurfaceMesh& mesh) {
   for (std::size_t k = 0; k < inner.size() && !p.inner_previous.empty(); ++k)
     mesh.node_previous[first + k] = p.inner_previous[inner[k]];
@@ -210,12 +96,177 @@ void reserve(SurfaceMesh& mesh, std::size_t n_nodes, std::size_t n_triangles) {
   mesh.corner_uv.reserve(3 * n_triangles);
 }
 
+void reserve_previous(SurfaceMesh& mesh, std::size_t n_nodes, std::size_t n_triangles) {
+  mesh.node_previous.reserve(n_nodes);
+  mesh.triangle_previous.reserve(n_triangles);
+}
+
+/// Index on its edge of each node on one; nodes on vertices: 0.
+std::vector<std::int32_t> boundary_indices(const SurfaceMesh& mesh, const EdgeMesh& edges) {
+  std::vector<std::int32_t> index;
+  const auto is_on = [&](std::size_t n, EntityDim dim) {
+    return n < mesh.node_xyz.size() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(dim);
+  };
+  while (is_on(index.size(), EntityDim::kVertex)) index.push_back(0);
+  for (std::size_t n = index.size(); is_on(n, EntityDim::kEdge); ++n) {
+    const EdgeId e = mesh.node_entity[n];
+    const auto t = edges.node_t.begin() + edges.first_node(e);
+    index.push_back(static_cast<std::int32_t>(std::lower_bound(t, t + edges.n_nodes(e), mesh.node_t[n]) - t));
+  }
+  return index;
+}
+
+/// What of a mesh belongs to one face.
+struct FaceRange {
+  FaceId face;
+  TriangleId begin, end;
+  NodeId first, last;  // inner nodes
+};
+
+/// Nodes on the boundary of the face, ascending.
+std::vector<NodeId> boundary_nodes(const SurfaceMesh& mesh, const FaceRange& r) {
+  std::vector<NodeId> nodes;
+  for (TriangleId i = r.begin; i < r.end; ++i)
+    for (const NodeId n : mesh.triangles[i].n)
+      if (n < r.first) nodes.push_back(n);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+FacePatch patch_of(const SurfaceMesh& mesh, const FaceRange& r, const std::vector<std::int32_t>& index) {
+  const auto part = [](auto& to, const auto& from, std::size_t begin, std::size_t end) {
+    if (!from.empty()) to.assign(from.begin() + begin, from.begin() + end);
+  };
+  FacePatch p;
+  p.face = r.face;
+  const std::vector<NodeId> boundary = boundary_nodes(mesh, r);
+  p.n_boundary = static_cast<std::int32_t>(boundary.size());
+  for (const NodeId n : boundary) {
+    p.boundary_dim.push_back(mesh.node_entity_dim[n]);
+    p.boundary_entity.push_back(mesh.node_entity[n]);
+    p.boundary_index.push_back(index[n]);
+  }
+  part(p.inner_xyz, mesh.node_xyz, r.first, r.last);
+  part(p.inner_size, mesh.node_size, r.first, r.last);
+  part(p.inner_previous, mesh.node_previous, r.first, r.last);
+  part(p.triangles, mesh.triangles, r.begin, r.end);
+  part(p.triangle_previous, mesh.triangle_previous, r.begin, r.end);
+  part(p.corner_uv, mesh.corner_uv, 3 * std::size_t(r.begin), 3 * std::size_t(r.end));
+  p.inner_uv.resize(p.inner_xyz.size());
+  for (std::size_t corner = 0; corner < p.corner_uv.size(); ++corner) {
+    NodeId& n = p.triangles[corner / 3].n[corner % 3];
+    if (n >= r.first) p.inner_uv[n - r.first] = p.corner_uv[corner];
+    n = n >= r.first ? p.n_boundary + n - r.first
+                     : static_cast<NodeId>(std::lower_bound(boundary.begin(), boundary.end(), n) - boundary.begin());
+  }
+  return p;
+}
+
 }  // namespace
+
+Welder::Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) : edges_(edges), vertex_xyz_(vertex_xyz) {
+  welded_.boundary.assign(vertex_xyz.size() + edges.node_xyz.size(), kNone);
+  welded_.patch_begin.push_back(0);
+  welded_.inner_begin.push_back(0);
+}
+
+std::int32_t Welder::id_of(const FacePatch& p, std::int32_t i) const {
+  const std::int32_t entity = p.boundary_entity[i];
+  if (p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)) return entity;
+  return boundary_id(static_cast<VertexId>(vertex_xyz_.size()), edges_, entity, p.boundary_index[i]);
+}
+
+void Welder::number_boundary(std::size_t n_inner, std::size_t n_triangles) {
+  std::vector<NodeId>& number = welded_.boundary;
+  const std::size_t n_unused = std::count(number.begin(), number.end(), kNone),
+                    n_nodes = number.size() - n_unused + n_inner;
+  require_countable(n_nodes, "nodes of all patches");
+  require_countable(n_triangles, "triangles of all patches", kMaxTriangles);
+  welded_.points.reserve(n_nodes);
+  welded_.triangles.reserve(n_triangles);
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (number[i] != kNone)
+      number[i] = add_point(i < vertex_xyz_.size() ? vertex_xyz_[i] : edges_.node_xyz[i - vertex_xyz_.size()]);
+  welded_.n_boundary = static_cast<NodeId>(welded_.points.size());
+}
+
+void Welder::append(const FacePatch& p) {
+  std::vector<NodeId> number(p.n_boundary + p.inner_xyz.size(), kNone);
+  for (const Triangle& t : p.triangles)
+    for (const NodeId n : t.n) number[n] = 0;
+  for (std::int32_t i = 0; i < p.n_boundary; ++i) number[i] = boundary(id_of(p, i));
+  for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) {
+    NodeId& n = number[p.n_boundary + i];
+    if (n == kNone) continue;
+    n = add_point(p.inner_xyz[i]);
+    welded_.inner.push_back(static_cast<std::int32_t>(i));
+  }
+  for (const Triangle& t : p.triangles) add_triangle(number[t.n[0]], number[t.n[1]], number[t.n[2]]);
+  welded_.patch_begin.push_back(static_cast<TriangleId>(welded_.triangles.size()));
+  welded_.inner_begin.push_back(static_cast<NodeId>(welded_.inner.size()));
+}
+
+void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size) {
+  mesh.node_entity_dim.push_back(static_cast<std::uint8_t>(dim));
+  mesh.node_entity.push_back(entity);
+  mesh.node_t.push_back(t);
+  mesh.node_size.push_back(size);
+}
 
 WeldedPatches weld_patches(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz,
                            std::span<const FacePatch* const> patches) {
   ST_ASSERT(std::is_sorted(edges.edge_offsets.begin(), edges.edge_offsets.end()));
-  return Welder(edges, vertex_xyz, patches).run();
+  Welder welder(edges, vertex_xyz);
+  std::size_t n_inner = 0, n_triangles = 0;
+  for (const FacePatch* p : patches) {
+    require_valid(edges, vertex_xyz.size(), *p);
+    for (const Triangle& t : p->triangles)
+      for (const NodeId n : t.n)
+        if (n < p->n_boundary) welder.use(welder.id_of(*p, n));
+    n_inner += p->inner_xyz.size();
+    n_triangles += p->triangles.size();
+  }
+  welder.number_boundary(n_inner, n_triangles);
+  for (const FacePatch* p : patches) welder.append(*p);
+  return welder.take();
+}
+
+SurfaceMesh describe_boundary(const MergeInput& in, const WeldedPatches& w) {
+  SurfaceMesh mesh;
+  reserve(mesh, w.points.capacity(), w.triangles.capacity());
+  const std::vector<double> size = vertex_sizes(in);
+  const auto n_vertices = static_cast<VertexId>(in.vertex_xyz.size());
+  for (VertexId v = 0; v < n_vertices; ++v)
+    if (w.boundary[v] != kNone) describe_node(mesh, EntityDim::kVertex, v, 0, size[v]);
+  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
+    for (const std::int32_t i : in.edges.nodes(e))
+      if (w.boundary[n_vertices + i] != kNone)
+        describe_node(mesh, EntityDim::kEdge, e, in.edges.node_t[i], in.edges.requests()[i]);
+  if (in.edges.node_previous.empty()) return mesh;
+  reserve_previous(mesh, w.points.capacity(), w.triangles.capacity());
+  mesh.node_previous.assign(w.n_boundary, kNone);
+  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
+    for (const std::int32_t i : in.edges.nodes(e)) {
+      const IdRange nodes = in.edges.nodes(e);
+      const bool is_first = i == nodes.first(), is_last = i + 1 == nodes.first() + nodes.size();
+      const NodeId n = w.boundary[is_first || is_last ? in.edge_vertices[2 * e + (is_first ? 0 : 1)] : n_vertices + i];
+      if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
+    }
+  return mesh;
+}
+
+std::vector<FacePatch> split_patches(const SurfaceMesh& mesh, const EdgeMesh& edges, FaceId n_faces) {
+  const std::vector<std::int32_t> index = boundary_indices(mesh, edges);
+  const auto n_triangles = static_cast<TriangleId>(mesh.triangles.size());
+  std::vector<FacePatch> patches;
+  FaceRange r{0, 0, 0, static_cast<NodeId>(index.size()), static_cast<NodeId>(index.size())};
+  for (; r.face < n_faces; ++r.face, r.begin = r.end, r.first = r.last) {
+    while (r.end < n_triangles && mesh.triangle_face[r.end] == r.face) ++r.end;
+    while (r.last < mesh.n_nodes() && mesh.node_entity[r.last] == r.face) ++r.last;
+    patches.push_back(patch_of(mesh, r, index));
+  }
+  return patches;
 }
 
 SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report) {
@@ -223,13 +274,10 @@ SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report) {
   const std::vector<const FacePatch*> patches = patches_by_face(input.patches);
   WeldedPatches welded = weld_patches(input.edges, input.vertex_xyz, patches);
   const bool has_previous = !input.edges.node_previous.empty();
-  SurfaceMesh mesh;
-  reserve(mesh, welded.points.size(), welded.triangles.size());
-  describe_boundary_nodes(input, welded, mesh);
+  SurfaceMesh mesh = describe_boundary(input, welded);
   mesh.node_xyz = std::move(welded.points);
   mesh.triangles = std::move(welded.triangles);
-  if (has_previous) mesh.node_previous.assign(mesh.node_xyz.size(), kNone);
-  if (has_previous) add_previous_of_edges(input, welded, mesh);
+  if (has_previous) mesh.node_previous.resize(mesh.node_xyz.size(), kNone);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const NodeId begin = welded.inner_begin[i], end = welded.inner_begin[i + 1];
     const std::span<const std::int32_t> inner(welded.inner.data() + begin, welded.inner.data() + end);

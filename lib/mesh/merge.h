@@ -4,22 +4,54 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/surface_mesh.h"
 
 namespace st {
 
+/// Number of a node on a vertex (itself) or on an edge: all vertices, then all edges.node_*. The ends of edges are
+/// vertices and have no number there.
+inline std::int32_t boundary_id(VertexId n_vertices, const EdgeMesh& edges, EdgeId e, std::int32_t index) {
+  return n_vertices + edges.first_node(e) + index;
+}
+
 /// Patches joined by the ids of their nodes: places and corners, and where they come from.
 struct WeldedPatches {
-  std::vector<Vec3> points;               ///< by (entity dim, entity id, index); only those that a triangle uses
-  std::vector<Triangle> triangles;        ///< by (patch, position in it)
-  std::vector<TriangleId> patch_begin;    ///< [n_patches+1] into triangles
-  std::vector<NodeId> vertex;             ///< [n_vertices] node of each; kNone: no triangle uses it
-  std::vector<NodeId> edge_node;          ///< [edges.node_t] likewise
-  NodeId n_boundary = 0;                  ///< nodes on vertices and edges; those inside faces follow
-  std::vector<std::int32_t> inner;        ///< [points - n_boundary] node inside a face: its place in FacePatch::inner_*
+  std::vector<Vec3> points;             ///< by (entity dim, entity id, index); only those that a triangle uses
+  std::vector<Triangle> triangles;      ///< by (patch, position in it)
+  std::vector<TriangleId> patch_begin;  ///< [n_patches+1] into triangles
+  std::vector<NodeId> boundary;         ///< [n_vertices + edges.node_t] node by boundary_id; kNone: no triangle uses it
+  NodeId n_boundary = 0;                ///< nodes on vertices and edges; those inside faces follow
+  std::vector<std::int32_t> inner;      ///< [points - n_boundary] node inside a face: its place in FacePatch::inner_*
   std::vector<std::int32_t> inner_begin;  ///< [n_patches+1] into inner
+};
+
+/// Numbers the nodes of one mesh: use() of all nodes on vertices and edges that its triangles have, number_boundary(),
+/// then face by face the nodes and triangles inside. The references outlive it.
+class Welder {
+ public:
+  Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz);
+  void use(std::int32_t boundary_id) { welded_.boundary[boundary_id] = 0; }
+  /// Makes room for so many more. Throws Error when the mesh has more than ids can count.
+  void number_boundary(std::size_t n_inner, std::size_t n_triangles);
+  NodeId boundary(std::int32_t boundary_id) const { return welded_.boundary[boundary_id]; }
+  NodeId add_point(Vec3 x) {
+    welded_.points.push_back(x);
+    return static_cast<NodeId>(welded_.points.size()) - 1;
+  }
+  void add_triangle(NodeId a, NodeId b, NodeId c) { welded_.triangles.push_back({{a, b, c}}); }
+  /// All of a patch.
+  void append(const FacePatch& p);
+  std::int32_t id_of(const FacePatch& p, std::int32_t boundary_node) const;
+  const WeldedPatches& welded() const { return welded_; }
+  WeldedPatches take() { return std::move(welded_); }
+
+ private:
+  const EdgeMesh& edges_;
+  std::span<const Vec3> vertex_xyz_;
+  WeldedPatches welded_;
 };
 
 /// Joins patches in the given order; those without triangles may stand among them. Throws Error(kInput) when a patch
@@ -51,6 +83,17 @@ struct OrientationReport {
 /// does (odd nesting depth). Throws Error(kInput) when a patch names an entity or node that does not exist, or a face
 /// occurs twice. Linear time; at most 130 bytes per triangle besides the result and the input.
 SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report);
+
+/// What a mesh says of its next node.
+void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size);
+
+/// A mesh with room for what is welded, in which its nodes on vertices and edges are described. node_previous is filled
+/// where `edges` have it. Of `input` the patches are not used.
+SurfaceMesh describe_boundary(const MergeInput& input, const WeldedPatches& welded);
+
+/// The patches that merge_patches() makes the mesh of, by face ([n_faces]); without triangles where the mesh has none.
+/// `edges`: those of the mesh.
+std::vector<FacePatch> split_patches(const SurfaceMesh& mesh, const EdgeMesh& edges, FaceId n_faces);
 
 /// The orientation step alone: turns triangles (and their corner uv) of `mesh` in place.
 OrientationReport orient_outward(SurfaceMesh& mesh);

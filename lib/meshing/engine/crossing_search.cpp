@@ -47,11 +47,7 @@ std::vector<EdgeUse> uses_between_boundaries(const WeldedPatches& mesh) {
 /// Segments of the CAD edges, sorted.
 std::vector<std::pair<NodeId, NodeId>> boundary_segments(const BoundaryNumbering& numbering,
                                                          const WeldedPatches& mesh) {
-  const auto node = [&](EdgeId e, std::int32_t index) {
-    const auto at = numbering.entity(numbering.edge_node(e, index));
-    return at.dim == EntityDim::kVertex ? mesh.vertex[at.entity]
-                                        : mesh.edge_node[numbering.edges.first_node(at.entity) + at.index];
-  };
+  const auto node = [&](EdgeId e, std::int32_t index) { return mesh.boundary[numbering.edge_node(e, index)]; };
   std::vector<std::pair<NodeId, NodeId>> segments;
   for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e)
     for (std::int32_t i = 1; i < numbering.edges.n_nodes(e); ++i)

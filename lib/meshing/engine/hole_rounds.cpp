@@ -20,10 +20,9 @@ constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
 }  // namespace
 
 std::vector<FacePatch> HoleRounds::all_patches() const {
-  std::vector<FacePatch> all;
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
-    all.push_back(make_hole_patch(f, holes_.marks(), *numbering_, fills_[f]));
-  return all;
+  const FaceId n_faces = model_.tables().n_faces();
+  if (failed_faces_.empty()) return split_patches(result_.mesh, update_.edges, n_faces);
+  return split_patches(insert_fills(*numbering_, holes_.marks(), fills_, failed_faces_), update_.edges, n_faces);
 }
 
 void HoleRounds::mesh_edges() {

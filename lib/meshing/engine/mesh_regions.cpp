@@ -85,8 +85,8 @@ MeshResult mesh_regions(HoleMarker& holes, const SizeField& field, HoleOutput ou
     mesh_failed_faces(holes, rounds, field, options, executor, result);
     if (executor.is_root() && output == HoleOutput::kMesh) result.mesh = merge_result(holes.mesh().tables, result);
   } else if (executor.is_root() && output == HoleOutput::kPatches) {
-    result.mesh = {};
     result.patches = rounds.all_patches();
+    result.mesh = {};
     if (result.edges.node_request == result.edges.node_size) result.edges.node_request.clear();
   }
   return result;

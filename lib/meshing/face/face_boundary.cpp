@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/merge.h"
+
 namespace st {
 namespace {
 
@@ -203,13 +205,6 @@ class BoundaryMaker {
 
 }  // namespace
 
-BoundaryNumbering::BoundaryNumbering(const MeshTopology& m, const EdgeMesh& e)
-    : topology(m), tables(m.tables()), edges(e) {
-  first_inner.push_back(tables.n_vertices());
-  for (EdgeId i = 0; i < tables.n_edges(); ++i)
-    first_inner.push_back(first_inner.back() + std::max(0, e.n_nodes(i) - 2));
-}
-
 std::int32_t BoundaryNumbering::edge_node(EdgeId e, std::int32_t index) const {
   const std::int32_t n = edges.n_nodes(e);
   if (index == 0) return tables.edge_vertices[2 * e];
@@ -218,7 +213,7 @@ std::int32_t BoundaryNumbering::edge_node(EdgeId e, std::int32_t index) const {
     const std::int32_t twin = strip->mirrored(index, n);
     if (is_closed(*strip, twin)) return edge_node(strip->kept, twin);
   }
-  return first_inner[e] + index - 1;
+  return boundary_id(tables.n_vertices(), edges, e, index);
 }
 
 bool BoundaryNumbering::is_closed(const MeshTopology::Strip& strip, std::int32_t index) const {
@@ -233,9 +228,10 @@ bool BoundaryNumbering::is_closed(const MeshTopology::Strip& strip, std::int32_t
 
 BoundaryNumbering::Entity BoundaryNumbering::entity(std::int32_t id) const {
   if (id < tables.n_vertices()) return {EntityDim::kVertex, id, 0};
-  const auto it = std::upper_bound(first_inner.begin(), first_inner.end(), id) - 1;
-  const std::int32_t e = static_cast<std::int32_t>(it - first_inner.begin());
-  return {EntityDim::kEdge, e, id - *it + 1};
+  const std::vector<std::int32_t>& first = edges.edge_offsets;
+  const std::int32_t node = id - tables.n_vertices();
+  const auto after = std::upper_bound(first.begin(), first.end(), node);
+  return {EntityDim::kEdge, static_cast<EdgeId>(after - first.begin()) - 1, node - *(after - 1)};
 }
 
 FaceBoundary make_face_boundary(const Model& model, const Surface& surface, FaceId face,

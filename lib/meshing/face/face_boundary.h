@@ -10,10 +10,12 @@
 
 namespace st {
 
-/// Numbers of boundary nodes over the whole model: vertices first, then the inner nodes of edge 0, 1, ...
+/// Numbers of boundary nodes over the whole model, see boundary_id().
 struct BoundaryNumbering {
   /// All references outlive the object.
-  BoundaryNumbering(const MeshTopology& topology, const EdgeMesh& edges);
+  BoundaryNumbering(const MeshTopology& m, const EdgeMesh& e) : topology(m), tables(m.tables()), edges(e) {}
+  /// All numbers are below.
+  std::int32_t end() const { return tables.n_vertices() + static_cast<std::int32_t>(edges.node_t.size()); }
   std::int32_t vertex(VertexId v) const { return v; }
   /// Node `index` of an edge (0 and the last are its vertices); where a strip is closed, the node of its other edge at
   /// the same place.
@@ -29,7 +31,6 @@ struct BoundaryNumbering {
   const MeshTopology& topology;
   const ModelTables& tables;  ///< of `topology`
   const EdgeMesh& edges;
-  std::vector<std::int32_t> first_inner;  ///< [n_edges+1] number of an edge's node 1
 };
 
 /// Boundary of a face: junctions snapped to one (u,v), poles cut into nodes, seams twice; without nodes for a strip

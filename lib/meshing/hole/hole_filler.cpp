@@ -227,81 +227,10 @@ class HoleBoundaryMaker {
   FaceBoundary result_;
 };
 
-/// Numbers the nodes that a patch takes over: boundary nodes by id, then inner nodes by id. The inner ids of a face are
-/// consecutive.
-class PatchNodes {
- public:
-  PatchNodes(std::int32_t first_inner, std::int32_t n_inner) : first_inner_(first_inner), inner_(n_inner, kNone) {}
-  void add(std::int32_t id) {
-    if (id < first_inner_)
-      boundary_.push_back(id);
-    else
-      inner_[id - first_inner_] = 0;
-  }
-  void number_all() {
-    std::sort(boundary_.begin(), boundary_.end());
-    boundary_.erase(std::unique(boundary_.begin(), boundary_.end()), boundary_.end());
-    ids_ = boundary_;
-    for (std::size_t i = 0; i < inner_.size(); ++i) {
-      if (inner_[i] == kNone) continue;
-      inner_[i] = static_cast<std::int32_t>(ids_.size());
-      ids_.push_back(first_inner_ + static_cast<std::int32_t>(i));
-    }
-  }
-  std::int32_t number(std::int32_t id) const {
-    if (id >= first_inner_) return inner_[id - first_inner_];
-    return static_cast<std::int32_t>(std::lower_bound(boundary_.begin(), boundary_.end(), id) - boundary_.begin());
-  }
-  const std::vector<std::int32_t>& ids() const { return ids_; }
-
- private:
-  std::int32_t first_inner_;
-  std::vector<std::int32_t> boundary_, inner_, ids_;
-};
-
-void add_known_nodes(const PatchNodes& nodes, const HoleNumbering& numbering, FacePatch& p) {
-  const HoleMesh& cad = numbering.mesh;
-  for (std::int32_t id : nodes.ids()) {
-    if (numbering.is_inner(id)) {
-      const NodeId n = numbering.mesh_node(id);
-      p.inner_xyz.push_back(cad.mesh.node_xyz[n]);
-      p.inner_size.push_back(cad.mesh.node_size[n]);
-      p.inner_previous.push_back(n);
-      continue;
-    }
-    const auto entity = numbering.boundary.entity(id);
-    p.boundary_dim.push_back(static_cast<std::uint8_t>(entity.dim));
-    p.boundary_entity.push_back(entity.entity);
-    p.boundary_index.push_back(entity.index);
-    ++p.n_boundary;
-  }
-  p.inner_uv.resize(p.inner_xyz.size());
-}
-
-void add_fill(const HoleFill& fill, const PatchNodes& nodes, FacePatch& p) {
-  std::vector<std::int32_t> number;
-  for (const FaceNode& n : fill.nodes) {
-    number.push_back(n.id == kNone ? p.n_boundary + static_cast<std::int32_t>(p.inner_xyz.size()) : nodes.number(n.id));
-    if (n.id != kNone) continue;
-    p.inner_xyz.push_back(n.x);
-    p.inner_uv.push_back(n.uv);
-    p.inner_size.push_back(n.h);
-    p.inner_previous.push_back(kNone);
-  }
-  for (Triangle t : fill.triangles) {
-    for (NodeId& n : t.n) {
-      p.corner_uv.push_back(fill.nodes[n].uv);
-      n = number[n];
-    }
-    p.triangles.push_back(t);
-    p.triangle_previous.push_back(kNone);
-  }
-}
-
 }  // namespace
 
 HoleNumbering::HoleNumbering(const HoleMesh& m, const EdgeUpdate& u)
-    : mesh(m), update(u), boundary(m.topology, u.edges), first_inner(boundary.first_inner.back()) {
+    : mesh(m), update(u), boundary(m.topology, u.edges), first_inner(boundary.end()) {
   of_node.assign(m.inner_begin[0], kNone);
   for (VertexId v = 0; v < m.tables.n_vertices(); ++v)
     if (m.vertex_node[v] != kNone) of_node[m.vertex_node[v]] = boundary.vertex(v);
@@ -327,37 +256,6 @@ HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const 
     fill.triangles.push_back({{c[0], c[rim.is_turned ? 2 : 1], c[rim.is_turned ? 1 : 2]}});
   }
   return fill;
-}
-
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
-                          std::span<const HoleFill> fills) {
-  const HoleMesh& cad = numbering.mesh;
-  const SurfaceMesh& m = cad.mesh;
-  const NodeId first = cad.inner_begin[face];
-  PatchNodes nodes(numbering.first_inner + first - cad.inner_begin[0], cad.inner_begin[face + 1] - first);
-  const auto kept = [&](TriangleId i) { return fills.empty() || !marks.triangle[i]; };
-  for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i)
-    for (int k = 0; k < 3 && kept(i); ++k) nodes.add(numbering.number(m.triangles[i].n[k]));
-  for (const HoleFill& fill : fills)
-    for (const FaceNode& n : fill.nodes)
-      if (n.id != kNone) nodes.add(n.id);
-  nodes.number_all();
-  FacePatch p;
-  p.face = face;
-  add_known_nodes(nodes, numbering, p);
-  for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i) {
-    if (!kept(i)) continue;
-    Triangle t;
-    for (int k = 0; k < 3; ++k) {
-      t.n[k] = nodes.number(numbering.number(m.triangles[i].n[k]));
-      p.corner_uv.push_back(m.corner_uv[3 * i + k]);
-      if (t.n[k] >= p.n_boundary) p.inner_uv[t.n[k] - p.n_boundary] = p.corner_uv.back();
-    }
-    p.triangles.push_back(t);
-    p.triangle_previous.push_back(i);
-  }
-  for (const HoleFill& fill : fills) add_fill(fill, nodes, p);
-  return p;
 }
 
 }  // namespace st

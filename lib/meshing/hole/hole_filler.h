@@ -1,7 +1,6 @@
-// A hole's boundary in (u,v), and the face's patch once its holes are filled.
+// A hole's boundary in (u,v), and what fills it.
 #pragma once
 
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -21,7 +20,6 @@ struct HoleNumbering {
     return n < mesh.inner_begin[0] ? of_node[n] : first_inner + n - mesh.inner_begin[0];
   }
   bool is_inner(std::int32_t id) const { return id >= first_inner; }
-  NodeId mesh_node(std::int32_t inner_id) const { return inner_id - first_inner + mesh.inner_begin[0]; }
 
   const HoleMesh& mesh;
   const EdgeUpdate& update;
@@ -46,10 +44,5 @@ struct HoleFill {
 
 /// `mesh`: mesh_face of `boundary`.
 HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh);
-
-/// The face's patch: unmarked triangles as they were, then those of the fills of its holes. Without fills all triangles
-/// are as they were.
-FacePatch make_hole_patch(FaceId face, const HoleMarks& marks, const HoleNumbering& numbering,
-                          std::span<const HoleFill> fills);
 
 }  // namespace st

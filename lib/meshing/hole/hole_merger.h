@@ -8,10 +8,10 @@
 
 namespace st {
 
-/// What merge_patches() gives for the patches of all faces, without making patches: canonical order, the orientation of
-/// the old mesh, node_previous and triangle_previous filled. `fills` [n_faces]: of the holes of each face; none: the
-/// face is as it was. Local, linear.
+/// In canonical order, with the orientation of the old mesh, node_previous and triangle_previous filled. `fills`
+/// [n_faces]: of the holes of each face; none: the face is as it was. `left_out`: faces that get no triangles,
+/// ascending. Local, linear.
 SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks,
-                         std::span<const std::vector<HoleFill>> fills);
+                         std::span<const std::vector<HoleFill>> fills, std::span<const FaceId> left_out = {});
 
 }  // namespace st

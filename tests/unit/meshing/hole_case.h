@@ -7,6 +7,7 @@
 
 #include "meshing/hole/hole_curves.h"
 #include "meshing/hole/hole_filler.h"
+#include "meshing/hole/hole_merger.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {
@@ -37,10 +38,7 @@ struct Refilled {
   Refilled& operator=(const Refilled&) = delete;
 
   std::vector<FacePatch> patches() const {
-    std::vector<FacePatch> all;
-    for (FaceId f = 0; f < solid.model.tables().n_faces(); ++f)
-      all.push_back(make_hole_patch(f, marks, numbering, fills[f]));
-    return all;
+    return split_patches(insert_fills(numbering, marks, fills), update.edges, solid.model.tables().n_faces());
   }
   SurfaceMesh merged() const {
     const ModelTables& t = solid.model.tables();
