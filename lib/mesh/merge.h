@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/assert.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -33,7 +34,10 @@ struct WeldedPatches {
 class Welder {
  public:
   Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz);
-  void use(std::int32_t boundary_id) { welded_.boundary[boundary_id] = 0; }
+  void use(std::int32_t boundary_id) {
+    ST_ASSERT(boundary_id >= 0 && boundary_id < static_cast<std::int64_t>(welded_.boundary.size()));
+    welded_.boundary[boundary_id] = 0;
+  }
   /// Makes room for so many more. Throws Error when the mesh has more than ids can count.
   void number_boundary(std::size_t n_inner, std::size_t n_triangles);
   NodeId boundary(std::int32_t boundary_id) const { return welded_.boundary[boundary_id]; }

@@ -57,6 +57,20 @@ TEST(CrossingSearch, halves_the_longest_side_of_a_triangle_at_its_centre) {
   EXPECT_TRUE(p.x == (Vec3{1, 4.0 / 3, 0}));
 }
 
+TEST(CrossingSearch, refines_triangles_that_span_their_face_by_more_than_half) {
+  const Meshed m("box", 200);  // every face two triangles
+  std::vector<FacePatch> patches = m.result.patches;
+  patches[5] = patches[0];
+  CrossingSearch search(m.model.tables().face_shell);
+  const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
+  ASSERT_FALSE(places.empty());
+  const double diagonal = m.model.tables().face_box[0].diagonal();
+  for (const RefinementPoint& p : places) {
+    EXPECT_LT(p.length, 0.49 * diagonal);
+    EXPECT_GE(p.length, 0.2499 * diagonal);
+  }
+}
+
 TEST(CrossingSearch, finds_a_chord_that_two_flat_faces_share) {
   const Meshed m("box", 200);  // every face two triangles: a chord of its own
   for (const FacePatch& p : m.result.patches) ASSERT_EQ(p.triangles.size(), 2u);

@@ -77,6 +77,26 @@ TEST(HoleMarker, marks_around_a_refinement) {
   EXPECT_TRUE(holes.marks().triangle[at]);
 }
 
+TEST(HoleMarker, marks_around_a_refinement_that_reaches_no_edge) {
+  const test::ShapeMesh box("box", 0.05);
+  const HoleMesh old(box.mesh, box.model.tables());
+  HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0, 0}, box.field, {}, one_rank);
+  const Vec3 middle = box.model.tables().face_box[2].center();
+  NodeId n = old.inner_begin[2];
+  for (NodeId k = n; k < old.inner_begin[3]; ++k)
+    if (distance(box.mesh.node_xyz[k], middle) < distance(box.mesh.node_xyz[n], middle)) n = k;
+  Refinements refinements(box.field);
+  ASSERT_TRUE(refinements.add({box.mesh.node_xyz[n], 0}, 0.25));
+  for (NodeId k = 0; k < old.inner_begin[0]; ++k)
+    ASSERT_GT(distance(box.mesh.node_xyz[k], box.mesh.node_xyz[n]), refinements.all()[0].reach);
+  holes.mark_again(refinements, {});
+  EXPECT_EQ(holes.dirty_faces(), std::vector<FaceId>{2});
+  for (TriangleId t = old.face_begin[2]; t < old.face_begin[3]; ++t)
+    if (std::count(box.mesh.triangles[t].n, box.mesh.triangles[t].n + 3, n)) {
+      EXPECT_TRUE(holes.marks().triangle[t]) << t;
+    }
+}
+
 TEST(HoleMarker, grows_a_hole_to_its_face_and_no_further) {
   Marked m;
   m.holes.grow_to_face(4);

@@ -96,6 +96,15 @@ TEST_P(RefilledSolid, for_a_finer_corner_is_closed_and_unchanged_elsewhere_to_th
       EXPECT_EQ(after.node_size[n], field.size(after.node_xyz[n])) << "new nodes have the length asked for";
     }
   }
+  std::vector<char> is_held(solid.mesh.node_xyz.size(), 0);
+  for (TriangleId t = 0; t < solid.mesh.n_triangles(); ++t)
+    for (const NodeId n : solid.mesh.triangles[t].n) is_held[n] |= stays[t];
+  for (NodeId n = 0; n < after.n_nodes(); ++n) {
+    const NodeId before = after.node_previous[n];
+    if (before == kNone || after.node_entity_dim[n] == 2) continue;
+    EXPECT_EQ(after.node_size[n], is_held[before] ? solid.mesh.node_size[before] : field.size(after.node_xyz[n]))
+        << "nodes on edges keep their length while an old triangle has them";
+  }
   Marked again(solid, field);
   EXPECT_TRUE(shapes::same(after, again.merged(again.fill(HoleOutput::kPatches))))
       << "what st-merge would make of the patches";

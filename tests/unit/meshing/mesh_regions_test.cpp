@@ -190,6 +190,12 @@ TEST(MeshRegions, makes_no_hole_where_refining_cannot_part_what_crosses) {
   }
 }
 
+TEST(MeshRegions, enhances_as_many_rounds_as_the_options_say) {
+  set_verbosity(Verbosity::kQuiet);
+  const Meshed none("sphere", 1, {.enhance_rounds = 0}), five("sphere", 1);
+  EXPECT_GT(measure_quality(five.mesh).model.mean, measure_quality(none.mesh).model.mean + 0.001);
+}
+
 TEST(MeshRegions, redoes_nothing_when_nothing_is_to_be_redone) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("cylinder", 1);
