@@ -16,8 +16,9 @@ const std::string& label_of(const FaceLabels& labels, const std::vector<std::str
   return names[labels.face_part[f]];
 }
 
-std::vector<std::int32_t> gather(const std::vector<std::int32_t>& values, std::span<const FaceId> faces) {
-  std::vector<std::int32_t> out;
+template <class T>
+std::vector<T> gather(const std::vector<T>& values, std::span<const FaceId> faces) {
+  std::vector<T> out;
   if (values.empty()) return out;
   for (const FaceId f : faces) out.push_back(values[f]);
   return out;
@@ -33,8 +34,11 @@ std::vector<std::int32_t> joined(std::vector<std::int32_t> of_first, std::int32_
   return of_first;
 }
 
-/// Groups of `from` in the numbers of `to`, to which the new ones are added.
-std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
+/// Groups of `from` in the numbers of `to`, to which the new ones are added. Groups: GroupTable, or FaceLabels for the
+/// main one.
+template <class Groups>
+std::vector<std::int32_t> merge_groups(Groups& to, const Groups& from) {
+  to.group_attributes.resize(to.group_name.size(), "{}");
   std::vector<std::int32_t> number;
   for (std::size_t g = 0; g < from.group_name.size(); ++g) {
     std::size_t k = 0;
@@ -44,7 +48,7 @@ std::vector<std::int32_t> merge_groups(GroupTable& to, const GroupTable& from) {
     if (k == to.group_name.size()) {
       to.group_name.push_back(from.group_name[g]);
       to.group_role.push_back(from.group_role[g]);
-      to.group_attributes.push_back(from.group_attributes[g]);
+      to.group_attributes.push_back(g < from.group_attributes.size() ? from.group_attributes[g] : "{}");
     }
     number.push_back(static_cast<std::int32_t>(k));
   }
@@ -126,16 +130,17 @@ const std::string& FaceLabels::path_of(FaceId f) const { return label_of(*this, 
 
 FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces) {
   FaceLabels out = labels;
+  out.face_name = gather(labels.face_name, faces);
+  out.face_group = gather(labels.face_group, faces);
   out.face_part = gather(labels.face_part, faces);
   for (GroupTable& table : out.tables) table.face_group = gather(table.face_group, faces);
   return out;
 }
 
-std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names) {
-  const FaceLabels& labels = names.labels;
-  std::vector<std::uint8_t> is_in(names.face_group.size(), 0);
+std::vector<std::uint8_t> find_faces(const std::string& pattern, const FaceLabels& labels) {
+  std::vector<std::uint8_t> is_in(labels.face_group.size(), 0);
   const auto is_found = [&] { return std::find(is_in.begin(), is_in.end(), 1) != is_in.end(); };
-  add_matches(pattern, names.group_name, names.face_group, is_in);
+  add_matches(pattern, labels.group_name, labels.face_group, is_in);
   if (is_found()) return is_in;
   for (const GroupTable& table : labels.tables) {
     add_matches(pattern, table.group_name, table.face_group, is_in);
@@ -181,11 +186,10 @@ std::string say_other_kind(const std::string& pattern, const FaceLabels& labels)
   return find_members(pattern, labels.vertex_groups).empty() ? "" : " (it names a group of vertices)";
 }
 
-std::vector<double> face_tolerances(const GroupNames& names) {
-  std::vector<double> of_face(names.face_group.size(), 0);
-  raise_tolerances(names.labels.group_attributes, names.face_group, of_face);
-  for (const GroupTable& table : names.labels.tables)
-    raise_tolerances(table.group_attributes, table.face_group, of_face);
+std::vector<double> face_tolerances(const FaceLabels& labels) {
+  std::vector<double> of_face(labels.face_group.size(), 0);
+  raise_tolerances(labels.group_attributes, labels.face_group, of_face);
+  for (const GroupTable& table : labels.tables) raise_tolerances(table.group_attributes, table.face_group, of_face);
   const bool has_any = std::any_of(of_face.begin(), of_face.end(), [](double t) { return t > 0; });
   return has_any ? of_face : std::vector<double>();
 }
@@ -206,6 +210,9 @@ FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const Fa
     out.part_path.push_back(unique_path(second.part_path[p], out.part_path));
     out.part_name.push_back(second.part_name[p]);
   }
+  out.face_name.insert(out.face_name.end(), second.face_name.begin(), second.face_name.end());
+  const std::vector<std::int32_t> group = merge_groups(out, second);
+  out.face_group = joined(std::move(out.face_group), n_first, second.face_group, n_second, group);
   if (!first.face_part.empty() || !second.face_part.empty())
     out.face_part = joined(std::move(out.face_part), n_first, second.face_part, n_second, part);
   for (const GroupTable& table : second.tables)

@@ -1,5 +1,5 @@
-// What CAD files and users say beyond the names and main groups of faces: parts, attributes of groups, further tables
-// of groups, groups of edges and of vertices.
+// What CAD files and users say of faces: names, main groups and their roles, parts, attributes of groups, further
+// tables of groups, groups of edges and of vertices.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,12 @@ struct EntityGroup {
 
 /// Labels of a model or mesh, empty where nobody said anything.
 struct FaceLabels {
+  std::vector<std::string> face_name;         ///< [n_faces] UTF-8, empty when the file has none
+  std::vector<std::int32_t> face_group;       ///< [n_faces] main group: by the groups file, else face name, else part
+                                              ///< name, else "default"; mesh.hdf holds it by triangle instead
+  std::vector<std::string> group_name;        ///< [n_groups] of the main groups, UTF-8
+  std::vector<std::string> group_role;        ///< [n_groups] one of group_roles() (groups.h): by the groups file, else
+                                              ///< role_of_name(); in a mesh perhaps empty: those of the names
   std::vector<std::string> group_attributes;  ///< [n_groups] of the main groups: one JSON object each, "{}": none; or
                                               ///< empty
   std::vector<GroupTable> tables;             ///< in the order of the groups file
@@ -53,8 +59,8 @@ struct FaceLabels {
 FaceLabels select_labels(const FaceLabels& labels, std::span<const FaceId> faces);
 
 /// Labels of `n_first` faces and, behind them, of `n_second` others. Tables of one name become one, groups of one name
-/// and role in them, too; parts stay apart, those of `second` with a path that `first` has get the next free number.
-/// group_attributes stay those of `first`.
+/// and role in them and in the main one, too; parts stay apart, those of `second` with a path that `first` has get the
+/// next free number. Groups of edges and vertices stay those of `first`.
 FaceLabels append_labels(const FaceLabels& first, std::int32_t n_first, const FaceLabels& second,
                          std::int32_t n_second);
 
@@ -65,21 +71,13 @@ std::vector<EntityGroup> select_groups(const std::vector<EntityGroup>& groups, s
 /// Adds groups whose ids are raised by `shift`, behind all ids of `to`; those of one name and table become one.
 void append_groups(std::vector<EntityGroup>& to, const std::vector<EntityGroup>& more, std::int32_t shift);
 
-/// The division of a model's faces that a name speaks of, for options that take the name of a group. Points into its
-/// owner.
-struct GroupNames {
-  const std::vector<std::string>& group_name;   ///< [n_groups] of the main table
-  const std::vector<std::int32_t>& face_group;  ///< [n_faces] main group of each face
-  const FaceLabels& labels;
-};
-
 /// Whether the name is this one or matches this glob pattern (`*`, `?`, `[abc]`); no name matches nothing.
 bool name_matches(const std::string& pattern, const std::string& name);
 
 /// Faces of the main groups whose names match a glob pattern; where none does, of the groups of further tables ("hot",
 /// or "bc:hot" with the name of the table), else of parts with such a name, else of parts with such a path. [n_faces]
 /// 1: in it; empty: nothing matches.
-std::vector<std::uint8_t> find_faces(const std::string& pattern, const GroupNames& names);
+std::vector<std::uint8_t> find_faces(const std::string& pattern, const FaceLabels& labels);
 
 /// Ids, ascending, of the groups of edges (or vertices) in the main table whose names match a glob pattern; where none
 /// does, of those in further tables ("te", or "bc:te" with the name of the table). Empty: nothing matches.
@@ -91,7 +89,7 @@ std::string say_other_kind(const std::string& pattern, const FaceLabels& labels)
 
 /// Tolerance of each face: the largest that its groups have as attribute "tolerance" in any table. [n_faces] model
 /// unit, 0: none; empty: no group has one.
-std::vector<double> face_tolerances(const GroupNames& names);
+std::vector<double> face_tolerances(const FaceLabels& labels);
 
 /// `path`, or the first of path#2, path#3 ... that `taken` lacks.
 std::string unique_path(const std::string& path, const std::vector<std::string>& taken);

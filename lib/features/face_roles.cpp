@@ -15,9 +15,9 @@ constexpr double kRounding = 1e-6;     // of places, over the model's diagonal
 constexpr double Vec3::*kAxes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
 FaceRole named_role(const ModelTables& t, std::size_t f) {
-  const std::int32_t group = f < t.face_group.size() ? t.face_group[f] : kNone;
+  const std::int32_t group = f < t.labels.face_group.size() ? t.labels.face_group[f] : kNone;
   if (group < 0) return FaceRole::kWall;
-  const std::string& role = t.group_role[group];
+  const std::string& role = t.labels.group_role[group];
   return role == "farfield" ? FaceRole::kFarfield : role == "symmetry" ? FaceRole::kSymmetry : FaceRole::kWall;
 }
 

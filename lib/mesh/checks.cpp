@@ -131,7 +131,7 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
 
 MeshMeasure measure_mesh(const SurfaceMesh& mesh) {
   MeshMeasure r;
-  r.face_area.assign(mesh.face_name.size(), 0);
+  r.face_area.assign(mesh.labels.face_name.size(), 0);
   Box3 box;
   for (const Vec3 p : mesh.node_xyz) box.add(p);
   const Vec3 origin = box.center();

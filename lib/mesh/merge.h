@@ -69,7 +69,7 @@ struct MergeInput {
   std::span<const Vec3> vertex_xyz;          ///< [n_vertices]
   std::span<const VertexId> edge_vertices;   ///< [2*n_edges]
   std::span<const FacePatch> patches;        ///< of the faces that were meshed
-  std::span<const std::int32_t> face_group;  ///< [n_faces] index into group_name; may be empty: group 0
+  std::span<const std::int32_t> face_group;  ///< [n_faces] main group; may be empty: group 0
 };
 
 /// What the orientation had to change. Ids 0-based, ascending.
@@ -81,8 +81,8 @@ struct OrientationReport {
 };
 
 /// Welds, orders and orients. Nodes: (entity dim, entity id, index); nodes without a triangle are omitted. Triangles:
-/// (face, position in its patch). Triangles with a repeated node stay: check_topology() counts them. face_name and
-/// group_name of the result are left empty. Orientation: faces that share a manifold edge are made to agree, the larger
+/// (face, position in its patch). Triangles with a repeated node stay: check_topology() counts them. The
+/// labels of the result are left empty. Orientation: faces that share a manifold edge are made to agree, the larger
 /// area deciding; a closed component of negative volume is turned, unless it lies inside another closed one as a void
 /// does (odd nesting depth). Throws Error(kInput) when a patch names an entity or node that does not exist, or a face
 /// occurs twice. Linear time; at most 130 bytes per triangle besides the result and the input.

@@ -133,8 +133,8 @@ QualityReport measure_quality(const SurfaceMesh& mesh) {
   std::iota(all.begin(), all.end(), 0);
   QualityReport report;
   report.model = stats_of(mesh, all, quality);
-  report.groups = stats_by_key(mesh, mesh.triangle_group, mesh.group_name.size(), quality);
-  report.faces = stats_by_key(mesh, mesh.triangle_face, mesh.face_name.size(), quality);
+  report.groups = stats_by_key(mesh, mesh.triangle_group, mesh.labels.group_name.size(), quality);
+  report.faces = stats_by_key(mesh, mesh.triangle_face, mesh.labels.face_name.size(), quality);
   measure_jumps(mesh, report);
   return report;
 }
@@ -208,8 +208,8 @@ class ForcedEdges {
 
 ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length) {
   ConformityReport report;
-  report.groups.resize(mesh.group_name.size());
-  report.faces.resize(mesh.face_name.size());
+  report.groups.resize(mesh.labels.group_name.size());
+  report.faces.resize(mesh.labels.face_name.size());
   std::vector<double> inverse(mesh.n_nodes()), ratios;
   ForcedEdges forced(mesh);
   for (std::int64_t n = 0; n < mesh.n_nodes(); ++n) inverse[n] = 1 / requested_length(mesh.node_xyz[n]);

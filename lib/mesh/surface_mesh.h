@@ -78,11 +78,9 @@ struct SurfaceMesh {
   std::vector<double> node_size;              ///< requested length
   std::vector<Triangle> triangles;
   std::vector<FaceId> triangle_face;         ///< 0-based CAD face
-  std::vector<std::int32_t> triangle_group;  ///< index into group_name
+  std::vector<std::int32_t> triangle_group;  ///< main group, see FaceLabels
   std::vector<Vec2> corner_uv;               ///< [3*n_triangles]
-  std::vector<std::string> face_name, group_name;
-  std::vector<std::string> group_role;  ///< [n_groups], or empty: those of the names
-  FaceLabels labels;                    ///< parts, further tables of groups, groups of edges and vertices
+  FaceLabels labels;
   std::vector<NodeId> segment_nodes;  ///< [2*n_segments] of the edges in groups only: by edge, along it from its t_min
   std::vector<EdgeId> segment_edge;   ///< [n_segments]
   MergedFeatures merged;

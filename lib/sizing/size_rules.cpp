@@ -65,7 +65,7 @@ std::vector<std::int32_t> select(const SizeRule& rule, const std::vector<std::st
 /// [n_faces] 1 where the face's group matches.
 std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key, const std::string& pattern,
                                           const ModelTables& t) {
-  std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
+  std::vector<std::uint8_t> is_in = find_faces(pattern, t.labels);
   if (is_in.empty())
     fail(rule, text_of(key, ": no group of faces or part matches '", pattern, "'", say_other_kind(pattern, t.labels)));
   return is_in;
@@ -87,7 +87,7 @@ void add_groups(const SizeRule& rule, const ModelTables& t, RuleTargets& targets
     const std::vector<VertexId> vertices = find_members(pattern, t.labels.vertex_groups);
     targets.edges.insert(targets.edges.end(), edges.begin(), edges.end());
     targets.vertices.insert(targets.vertices.end(), vertices.begin(), vertices.end());
-    const std::vector<std::uint8_t> is_in = find_faces(pattern, t.group_names());
+    const std::vector<std::uint8_t> is_in = find_faces(pattern, t.labels);
     if (is_in.empty() && edges.empty() && vertices.empty())
       fail(rule, text_of("groups: no group or part matches '", pattern, "'"));
     for (std::size_t f = 0; f < is_in.size(); ++f)
@@ -123,7 +123,7 @@ bool add_detected(const std::string& word, SizeRule& rule) {
 
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
   RuleTargets targets;
-  targets.faces = select(rule, rule.faces, {"faces", t.face_name, {}});
+  targets.faces = select(rule, rule.faces, {"faces", t.labels.face_name, {}});
   targets.edges = select(rule, rule.edges, {"edges", t.edge_name, t.labels.edge_groups});
   add_groups(rule, t, targets);
   if (!rule.between.empty()) {

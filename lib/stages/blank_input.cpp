@@ -19,8 +19,9 @@ namespace {
 BlankSide parse_side(const std::string& side, const SurfaceMesh& mesh) {
   if (side == "inside") return BlankSide::kInside;
   if (side == "outside") return BlankSide::kOutside;
-  for (std::size_t g = 0; g < mesh.group_name.size(); ++g)
-    if ((g < mesh.group_role.size() ? mesh.group_role[g] : role_of_name(mesh.group_name[g])) == "farfield")
+  for (std::size_t g = 0; g < mesh.labels.group_name.size(); ++g)
+    if ((g < mesh.labels.group_role.size() ? mesh.labels.group_role[g] : role_of_name(mesh.labels.group_name[g])) ==
+        "farfield")
       return BlankSide::kOutside;
   return BlankSide::kInside;
 }

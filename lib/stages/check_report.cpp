@@ -13,8 +13,8 @@ bool Findings::passes() const {
 }
 
 std::string face_label(const SurfaceMesh& mesh, FaceId f) {
-  const bool has_name = static_cast<std::size_t>(f) < mesh.face_name.size() && !mesh.face_name[f].empty();
-  return has_name ? fmt::format("face {} \"{}\"", f + 1, mesh.face_name[f]) : fmt::format("face {}", f + 1);
+  const bool has_name = static_cast<std::size_t>(f) < mesh.labels.face_name.size() && !mesh.labels.face_name[f].empty();
+  return has_name ? fmt::format("face {} \"{}\"", f + 1, mesh.labels.face_name[f]) : fmt::format("face {}", f + 1);
 }
 
 namespace {
@@ -206,7 +206,8 @@ json cause_json(const SurfaceMesh& mesh, const CauseList& list) {
     counts[cause_name(static_cast<ShapeCause>(k))] = list.count[k];
     for (const CausePlace& p : list.worst[k]) {
       json entry{{"cause", cause_name(p.cause)}, {"face", p.face + 1}, {"value", p.value}, {"xyz", xyz_json(p.xyz)}};
-      entry["name"] = static_cast<std::size_t>(p.face) < mesh.face_name.size() ? mesh.face_name[p.face] : "";
+      entry["name"] =
+          static_cast<std::size_t>(p.face) < mesh.labels.face_name.size() ? mesh.labels.face_name[p.face] : "";
       if (p.edge != kNone) entry["edge"] = p.edge + 1;
       if (p.vertex != kNone) entry["vertex"] = p.vertex + 1;
       places.push_back(entry);
@@ -234,7 +235,7 @@ json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail
   json groups = json::array();
   const std::vector<DeviationStats> deviation = deviation_by_group(f);
   for (std::size_t g = 0; g < f.quality.groups.size(); ++g) {
-    json entry{{"name", g < mesh.group_name.size() ? mesh.group_name[g] : ""},
+    json entry{{"name", g < mesh.labels.group_name.size() ? mesh.labels.group_name[g] : ""},
                {"quality", quality_json(f.quality.groups[g], detail)},
                {"jumps", jump_json(f.quality.group_jumps[g], detail)}};
     if (f.conformity && g < f.conformity->groups.size())
@@ -254,7 +255,7 @@ std::optional<double> area_error(const Findings& f, std::size_t face) {
 json face_json(const SurfaceMesh& mesh, const Findings& f, std::size_t i, ReportDetail detail) {
   const QualityStats& q = f.quality.faces[i];
   json j{{"face", i + 1},
-         {"name", i < mesh.face_name.size() ? mesh.face_name[i] : ""},
+         {"name", i < mesh.labels.face_name.size() ? mesh.labels.face_name[i] : ""},
          {"triangles", q.n_triangles},
          {"area", f.measure.face_area[i]},
          {"mean", q.mean},

@@ -271,13 +271,13 @@ void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const Che
 void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tolerance, Findings& f) {
   f.measure.face_area.resize(cad.model.tables().n_faces(), 0);
   f.cad_area = cad.model.tables().face_area;
-  f.face_group = cad.model.tables().face_group;
+  f.face_group = cad.model.tables().labels.face_group;
   f.chords = estimate_chord_error(cad.model, mesh);
   f.deviation = measure_deviation(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
   f.checks.push_back(check_cad_volume(mesh, f.topology, f.measure, cad.model.tables(), *f.chords));
-  const std::vector<double> of_group = face_tolerances(cad.model.tables().group_names());
+  const std::vector<double> of_group = face_tolerances(cad.model.tables().labels);
   f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords, of_group));
   if (!of_group.empty()) f.checks.push_back(check_group_tolerance(cad.model.tables(), *f.chords, of_group));
   f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, of_group));
@@ -356,7 +356,7 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
   if (!asked.max_deviation.empty()) {
     const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"),
                                         {tables.reference_diagonal(), tables.unit_in_m}, "--max-deviation");
-    const std::vector<double> of_group = face_tolerances(tables.group_names());
+    const std::vector<double> of_group = face_tolerances(tables.labels);
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",
             fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}", bound, own),

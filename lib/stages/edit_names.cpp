@@ -21,18 +21,18 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 /// [n_faces] 1: the group, part or face has this name; empty: none has.
 std::vector<std::uint8_t> faces_named(const std::string& name, const ModelTables& t) {
-  std::vector<std::uint8_t> is_in = find_faces(name, t.group_names());
+  std::vector<std::uint8_t> is_in = find_faces(name, t.labels);
   if (!is_in.empty()) return is_in;
   is_in.resize(t.n_faces());
-  for (FaceId f = 0; f < t.n_faces(); ++f) is_in[f] = name_matches(name, t.face_name[f]);
+  for (FaceId f = 0; f < t.n_faces(); ++f) is_in[f] = name_matches(name, t.labels.face_name[f]);
   return std::find(is_in.begin(), is_in.end(), 1) == is_in.end() ? std::vector<std::uint8_t>() : is_in;
 }
 
 std::vector<std::string> all_names(const ModelTables& t) {
-  std::vector<std::string> names = t.group_name;
+  std::vector<std::string> names = t.labels.group_name;
   for (const GroupTable& table : t.labels.tables)
     names.insert(names.end(), table.group_name.begin(), table.group_name.end());
-  for (const std::vector<std::string>* more : {&t.labels.part_name, &t.labels.part_path, &t.face_name})
+  for (const std::vector<std::string>* more : {&t.labels.part_name, &t.labels.part_path, &t.labels.face_name})
     names.insert(names.end(), more->begin(), more->end());
   return names;
 }
@@ -60,12 +60,13 @@ void select_item(const std::string& item, const ModelTables& t, const std::strin
 /// Names of the groups of one table ("": the main one) and what they are groups of, in words.
 std::map<std::string, std::string> groups_of(const std::string& table, const ModelTables& t) {
   std::map<std::string, std::string> kinds;
-  const auto add = [&](const std::vector<std::string>& names, const std::vector<std::string>& roles) {
-    for (std::size_t g = 0; g < names.size(); ++g) kinds[names[g]] = "faces with the role " + roles[g];
+  const auto add = [&](const auto& of) {
+    for (std::size_t g = 0; g < of.group_name.size(); ++g)
+      kinds[of.group_name[g]] = "faces with the role " + of.group_role[g];
   };
-  if (table.empty()) add(t.group_name, t.group_role);
+  if (table.empty()) add(t.labels);
   for (const GroupTable& other : t.labels.tables)
-    if (other.name == table) add(other.group_name, other.group_role);
+    if (other.name == table) add(other);
   for (const EntityGroup& g : t.labels.edge_groups)
     if (g.table == table) kinds[g.name] = "edges";
   for (const EntityGroup& g : t.labels.vertex_groups)
@@ -100,7 +101,7 @@ void rename_groups(const std::string& table, const std::map<std::string, std::st
   const auto rename = [&](std::string& name) {
     if (const auto found = renamed.find(name); found != renamed.end()) name = found->second;
   };
-  if (table.empty()) std::for_each(t.group_name.begin(), t.group_name.end(), rename);
+  if (table.empty()) std::for_each(t.labels.group_name.begin(), t.labels.group_name.end(), rename);
   for (GroupTable& other : t.labels.tables)
     if (other.name == table) std::for_each(other.group_name.begin(), other.group_name.end(), rename);
   for (std::vector<EntityGroup>* groups : {&t.labels.edge_groups, &t.labels.vertex_groups})

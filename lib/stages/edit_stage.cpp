@@ -284,7 +284,7 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
       {"faces", t.n_faces()},
       {"edges", t.n_edges()},
       {"vertices", t.n_vertices()},
-      {"groups", t.group_name.size()},
+      {"groups", t.labels.group_name.size()},
       {"parts", t.labels.part_path.size()},
       {"solids", t.n_solids},
       {"moved_faces", n_moved},

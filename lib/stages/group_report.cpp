@@ -18,11 +18,10 @@ using Json = nlohmann::ordered_json;
 
 /// What the three artifacts have in common.
 struct Identity {
-  std::vector<std::string> face_name, group_name, group_role;
-  std::vector<std::int32_t> face_group;
   FaceLabels labels;
-  std::vector<std::string> face_color, face_layer, face_surface;  ///< of a geometry alone: "#rrggbb" or empty, names
-  std::vector<std::string> edge_name = {};                        ///< likewise
+  std::vector<std::string> face_color = {}, face_layer = {}, face_surface = {};  ///< of a geometry alone: "#rrggbb" or
+                                                                                 ///< empty, names
+  std::vector<std::string> edge_name = {};                                       ///< likewise
 };
 
 std::vector<std::string> color_texts(const std::vector<std::int32_t>& colors) {
@@ -41,36 +40,18 @@ Identity identity_of(const std::string& path) {
   const std::string schema = read_header(path).schema;
   if (schema == "geometry") {
     ModelTables t = read_geometry(path).tables;
-    return {std::move(t.face_name),  std::move(t.group_name),    std::move(t.group_role),
-            std::move(t.face_group), std::move(t.labels),        color_texts(t.face_color),
-            std::move(t.face_layer), surface_texts(t.face_type), std::move(t.edge_name)};
+    return {std::move(t.labels), color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type),
+            std::move(t.edge_name)};
   }
-  if (schema == "patches") {
-    PatchesArtifact p = read_patches(path);
-    return {std::move(p.face_name),
-            std::move(p.group_name),
-            std::move(p.group_role),
-            std::move(p.face_group),
-            std::move(p.labels),
-            {},
-            {},
-            {}};
-  }
+  if (schema == "patches") return {read_patches(path).labels};
   if (schema != "mesh")
     throw Error(ExitCode::kInput,
                 fmt::format("{}: is a {} artifact, which has no groups; give a geometry, patches or mesh artifact",
                             path, schema));
   SurfaceMesh m = read_mesh(path).mesh;
-  std::vector<std::int32_t> face_group(m.face_name.size(), kNone);
-  for (std::size_t t = 0; t < m.triangles.size(); ++t) face_group[m.triangle_face[t]] = m.triangle_group[t];
-  return {std::move(m.face_name),
-          std::move(m.group_name),
-          std::move(m.group_role),
-          std::move(face_group),
-          std::move(m.labels),
-          {},
-          {},
-          {}};
+  m.labels.face_group.assign(m.labels.face_name.size(), kNone);
+  for (std::size_t t = 0; t < m.triangles.size(); ++t) m.labels.face_group[m.triangle_face[t]] = m.triangle_group[t];
+  return {std::move(m.labels)};
 }
 
 /// 1-based ids of the faces with this number.
@@ -92,12 +73,16 @@ std::string ranges(std::span<const FaceId> faces) {
   return text;
 }
 
-Json groups_json(const std::vector<std::string>& name, const std::vector<std::string>& role,
-                 const std::vector<std::string>& attributes, const std::vector<std::int32_t>& face_group) {
+/// Groups: GroupTable, or FaceLabels for the main ones.
+template <class Groups>
+Json groups_json(const Groups& of) {
   Json groups = Json::array();
-  for (std::size_t g = 0; g < name.size(); ++g) {
-    Json own = g < attributes.size() ? Json::parse(attributes[g], nullptr, false) : Json::object();
-    groups.push_back({{"name", name[g]}, {"role", role[g]}, {"attributes", own}, {"faces", faces_with(face_group, g)}});
+  for (std::size_t g = 0; g < of.group_name.size(); ++g) {
+    Json own = g < of.group_attributes.size() ? Json::parse(of.group_attributes[g], nullptr, false) : Json::object();
+    groups.push_back({{"name", of.group_name[g]},
+                      {"role", of.group_role[g]},
+                      {"attributes", own},
+                      {"faces", faces_with(of.face_group, g)}});
   }
   return groups;
 }
@@ -123,12 +108,8 @@ Json report(const Identity& id) {
                {"layers", Json::object()},    {"colors", Json::object()}, {"surfaces", Json::object()},
                {"edge_names", Json::object()}};
   const FaceLabels& labels = id.labels;
-  json["tables"].push_back(
-      {{"table", "main"},
-       {"groups", groups_json(id.group_name, id.group_role, labels.group_attributes, id.face_group)}});
-  for (const GroupTable& t : labels.tables)
-    json["tables"].push_back(
-        {{"table", t.name}, {"groups", groups_json(t.group_name, t.group_role, t.group_attributes, t.face_group)}});
+  json["tables"].push_back({{"table", "main"}, {"groups", groups_json(labels)}});
+  for (const GroupTable& t : labels.tables) json["tables"].push_back({{"table", t.name}, {"groups", groups_json(t)}});
   add_entity_groups(labels.edge_groups, "edges", json["tables"]);
   add_entity_groups(labels.vertex_groups, "vertices", json["tables"]);
   for (std::size_t p = 0; p < labels.part_path.size(); ++p)
@@ -138,7 +119,7 @@ Json report(const Identity& id) {
     for (std::size_t f = 0; f < texts.size(); ++f)
       if (!texts[f].empty()) json[key][texts[f]].push_back(f + 1);
   };
-  add("face_names", id.face_name);
+  add("face_names", labels.face_name);
   add("layers", id.face_layer);
   add("colors", id.face_color);
   add("surfaces", id.face_surface);

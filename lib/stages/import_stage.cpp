@@ -38,16 +38,16 @@ nlohmann::json finding_json(const ImportFinding& f) {
 /// Groups with their roles and numbers of faces, table by table, the main one first.
 nlohmann::json tables_json(const ModelTables& t) {
   nlohmann::json tables = nlohmann::json::array();
-  const auto add = [&](const std::string& name, const auto& groups, const auto& roles,
-                       const std::vector<std::int32_t>& face_group) {
+  const auto add = [&](const std::string& name, const auto& of) {
     nlohmann::json entries = nlohmann::json::array();
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      entries.push_back(
-          {{"name", groups[g]}, {"role", roles[g]}, {"faces", std::count(face_group.begin(), face_group.end(), g)}});
+    for (std::size_t g = 0; g < of.group_name.size(); ++g)
+      entries.push_back({{"name", of.group_name[g]},
+                         {"role", of.group_role[g]},
+                         {"faces", std::count(of.face_group.begin(), of.face_group.end(), g)}});
     tables.push_back({{"table", name}, {"groups", entries}});
   };
-  add("main", t.group_name, t.group_role, t.face_group);
-  for (const GroupTable& table : t.labels.tables) add(table.name, table.group_name, table.group_role, table.face_group);
+  add("main", t.labels);
+  for (const GroupTable& table : t.labels.tables) add(table.name, table);
   const auto add_entities = [&](const std::vector<EntityGroup>& groups, const char* kind) {
     for (const EntityGroup& g : groups) {
       const std::string name = g.table.empty() ? "main" : g.table;
@@ -80,7 +80,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"faces", t.n_faces()},
           {"edges", t.n_edges()},
           {"vertices", t.n_vertices()},
-          {"groups", t.group_name.size()},
+          {"groups", t.labels.group_name.size()},
           {"parts", t.labels.part_path.size()},
           {"tables", tables_json(t)},
           {"free_edges", r.n_free_edges},

@@ -33,7 +33,7 @@ std::string list_faces(std::span<const FaceId> faces) {
 }
 
 std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
-  std::vector<std::uint8_t> is_meshed(patches.face_name.size(), 0);
+  std::vector<std::uint8_t> is_meshed(patches.labels.face_name.size(), 0);
   for (const FacePatch& p : patches.patches)
     if (p.face >= 0 && static_cast<std::size_t>(p.face) < is_meshed.size()) is_meshed[p.face] = 1;
   for (const FaceId f : closed_faces(patches.merged, patches.edges, patches.edge_vertices)) is_meshed[f] = 1;
@@ -148,10 +148,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.header.inputs = std::move(inputs);
   artifact.is_complete = patches.is_complete;
   artifact.mesh = merge_patches(
-      {patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.face_group}, report);
-  artifact.mesh.face_name = std::move(patches.face_name);
-  artifact.mesh.group_name = std::move(patches.group_name);
-  artifact.mesh.group_role = std::move(patches.group_role);
+      {patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.labels.face_group}, report);
   artifact.mesh.labels = std::move(patches.labels);
   artifact.mesh.merged = std::move(patches.merged);
   add_segments(artifact.mesh, patches.edges, patches.edge_vertices);

@@ -51,7 +51,7 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
     for (FaceId f = first; f <= last; ++f) chosen[f] = 1;
   }
   if (!o.group.empty()) {
-    const std::vector<std::uint8_t> in_group = find_faces(o.group, t.group_names());
+    const std::vector<std::uint8_t> in_group = find_faces(o.group, t.labels);
     if (in_group.empty())
       throw Error(
           ExitCode::kUsage,

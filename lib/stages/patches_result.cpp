@@ -12,7 +12,7 @@ namespace {
 
 nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
   return {{"face", f.face + 1},
-          {"name", t.face_name[f.face]},
+          {"name", t.labels.face_name[f.face]},
           {"cause", f.cause},
           {"remedy", f.remedy},
           {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
@@ -39,7 +39,7 @@ nlohmann::json merged_json(const ModelTables& t, const MergedFeatures& m, const 
     const FaceId f = m.strip_face[s];
     const Vec3 x = t.face_box[f].center();
     strips.push_back({{"face", f + 1},
-                      {"name", t.face_name[f]},
+                      {"name", t.labels.face_name[f]},
                       {"mean_width", t.face_area[f] / t.edge_length[m.strip_kept[s]]},
                       {"kept_edge", m.strip_kept[s] + 1},
                       {"closed_edge", m.strip_closed[s] + 1},
@@ -58,7 +58,7 @@ std::string write_failed_faces(const std::string& patches, const ArtifactHeader&
     remove_failures(path);
     return "";
   }
-  write_failures(path, {header, r.failures, r.failed_faces, t.face_name});
+  write_failures(path, {header, r.failures, r.failed_faces, t.labels.face_name});
   return path;
 }
 
@@ -82,11 +82,7 @@ PatchesArtifact take_patches(const ModelTables& t, const ArtifactHeader& header,
   out.merged = topology.merged();
   out.patches = std::move(r.patches);
   out.failures = r.failures;
-  out.face_name = t.face_name;
-  out.group_name = t.group_name;
-  out.group_role = t.group_role;
   out.labels = t.labels;
-  out.face_group = t.face_group;
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;
   std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });

@@ -552,9 +552,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
 
   warn_of_depth(counts.depth);
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
-  artifact.names = {model.tables().edge_name, model.tables().face_name, {}};
-  artifact.group_name = model.tables().group_name;
-  artifact.face_group = model.tables().face_group;
+  artifact.names = {model.tables().edge_name, model.tables().labels.face_name, {}};
   artifact.labels = model.tables().labels;
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);

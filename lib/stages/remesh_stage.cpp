@@ -59,7 +59,7 @@ void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFea
   if (!merged.strip_face.empty()) mark.keep_face.resize(t.n_faces(), 0);
   for (const FaceId f : merged.strip_face) mark.keep_face[f] = 1;
   if (o.keep.empty()) return;
-  const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.group_names());
+  const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.labels);
   const std::vector<EdgeId> edges = find_members(o.keep, t.labels.edge_groups);
   if (in_group.empty() && edges.empty())
     throw Error(ExitCode::kUsage, fmt::format("--keep '{}': the model has no such group of faces or edges and no such "
@@ -237,9 +237,6 @@ MeshArtifact merged_artifact(const RemeshStageOptions& o, const RemeshInput& in,
   artifact.header.geometry_hash = in.geometry.content_hash;
   SurfaceMesh& mesh = artifact.mesh = std::move(r.mesh);
   number_as_in_file(in, mesh.node_previous, mesh.triangle_previous);
-  mesh.face_name = in.old.mesh.face_name;
-  mesh.group_name = in.old.mesh.group_name;
-  mesh.group_role = in.old.mesh.group_role;
   mesh.labels = in.old.mesh.labels;
   mesh.merged = in.old.mesh.merged;
   if (!mesh.labels.edge_groups.empty()) add_segments(mesh, r.edges, holes.mesh().tables.edge_vertices);

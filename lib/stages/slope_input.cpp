@@ -36,7 +36,7 @@ std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& ra
   std::vector<std::uint8_t> is_in(face_name.size(), 0);
   for (std::size_t f = 0; f < face_name.size(); ++f) is_in[f] = face_name[f] == s.name;
   if (std::find(is_in.begin(), is_in.end(), 1) != is_in.end()) return is_in;
-  is_in = find_faces(s.name, {raster.group_name, raster.face_group, raster.labels});
+  is_in = find_faces(s.name, raster.labels);
   if (is_in.empty())
     throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face, group of faces or part has this name{}; "
                                               "st-info geometry.hdf --groups lists them",

@@ -16,9 +16,9 @@ inline const SerialExecutor one_rank;
 /// The patches as one mesh.
 inline SurfaceMesh merged(const MeshTopology& topology, const MeshResult& result, OrientationReport& report) {
   const ModelTables& t = topology.tables();
-  SurfaceMesh mesh = merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, result.patches, t.face_group}, report);
-  mesh.face_name = t.face_name;
-  mesh.group_name = t.group_name;
+  SurfaceMesh mesh =
+      merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, result.patches, t.labels.face_group}, report);
+  mesh.labels = t.labels;
   mesh.merged = topology.merged();
   return mesh;
 }

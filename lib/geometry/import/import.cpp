@@ -139,7 +139,7 @@ std::vector<double> group_tolerances(const ImportedShape& model, const ModelUnit
   ModelTables t = occt::make_face_tables(model, 1.0 / unit.shape_units);
   t.unit_in_m = unit.in_m;
   apply_groups(rules_before_sewing(options), t);
-  std::vector<double> tolerances = face_tolerances(t.group_names());
+  std::vector<double> tolerances = face_tolerances(t.labels);
   for (double& tolerance : tolerances) tolerance *= unit.shape_units;
   return tolerances;
 }
@@ -164,7 +164,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
 /// those that were sewn for it. With a flow domain such groups are not sewn.
 void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
   if (!options.symmetry.empty() || !options.farfield.empty()) return;
-  const std::vector<double> tolerances = face_tolerances(tables.group_names());
+  const std::vector<double> tolerances = face_tolerances(tables.labels);
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
       throw Error(ExitCode::kUsage,

@@ -64,10 +64,8 @@ void select_faces(const ModelTables& t, const std::vector<FaceId>& f, ModelTable
   out.face_area = gather(t.face_area, f);
   out.face_width = gather(t.face_width, f);
   out.face_box = gather(t.face_box, f);
-  out.face_name = gather(t.face_name, f);
   out.face_color = gather(t.face_color, f);
   out.face_layer = gather(t.face_layer, f);
-  out.face_group = gather(t.face_group, f);
   out.face_shell = gather(t.face_shell, f);
   out.face_solid = gather(t.face_solid, f);
   out.labels = select_labels(t.labels, f);
@@ -143,12 +141,8 @@ std::vector<VertexId> vertex_ids(const TopoDS_Shape& part, const std::vector<Edg
 /// What is known of the faces, which are the same in both, beyond their shapes. The B-Rep of a part has no shells any
 /// more.
 void copy_labels(const ModelTables& t, ModelTables& out) {
-  out.face_name = t.face_name;
   out.face_color = t.face_color;
   out.face_layer = t.face_layer;
-  out.face_group = t.face_group;
-  out.group_name = t.group_name;
-  out.group_role = t.group_role;
   out.labels = t.labels;
   out.face_shell = t.face_shell;
   out.face_solid = t.face_solid;
@@ -196,25 +190,6 @@ void require_apart(const ModelTables& t, const std::vector<char>& moves) {
       fail("vertex " + std::to_string(v + 1), at_vertex[1][v], at_vertex[0][v]);
 }
 
-/// Groups of `second` in the numbers of `to`, to which the new ones are added.
-std::vector<std::int32_t> merge_groups(ModelTables& to, const ModelTables& second) {
-  std::vector<std::int32_t> group;
-  for (std::size_t g = 0; g < second.group_name.size(); ++g) {
-    std::size_t k = 0;
-    while (k < to.group_name.size() &&
-           (to.group_name[k] != second.group_name[g] || to.group_role[k] != second.group_role[g]))
-      ++k;
-    if (k == to.group_name.size()) {
-      to.group_name.push_back(second.group_name[g]);
-      to.group_role.push_back(second.group_role[g]);
-      to.labels.group_attributes.push_back(g < second.labels.group_attributes.size() ? second.labels.group_attributes[g]
-                                                                                     : "{}");
-    }
-    group.push_back(static_cast<std::int32_t>(k));
-  }
-  return group;
-}
-
 /// Adds `more`, each raised by `shift` unless it is kNone.
 void add_shifted(std::vector<std::int32_t>& to, std::span<const std::int32_t> more, std::int32_t shift) {
   for (const std::int32_t id : more) to.push_back(id == kNone ? kNone : id + shift);
@@ -241,7 +216,6 @@ void append_topology(ModelTables& t, const ModelTables& s) {
 
 void append_faces(ModelTables& t, const ModelTables& s) {
   t.labels = append_labels(t.labels, t.n_faces(), s.labels, s.n_faces());
-  t.labels.group_attributes.resize(t.group_name.size(), "{}");
   add_all(t.face_is_reversed, s.face_is_reversed);
   add_all(t.face_type, s.face_type);
   add_all(t.face_uv_bounds, s.face_uv_bounds);
@@ -249,11 +223,8 @@ void append_faces(ModelTables& t, const ModelTables& s) {
   add_all(t.face_area, s.face_area);
   add_all(t.face_width, s.face_width);
   add_all(t.face_box, s.face_box);
-  add_all(t.face_name, s.face_name);
   add_all(t.face_color, s.face_color);
   add_all(t.face_layer, s.face_layer);
-  const std::vector<std::int32_t> group = merge_groups(t, s);
-  for (const std::int32_t g : s.face_group) t.face_group.push_back(group[g]);
   add_shifted(t.face_shell, s.face_shell, t.n_shells);
   add_shifted(t.face_solid, s.face_solid, t.n_solids);
   t.n_shells += s.n_shells;
@@ -276,8 +247,6 @@ SubModel extract(const Model& model, std::span<const FaceId> wanted) {
   select_faces(t, faces, out);
   select_edges(t, edges, vertices, out);
   select_loops(t, faces, edges, out);
-  out.group_name = t.group_name;
-  out.group_role = t.group_role;
   out.n_shells = t.n_shells;
   out.n_solids = t.n_solids;
   out.unit = t.unit;

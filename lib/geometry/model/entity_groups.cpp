@@ -23,7 +23,7 @@ std::vector<std::uint8_t> faces_of(const GroupRule& rule, const char* key, const
                                    const ModelTables& t, const Other& other) {
   std::vector<std::uint8_t> all(t.n_faces(), 0);
   for (const std::string& item : items) {
-    const std::vector<std::uint8_t> own = find_faces(item, t.group_names());
+    const std::vector<std::uint8_t> own = find_faces(item, t.labels);
     for (std::size_t f = 0; f < own.size(); ++f) all[f] |= own[f];
     if (!other(item) && own.empty() && !rule.is_optional)
       fail_group(rule, std::string(key) + ": no group or part matches '" + item +
@@ -155,7 +155,7 @@ class EntityGrouper {
     const auto has = [&](const std::vector<std::string>& names) {
       return std::find(names.begin(), names.end(), rule.name) != names.end();
     };
-    if (rule.table.empty() && has(t_.group_name)) refuse(EntityDim::kFace);
+    if (rule.table.empty() && has(t_.labels.group_name)) refuse(EntityDim::kFace);
     for (const GroupTable& table : t_.labels.tables)
       if (table.name == rule.table && has(table.group_name)) refuse(EntityDim::kFace);
     if (of_ == EntityDim::kEdge) return;

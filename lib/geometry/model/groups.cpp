@@ -20,16 +20,17 @@ bool is_in(const std::vector<T>& list, const T& value) {
 /// The faces that one rule selects.
 Mask select_faces(const GroupRule& rule, const ModelTables& t) {
   GroupSelection s(rule, t, t.n_faces());
-  s.select_items("faces", rule.faces, t.face_name);
+  s.select_items("faces", rule.faces, t.labels.face_name);
   s.select_names("parts", rule.parts, [&](FaceId f) -> const std::string& { return t.labels.part_of(f); });
   s.select_names("paths", rule.paths, [&](FaceId f) -> const std::string& { return t.labels.path_of(f); });
   s.select_names("layers", rule.layers, [&](FaceId f) -> const std::string& { return t.face_layer[f]; });
-  s.select_names("groups", rule.groups, [&](FaceId f) -> const std::string& { return t.group_name[t.face_group[f]]; });
+  s.select_names("groups", rule.groups,
+                 [&](FaceId f) -> const std::string& { return t.labels.group_name[t.labels.face_group[f]]; });
   s.select_boxes(t.face_box, t.face_tolerance);
   if (!rule.colors.empty()) s.keep([&](FaceId f) { return is_in(rule.colors, t.face_color[f]); });
   if (!rule.surfaces.empty()) s.keep([&](FaceId f) { return is_in(rule.surfaces, t.face_type[f]); });
   if (s.has_selection()) return s.take("no face matches its selection");
-  s.keep([&](FaceId f) { return t.group_name[t.face_group[f]] == rule.name; });
+  s.keep([&](FaceId f) { return t.labels.group_name[t.labels.face_group[f]] == rule.name; });
   return s.take("the CAD file has no group of this name");
 }
 
@@ -112,23 +113,23 @@ std::vector<Table> collect(const std::vector<GroupRule>& rules, const ModelTable
 
 /// The groups of the file with those of the rules put over them, in the order of their first face.
 void set_main_groups(const Table& table, ModelTables& t) {
-  const std::vector<std::string> old_name = std::move(t.group_name), old_role = std::move(t.group_role);
-  t.group_name.clear();
-  t.group_role.clear();
+  const std::vector<std::string> old_name = std::move(t.labels.group_name), old_role = std::move(t.labels.group_role);
+  t.labels.group_name.clear();
+  t.labels.group_role.clear();
   std::vector<std::string> attributes;
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     const std::int32_t by_rule = table.face_group[f];
-    const std::string& name = by_rule == kNone ? old_name[t.face_group[f]] : table.groups[by_rule].name;
+    const std::string& name = by_rule == kNone ? old_name[t.labels.face_group[f]] : table.groups[by_rule].name;
     const auto known =
         std::find_if(table.groups.begin(), table.groups.end(), [&](const Group& g) { return g.name == name; });
-    const std::string& role = known == table.groups.end() ? old_role[t.face_group[f]] : known->role;
-    auto it = std::find(t.group_name.begin(), t.group_name.end(), name);
-    if (it == t.group_name.end()) {
-      it = t.group_name.insert(it, name);
-      t.group_role.push_back(role);
+    const std::string& role = known == table.groups.end() ? old_role[t.labels.face_group[f]] : known->role;
+    auto it = std::find(t.labels.group_name.begin(), t.labels.group_name.end(), name);
+    if (it == t.labels.group_name.end()) {
+      it = t.labels.group_name.insert(it, name);
+      t.labels.group_role.push_back(role);
       attributes.push_back(known == table.groups.end() ? "{}" : known->attributes);
     }
-    t.face_group[f] = static_cast<std::int32_t>(it - t.group_name.begin());
+    t.labels.face_group[f] = static_cast<std::int32_t>(it - t.labels.group_name.begin());
   }
   t.labels.group_attributes = std::move(attributes);
 }
@@ -183,7 +184,7 @@ std::vector<EdgeId> edges_between(const std::vector<std::uint8_t>& a, const std:
   std::vector<FaceId> faces;
   t.edge_faces(offsets, faces);
   const auto separates = [&](FaceId f, FaceId g) {
-    return a[f] && b[g] && (t.face_group[f] != t.face_group[g] || (!b[f] && !a[g]));
+    return a[f] && b[g] && (t.labels.face_group[f] != t.labels.face_group[g] || (!b[f] && !a[g]));
   };
   std::vector<EdgeId> result;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {

@@ -60,11 +60,11 @@ Box3 ModelTables::box() const {
 Box3 ModelTables::wall_box() const {
   Box3 b;
   for (FaceId f = 0; f < n_faces(); ++f)
-    if (!is_outer_role(group_role[face_group[f]])) b.add(face_box[f]);
+    if (!is_outer_role(labels.group_role[labels.face_group[f]])) b.add(face_box[f]);
   return b.is_empty() ? box() : b;
 }
 
-std::string ModelTables::face_label(FaceId f) const { return label("face", f, face_name[f]); }
+std::string ModelTables::face_label(FaceId f) const { return label("face", f, labels.face_name[f]); }
 std::string ModelTables::edge_label(EdgeId e) const { return label("edge", e, edge_name[e]); }
 
 void ModelTables::edge_faces(std::vector<std::int32_t>& offsets, std::vector<FaceId>& faces) const {

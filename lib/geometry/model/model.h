@@ -44,16 +44,11 @@ struct ModelTables {
   std::vector<double> face_area;   ///< model unit squared, from the B-Rep
   std::vector<double> face_width;  ///< model unit; of the rectangle of the same area and perimeter
   std::vector<Box3> face_box;
-  std::vector<std::string> face_name;    ///< UTF-8, empty when the file has none
   std::vector<std::int32_t> face_color;  ///< 0xRRGGBB, kNone when the file has none
   std::vector<std::string> face_layer;   ///< empty when the file has none
-  std::vector<std::int32_t> face_group;  ///< index into group_name
   std::vector<std::int32_t> face_shell;  ///< index of the shell (connected component of faces), kNone when loose
   std::vector<std::int32_t> face_solid;  ///< index of the solid, kNone when none
-  // groups (by the groups file, else face name, else part name, else "default")
-  std::vector<std::string> group_name;  ///< UTF-8
-  std::vector<std::string> group_role;  ///< one of group_roles() (groups.h): from the groups file, else role_of_name()
-  FaceLabels labels;                    ///< parts, attributes of groups, further tables of groups
+  FaceLabels labels;                     ///< names, groups, parts
   std::int32_t n_shells = 0, n_solids = 0;
   std::optional<double> volume;  ///< model unit cubed, of a closed model without faces between solids; negative where
                                  ///< normals point inward
@@ -82,8 +77,6 @@ struct ModelTables {
   Box3 box() const;
   Box3 wall_box() const;
   double reference_diagonal() const { return wall_box().diagonal(); }
-  /// What find_faces() (face_labels.h) looks a name up in.
-  GroupNames group_names() const { return {group_name, face_group, labels}; }
   /// "face 17 "WING_UPPER"" (1-based, name when there is one), for messages.
   std::string face_label(FaceId f) const;
   std::string edge_label(EdgeId e) const;

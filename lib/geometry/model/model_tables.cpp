@@ -121,7 +121,7 @@ class TableWriter {
 
   /// What the file says of a face.
   void fill_labels(int i) {
-    tables_.face_name.push_back(model_.attributes[i].name);
+    tables_.labels.face_name.push_back(model_.attributes[i].name);
     tables_.face_layer.push_back(model_.attributes[i].layer);
     tables_.face_color.push_back(model_.attributes[i].color);
   }
@@ -229,13 +229,13 @@ class TableWriter {
     for (int i = 0; i < model_.faces.Extent(); ++i) {
       const FaceAttributes& d = model_.attributes[i];
       const std::string name = !d.name.empty() ? d.name : !d.part.empty() ? d.part : "default";
-      const auto [it, is_new] = ids.emplace(name, static_cast<std::int32_t>(t.group_name.size()));
+      const auto [it, is_new] = ids.emplace(name, static_cast<std::int32_t>(t.labels.group_name.size()));
       if (is_new) {
-        t.group_name.push_back(name);
-        t.group_role.push_back(role_of_name(name));
+        t.labels.group_name.push_back(name);
+        t.labels.group_role.push_back(role_of_name(name));
         t.labels.group_attributes.push_back("{}");
       }
-      t.face_group.push_back(it->second);
+      t.labels.face_group.push_back(it->second);
     }
   }
 

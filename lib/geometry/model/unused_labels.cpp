@@ -39,8 +39,9 @@ std::int32_t count_used(const std::vector<std::int32_t>& number) {
 
 void drop_unused(ModelTables& t) {
   FaceLabels& labels = t.labels;
-  const std::size_t n_groups = t.group_name.size(), n_parts = labels.part_name.size();
-  keep_used(renumber(t.face_group, n_groups), {&t.group_name, &t.group_role, &labels.group_attributes});
+  const std::size_t n_groups = t.labels.group_name.size(), n_parts = labels.part_name.size();
+  keep_used(renumber(t.labels.face_group, n_groups),
+            {&t.labels.group_name, &t.labels.group_role, &labels.group_attributes});
   keep_used(renumber(labels.face_part, n_parts), {&labels.part_name, &labels.part_path});
   if (labels.part_name.empty()) labels.face_part.clear();
   for (GroupTable& table : labels.tables) {

@@ -56,11 +56,11 @@ void export_stl(Output& out, const SurfaceMesh& m) {
 /// exactly.
 void export_ascii_stl(Output& out, const SurfaceMesh& m) {
   TextBuffer text(out);
-  std::vector<std::vector<TriangleId>> of_group(m.group_name.size());
+  std::vector<std::vector<TriangleId>> of_group(m.labels.group_name.size());
   for (std::size_t i = 0; i < m.triangles.size(); ++i)
     of_group[m.triangle_group[i]].push_back(static_cast<TriangleId>(i));
   for (std::size_t g = 0; g < of_group.size(); ++g) {
-    const std::string name = clean_name(m.group_name[g], true);
+    const std::string name = clean_name(m.labels.group_name[g], true);
     text << "solid " << name << "\n";
     for (const TriangleId t : of_group[g]) {
       const Vec3 n = triangle_normal(m, m.triangles[t]);
@@ -86,12 +86,12 @@ static std::string one_word(const std::string& prefix, std::int32_t id, const st
 /// "face_17_WING_UPPER group_2_WING part_3_as1/bolt" of a triangle.
 static std::string obj_groups(const SurfaceMesh& m, const std::vector<FaceNumbers>& divisions, std::size_t triangle) {
   const FaceId face = m.triangle_face[triangle];
-  std::string words = one_word("face_", face, m.face_name);
+  std::string words = one_word("face_", face, m.labels.face_name);
   const auto add = [&](const std::string& what, std::int32_t number, const std::vector<std::string>& names) {
     words += ' ';
     words += one_word(what + "_", number, names);
   };
-  add("group", m.triangle_group[triangle], m.group_name);
+  add("group", m.triangle_group[triangle], m.labels.group_name);
   for (const FaceNumbers& d : divisions)
     if ((*d.of_face)[face] != kNone) add(d.name, (*d.of_face)[face], *d.names);
   return words;
@@ -160,8 +160,8 @@ void export_ply(Output& out, const SurfaceMesh& m) {
       if (!names[i].empty())
         header += "comment " + what + " " + std::to_string(i + 1) + " " + clean_name(names[i], false) + "\n";
   };
-  add_names("face", m.face_name);
-  add_names("group", m.group_name);
+  add_names("face", m.labels.face_name);
+  add_names("group", m.labels.group_name);
   std::vector<std::vector<std::int32_t>> numbers;
   for (const FaceNumbers& d : face_numbers(m)) {
     add_names(d.name, *d.names);

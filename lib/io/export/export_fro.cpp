@@ -8,7 +8,7 @@ namespace st {
 void export_fro(Output& out, const SurfaceMesh& m) {
   TextBuffer text(out);
   const FaceId last = m.triangle_face.empty() ? -1 : *std::max_element(m.triangle_face.begin(), m.triangle_face.end());
-  const std::int64_t n_faces = std::max<std::int64_t>(static_cast<std::int64_t>(m.face_name.size()), last + 1);
+  const std::int64_t n_faces = std::max<std::int64_t>(static_cast<std::int64_t>(m.labels.face_name.size()), last + 1);
   text << m.n_triangles() << " " << m.n_nodes() << " 1 0 0 " << n_faces << " 0 0\n";
   for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
     const Vec3& p = m.node_xyz[i];

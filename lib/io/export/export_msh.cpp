@@ -50,7 +50,7 @@ std::vector<TriangleRun> triangle_runs(const SurfaceMesh& m) {
 class Physicals {
  public:
   explicit Physicals(const SurfaceMesh& m) : divisions_(face_numbers(m)) {
-    for (const std::string& name : m.group_name) names_.push_back(clean_name(name, false));
+    for (const std::string& name : m.labels.group_name) names_.push_back(clean_name(name, false));
     for (const FaceNumbers& d : divisions_) {
       first_.push_back(static_cast<std::int32_t>(names_.size()) + 1);
       for (const std::string& name : *d.names) names_.push_back(d.name + ":" + clean_name(name, false));

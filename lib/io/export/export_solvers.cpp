@@ -18,8 +18,8 @@ std::int64_t tag(const SurfaceMesh& m, std::size_t triangle) { return std::int64
 std::vector<std::string> group_words(const SurfaceMesh& m) {
   std::set<std::string> used;
   std::vector<std::string> words;
-  for (std::size_t g = 0; g < m.group_name.size(); ++g) {
-    std::string word = clean_name(m.group_name[g], true);
+  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g) {
+    std::string word = clean_name(m.labels.group_name[g], true);
     if (word.empty()) word = "group";
     std::string free = word;
     for (int k = 2; used.contains(free); ++k) (free = word).append("_").append(std::to_string(k));
@@ -47,7 +47,8 @@ int axis_of(const SurfaceMesh& m, std::size_t group) {
 
 /// FUN3D's number of a boundary condition: viscous wall, far field, symmetry about x, y or z.
 int boundary_condition(const SurfaceMesh& m, std::size_t group) {
-  const std::string role = group < m.group_role.size() ? m.group_role[group] : role_of_name(m.group_name[group]);
+  const std::string role =
+      group < m.labels.group_role.size() ? m.labels.group_role[group] : role_of_name(m.labels.group_name[group]);
   if (role == "farfield") return 5000;
   return role == "symmetry" ? 6661 + axis_of(m, group) : 4000;
 }
@@ -150,10 +151,11 @@ void export_nastran(Output& out, const SurfaceMesh& m) {
   };
   const auto column = [](std::int64_t value, std::size_t width) { return padded(std::to_string(value), width); };
   text << "$ surface mesh\n";
-  for (std::size_t g = 0; g < m.group_name.size(); ++g)
-    text << "$ property " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.group_name[g], false) << "\n";
+  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
+    text << "$ property " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.labels.group_name[g], false)
+         << "\n";
   text << "BEGIN BULK\n";
-  for (std::size_t g = 0; g < m.group_name.size(); ++g)
+  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
     text << "PSHELL  " << column(static_cast<std::int64_t>(g + 1), 8) << "\n";
   for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
     const Vec3& p = m.node_xyz[i];
@@ -202,8 +204,9 @@ void export_off(Output& out, const SurfaceMesh& m) {
 /// TetGen's .smesh and .poly: facets with the group as boundary marker, no holes, no regions.
 static void write_tetgen(Output& out, const SurfaceMesh& m, std::string_view facet) {
   TextBuffer text(out);
-  for (std::size_t g = 0; g < m.group_name.size(); ++g)
-    text << "# marker " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.group_name[g], false) << "\n";
+  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
+    text << "# marker " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.labels.group_name[g], false)
+         << "\n";
   text << m.n_nodes() << " 3 0 0\n";
   std::int64_t number = 1;
   for (const Vec3& p : m.node_xyz) text << number++ << " " << p.x << " " << p.y << " " << p.z << "\n";

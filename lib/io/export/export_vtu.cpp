@@ -56,8 +56,8 @@ std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
 /// Names of faces, groups, parts and groups of further tables; VTK complains of empty arrays.
 std::string field_data(const SurfaceMesh& m, VtuArrays& arrays) {
   std::string text = "<FieldData>\n";
-  if (!m.face_name.empty()) text += arrays.add_strings("face_name", m.face_name);
-  if (!m.group_name.empty()) text += arrays.add_strings("group_name", m.group_name);
+  if (!m.labels.face_name.empty()) text += arrays.add_strings("face_name", m.labels.face_name);
+  if (!m.labels.group_name.empty()) text += arrays.add_strings("group_name", m.labels.group_name);
   for (const FaceNumbers& d : face_numbers(m)) text += arrays.add_strings(d.name + "_name", *d.names);
   for (const NodeGroups& n : node_groups(m)) text += arrays.add_strings(n.name + "_name", n.group_name);
   return text + "</FieldData>\n";

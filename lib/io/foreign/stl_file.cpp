@@ -111,8 +111,8 @@ SurfaceMesh read_stl(const std::string& path) {
   for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
   mesh.triangle_group.assign(n, 0);
   mesh.corner_uv.assign(3 * n, {});
-  mesh.face_name.resize(static_cast<std::size_t>(n_parts));
-  mesh.group_name = {"default"};
+  mesh.labels.face_name.resize(static_cast<std::size_t>(n_parts));
+  mesh.labels.group_name = {"default"};
   return mesh;
 }
 

@@ -107,7 +107,7 @@ void number_faces(const TriangulationFile& file, const std::vector<std::size_t>&
     const std::vector<std::int32_t> part = node_components(mesh.triangles, mesh.n_nodes(), n_faces);
     for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
   }
-  mesh.face_name.resize(static_cast<std::size_t>(n_faces));
+  mesh.labels.face_name.resize(static_cast<std::size_t>(n_faces));
 }
 
 SurfaceMesh make_mesh(const std::string& path, TriangulationFile&& file) {
@@ -141,7 +141,7 @@ SurfaceMesh make_mesh(const std::string& path, TriangulationFile&& file) {
   mesh.node_t.assign(n_nodes, 0);
   mesh.triangle_group.assign(mesh.triangles.size(), 0);
   mesh.corner_uv.assign(3 * mesh.triangles.size(), {});
-  mesh.group_name = {"default"};
+  mesh.labels.group_name = {"default"};
   number_faces(file, kept, mesh);
   return mesh;
 }

@@ -57,8 +57,6 @@ struct PatchesArtifact {
   std::vector<FacePatch> patches;       ///< by face id
   std::vector<FaceFailure> failures;
   MergedFeatures merged;
-  std::vector<std::string> face_name, group_name, group_role;
-  std::vector<std::int32_t> face_group;
   FaceLabels labels;
   std::vector<std::int32_t> face_shell;
   std::vector<double> face_area;  ///< CAD area, for the check of the merged mesh

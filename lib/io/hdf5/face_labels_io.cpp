@@ -88,6 +88,13 @@ std::vector<EntityGroup> read_entity_groups(const Hdf5Reader& r, const std::stri
   return groups;
 }
 
+std::vector<std::string> read_roles(const Hdf5Reader& r, const std::vector<std::string>& group_name) {
+  if (r.has("/st/group/role")) return r.read_string_rows("/st/group/role", group_name.size());
+  std::vector<std::string> roles;
+  for (const std::string& name : group_name) roles.push_back(role_of_name(name));
+  return roles;
+}
+
 }  // namespace
 
 void write_labels(Hdf5Writer& w, const FaceLabels& labels) {
@@ -104,8 +111,14 @@ void write_labels(Hdf5Writer& w, const FaceLabels& labels) {
   write_entity_groups(w, "/st/vertex_group", labels.vertex_groups);
 }
 
-FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces, std::size_t n_groups) {
+FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces) {
   FaceLabels labels;
+  labels.face_name = r.read_string_rows("/st/face/name", n_faces);
+  labels.group_name = r.read_strings("/st/group/name");
+  labels.group_role = read_roles(r, labels.group_name);
+  const std::size_t n_groups = labels.group_name.size();
+  if (r.has("/st/face/group")) labels.face_group = r.read_rows<std::int32_t>("/st/face/group", n_faces);
+  require_ids(r, "/st/face/group", labels.face_group, n_groups);
   if (r.has("/st/group/attributes")) labels.group_attributes = r.read_string_rows("/st/group/attributes", n_groups);
   if (r.has("/st/face/part")) {
     labels.part_name = r.read_strings("/st/part/name");
@@ -117,13 +130,6 @@ FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces, std::size_t n_g
   labels.edge_groups = read_entity_groups(r, "/st/edge_group");
   labels.vertex_groups = read_entity_groups(r, "/st/vertex_group");
   return labels;
-}
-
-std::vector<std::string> read_roles(const Hdf5Reader& r, const std::vector<std::string>& group_name) {
-  if (r.has("/st/group/role")) return r.read_string_rows("/st/group/role", group_name.size());
-  std::vector<std::string> roles;
-  for (const std::string& name : group_name) roles.push_back(role_of_name(name));
-  return roles;
 }
 
 }  // namespace st

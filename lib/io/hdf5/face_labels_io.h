@@ -10,10 +10,8 @@ namespace st {
 /// docs/artifacts.md. What is empty is left out.
 void write_labels(Hdf5Writer& w, const FaceLabels& labels);
 
-/// Empty where the artifact holds none. Throws Error(kInput) for numbers that do not fit.
-FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces, std::size_t n_groups);
-
-/// Roles of the main groups; of an artifact that holds none, those of their names.
-std::vector<std::string> read_roles(const Hdf5Reader& r, const std::vector<std::string>& group_name);
+/// The same with names of faces, the main groups and, where the artifact holds them, the main groups of faces. Roles of
+/// an artifact that holds none are those of the groups' names. Throws Error(kInput) for numbers that do not fit.
+FaceLabels read_labels(const Hdf5Reader& r, std::size_t n_faces);
 
 }  // namespace st

@@ -30,14 +30,14 @@ void write_faces(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/face/area", t.face_area);
   w.write("/st/face/width", t.face_width);
   w.write("/st/face/box", t.face_box);
-  w.write_strings("/st/face/name", t.face_name);
+  w.write_strings("/st/face/name", t.labels.face_name);
   w.write("/st/face/color", t.face_color);
   w.write_strings("/st/face/layer", t.face_layer);
-  w.write("/st/face/group", t.face_group);
+  w.write("/st/face/group", t.labels.face_group);
   w.write("/st/face/shell", t.face_shell);
   w.write("/st/face/solid", t.face_solid);
-  w.write_strings("/st/group/name", t.group_name);
-  w.write_strings("/st/group/role", t.group_role);
+  w.write_strings("/st/group/name", t.labels.group_name);
+  w.write_strings("/st/group/role", t.labels.group_role);
   write_labels(w, t.labels);
 }
 
@@ -109,14 +109,9 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
     for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
   }
   t.face_box = r.read_rows<Box3>("/st/face/box", n);
-  t.face_name = r.read_string_rows("/st/face/name", n);
   t.face_color = r.read_rows<std::int32_t>("/st/face/color", n);
   t.face_layer = r.read_string_rows("/st/face/layer", n);
-  t.group_name = r.read_strings("/st/group/name");
-  t.group_role = r.read_string_rows("/st/group/role", t.group_name.size());
-  t.face_group = r.read_rows<std::int32_t>("/st/face/group", n);
-  require_ids(r, "/st/face/group", t.face_group, t.group_name.size());
-  t.labels = read_labels(r, n, t.group_name.size());
+  t.labels = read_labels(r, n);
   for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
   for (const EntityGroup& g : t.labels.vertex_groups)
     require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());

@@ -58,9 +58,9 @@ void write_vtk(Hdf5Writer& w, const SurfaceMesh& m) {
     w.write("/VTKHDF/PointData/" + n.name, n.of_node);
     w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", n.group_name);
   }
-  if (!m.face_name.empty())
-    w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.face_name);  // VTK complains of empty ones
-  if (!m.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.group_name);
+  if (!m.labels.face_name.empty())
+    w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.labels.face_name);  // VTK complains of empty ones
+  if (!m.labels.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.labels.group_name);
   for (const FaceNumbers& n : face_numbers(m)) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
 }
 
@@ -96,9 +96,9 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   header.schema_version = kMeshVersion;
   Hdf5Writer w(path, header);
   write_vtk(w, m);
-  w.write_strings("/st/face/name", m.face_name);
-  w.write_strings("/st/group/name", m.group_name);
-  if (!m.group_role.empty()) w.write_strings("/st/group/role", m.group_role);
+  w.write_strings("/st/face/name", m.labels.face_name);
+  w.write_strings("/st/group/name", m.labels.group_name);
+  if (!m.labels.group_role.empty()) w.write_strings("/st/group/role", m.labels.group_role);
   write_labels(w, m.labels);
   w.write("/st/node/t", m.node_t);
   if (!m.segment_edge.empty()) {
@@ -124,15 +124,12 @@ MeshArtifact read_mesh(const std::string& path) {
   m.node_size = r.read_rows<double>("/VTKHDF/PointData/size", n_nodes);
   m.node_t = r.read_rows<double>("/st/node/t", n_nodes);
   m.triangles = read_triangles(r, n_nodes);
-  m.face_name = r.read_strings("/st/face/name");
-  m.group_name = r.read_strings("/st/group/name");
-  m.group_role = read_roles(r, m.group_name);
-  m.labels = read_labels(r, m.face_name.size(), m.group_name.size());
+  m.labels = read_labels(r, r.read_strings("/st/face/name").size());
   for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made anew of the labels
   m.triangle_face = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/face", m.triangles.size()));
-  require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.face_name.size());
+  require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.labels.face_name.size());
   m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));
-  require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.group_name.size());
+  require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.labels.group_name.size());
   if (r.has("/st/segment/edge")) {
     m.segment_edge = r.read<std::int32_t>("/st/segment/edge");
     m.segment_nodes = r.read_rows<std::int32_t>("/st/segment/nodes", m.segment_edge.size(), 2);
@@ -140,7 +137,7 @@ MeshArtifact read_mesh(const std::string& path) {
   }
   for (const NodeGroups& n : node_groups(m)) r.verify("/VTKHDF/PointData/" + n.name);
   m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());
-  m.merged = read_merged(r, kAnyEdge, m.face_name.size());
+  m.merged = read_merged(r, kAnyEdge, m.labels.face_name.size());
   if (r.has("/VTKHDF/PointData/previous_id")) {
     m.node_previous = r.read_rows<std::int32_t>("/VTKHDF/PointData/previous_id", n_nodes);
     m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", m.triangles.size());

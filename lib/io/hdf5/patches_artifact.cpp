@@ -86,7 +86,7 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
 
 std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtifact& a) {
   const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/patch/face");
-  require_ids(r, "/st/patch/face", face, a.face_group.size());
+  require_ids(r, "/st/patch/face", face, a.labels.face_group.size());
   std::vector<FacePatch> patches(face.size());
   const auto boundary = read_offsets(r, "/st/patch/boundary_offsets", face.size(), "/st/boundary/dim");
   distribute(r, "/st/boundary/dim", boundary, patches, &FacePatch::boundary_dim);
@@ -164,14 +164,9 @@ void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
 }
 
 void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
-  a.face_group = r.read<std::int32_t>("/st/face/group");
-  a.face_shell = r.read_rows<std::int32_t>("/st/face/shell", a.face_group.size());
-  a.face_area = r.read_rows<double>("/st/face/area", a.face_group.size());
-  a.face_name = r.read_string_rows("/st/face/name", a.face_group.size());
-  a.group_name = r.read_strings("/st/group/name");
-  a.group_role = read_roles(r, a.group_name);
-  require_ids(r, "/st/face/group", a.face_group, a.group_name.size());
-  a.labels = read_labels(r, a.face_group.size(), a.group_name.size());
+  a.face_shell = r.read<std::int32_t>("/st/face/shell");
+  a.face_area = r.read_rows<double>("/st/face/area", a.face_shell.size());
+  a.labels = read_labels(r, a.face_shell.size());
 }
 
 }  // namespace
@@ -188,12 +183,12 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   w.write("/st/edge_node/xyz", a.edges.node_xyz);
   w.write("/st/edge_node/size", a.edges.node_size);
   if (!a.edges.node_request.empty()) w.write("/st/edge_node/request", a.edges.node_request);
-  w.write_strings("/st/face/name", a.face_name);
-  w.write("/st/face/group", a.face_group);
+  w.write_strings("/st/face/name", a.labels.face_name);
+  w.write("/st/face/group", a.labels.face_group);
   w.write("/st/face/shell", a.face_shell);
   w.write("/st/face/area", a.face_area);
-  w.write_strings("/st/group/name", a.group_name);
-  if (!a.group_role.empty()) w.write_strings("/st/group/role", a.group_role);
+  w.write_strings("/st/group/name", a.labels.group_name);
+  if (!a.labels.group_role.empty()) w.write_strings("/st/group/role", a.labels.group_role);
   write_labels(w, a.labels);
   write_patch_arrays(w, a.patches);
   write_previous(w, a);
@@ -212,7 +207,7 @@ PatchesArtifact read_patches(const std::string& path) {
   a.patches = read_patch_arrays(r, a);
   read_previous(r, a);
   a.failures = read_failures(r);
-  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.face_group.size());
+  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.labels.face_group.size());
   a.is_complete = r.int_attribute("/st", "is_complete") != 0;
   return a;
 }

@@ -299,9 +299,9 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<CellPlane>(kFacePlane, raster.faces.plane);
   file.write_strings(kFaceName, raster.names.face);
   file.write_strings(kEdgeName, raster.names.edge);
-  if (!raster.face_group.empty()) {
-    file.write_strings(kGroupName, raster.group_name);
-    file.write<std::int32_t>(kFaceGroup, raster.face_group);
+  if (!raster.labels.face_group.empty()) {
+    file.write_strings(kGroupName, raster.labels.group_name);
+    file.write<std::int32_t>(kFaceGroup, raster.labels.face_group);
     write_labels(file, raster.labels);
   }
   return file.commit();
@@ -324,10 +324,7 @@ RasterArtifact read_raster(const std::string& path) {
   raster.faces = read_face_cells(file);
   raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
   if (!file.has(kFaceGroup)) return raster;  // written before groups were
-  raster.group_name = file.read_strings(kGroupName);
-  raster.face_group = file.read_rows<std::int32_t>(kFaceGroup, raster.names.face.size());
-  require_ids(file, kFaceGroup, raster.face_group, raster.group_name.size());
-  raster.labels = read_labels(file, raster.names.face.size(), raster.group_name.size());
+  raster.labels = read_labels(file, raster.names.face.size());
   return raster;
 }
 

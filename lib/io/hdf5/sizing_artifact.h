@@ -47,11 +47,9 @@ struct RasterArtifact {
   BlankSurface surface;               ///< coarse triangles of a closed model; empty: not closed
   FaceCells faces;                    ///< where in the octree each face lies, with its area there
   CauseNames names;
-  std::int64_t n_not_sampled = 0;        ///< faces and batches of edges that could not be sampled; > 0: the raster is
-                                         ///< incomplete
-  std::vector<std::string> group_name;   ///< main groups, for slopes of groups
-  std::vector<std::int32_t> face_group;  ///< [n_faces], or empty
-  FaceLabels labels;
+  std::int64_t n_not_sampled = 0;  ///< faces and batches of edges that could not be sampled; > 0: the raster is
+                                   ///< incomplete
+  FaceLabels labels;               ///< for slopes of groups; or empty
 };
 
 /// sizing.hdf

@@ -97,9 +97,6 @@ class Canonical {
         add(chains_.chain[e].node[i], EntityDim::kEdge, e, chains_.chain[e].t[i]);
     add_inner_nodes();
     add_triangles();
-    out.mesh.face_name = t_.face_name;
-    out.mesh.group_name = t_.group_name;
-    out.mesh.group_role = t_.group_role;
     out.mesh.labels = t_.labels;
     out.mesh.merged = chains_.merged;
   }
@@ -140,7 +137,7 @@ class Canonical {
         const auto& n = mesh_.triangles[t].n;
         m.triangles.push_back({{number_[n[0]], number_[n[1]], number_[n[2]]}});
         m.triangle_face.push_back(f);
-        m.triangle_group.push_back(t_.face_group[f]);
+        m.triangle_group.push_back(t_.labels.face_group[f]);
         for (int k = 0; k < 3; ++k) m.corner_uv.push_back(regions_.corner_uv[3 * t + k]);
         out_->file_triangle.push_back(t);
       }

@@ -40,7 +40,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       tables_(topology.tables()),
       plan_(std::move(plan)),
       options_(options),
-      face_tolerance_(face_tolerances(tables_.group_names())),
+      face_tolerance_(face_tolerances(tables_.labels)),
       min_segments_(min_segments_per_edge(tables_)),
       dirty_edges_(plan_.edges),
       dirty_faces_(plan_.faces),

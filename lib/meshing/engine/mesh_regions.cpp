@@ -56,7 +56,7 @@ SurfaceMesh merge_result(const ModelTables& t, const MeshResult& result) {
   std::vector<FacePatch> patches = result.patches;
   std::erase_if(patches, [](const FacePatch& p) { return p.triangles.empty(); });
   OrientationReport report;
-  return merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
+  return merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, patches, t.labels.face_group}, report);
 }
 
 }  // namespace

@@ -28,9 +28,6 @@ class Inserter {
     WeldedPatches welded = welder_.take();
     mesh_.node_xyz = std::move(welded.points);
     mesh_.triangles = std::move(welded.triangles);
-    mesh_.face_name = old_.face_name;
-    mesh_.group_name = old_.group_name;
-    mesh_.group_role = old_.group_role;
     mesh_.labels = old_.labels;
     return std::move(mesh_);
   }

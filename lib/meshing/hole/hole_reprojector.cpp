@@ -76,8 +76,9 @@ class Mover {
   /// Boundary nodes of each face's triangles must lie on its own edges, or on those of a face beside it (narrow faces
   /// may be closed).
   void require_same_topology() const {
-    if (static_cast<std::int32_t>(old_.face_name.size()) != t_.n_faces())
-      fail("it has " + std::to_string(t_.n_faces()) + " faces, the mesh " + std::to_string(old_.face_name.size()));
+    if (static_cast<std::int32_t>(old_.labels.face_name.size()) != t_.n_faces())
+      fail("it has " + std::to_string(t_.n_faces()) + " faces, the mesh " +
+           std::to_string(old_.labels.face_name.size()));
     const std::int32_t limit[] = {t_.n_vertices(), t_.n_edges(), t_.n_faces()};
     for (std::size_t n = 0; n < old_.node_xyz.size(); ++n)
       if (old_.node_entity_dim[n] > kInFace || old_.node_entity[n] < 0 ||

@@ -20,7 +20,7 @@ constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to a
 
 /// Limits of merging for each face, by its group's tolerance.
 std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
-  const std::vector<double> tolerances = face_tolerances(t.group_names());
+  const std::vector<double> tolerances = face_tolerances(t.labels);
   std::vector<MergeLimit> limits(t.n_faces(), {below, 0});
   for (std::size_t f = 0; f < tolerances.size(); ++f) limits[f].tolerance = tolerances[f];
   return limits;

@@ -39,35 +39,48 @@ TEST(FaceLabels, name_the_part_of_a_face_and_nothing_where_there_is_none) {
 TEST(FindFaces, prefers_main_groups_then_tables_then_part_names_then_paths) {
   using Mask = std::vector<std::uint8_t>;
   FaceLabels l = labels();
-  std::vector<std::string> group = {"body", "wing"};
-  const std::vector<std::int32_t> face_group = {0, 0, 1, 1};
-  const GroupNames names{group, face_group, l};
-  EXPECT_EQ(find_faces("w*", names), (Mask{0, 0, 1, 1}));
-  EXPECT_EQ(find_faces("hot", names), (Mask{0, 0, 1, 1}));
-  EXPECT_EQ(find_faces("bc:cold", names), (Mask{1, 0, 0, 0}));
-  EXPECT_EQ(find_faces("bolt", names), (Mask{1, 1, 0, 0}));
-  EXPECT_EQ(find_faces("as/bolt#2", names), (Mask{0, 1, 0, 0}));
-  EXPECT_TRUE(find_faces("nut", names).empty());
-  group[1] = "bolt";
-  EXPECT_EQ(find_faces("bolt", names), (Mask{0, 0, 1, 1})) << "the part of this name is hidden by the group";
+  l.group_name = {"body", "wing"};
+  l.face_group = {0, 0, 1, 1};
+  EXPECT_EQ(find_faces("w*", l), (Mask{0, 0, 1, 1}));
+  EXPECT_EQ(find_faces("hot", l), (Mask{0, 0, 1, 1}));
+  EXPECT_EQ(find_faces("bc:cold", l), (Mask{1, 0, 0, 0}));
+  EXPECT_EQ(find_faces("bolt", l), (Mask{1, 1, 0, 0}));
+  EXPECT_EQ(find_faces("as/bolt#2", l), (Mask{0, 1, 0, 0}));
+  EXPECT_TRUE(find_faces("nut", l).empty());
+  l.group_name[1] = "bolt";
+  EXPECT_EQ(find_faces("bolt", l), (Mask{0, 0, 1, 1})) << "the part of this name is hidden by the group";
 }
 
 TEST(FaceLabels, of_selected_faces_come_in_their_order) {
   const std::vector<FaceId> faces = {2, 0};
-  const FaceLabels some = select_labels(labels(), faces);
+  FaceLabels all = labels();
+  all.face_name = {"a", "b", "c", "d"};
+  all.face_group = {0, 0, 1, 1};
+  const FaceLabels some = select_labels(all, faces);
+  EXPECT_EQ(some.face_name, (std::vector<std::string>{"c", "a"}));
+  EXPECT_EQ(some.face_group, (std::vector<std::int32_t>{1, 0}));
   EXPECT_EQ(some.path_of(0), "as/plate");
   EXPECT_EQ(some.path_of(1), "as/bolt#1");
   EXPECT_EQ(some.tables[0].face_group, (std::vector<std::int32_t>{0, 1}));
 }
 
 TEST(FaceLabels, of_two_models_keep_parts_apart_and_join_groups_of_one_name) {
-  FaceLabels second = labels();
+  FaceLabels first = labels(), second = labels();
+  first.face_name = {"a", "b", "", ""}, second.face_name = {"", "", "", "z"};
+  first.group_name = {"body", "wing"}, second.group_name = {"wing", "body"};
+  first.group_role = {"wall", "wall"}, second.group_role = {"wall", "farfield"};
+  first.face_group = {0, 0, 1, 1}, second.face_group = {0, 1, 1, 1};
+  first.group_attributes = {}, second.group_attributes = {"{}", "{\"a\":1}"};
   second.tables[0].group_name = {"cold", "new"};
   second.tables[0].group_role = {"inlet", "wall"};
-  const FaceLabels both = append_labels(labels(), 4, second, 4);
+  const FaceLabels both = append_labels(first, 4, second, 4);
   EXPECT_EQ(both.part_path, (std::vector<std::string>{"as/bolt#1", "as/bolt#2", "as/plate", "as/bolt#1#2",
                                                       "as/bolt#2#2", "as/plate#2"}));
   EXPECT_EQ(both.face_part, (std::vector<std::int32_t>{0, 1, 2, kNone, 3, 4, 5, kNone}));
+  EXPECT_EQ(both.face_name, (std::vector<std::string>{"a", "b", "", "", "", "", "", "z"}));
+  EXPECT_EQ(both.group_name, (std::vector<std::string>{"body", "wing", "body"}));
+  EXPECT_EQ(both.face_group, (std::vector<std::int32_t>{0, 0, 1, 1, 1, 2, 2, 2}));
+  EXPECT_EQ(both.group_attributes, (std::vector<std::string>{"{}", "{}", "{\"a\":1}"}));
   EXPECT_EQ(both.tables[0].group_name, (std::vector<std::string>{"hot", "cold", "new"}));
   EXPECT_EQ(both.tables[0].face_group, (std::vector<std::int32_t>{1, kNone, 0, 0, 2, kNone, 1, 1}));
 }
@@ -111,12 +124,12 @@ TEST(EntityGroups, of_two_models_are_one_where_name_and_table_agree) {
 
 TEST(FaceTolerances, are_the_largest_that_any_table_gives) {
   FaceLabels l = labels();
-  const std::vector<std::string> group = {"body", "far"};
-  const std::vector<std::int32_t> face_group = {0, 0, 1, 1};
-  EXPECT_TRUE(face_tolerances({group, face_group, l}).empty());
+  l.group_name = {"body", "far"};
+  l.face_group = {0, 0, 1, 1};
+  EXPECT_TRUE(face_tolerances(l).empty());
   l.group_attributes = {"{}", R"({"tolerance":0.5,"x":"y"})"};
   l.tables[0].group_attributes = {R"({"tolerance":2})", R"({"tolerance":0.25})"};
-  EXPECT_EQ(face_tolerances({group, face_group, l}), (std::vector<double>{0.25, 0, 2, 2}));
+  EXPECT_EQ(face_tolerances(l), (std::vector<double>{0.25, 0, 2, 2}));
 }
 
 }  // namespace

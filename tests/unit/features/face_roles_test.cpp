@@ -13,8 +13,8 @@ namespace {
 /// A body (faces 0, 1) in a domain: face 2 shares an edge with the body, face 3 does not. No names.
 ModelTables body_in_domain(double body) {
   ModelTables t;
-  t.group_role = {"wall"};
-  t.face_group = {0, 0, 0, 0};
+  t.labels.group_role = {"wall"};
+  t.labels.face_group = {0, 0, 0, 0};
   t.face_is_reversed = {0, 0, 0, 0};
   t.face_box = {{{0, 0, 0}, {body, 0, 0}},
                 {{0, 0, 0}, {0, body / 2, 0}},
@@ -60,8 +60,8 @@ TEST(FaceRoles, do_not_take_a_large_body_for_the_domain_of_what_sticks_out_of_it
 TEST(FaceRoles, do_not_guess_when_the_rest_is_not_small_or_a_name_speaks) {
   EXPECT_TRUE(face_roles(body_in_domain(20)).guessed.empty());
   ModelTables named = body_in_domain(2);
-  named.group_role = {"wall", "farfield"};
-  named.face_group[3] = 1;
+  named.labels.group_role = {"wall", "farfield"};
+  named.labels.face_group[3] = 1;
   const FaceRoles roles = face_roles(named);
   EXPECT_TRUE(roles.guessed.empty());
   EXPECT_EQ(roles.role[2], FaceRole::kWall);
@@ -76,8 +76,8 @@ TEST(FaceRoles, give_a_domain_that_touches_the_body_everywhere_a_far_length_stil
 
 TEST(FaceRoles, follow_the_names_of_groups_and_measure_the_walls_alone) {
   ModelTables t = body_in_domain(20);
-  t.group_role = {"wall", "symmetry", "farfield", "inlet"};
-  t.face_group = {0, 3, 1, 2};
+  t.labels.group_role = {"wall", "symmetry", "farfield", "inlet"};
+  t.labels.face_group = {0, 3, 1, 2};
   const FaceRoles roles = face_roles(t);
   EXPECT_EQ(roles.role,
             (std::vector<FaceRole>{FaceRole::kWall, FaceRole::kWall, FaceRole::kSymmetry, FaceRole::kFarfield}));
@@ -87,7 +87,7 @@ TEST(FaceRoles, follow_the_names_of_groups_and_measure_the_walls_alone) {
 
 TEST(FaceRoles, of_a_model_without_a_wall_are_walls_all) {
   ModelTables t = body_in_domain(2);
-  t.group_role = {"farfield"};
+  t.labels.group_role = {"farfield"};
   const FaceRoles roles = face_roles(t);
   EXPECT_EQ(roles.role, std::vector<FaceRole>(4, FaceRole::kWall));
   EXPECT_GT(roles.reference_diagonal, 100);

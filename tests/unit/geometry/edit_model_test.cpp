@@ -24,8 +24,8 @@ void expect_consistent(const Model& model) {
   const auto n_faces = static_cast<std::size_t>(t.n_faces()), n_edges = static_cast<std::size_t>(t.n_edges());
   for (const std::size_t n :
        {t.face_type.size(), t.face_uv_bounds.size() / 4, t.face_tolerance.size(), t.face_area.size(),
-        t.face_width.size(), t.face_box.size(), t.face_name.size(), t.face_color.size(), t.face_layer.size(),
-        t.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
+        t.face_width.size(), t.face_box.size(), t.labels.face_name.size(), t.face_color.size(), t.face_layer.size(),
+        t.labels.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
     ASSERT_EQ(n, n_faces);
   for (const std::size_t n : {t.edge_vertices.size() / 2, t.edge_range.size() / 2, t.edge_tolerance.size(),
                               t.edge_is_degenerate.size(), t.edge_name.size()})
@@ -44,7 +44,7 @@ void expect_consistent(const Model& model) {
   }
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     const auto s = model.surface(f);
-    EXPECT_LT(t.face_group[f], static_cast<std::int32_t>(t.group_name.size()));
+    EXPECT_LT(t.labels.face_group[f], static_cast<std::int32_t>(t.labels.group_name.size()));
     for (const LoopId l : t.loops(f)) {
       const CoedgeId first = t.loop_coedge_offsets[l], end = t.loop_coedge_offsets[l + 1];
       for (CoedgeId c = first; c < end; ++c) {
@@ -78,8 +78,8 @@ void expect_same_face(const Model& part, FaceId f, const Model& whole, FaceId g)
   EXPECT_EQ(a.face_type[f], b.face_type[g]);
   EXPECT_EQ(a.face_area[f], b.face_area[g]);
   EXPECT_EQ(a.face_is_reversed[f], b.face_is_reversed[g]);
-  EXPECT_EQ(a.face_name[f], b.face_name[g]);
-  EXPECT_EQ(a.group_name[a.face_group[f]], b.group_name[b.face_group[g]]);
+  EXPECT_EQ(a.labels.face_name[f], b.labels.face_name[g]);
+  EXPECT_EQ(a.labels.group_name[a.labels.face_group[f]], b.labels.group_name[b.labels.face_group[g]]);
   const auto s = part.surface(f), t = whole.surface(g);
   EXPECT_EQ(s->u_min(), t->u_min());
   const Vec2 uv{0.3 * s->u_min() + 0.7 * s->u_max(), 0.6 * s->v_min() + 0.4 * s->v_max()};
@@ -156,7 +156,7 @@ TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
       ASSERT_EQ(a.n_faces(), b.n_faces());
       ASSERT_EQ(a.n_edges(), b.n_edges());
       expect_consistent(after);
-      EXPECT_EQ(a.face_group, b.face_group);
+      EXPECT_EQ(a.labels.face_group, b.labels.face_group);
       for (VertexId v = 0; v < b.n_vertices(); ++v)
         EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
       for (EdgeId e = 0; e < b.n_edges(); ++e) EXPECT_NEAR(a.edge_length[e], scale * b.edge_length[e], 1e-6 * size);
@@ -197,7 +197,7 @@ TEST(TransformFaces, moves_one_body_and_keeps_every_number_and_all_of_the_other)
     EXPECT_EQ(a.face_solid, b.face_solid);
     EXPECT_EQ(a.face_shell, b.face_shell);
     EXPECT_EQ(a.n_solids, 2);
-    EXPECT_EQ(a.group_name, b.group_name);
+    EXPECT_EQ(a.labels.group_name, b.labels.group_name);
     EXPECT_TRUE(a.labels == b.labels);
     EXPECT_EQ(a.volume.has_value(), motion.scale == 1);
     std::vector<char> moves(b.n_faces(), 0);
@@ -239,7 +239,7 @@ TEST(Append, puts_the_second_behind_the_first) {
   for (FaceId f = 0; f < a.n_faces(); ++f) expect_same_face(both, f, box, f);
   for (FaceId f = 0; f < b.n_faces(); ++f) expect_same_face(both, a.n_faces() + f, ball, f);
   EXPECT_NE(t.face_solid.front(), t.face_solid.back());
-  EXPECT_EQ(t.group_name, a.group_name);  // both "default"
+  EXPECT_EQ(t.labels.group_name, a.labels.group_name);  // both "default"
 }
 
 TEST(Append, of_a_model_to_itself_or_to_its_image_doubles_it) {

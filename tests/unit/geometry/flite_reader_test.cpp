@@ -55,7 +55,7 @@ TEST(FliteReader, makes_a_closed_box_of_shared_edges_whatever_the_order_of_its_s
     EXPECT_NEAR(r.area, 6, 1e-9);
     EXPECT_NEAR(r.volume, 1, 1e-9);
     EXPECT_LE(max_edge_tolerance(r.tables), 1e-6);
-    EXPECT_EQ(r.tables.face_name[4], "region 5");
+    EXPECT_EQ(r.tables.labels.face_name[4], "region 5");
     EXPECT_TRUE(r.tables.unit.empty());
   }
 }

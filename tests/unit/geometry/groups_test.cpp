@@ -14,16 +14,16 @@ ModelTables six_faces() {
   t.unit = "mm";
   t.unit_in_m = 1e-3;
   t.face_is_reversed.assign(6, 0);
-  t.face_name = {"wing_up", "wing_down", "", "", "", "Flügel"};
+  t.labels.face_name = {"wing_up", "wing_down", "", "", "", "Flügel"};
   t.face_color = {0xff0000, 0xff0000, kNone, 0x00ff00, kNone, kNone};
   t.face_layer = {"1", "2", "", "", "", ""};
   t.face_type = {SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kPlane,
                  SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kSphere};
   t.face_tolerance.assign(6, 1e-7);
   for (double x = 0; x < 6; ++x) t.face_box.push_back({{x, 0, 0}, {x + 1, 1, 0}});
-  t.group_name = {"wing", "bolt", "symmetry"};
-  t.group_role = {"wall", "wall", "symmetry"};
-  t.face_group = {0, 0, 1, 1, 1, 2};
+  t.labels.group_name = {"wing", "bolt", "symmetry"};
+  t.labels.group_role = {"wall", "wall", "symmetry"};
+  t.labels.face_group = {0, 0, 1, 1, 1, 2};
   t.labels.part_name = {"bolt", "bolt"};
   t.labels.part_path = {"as/bolt#1", "as/bolt#2"};
   t.labels.face_part = {kNone, kNone, 0, 0, 1, kNone};
@@ -48,7 +48,7 @@ std::vector<int> chosen(GroupRule r) {
   apply_groups({r}, t);
   std::vector<int> faces;
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    if (t.group_name[t.face_group[f]] == "x") faces.push_back(f + 1);
+    if (t.labels.group_name[t.labels.face_group[f]] == "x") faces.push_back(f + 1);
   return faces;
 }
 
@@ -111,10 +111,10 @@ TEST(Groups, keep_the_groups_of_the_file_where_no_rule_speaks_and_count_by_first
   r.faces = {"2", "6"};
   ModelTables t = six_faces();
   EXPECT_TRUE(apply_groups({r}, t).empty());
-  EXPECT_EQ(t.group_name, (std::vector<std::string>{"wing", "tips", "bolt"}))
+  EXPECT_EQ(t.labels.group_name, (std::vector<std::string>{"wing", "tips", "bolt"}))
       << "the group symmetry has no face any more";
-  EXPECT_EQ(t.group_role, (std::vector<std::string>{"wall", "wall", "wall"}));
-  EXPECT_EQ(t.face_group, (std::vector<std::int32_t>{0, 1, 2, 2, 2, 1}));
+  EXPECT_EQ(t.labels.group_role, (std::vector<std::string>{"wall", "wall", "wall"}));
+  EXPECT_EQ(t.labels.face_group, (std::vector<std::int32_t>{0, 1, 2, 2, 2, 1}));
 }
 
 TEST(Groups, give_roles_and_attributes_to_groups_of_the_file) {
@@ -125,7 +125,7 @@ TEST(Groups, give_roles_and_attributes_to_groups_of_the_file) {
   symmetry.role = "wall";
   ModelTables t = six_faces();
   apply_groups({wing, symmetry}, t);
-  EXPECT_EQ(t.group_role, (std::vector<std::string>{"inlet", "wall", "wall"})) << "a role overrides the name's";
+  EXPECT_EQ(t.labels.group_role, (std::vector<std::string>{"inlet", "wall", "wall"})) << "a role overrides the name's";
   EXPECT_EQ(t.labels.group_attributes, (std::vector<std::string>{R"({"tolerance":0.2,"p":1})", "{}", "{}"}));
 }
 
@@ -135,8 +135,8 @@ TEST(Groups, have_the_role_of_their_name_when_no_rule_gives_one) {
   asymmetry.faces = {"2"};
   ModelTables t = six_faces();
   apply_groups({far, asymmetry}, t);
-  EXPECT_EQ(t.group_role[0], "farfield");
-  EXPECT_EQ(t.group_role[1], "wall");
+  EXPECT_EQ(t.labels.group_role[0], "farfield");
+  EXPECT_EQ(t.labels.group_role[1], "wall");
 }
 
 TEST(Groups, of_further_tables_leave_the_main_ones_alone) {
@@ -147,8 +147,8 @@ TEST(Groups, of_further_tables_leave_the_main_ones_alone) {
   more.faces = {"6"};
   ModelTables t = six_faces();
   apply_groups({hot, cold, more}, t);
-  EXPECT_EQ(t.group_name, six_faces().group_name);
-  EXPECT_EQ(t.face_group, six_faces().face_group);
+  EXPECT_EQ(t.labels.group_name, six_faces().labels.group_name);
+  EXPECT_EQ(t.labels.face_group, six_faces().labels.face_group);
   ASSERT_EQ(t.labels.tables.size(), 1u);
   EXPECT_EQ(t.labels.tables[0].group_name, (std::vector<std::string>{"hot", "cold"}));
   EXPECT_EQ(t.labels.tables[0].face_group, (std::vector<std::int32_t>{0, 1, 1, kNone, kNone, 0}));
@@ -166,7 +166,7 @@ TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
   r.is_optional = true;
   ModelTables t = six_faces();
   EXPECT_EQ(apply_groups({r}, t), (std::vector<EmptyGroup>{{"x", EntityDim::kFace}}));
-  EXPECT_EQ(t.group_name, six_faces().group_name);
+  EXPECT_EQ(t.labels.group_name, six_faces().labels.group_name);
   r.faces = {"7"};
   EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos)
       << "an id is never optional";
@@ -226,11 +226,11 @@ ModelTables two_squares() {
   t.loop_coedge_offsets = {0, 4, 9};
   t.coedge_edge = {0, 3, 2, 1, 4, 5, 7, 6, 3};
   t.face_is_reversed = {0, 0};
-  t.face_name = {"", ""};
+  t.labels.face_name = {"", ""};
   t.face_box = {{{0, 0, 0}, {1, 1, 0}}, {{1, 0, 0}, {2, 1, 0}}};
-  t.group_name = {"left", "right"};
-  t.group_role = {"wall", "wall"};
-  t.face_group = {0, 1};
+  t.labels.group_name = {"left", "right"};
+  t.labels.group_role = {"wall", "wall"};
+  t.labels.face_group = {0, 1};
   return t;
 }
 

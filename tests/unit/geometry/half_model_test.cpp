@@ -30,7 +30,7 @@ std::string middle_of(const std::string& shape) {
 double area_of_role(const ModelTables& t, const std::string& role) {
   double area = 0;
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    if (t.group_role[t.face_group[f]] == role) area += t.face_area[f];
+    if (t.labels.group_role[t.labels.face_group[f]] == role) area += t.face_area[f];
   return area;
 }
 

@@ -33,7 +33,7 @@ Vec3 extent(const Box3& b) { return b.hi - b.lo; }
 std::vector<FaceId> faces_of_group(const ModelTables& t, const std::string& name) {
   std::vector<FaceId> faces;
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    if (t.group_name[t.face_group[f]] == name) faces.push_back(f);
+    if (t.labels.group_name[t.labels.face_group[f]] == name) faces.push_back(f);
   return faces;
 }
 
@@ -107,16 +107,19 @@ TEST(Import, groups_faces_by_their_name_else_by_their_part) {
   EXPECT_EQ(faces_of_group(t, "Far Field").size(), 1u);
   EXPECT_EQ(faces_of_group(t, "block").size(), 3u);
   EXPECT_EQ(faces_of_group(t, "pin").size(), 6u);
-  EXPECT_EQ(t.group_name.size(), 5u);
-  EXPECT_EQ(t.face_name[faces_of_group(t, "wing")[0]], "wing");
-  EXPECT_EQ(t.face_name[faces_of_group(t, "block")[0]], "");
+  EXPECT_EQ(t.labels.group_name.size(), 5u);
+  EXPECT_EQ(t.labels.face_name[faces_of_group(t, "wing")[0]], "wing");
+  EXPECT_EQ(t.labels.face_name[faces_of_group(t, "block")[0]], "");
 }
 
 TEST(Import, finds_roles_in_names) {
   const ModelTables t = import_assembly().tables;
-  for (std::size_t g = 0; g < t.group_name.size(); ++g) {
-    const std::string& name = t.group_name[g];
-    EXPECT_EQ(t.group_role[g], name == "symmetry" ? "symmetry" : name == "Far Field" ? "farfield" : "wall") << name;
+  for (std::size_t g = 0; g < t.labels.group_name.size(); ++g) {
+    const std::string& name = t.labels.group_name[g];
+    EXPECT_EQ(t.labels.group_role[g], name == "symmetry"    ? "symmetry"
+                                      : name == "Far Field" ? "farfield"
+                                                            : "wall")
+        << name;
   }
 }
 
@@ -137,9 +140,9 @@ TEST(Import, finds_roles_in_whole_words_only) {
   std::ofstream(dir / "box.step") << text;
   const ModelTables t = import_model(dir / "box.step", {}).tables;
   for (const auto& [old_name, now] : renamed) {
-    const auto group = std::find(t.group_name.begin(), t.group_name.end(), now.first);
-    ASSERT_NE(group, t.group_name.end()) << now.first;
-    EXPECT_EQ(t.group_role[group - t.group_name.begin()], now.second) << now.first;
+    const auto group = std::find(t.labels.group_name.begin(), t.labels.group_name.end(), now.first);
+    ASSERT_NE(group, t.labels.group_name.end()) << now.first;
+    EXPECT_EQ(t.labels.group_role[group - t.labels.group_name.begin()], now.second) << now.first;
   }
 }
 
@@ -154,7 +157,7 @@ TEST(Import, leaves_far_field_and_symmetry_out_of_the_wall_box) {
 TEST(Import, keeps_colours_and_layers) {
   const ModelTables t = import_assembly().tables;
   for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const bool is_wing = t.face_name[f] == "wing";
+    const bool is_wing = t.labels.face_name[f] == "wing";
     EXPECT_EQ(t.face_color[f], is_wing ? 0xff0000 : kNone) << f;
     EXPECT_EQ(t.face_layer[f], is_wing ? "skin" : "") << f;
   }
@@ -195,7 +198,7 @@ TEST(Import, keeps_names_and_ids_of_sewn_faces) {
   ASSERT_EQ(r.tables.n_faces(), 6);
   const std::vector<std::string> names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
   for (FaceId f = 0; f < 6; ++f) {
-    const std::string& name = r.tables.group_name[r.tables.face_group[f]];
+    const std::string& name = r.tables.labels.group_name[r.tables.labels.face_group[f]];
     EXPECT_EQ(name, names[f]);
     const Vec3 c = r.tables.face_box[f].center();
     const double at = name[0] == 'x' ? c.x / 60 : name[0] == 'y' ? c.y / 40 : c.z / 20;
@@ -484,7 +487,7 @@ TEST(Import, gives_the_same_bytes_every_time) {
   }
   const ImportResult a = import_assembly(), b = import_assembly();
   EXPECT_TRUE(a.brep == b.brep);
-  EXPECT_EQ(a.tables.group_name, b.tables.group_name);
+  EXPECT_EQ(a.tables.labels.group_name, b.tables.labels.group_name);
 }
 
 }  // namespace

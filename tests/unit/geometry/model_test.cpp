@@ -62,7 +62,7 @@ TEST(Model, trimming_curves_of_a_seam_lie_apart) {
 
 TEST(ModelTables, label_entities_by_number_and_name) {
   ModelTables t = test::import_shape("box").tables;
-  t.face_name[2] = "WING";
+  t.labels.face_name[2] = "WING";
   t.edge_name[4] = "TE";
   EXPECT_EQ(t.face_label(2), "face 3 \"WING\"");
   EXPECT_EQ(t.face_label(0), "face 1");
@@ -82,7 +82,7 @@ TEST(ModelTables, know_the_faces_of_each_edge) {
 
 TEST(ModelTables, without_walls_the_reference_is_the_whole_box) {
   ModelTables t = test::import_shape("box").tables;
-  t.group_role.assign(t.group_role.size(), "farfield");
+  t.labels.group_role.assign(t.labels.group_role.size(), "farfield");
   EXPECT_NEAR(t.reference_diagonal(), t.box().diagonal(), 1e-12);
 }
 

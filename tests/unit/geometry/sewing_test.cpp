@@ -97,7 +97,7 @@ TEST(Sewing, keeps_faces_with_their_names_in_their_order) {
   std::vector<std::string> names;
   for (FaceId f = 0; f < 6; ++f) {
     const Vec3 at = r.tables.face_box[f].center();
-    const std::string name = r.tables.group_name[r.tables.face_group[f]];
+    const std::string name = r.tables.labels.group_name[r.tables.labels.face_group[f]];
     names.push_back(name);
     const double expected = name[0] == 'x' ? at.x - middle.x : name[0] == 'y' ? at.y - middle.y : at.z - middle.z;
     EXPECT_GT(name.substr(1) == "_max" ? expected : -expected, 1) << name;

@@ -240,14 +240,14 @@ TEST(GeometryArtifact, gives_back_every_table) {
   EXPECT_SAME(face_tolerance);
   EXPECT_SAME(face_area);
   EXPECT_SAME(face_box);
-  EXPECT_EQ(a.face_name, b.face_name);
+  EXPECT_EQ(a.labels.face_name, b.labels.face_name);
   EXPECT_SAME(face_color);
   EXPECT_EQ(a.face_layer, b.face_layer);
-  EXPECT_SAME(face_group);
+  EXPECT_SAME(labels.face_group);
   EXPECT_SAME(face_shell);
   EXPECT_SAME(face_solid);
-  EXPECT_EQ(a.group_name, b.group_name);
-  EXPECT_EQ(a.group_role, b.group_role);
+  EXPECT_EQ(a.labels.group_name, b.labels.group_name);
+  EXPECT_EQ(a.labels.group_role, b.labels.group_role);
   EXPECT_EQ(a.n_shells, b.n_shells);
   EXPECT_EQ(a.face_width, b.face_width);
   EXPECT_EQ(a.volume, b.volume);
@@ -283,12 +283,12 @@ TEST(PatchesArtifact, gives_back_every_array) {
   EXPECT_SAME(edges.node_size);
   EXPECT_SAME(vertex_xyz);
   EXPECT_SAME(edge_vertices);
-  EXPECT_SAME(face_group);
+  EXPECT_SAME(labels.face_group);
   EXPECT_SAME(face_shell);
   EXPECT_SAME(face_area);
   EXPECT_EQ(a.merged, b.merged);
-  EXPECT_EQ(a.face_name, b.face_name);
-  EXPECT_EQ(a.group_name, b.group_name);
+  EXPECT_EQ(a.labels.face_name, b.labels.face_name);
+  EXPECT_EQ(a.labels.group_name, b.labels.group_name);
   EXPECT_EQ(a.is_complete, b.is_complete);
   ASSERT_EQ(a.patches.size(), b.patches.size());
   for (std::size_t i = 0; i < a.patches.size(); ++i) {
@@ -325,7 +325,7 @@ TEST(PatchesArtifact, refuses_indices_that_point_nowhere) {
   expect_refused([](auto& p) { p.patches[1].face = 2; }, "/st/patch/face");
   expect_refused([](auto& p) { p.edge_vertices[5] = 3; }, "/st/edge/vertices");
   expect_refused([](auto& p) { p.edges.edge_offsets[1] = 7; }, "/st/edge/node_offsets");
-  expect_refused([](auto& p) { p.face_group[1] = 1; }, "/st/face/group");
+  expect_refused([](auto& p) { p.labels.face_group[1] = 1; }, "/st/face/group");
   expect_refused([](auto& p) { p.face_area.pop_back(); }, "/st/face/area");
 }
 
@@ -344,8 +344,8 @@ TEST(MeshArtifact, gives_back_every_array) {
   EXPECT_SAME(triangle_group);
   EXPECT_SAME(corner_uv);
   EXPECT_EQ(a.merged, b.merged);
-  EXPECT_EQ(a.face_name, b.face_name);
-  EXPECT_EQ(a.group_name, b.group_name);
+  EXPECT_EQ(a.labels.face_name, b.labels.face_name);
+  EXPECT_EQ(a.labels.group_name, b.labels.group_name);
   EXPECT_TRUE(mb.is_complete);
 }
 
@@ -379,7 +379,7 @@ TEST(MeshArtifact, has_a_hash_that_follows_every_array) {
       [](auto& m) { m.mesh.node_xyz[1].y = 1e-16; },
       [](auto& m) { std::swap(m.mesh.triangles[0], m.mesh.triangles[1]); },
       [](auto& m) { m.mesh.node_t[0] = -0.0; },
-      [](auto& m) { m.mesh.face_name[1].push_back('x'); },
+      [](auto& m) { m.mesh.labels.face_name[1].push_back('x'); },
       [](auto& m) { m.mesh.corner_uv[11].y = 0; },
       [](auto& m) { m.is_complete = false; },
       [](auto& m) { m.header.unit.pop_back(); }};

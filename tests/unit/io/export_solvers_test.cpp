@@ -22,8 +22,8 @@ SurfaceMesh three_triangles() {
   m.triangles = {{{0, 1, 2}}, {{1, 3, 2}}, {{0, 1, 4}}};
   m.triangle_face = {0, 1, 2};
   m.triangle_group = {0, 1, 2};
-  m.group_name = {"a b", "a_b", "mirror"};
-  m.group_role = {"wall", "farfield", "symmetry"};
+  m.labels.group_name = {"a b", "a_b", "mirror"};
+  m.labels.group_role = {"wall", "farfield", "symmetry"};
   return m;
 }
 

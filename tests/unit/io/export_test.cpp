@@ -79,7 +79,7 @@ TEST(Export, writes_obj_coordinates_that_read_back_exactly) {
 TEST(Export, writes_a_solid_for_each_group_into_ascii_stl) {
   TemporaryDirectory dir;
   MeshArtifact sample = sample_mesh();
-  sample.mesh.group_name[1] = "wing \t\"left\"";
+  sample.mesh.labels.group_name[1] = "wing \t\"left\"";
   sample.mesh.triangle_group = {0, 1, 0, 1};
   export_mesh(dir / "m.ascii.stl", sample.mesh);
   const std::string text = read_bytes(dir / "m.ascii.stl");

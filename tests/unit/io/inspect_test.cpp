@@ -64,7 +64,7 @@ TEST(Compare, sees_flags_names_units_and_shapes) {
   MeshArtifact other = sample_mesh();
   other.is_complete = false;
   other.header.unit = "cm";
-  other.mesh.face_name[2] = "Wing";
+  other.mesh.labels.face_name[2] = "Wing";
   other.mesh.triangles.pop_back();
   other.mesh.triangle_face.pop_back();
   other.mesh.triangle_group.pop_back();

@@ -62,7 +62,7 @@ TEST(StlFile, leaves_triangles_out_that_name_a_node_twice) {
 TEST(StlFile, makes_each_connected_part_a_face) {
   const SurfaceMesh m = read(binary({{9, 9, 9, 8, 9, 9, 9, 8, 9}, kTwo[0], kTwo[1]}));
   EXPECT_EQ(m.triangle_face, (std::vector<FaceId>{0, 1, 1}));
-  EXPECT_EQ(m.face_name.size(), 2u);
+  EXPECT_EQ(m.labels.face_name.size(), 2u);
 }
 
 TEST(StlFile, tells_a_binary_file_whose_title_begins_with_solid_by_its_size) {

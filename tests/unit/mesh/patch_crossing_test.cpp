@@ -14,7 +14,7 @@ namespace {
 struct Patches {
   explicit Patches(SurfaceMesh m, std::vector<std::int32_t> shell = {})
       : mesh(std::move(m)), face_shell(std::move(shell)) {
-    if (face_shell.empty()) face_shell.assign(mesh.face_name.size(), 0);
+    if (face_shell.empty()) face_shell.assign(mesh.labels.face_name.size(), 0);
     for (FaceId f = 0; f <= static_cast<FaceId>(face_shell.size()); ++f)
       face_begin.push_back(static_cast<std::int32_t>(
           std::lower_bound(mesh.triangle_face.begin(), mesh.triangle_face.end(), f) - mesh.triangle_face.begin()));

@@ -25,8 +25,8 @@ inline SurfaceMesh from(std::vector<Vec3> points, std::vector<Triangle> triangle
   m.corner_uv.resize(3 * m.triangles.size());
   FaceId n_faces = 1;
   for (const FaceId f : m.triangle_face) n_faces = std::max(n_faces, f + 1);
-  m.face_name.resize(n_faces);
-  m.group_name = {"default"};
+  m.labels.face_name.resize(n_faces);
+  m.labels.group_name = {"default"};
   return m;
 }
 
@@ -92,7 +92,7 @@ inline SurfaceMesh join(const SurfaceMesh& a, const SurfaceMesh& b) {
   std::vector<FaceId> faces = a.triangle_face;
   const auto shift = static_cast<NodeId>(a.node_xyz.size());
   for (const Triangle& t : b.triangles) triangles.push_back({{t.n[0] + shift, t.n[1] + shift, t.n[2] + shift}});
-  for (const FaceId f : b.triangle_face) faces.push_back(f + static_cast<FaceId>(a.face_name.size()));
+  for (const FaceId f : b.triangle_face) faces.push_back(f + static_cast<FaceId>(a.labels.face_name.size()));
   return from(points, triangles, faces);
 }
 

@@ -43,7 +43,7 @@ struct Refilled {
   SurfaceMesh merged() const {
     const ModelTables& t = solid.model.tables();
     OrientationReport report;
-    return merge_patches({update.edges, t.vertex_xyz, t.edge_vertices, patches(), t.face_group}, report);
+    return merge_patches({update.edges, t.vertex_xyz, t.edge_vertices, patches(), t.labels.face_group}, report);
   }
 
  private:

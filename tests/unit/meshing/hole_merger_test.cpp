@@ -19,7 +19,7 @@ TEST_P(InsertedFills, are_the_mesh_that_merging_the_patches_gives) {
   EXPECT_TRUE(shapes::same(inserted, merged));
   EXPECT_EQ(inserted.node_previous, merged.node_previous);
   EXPECT_EQ(inserted.triangle_previous, merged.triangle_previous);
-  EXPECT_EQ(inserted.face_name, solid.mesh.face_name);
+  EXPECT_EQ(inserted.labels.face_name, solid.mesh.labels.face_name);
 }
 
 TEST_P(InsertedFills, of_no_holes_are_the_old_mesh) {

@@ -35,8 +35,8 @@ struct Marked {
   MeshResult fill(HoleOutput output = HoleOutput::kMesh) { return mesh_regions(holes, field, output, {}, one_rank); }
   SurfaceMesh merged(const MeshResult& r) const {
     OrientationReport report;
-    return merge_patches({r.edges, old.tables.vertex_xyz, old.tables.edge_vertices, r.patches, old.tables.face_group},
-                         report);
+    return merge_patches(
+        {r.edges, old.tables.vertex_xyz, old.tables.edge_vertices, r.patches, old.tables.labels.face_group}, report);
   }
 };
 

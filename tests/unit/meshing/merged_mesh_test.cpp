@@ -152,10 +152,10 @@ TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
 Model stepped_box(double tolerance, const std::vector<FaceId>& outside = {}) {
   const Model box = test::make_model("stepped_box");
   ModelTables t = box.tables();
-  t.group_name = {"in", "out"};
-  t.group_role = {"wall", "wall"};
-  t.face_group.assign(t.n_faces(), 0);
-  for (const FaceId f : outside) t.face_group[f] = 1;
+  t.labels.group_name = {"in", "out"};
+  t.labels.group_role = {"wall", "wall"};
+  t.labels.face_group.assign(t.n_faces(), 0);
+  for (const FaceId f : outside) t.labels.face_group[f] = 1;
   if (tolerance > 0) t.labels.group_attributes = {"{\"tolerance\":" + std::to_string(tolerance) + "}", "{}"};
   return Model(std::move(t), box.brep());
 }

@@ -24,8 +24,8 @@ struct ShapeMesh {
     std::vector<FacePatch> patches;
     for (FaceId f = 0; f < t.n_faces(); ++f) patches.push_back(patch(f, numbering));
     OrientationReport report;
-    mesh = merge_patches({edges, t.vertex_xyz, t.edge_vertices, patches, t.face_group}, report);
-    mesh.face_name = t.face_name;
+    mesh = merge_patches({edges, t.vertex_xyz, t.edge_vertices, patches, t.labels.face_group}, report);
+    mesh.labels = t.labels;
   }
 
   FacePatch patch(FaceId f, const BoundaryNumbering& numbering) const {

@@ -11,8 +11,8 @@ const SamplingLimits kWall{0.01, 0.5, radians(10), 2};
 /// 2 belongs to symmetry only, edge 3 to none, edge 4 is degenerate.
 ModelTables three_faces(const std::vector<std::string>& roles) {
   ModelTables t;
-  t.group_role = roles;
-  t.face_group = {0, 1, 2};
+  t.labels.group_role = roles;
+  t.labels.face_group = {0, 1, 2};
   t.face_is_reversed = {0, 0, 0};
   t.face_box = {{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 0}, {100, 0, 100}}, {{0, 0, 0}, {60, 80, 0}}};
   t.edge_length = {1, 1, 1, 1, 0};

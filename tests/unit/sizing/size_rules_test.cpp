@@ -14,10 +14,10 @@ const SamplingLimits kWall{0.01, 0.5, radians(10), 2};
 /// body-symmetry, 3 degenerate.
 ModelTables wing_body() {
   ModelTables t;
-  t.group_name = {"WING", "BODY", "SYM", "FAR"};
-  t.group_role = {"wall", "wall", "symmetry", "farfield"};
-  t.face_group = {0, 1, 2, 3};
-  t.face_name = {"wing_upper", "", "", ""};
+  t.labels.group_name = {"WING", "BODY", "SYM", "FAR"};
+  t.labels.group_role = {"wall", "wall", "symmetry", "farfield"};
+  t.labels.face_group = {0, 1, 2, 3};
+  t.labels.face_name = {"wing_upper", "", "", ""};
   t.face_is_reversed = {0, 0, 0, 0};
   t.face_box = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 2, 0}}, {{0, 0, 0}, {100, 0, 0}}, {{0, 0, 0}, {0, 0, 300}}};
   t.edge_length = {1, 1, 1, 0};

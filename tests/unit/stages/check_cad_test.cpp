@@ -179,8 +179,7 @@ class CheckCad : public testing::Test {
       add_flat(m, bottom, {{0, i + 1, i}});
       add_flat(m, top, {{n, n + i, n + i + 1}});
     }
-    m.face_name = geometry_.tables.face_name;
-    m.group_name = geometry_.tables.group_name;
+    m.labels = geometry_.tables.labels;
     a.header.schema = "mesh";
     a.header.tool = "test";
     a.header.options_json = "{}";

@@ -76,14 +76,14 @@ TEST_F(EditStage, puts_inputs_together_and_says_where_everything_is_from) {
   ASSERT_EQ(t.n_faces(), a.tables.n_faces() + b.tables.n_faces());
   EXPECT_TRUE(g.is_closed);
   EXPECT_NEAR(*t.volume, *a.tables.volume + *b.tables.volume, 1e-9 * *t.volume);
-  EXPECT_EQ(t.group_name, (std::vector<std::string>{"default", "ball/default"}));
+  EXPECT_EQ(t.labels.group_name, (std::vector<std::string>{"default", "ball/default"}));
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     const bool is_second = f >= a.tables.n_faces();
     EXPECT_EQ(previous(g.previous_faces, f), std::pair(is_second ? f - a.tables.n_faces() : f, is_second ? 1 : 0));
-    EXPECT_EQ(t.group_name[t.face_group[f]], is_second ? "ball/default" : "default");
+    EXPECT_EQ(t.labels.group_name[t.labels.face_group[f]], is_second ? "ball/default" : "default");
     EXPECT_EQ(t.face_box[f].lo.x > 500, is_second);
-    EXPECT_EQ(find_faces("ball", t.group_names())[f], is_second);
-    EXPECT_EQ(find_faces("input:box", t.group_names())[f], !is_second);
+    EXPECT_EQ(find_faces("ball", t.labels)[f], is_second);
+    EXPECT_EQ(find_faces("input:box", t.labels)[f], !is_second);
   }
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     EXPECT_EQ(previous(g.previous_edges, e).second, e >= a.tables.n_edges() ? 1 : 0);
@@ -97,8 +97,8 @@ TEST_F(EditStage, puts_inputs_together_and_says_where_everything_is_from) {
 TEST_F(EditStage, joins_groups_where_told_and_refuses_to_join_roles) {
   const auto named = [](const char* name, const char* role) {
     return [=](ImportResult& r) {
-      r.tables.group_name = {name};
-      r.tables.group_role = {role};
+      r.tables.labels.group_name = {name};
+      r.tables.labels.group_role = {role};
     };
   };
   const std::string a = write("box", "a.hdf", named("tunnel", "farfield")),
@@ -106,11 +106,11 @@ TEST_F(EditStage, joins_groups_where_told_and_refuses_to_join_roles) {
                     c = write("sphere", "c.hdf", named("tunnel", "wall"));
   EditStageOptions o = of_inputs({a, b});
   o.join = "sym*, tun*";
-  EXPECT_EQ(edit(o).tables.group_name, (std::vector<std::string>{"tunnel"}));
+  EXPECT_EQ(edit(o).tables.labels.group_name, (std::vector<std::string>{"tunnel"}));
   o.join = "sym*";
   const GeometryArtifact apart = edit(o);
-  EXPECT_EQ(apart.tables.group_name, (std::vector<std::string>{"tunnel", "b/tunnel"}));
-  EXPECT_EQ(apart.tables.group_role, (std::vector<std::string>{"farfield", "farfield"}));
+  EXPECT_EQ(apart.tables.labels.group_name, (std::vector<std::string>{"tunnel", "b/tunnel"}));
+  EXPECT_EQ(apart.tables.labels.group_role, (std::vector<std::string>{"farfield", "farfield"}));
   o.geometries = {a, c};
   o.join = "*";
   EXPECT_ERROR(edit(o), kMismatch, "'tunnel' holds faces with the role farfield");
@@ -155,7 +155,8 @@ TEST_F(EditStage, tells_inputs_of_one_name_and_those_of_earlier_edits_apart) {
   write_geometry(path("pair.hdf"), pair);
   EditStageOptions again = of_inputs({path("pair.hdf"), box});
   again.as = "pair,box";
-  EXPECT_EQ(edit(again).tables.labels.tables.at(0).group_name, (std::vector<std::string>{"box", "box#2", "box/box"}));
+  EXPECT_EQ(edit(again).tables.labels.tables.at(0).group_name,
+            (std::vector<std::string>{"box", "box#2", "box/box"}));
   again.as = "one";
   EXPECT_ERROR(edit(again), kUsage, "1 names for 2 geometries");
 }
@@ -170,11 +171,11 @@ TEST_F(EditStage, refuses_inputs_of_different_units) {
 
 TEST_F(EditStage, extracts_by_number_range_group_and_name_of_face) {
   const std::string box = write("box", "box.hdf", [](ImportResult& r) {
-    r.tables.face_name[5] = "lid";
-    r.tables.group_name = {"default", "floor"};
-    r.tables.group_role = {"wall", "wall"};
+    r.tables.labels.face_name[5] = "lid";
+    r.tables.labels.group_name = {"default", "floor"};
+    r.tables.labels.group_role = {"wall", "wall"};
     r.tables.labels.group_attributes.clear();
-    r.tables.face_group[4] = 1;
+    r.tables.labels.face_group[4] = 1;
   });
   EditStageOptions o = of_inputs({box});
   const auto faces = [&](const std::string& extract, const std::string& remove) {
@@ -190,8 +191,9 @@ TEST_F(EditStage, extracts_by_number_range_group_and_name_of_face) {
   EXPECT_EQ(faces("floor,l?d", ""), (std::vector<int>{5, 6}));
   EXPECT_EQ(faces("", "floor"), (std::vector<int>{1, 2, 3, 4, 6}));
   EXPECT_EQ(faces("1-3", "2"), (std::vector<int>{1, 3}));
-  EXPECT_EQ(read_geometry(path("out.hdf")).tables.group_name, (std::vector<std::string>{"default"}));  // the floor is
-                                                                                                       // gone
+  EXPECT_EQ(read_geometry(path("out.hdf")).tables.labels.group_name, (std::vector<std::string>{"default"}));  // the
+                                                                                                              // floor
+                                                                                                              // is gone
   EXPECT_ERROR(faces("flor", ""), kUsage, "did you mean 'floor'");
   EXPECT_ERROR(faces("7", ""), kUsage, "faces 1 to 6");
   EXPECT_ERROR(faces("0-2", ""), kUsage, "faces 1 to 6");

@@ -37,9 +37,9 @@ class MergeCheck : public testing::Test {
     a.vertex_xyz = cube.vertices;
     a.edge_vertices = cube.edge_vertices;
     a.patches = cube.patches;
-    a.face_name = {"left", "right", "front", "", "bottom", "top"};
-    a.group_name = {"a", "b", "c"};
-    a.face_group = cube.groups;
+    a.labels.face_name = {"left", "right", "front", "", "bottom", "top"};
+    a.labels.group_name = {"a", "b", "c"};
+    a.labels.face_group = cube.groups;
     a.face_shell.assign(6, 0);
     a.face_area.assign(6, 1);
     return a;
@@ -90,7 +90,7 @@ TEST_F(MergeCheck, makes_a_mesh_that_passes) {
   EXPECT_NEAR(facts.at("area").get<double>(), 6, 1e-12);
   const MeshArtifact mesh = read_mesh(path("mesh.hdf"));
   EXPECT_EQ(mesh.mesh.n_triangles(), 48);
-  EXPECT_EQ(mesh.mesh.face_name[1], "right");
+  EXPECT_EQ(mesh.mesh.labels.face_name[1], "right");
   EXPECT_TRUE(mesh.is_complete);
   ASSERT_EQ(mesh.header.inputs.size(), 1u);
   EXPECT_EQ(mesh.header.inputs[0].role, "patches");
