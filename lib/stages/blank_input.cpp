@@ -58,9 +58,10 @@ void require_closed(const std::string& path, const SurfaceMesh& mesh) {
   if (unbalanced.count > 0)
     throw Error(
         ExitCode::kGeometry,
-        fmt::format("{}: the mesh has no clear inside to blank: at {} edges triangles are not oriented alike, or "
-                    "form inner walls, at {}; mesh the parts as one body",
-                    path, unbalanced.count, places(unbalanced)));
+        fmt::format(
+            "{}: the mesh has no clear inside to blank: at {} edges triangles are not oriented consistently, or "
+            "form inner walls, at {}; mesh the parts as one body",
+            path, unbalanced.count, places(unbalanced)));
 }
 
 }  // namespace

@@ -407,8 +407,8 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
 void warn_of_depth(const DepthLimit& depth) {
   if (depth.n_samples == 0) return;
   log_warning(fmt::format(
-      "{} samples with lengths down to {:.4g} ask for smaller cells than the octree has at its depth of "
-      "{}, {:.4g}: their lengths hold in cells of that size; mesh in a smaller domain, or use larger lengths",
+      "{} samples with lengths down to {:.4g} need smaller cells than those of the octree's deepest level {}, {:.4g}; "
+      "their lengths apply in cells of that size; mesh in a smaller domain, or use larger lengths",
       depth.n_samples, depth.smallest_length, kMaxLevel, depth.smallest_cell));
 }
 
@@ -436,7 +436,7 @@ nlohmann::json wings_json(const Wings& wings) {
 
 /// One line for each lifting surface, or one that there is none.
 void report_wings(const RasterStageOptions& o, const Wings& wings) {
-  if (wings.surfaces.empty()) log_info("no lifting surface found: --edge-size asks for nothing");
+  if (wings.surfaces.empty()) log_info("no lifting surface found: --edge-size has no effect");
   for (const LiftingSurface& wing : wings.surfaces)
     log_info(
         fmt::format("lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "

@@ -33,7 +33,7 @@ struct RasterStageOptions {
       "--edge-cells", "N", "[1, 100]",
       "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1"};
   std::string trailing_edges;  ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
-  std::string leading_edges;   ///< likewise at leading edges
+  std::string leading_edges;   ///< lengths at detected leading edges, written the same way
   std::string edge_size = "0.3%chord";  ///< length at trailing edges and noses of lifting surfaces; "none": off
   int base_cells = 2;
   static constexpr NumberOption kBaseCells{"--base-cells", "N", "[1, 100]",

@@ -92,7 +92,7 @@ nlohmann::json counts(const HoleMarker& holes, const MeshResult& r) {
 StageSummary dry_run_summary(const HoleMarker& holes) {
   StageSummary s;
   s.line =
-      fmt::format("{} of {} triangles on {} of {} faces would be redone, and {} segments of edges; nothing written",
+      fmt::format("{} of {} triangles on {} of {} faces would be remeshed, and {} segments of edges; nothing written",
                   holes.n_marked_triangles, holes.mesh().mesh.n_triangles(), holes.dirty_faces().size(),
                   holes.mesh().tables.n_faces(), holes.n_marked_segments);
   nlohmann::json json = counts(holes, {});
@@ -174,7 +174,8 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   for (const auto& [option, value] : {std::pair("--tolerance", o.tolerance), std::pair("--made-for", o.made_for)})
     if (!value.empty())
       throw Error(ExitCode::kUsage,
-                  fmt::format("{}: {} is a mesh artifact, which knows; leave the option out", option, o.mesh));
+                  fmt::format("{}: is for meshes of other programs, but {} is a mesh artifact; leave the option out",
+                              option, o.mesh));
   MeshShare share;
   MeshArtifact old = read_share(o, comm, share);
   if (!old.is_complete)
@@ -197,8 +198,8 @@ void require_no_gaps(const RemeshStageOptions& o, const HoleMesh& m) {
   const std::vector<OpenSide> open = find_open_sides(m);
   if (open.empty()) return;
   const Vec3 x = 0.5 * (m.mesh.node_xyz[open[0].low] + m.mesh.node_xyz[open[0].high]);
-  throw Error(ExitCode::kInput, fmt::format("{}: has a hole that belongs to no face of the model: {} sides have no "
-                                            "triangle beyond them, the first at ({:.6g} {:.6g} {:.6g}), "
+  throw Error(ExitCode::kInput, fmt::format("{}: has a hole that is not in the model: {} sides of triangles have no "
+                                            "neighbour, the first at ({:.6g} {:.6g} {:.6g}), "
                                             "{}; make the mesh again with st-mesh and st-merge",
                                             o.mesh, open.size(), x.x, x.y, x.z, m.tables.face_label(open[0].face)));
 }
@@ -291,7 +292,7 @@ StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, co
   nlohmann::json json = nlohmann::json::parse(summary.json);
   json.update(more);
   summary.json = json.dump();
-  summary.line += fmt::format("; {} of {} triangles redone", holes.n_marked_triangles, in.old.mesh.n_triangles());
+  summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
   return summary;
 }
 

@@ -54,7 +54,7 @@ class Rules(ToolTest):
         self.refuse('[[size]]\ngap_cells = 2.5\n', "sizes.toml:2", "gap_cells", "whole number")
         self.refuse('[[size]]\nedge_cells = 200\n', "sizes.toml:2", "edge_cells")
         self.refuse('[[size]]\ngap_cells = 101\n', "sizes.toml:2", "[1, 100]")
-        self.refuse('[[size]]\ngroups = "*"\n', "sizes.toml:1", "asks for nothing")
+        self.refuse('[[size]]\ngroups = "*"\n', "sizes.toml:1", "sets nothing")
         self.refuse('\n[[size]]\nlmax = 1\ngroups = "NONE*"\n', "sizes.toml:2", "NONE*", "matches")
         self.refuse('[[size]]\nlmax = 1\nfaces = 99999\n', "sizes.toml:1", "99999")
         self.refuse("alpha = 5\n", "sizes.toml", "[[size]]")

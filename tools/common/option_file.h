@@ -14,8 +14,8 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
 /// option names without dashes (`lmin = "0.25mm"`, `alpha = 10`); keys in the table [<tool>] hold for that tool alone
 /// and override those at the top, so one file may serve several tools. Tables [[size]], [[source]] and [[group]] may
 /// stand in it: it is then one of the files that --sizes, --sources or --groups name. Call after app.parse(). Throws
-/// Error(kUsage) with file and line for an unreadable file, bad TOML, an unknown key or table, tables beside a file
-/// of them, and a value that the option does not take.
+/// Error(kUsage) with file and line for an unreadable file, bad TOML, an unknown key or table, tables together with a
+/// file of them, and a value that the option does not take.
 void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app);
 
 /// The same for the text of an option file; `path` is what messages name.

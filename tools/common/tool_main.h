@@ -35,7 +35,7 @@ class ToolMain {
   void input(const std::string& name, std::string& path, const std::string& help);
   /// One or more positional input files.
   void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
-  /// An optional input file; `flag` with its dashes, as everywhere below.
+  /// An optional input file; `flag` with its dashes, as in all functions below.
   void optional_input(const std::string& flag, std::string& path, const std::string& help);
   /// The same, repeatable.
   void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
@@ -45,7 +45,7 @@ class ToolMain {
   void output(std::string& path, const std::string& help = "artifact to write");
   /// A further file to write, with the struct's default.
   void output_option(const std::string& flag, std::string& path, const std::string& help);
-  /// A file to write instead of that of -o,--output (declared before), which is refused beside it.
+  /// A file to write instead of that of -o,--output (declared before), not together with it.
   void output_instead(const std::string& flag, std::string& path, const std::string& help);
   /// A repeatable option naming a further file to write.
   void outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);

@@ -21,7 +21,7 @@ class RuleReader : TomlEntry {
                       rule_.gap_cells || rule_.wall_cells || rule_.edge_cells;
     if (!asks)
       fail(table(),
-           "the rule asks for nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells or sample");
+           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells or sample");
     return std::move(rule_);
   }
 

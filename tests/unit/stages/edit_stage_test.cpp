@@ -155,8 +155,7 @@ TEST_F(EditStage, tells_inputs_of_one_name_and_those_of_earlier_edits_apart) {
   write_geometry(path("pair.hdf"), pair);
   EditStageOptions again = of_inputs({path("pair.hdf"), box});
   again.as = "pair,box";
-  EXPECT_EQ(edit(again).tables.labels.tables.at(0).group_name,
-            (std::vector<std::string>{"box", "box#2", "box/box"}));
+  EXPECT_EQ(edit(again).tables.labels.tables.at(0).group_name, (std::vector<std::string>{"box", "box#2", "box/box"}));
   again.as = "one";
   EXPECT_ERROR(edit(again), kUsage, "1 names for 2 geometries");
 }

@@ -294,7 +294,7 @@ TEST_F(Remesh, refuses_a_mesh_with_a_hole_on_no_face_and_says_where) {
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::kInput);
-    EXPECT_NE(std::string(e.what()).find("3 sides have no triangle"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("3 sides of triangles have no neighbour"), std::string::npos) << e.what();
   }
   EXPECT_FALSE(exists("remeshed.hdf"));
 }
