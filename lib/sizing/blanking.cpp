@@ -18,6 +18,7 @@ constexpr int kSamples = 9;  // points of a cell that tell its parts apart: near
 // Of the half edge; irregular, so that surfaces aligned with the cells rarely hit them.
 constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampleCentre = 0.0137;
 constexpr std::int8_t kNoFlow = -1;
+constexpr double kSheetCosine = 0.8;  // of triangles with their mean normal: no two of them face each other
 
 /// A leaf as a cube.
 struct Cube {
@@ -40,8 +41,8 @@ struct Cube {
 
 /// The parts of the flow in a cut cell, by samples.
 struct CellParts {
-  std::array<std::int8_t, kSamples> part{};  // 0, 1 or kNoFlow
-  Vec3 spare;                                // a point of the flow where no sample is one
+  std::array<std::int8_t, kSamples> part = {-1, -1, -1, -1, -1, -1, -1, -1, -1};  // 0, 1 or kNoFlow
+  Vec3 spare;  // a point of the flow where no sample is one
   std::int8_t spare_part = kNoFlow;
 
   bool has(int p) const { return spare_part == p || std::find(part.begin(), part.end(), p) != part.end(); }
@@ -69,6 +70,7 @@ class Blanker {
     leave_holes_open();
     box_triangles();
     colour_cut_cells();
+    find_sheets();
     colour_the_rest();
     find_parts();
     link_sites();
@@ -167,16 +169,72 @@ class Blanker {
     return true;
   }
 
+  // --- cells with one sheet of the surface ---
+
+  /// Most cut cells meet one sheet, all of whose triangles look the same way. Of a closed surface such a cell has one
+  /// part of the flow, and passes lengths to its neighbours whose sheet looks that way, too: between two sheets that
+  /// look the same way lies a third one.
+  void find_sheets() {
+    sheet_.resize(cut_.leaf.size());
+    if (!open_edges_.empty()) return;
+    std::vector<Vec3> normal(surface_.triangles.size());
+    for (std::size_t t = 0; t < normal.size(); ++t) normal[t] = flow_sign_ * normal_of(static_cast<TriangleId>(t));
+    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
+      Vec3 sum;
+      for (const TriangleId t : cut_.triangles(i)) sum += normal[t];
+      if (!(norm2(sum) > 0)) continue;
+      const Vec3 mean = normalized(sum);
+      const auto looks_along = [&](TriangleId t) { return dot(normal[t], mean) > kSheetCosine; };
+      const std::span<const TriangleId> all = cut_.triangles(i);
+      if (std::all_of(all.begin(), all.end(), looks_along)) sheet_[i] = mean;
+    }
+  }
+
+  /// Zero for a triangle without area.
+  Vec3 normal_of(TriangleId t) const {
+    const Vec3 area =
+        cross(surface_.corner(t, 1) - surface_.corner(t, 0), surface_.corner(t, 2) - surface_.corner(t, 0));
+    return norm2(area) > 0 ? normalized(area) : Vec3{};
+  }
+
+  bool is_sheet(std::int32_t cut) const { return norm2(sheet_[cut]) > 0; }
+
+  /// Whether sheets alone tell that lengths pass between the first parts of two cells, one of them cut.
+  bool is_one_side(std::int32_t a, std::int32_t b) const {
+    const std::int32_t cut_a = cut_index_[a], cut_b = cut_index_[b];
+    if (cut_a == kNone) return is_before_sheet(a, b);
+    if (cut_b == kNone) return is_before_sheet(b, a);
+    return dot(sheet_[cut_a], sheet_[cut_b]) > 0;
+  }
+
+  /// Whether the sheet of a cell looks towards a cell that is not cut.
+  bool is_before_sheet(std::int32_t uncut, std::int32_t leaf) const {
+    const std::int32_t cut = cut_index_[leaf];
+    if (!is_sheet(cut)) return false;
+    const Vec3 x = octree_.leaf_center(uncut);
+    const std::span<const TriangleId> all = cut_.triangles(cut);
+    return std::all_of(all.begin(), all.end(),
+                       [&](TriangleId t) { return dot(sheet_[cut], x - surface_.corner(t, 0)) > 0; });
+  }
+
   // --- parts of cut cells ---
 
   void find_parts() {
     parts_.resize(cut_.leaf.size());
     for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
+      if (is_sheet(i)) continue;  // see parts()
       parts_[i] = parts_of(i);
       if (!parts_[i].has(1)) continue;
       result_.split_leaf.push_back(cut_.leaf[i]);
       result_.split.push_back(split_cell(i));
     }
+  }
+
+  /// Those of sheets are found when they are asked for.
+  const CellParts& parts(std::int32_t cut) {
+    CellParts& own = parts_[cut];
+    if (is_sheet(cut) && !own.has(0)) own = parts_of(cut);
+    return own;
   }
 
   CellParts parts_of(std::int32_t i) {
@@ -205,7 +263,7 @@ class Blanker {
     }
     if (largest[0] == kNone)
       set_spare(cell, find_largest_piece([](const Piece&) { return true; }), 0, parts);
-    else if (largest[1] == kNone)
+    else if (largest[1] == kNone && !is_sheet(i))
       set_hidden_part(cell, parts);
     return parts;
   }
@@ -330,11 +388,13 @@ class Blanker {
     const std::int32_t n = octree_.n_leaves(), n_split = static_cast<std::int32_t>(result_.split_leaf.size());
     require_countable(result_.colour.size() + result_.split_leaf.size(), "cells and parts of cells");
     result_.site_links.assign(static_cast<std::size_t>(n + n_split), kNone);
-    for (std::int32_t leaf = 0; leaf < n; ++leaf) {
-      bool is_near = is_cut(leaf);
-      if (!is_near) neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { is_near |= is_cut(other); });
-      if (is_near) add_row(leaf, leaf, 0);
+    std::vector<std::uint8_t> is_near(octree_.leaf_keys.size(), 0);
+    for (const std::int32_t leaf : cut_.leaf) {
+      is_near[leaf] = 1;
+      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { is_near[other] = 1; });
     }
+    for (std::int32_t leaf = 0; leaf < n; ++leaf)
+      if (is_near[leaf]) add_row(leaf, leaf, 0);
     for (std::int32_t k = 0; k < n_split; ++k) add_row(n + k, result_.split_leaf[k], 1);
   }
 
@@ -354,17 +414,18 @@ class Blanker {
     result_.links.push_back(open);
   }
 
-  bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part) const {
-    if (to_part == 1 && !(is_cut(to) && parts_[cut_index_[to]].has(1))) return false;
+  bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part) {
+    if (to_part == 1 && !(is_cut(to) && !is_sheet(cut_index_[to]) && parts_[cut_index_[to]].has(1))) return false;
     if (result_.colour[to] == CellColour::kBlanked) return true;
     if (result_.colour[from] == CellColour::kBlanked) return false;
     if (!is_cut(from) && !is_cut(to)) return true;
+    if (from_part == 0 && to_part == 0 && is_one_side(from, to)) return true;
     return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
   }
 
   /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and
   /// once more.
-  bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) const {
+  bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) {
     const Cube cube_a = cube(a), cube_b = cube(b);
     const Vec3 from_a = nearest_point(a, part_a, cube_b.center), to_b = nearest_point(b, part_b, from_a);
     if (is_way(a, from_a, b, to_b, cube_a, cube_b)) return true;
@@ -381,10 +442,10 @@ class Blanker {
   }
 
   /// Of the samples of a part, but `without`, the one nearest to x; in an uncut cell any point.
-  Vec3 nearest_point(std::int32_t leaf, int part, Vec3 x, const Vec3* without = nullptr) const {
+  Vec3 nearest_point(std::int32_t leaf, int part, Vec3 x, const Vec3* without = nullptr) {
     const Cube own = cube(leaf);
     if (!is_cut(leaf)) return own.nearest(x);
-    const CellParts& parts = parts_[cut_index_[leaf]];
+    const CellParts& parts = this->parts(cut_index_[leaf]);
     if (parts.spare_part == part) return parts.spare;
     Vec3 nearest = without ? *without : own.center;
     double least = std::numeric_limits<double>::infinity();
@@ -410,6 +471,7 @@ class Blanker {
   CutCells cut_;
   std::vector<TriangleBox> boxes_;       // [cut_.triangle.size()]
   std::vector<std::int32_t> cut_index_;  // [n_leaves] kNone: not cut
+  std::vector<Vec3> sheet_;              // [n_cut] unit, into the flow, where the cell meets one sheet; else zero
   std::vector<CellParts> parts_;         // [n_cut]
   std::vector<Piece> pieces_;            // of the cell at hand
   Blanking result_;

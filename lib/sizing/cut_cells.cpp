@@ -31,8 +31,7 @@ class TriangleWalk {
   void descend(std::int32_t node, Vec3 center, double half) {
     if (!may_meet(center, kTouching * half)) return;
     if (node < 0) {
-      if (clip_triangle(corner_[0], corner_[1], corner_[2], center, kTouching * half).n > 0)
-        found.emplace_back(~node, triangle_);
+      if (!is_apart(center, kTouching * half)) found.emplace_back(~node, triangle_);
       return;
     }
     const double q = 0.5 * half;
@@ -46,6 +45,25 @@ class TriangleWalk {
       return false;
     return std::abs(dot(normal_, c - corner_[0])) <=
            h * (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
+  }
+
+  /// Whether a plane along an edge of the triangle and an edge of the cube separates them: with may_meet() the
+  /// separating axes of a triangle and a cube (Akenine-Moeller 2001).
+  bool is_apart(Vec3 center, double h) const {
+    const Vec3 c[3] = {corner_[0] - center, corner_[1] - center, corner_[2] - center};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 e = c[(k + 1) % 3] - c[k];
+      // an edge projects to one value, so two corners tell: one of the edge, and the one across
+      const Vec3 &p = c[k], &q = c[(k + 2) % 3];
+      const auto separates = [h](double a, double b, double reach) {
+        return std::min(a, b) > reach * h || std::max(a, b) < -reach * h;
+      };
+      if (separates(e.y * p.z - e.z * p.y, e.y * q.z - e.z * q.y, std::abs(e.y) + std::abs(e.z)) ||
+          separates(e.z * p.x - e.x * p.z, e.z * q.x - e.x * q.z, std::abs(e.z) + std::abs(e.x)) ||
+          separates(e.x * p.y - e.y * p.x, e.x * q.y - e.y * q.x, std::abs(e.x) + std::abs(e.y)))
+        return true;
+    }
+    return false;
   }
 
   const OctreeView& octree_;

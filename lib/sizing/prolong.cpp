@@ -143,6 +143,7 @@ struct FitInput {
 /// around; a ridge is cut off by `upper` instead, so that the field still rises to it.
 CellLength fit_cell(const FitInput& in, std::int32_t site) {
   const double length = static_cast<double>(in.lengths[site]);
+  if (!in.options.wants_gradients) return {in.lengths[site], {0, 0, 0}, in.lengths[site]};
   double smallest = length, largest = length;
   GradientFit fit;
   const std::int32_t n_leaves = in.octree.n_leaves(),

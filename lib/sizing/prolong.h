@@ -21,6 +21,7 @@ struct ProlongOptions {
   double max_length = 0;                   ///< length where nothing asks for less, model unit, > 0
   std::span<const float> cell_slope = {};  ///< [n_leaves] slope in each cell, > 0; between two cells the mean holds.
                                            ///< Empty: `slope` everywhere
+  bool wants_gradients = true;             ///< false: lengths are constant in each cell
 };
 
 /// Appends what the second parts of split leaves start from: what their leaf stores.

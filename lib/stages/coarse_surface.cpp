@@ -19,12 +19,12 @@ namespace {
 constexpr double kSlope = 0.2;
 constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the triangles
 
-/// Lengths that grow through everything, on every rank. What cells store is exact enough here.
+/// Lengths that grow through everything, constant in each cell, on every rank: exact enough here.
 std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
   std::vector<CellLength> cells;
   if (executor.is_root())
     cells = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause,
-                    {kSlope, raster.numbers.far_length})
+                    {kSlope, raster.numbers.far_length, {}, false})
                 .cells;
   share(executor, cells);
   return cells;
