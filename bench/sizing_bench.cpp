@@ -143,7 +143,7 @@ void bench_accuracy(const std::string& path) {
     storage->raster = build_octree(model.tables().box(), boxes);
     std::vector<LengthSample> samples;
     RasterOctree& raster = storage->raster;
-    if (cell_per_length > kUsualCellPerLength) {
+    if (cell_per_length > kStoredByCellUpTo) {
       samples = sorted_samples(boxes);
       forget_samples(raster);
     }

@@ -3,14 +3,13 @@
 
 usage: scripts/bleeding_table.py BIN_DIR MODEL...     run with Debian's python3 (python3-vtk9)
 
-The size of a node is explained when it grew along the surface, from a node on the face or edge that it goes back to. It came through the solid
-when growth along the surface would make it 15 % larger, and the straight way to that node starts into the solid.
-Each model is meshed with and without --no-blank.
+The size of a node is explained when it grew along the surface, from a node on the face or edge that it goes back to.
+It came through the solid when growth along the surface would make it 15 % larger, and the straight way to that node
+starts into the solid. Each model is meshed with and without --no-blank.
 """
 import argparse
 import csv
 import heapq
-import json
 import re
 import subprocess
 import tempfile
@@ -35,7 +34,7 @@ def run(*command):
 class Surface:
     """A mesh with sizes and their causes."""
 
-    def __init__(self, path, causes, face_names):
+    def __init__(self, path, causes):
         reader = vtk.vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(path))
         reader.Update()
@@ -114,7 +113,7 @@ class Surface:
         return found
 
 
-def read_causes(path, face_names):
+def read_causes(path):
     """(face or edge, number from 1) of each point."""
     causes = []
     with open(path, newline="") as rows:
@@ -136,9 +135,9 @@ def measure(bin_dir, geometry, raster, options, folder):
     reader.Update()
     points = vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
     numpy.savetxt(folder / "points.csv", points, delimiter=",", header="x,y,z", comments="", fmt="%.17g")
-    run(bin_dir / "st-prolong", raster, "-o", path["sizing"], "-q", *options, "--sample", folder / "points.csv", "--sample-output",
-        folder / "sizes.csv")
-    surface = Surface(folder / "mesh.vtu", read_causes(folder / "sizes.csv", []), [])
+    sampling = ["--sample", folder / "points.csv", "--sample-output", folder / "sizes.csv"]
+    run(bin_dir / "st-prolong", raster, "-o", path["sizing"], "-q", *options, *sampling)
+    surface = Surface(folder / "mesh.vtu", read_causes(folder / "sizes.csv"))
     return len(surface.triangles), len(surface.x), len(surface.through_solid())
 
 
@@ -146,7 +145,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin_dir", type=Path)
     parser.add_argument("models", type=Path, nargs="+")
-    parser.add_argument("--raster", nargs="*", default=[], metavar="NAME=VALUE", help="options of st-raster, without dashes")
+    parser.add_argument("--raster", nargs="*", default=[], metavar="NAME=VALUE", help="of st-raster, without dashes")
     arguments = parser.parse_args()
     print("| model | triangles, open | through the solid | triangles | through the solid |\n|---|--:|--:|--:|--:|")
     for model in arguments.models:
@@ -154,7 +153,8 @@ def main():
             folder = Path(folder)
             geometry, raster = folder / "geometry.hdf", folder / "raster.hdf"
             run(arguments.bin_dir / "st-import", model, "-o", geometry, "-q")
-            run(arguments.bin_dir / "st-raster", geometry, "-o", raster, "-q", *[f"--{o}" for o in arguments.raster])
+            options = [f"--{o}" for o in arguments.raster]
+            run(arguments.bin_dir / "st-raster", geometry, "-o", raster, "-q", *options)
             cells = []
             for options in (["--no-blank"], []):
                 n_triangles, n_nodes, n_found = measure(arguments.bin_dir, geometry, raster, options, folder)

@@ -4,7 +4,7 @@
 usage: scripts/octree_table.py BIN_DIR [--models NAME...] [--cells-per-length N]
 
 BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). One rank, default options but
---cell-per-length 2 (the default) and N. Exit 0 when every model was meshed, incomplete meshes included, else 5.
+--cell-per-length 2 and N (default 4, as in st-raster). Exit 0 when every model was meshed, incomplete meshes included, else 5.
 """
 import argparse
 import sys

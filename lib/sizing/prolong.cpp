@@ -225,7 +225,7 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
 std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking) {
-  ST_ASSERT(seed_slope.size() == octree.leaf_keys.size());
+  ST_ASSERT(seed_slope.size() == stored_length.size());
   std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
   for (float& slope : kinds)
     if (!(slope > 0)) slope = static_cast<float>(options.slope);
@@ -235,8 +235,6 @@ std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float
   std::vector<std::int32_t> label;
   for (const float slope : cell_slope)
     label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));
-  if (blanking)
-    for (const std::int32_t leaf : blanking->split_leaf) label.push_back(label[leaf]);
   CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
   pass_lengths(octree.edge, Neighbours(octree), blanking, {options.slope, options.max_length}, lengths);
   std::vector<float> result;

@@ -28,8 +28,8 @@ struct ProlongOptions {
 void add_second_parts(const Blanking& blanking, RasterOctree& octree);
 
 /// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives
-/// to the cell that its length comes from (0: options.slope). `seed_slope` is [n_leaves], `stored_length` as in
-/// prolong(). Unique, as prolong().
+/// to the site that its length comes from (0: options.slope). `seed_slope` and `stored_length` are [n_sites], as in
+/// prolong(); the result is [n_leaves]. Unique, as prolong().
 std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking = nullptr);

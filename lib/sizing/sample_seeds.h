@@ -11,7 +11,7 @@
 namespace st {
 
 /// Up to this cell_per_length lengths are stored by cell; where cells are larger, samples keep their places.
-inline constexpr double kUsualCellPerLength = 2;
+inline constexpr double kStoredByCellUpTo = 2;
 
 /// A raster box without its reach.
 struct LengthSample {

@@ -53,13 +53,19 @@ HostMemory least_memory(const Communicator& comm) {
   return least;
 }
 
+/// Cells that are larger are fewer, by the square on a surface, for as many samples.
+double raster_bytes_per_cell(const ModelLimits& limits) {
+  const double larger = std::max(1.0, limits.far.cell_per_length / kStoredByCellUpTo);
+  return kRasterBytesPerCell * larger * larger;
+}
+
 /// What fits here, and into st-prolong afterwards.
-double fitting_cells(const HostMemory& memory) {
-  return kShare * std::min(memory.of_rank / kRasterBytesPerCell, memory.of_host / kProlongBytesPerCell);
+double fitting_cells(const HostMemory& memory, const ModelLimits& limits) {
+  return kShare * std::min(memory.of_rank / raster_bytes_per_cell(limits), memory.of_host / kProlongBytesPerCell);
 }
 
 double bytes_per_sample(const ModelLimits& limits) {
-  const bool keeps_places = limits.far.cell_per_length > kUsualCellPerLength;
+  const bool keeps_places = limits.far.cell_per_length > kStoredByCellUpTo;
   return static_cast<double>(sizeof(RasterBox) + (limits.wants_gaps ? sizeof(GapPatch) : 0) +
                              (keeps_places ? sizeof(RasterBox) + sizeof(LengthSample) : 0));
 }
@@ -71,9 +77,10 @@ CellBudget make_cell_budget(std::optional<int> max_cells, const ModelLimits& lim
     return static_cast<std::uint64_t>(std::clamp(n, 1.0, static_cast<double>(kMaxIds)));
   };
   CellBudget budget;
-  budget.max_cells = max_cells ? static_cast<std::uint64_t>(*max_cells) : countable(fitting_cells(least_memory(comm)));
+  budget.max_cells =
+      max_cells ? static_cast<std::uint64_t>(*max_cells) : countable(fitting_cells(least_memory(comm), limits));
   budget.max_samples =
-      countable(static_cast<double>(budget.max_cells) * kRasterBytesPerCell / bytes_per_sample(limits));
+      countable(static_cast<double>(budget.max_cells) * raster_bytes_per_cell(limits) / bytes_per_sample(limits));
   return budget;
 }
 

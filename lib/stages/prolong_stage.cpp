@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/limits.h"
@@ -134,29 +135,33 @@ void seed_and_blank(const Barrier& barrier, double slope, RasterArtifact& raster
   seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
 }
 
-/// Slope of each cell; empty: o.slope everywhere. Raises the slope that the field as a whole promises.
-std::vector<float> cell_slopes(const ProlongStageOptions& o, const RasterArtifact& raster,
-                               const OctreeView& raster_octree, const Blanking* blanking, double& largest) {
-  const std::vector<NamedSlope> slopes = parse_slopes(o.slope_of);
-  if (slopes.empty()) return {};
-  for (const NamedSlope& s : slopes) largest = std::max(largest, s.slope);
+/// Slope of each cell; empty: o.slope everywhere.
+std::vector<float> cell_slopes(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds,
+                               const RasterArtifact& raster, const Blanking* blanking) {
+  if (!seeds) return {};
   const OctreeView octree = raster.octree.shape.view();
-  return spread_slopes(octree, raster.octree.stored_length, seed_slopes(slopes, raster, raster_octree, octree),
+  return spread_slopes(octree, raster.octree.stored_length,
+                       seeds->of_sites(octree, raster.octree.stored_cause, blanking),
                        {o.slope, raster.numbers.far_length}, blanking);
 }
 
 /// Prolongs what the raster and `input` ask for; `sizing` gets shape, lengths, blanking and slope.
 void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier,
-                  const OctreeView& raster_octree, RasterArtifact& raster, SizingArtifact& sizing) {
+                  RasterArtifact& raster, SizingArtifact& sizing) {
+  std::optional<SlopeSeeds> slope_seeds;
+  sizing.slope = o.slope;
+  if (const std::vector<NamedSlope> named = parse_slopes(o.slope_of); !named.empty()) {
+    slope_seeds.emplace(named, raster);
+    for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
+  }
   if (!raster.samples.empty()) forget_samples(raster.octree);
   if (!input.sources.empty())
     raster.octree =
         refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
   seed_and_blank(barrier, o.slope, raster, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
-  sizing.slope = o.slope;
   ProlongOptions options{o.slope, raster.numbers.far_length};
-  const std::vector<float> cell_slope = cell_slopes(o, raster, raster_octree, blanking, sizing.slope);
+  const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, raster, blanking);
   options.cell_slope = cell_slope;
   const OctreeView octree = raster.octree.shape.view();
   sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
@@ -175,7 +180,7 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.numbers = raster.numbers;
   const OctreeShape raster_shape = raster.octree.shape;
   const Barrier barrier = find_barrier(o, raster, to_octree);
-  make_lengths(o, input, barrier, raster_shape.view(), raster, sizing);
+  make_lengths(o, input, barrier, raster, sizing);
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);
   const OctreeField field(sizing.field_data(), nullptr);

@@ -372,7 +372,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["edge_size"] = o.edge_size;
   options["base_cells"] = o.base_cells;
   options["chord_cells"] = o.chord_cells;
-  if (o.surface) options["surface"] = true;
+  if (o.no_surface) options["no_surface"] = true;
   header.options_json = options.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
@@ -538,14 +538,14 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
     times.end("gaps");
     artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, budget.max_cells, comm);
     counts.depth = gather_depth_limit(find_depth_limit(model.tables().box(), samples.own_boxes), comm);
-    if (o.cell_per_length > kUsualCellPerLength) artifact.samples = gather_samples(samples.own_boxes, comm);
+    if (o.cell_per_length > kStoredByCellUpTo) artifact.samples = gather_samples(samples.own_boxes, comm);
     times.end("octree");
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
   artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
                       o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
-  if (o.surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
+  if (!o.no_surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
   times.end("surface");
   times.gather(comm);
   if (!comm.is_root()) return {};

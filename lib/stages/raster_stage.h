@@ -41,14 +41,14 @@ struct RasterStageOptions {
   int chord_cells = 30;
   static constexpr NumberOption kChordCells{
       "--chord-cells", "N", "[1, 1000]", "smallest number of edge lengths along the local chord of a lifting surface"};
-  double cell_per_length = 2;
+  double cell_per_length = 4;
   static constexpr NumberOption kCellPerLength{"--cell-per-length", "N", "[1, 8]",
                                                "octree cell size in edge lengths: larger means fewer cells"};
   std::optional<int> max_cells;
   static constexpr NumberOption kMaxCells{
       "--max-cells", "N", "[1, 2147483647]",
       "refuse an octree with more cells than this; default: what 80% of the memory can hold"};
-  bool surface = false;           ///< store a coarse surface of a closed model: st-prolong lets no length pass it
+  bool no_surface = false;        ///< leave out the coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
 };
 

@@ -17,9 +17,22 @@ struct NamedSlope {
 /// "WING=0.1, FLAP=0.15". Throws Error(kUsage).
 std::vector<NamedSlope> parse_slopes(const std::string& text);
 
-/// Per leaf of `octree` (the raster's, or refined from it): the slope of the faces in it, the smallest where several
-/// have one; 0 elsewhere. Throws Error(kUsage) for a name that no face, group or part has.
-std::vector<float> seed_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster,
-                               const OctreeView& raster_octree, const OctreeView& octree);
+/// Where the slopes of named faces start.
+class SlopeSeeds {
+ public:
+  /// Throws Error(kUsage) for a name that no face, group or part has. `raster`: before it is refined or blanked.
+  SlopeSeeds(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster);
+
+  /// [n_sites] of `octree` (the raster's, or refined from it): the smallest slope of the named faces that pass through
+  /// the leaf or cause its length, or whose cells take their lengths from the edge that causes it; 0: there is none.
+  std::vector<float> of_sites(const OctreeView& octree, std::span<const std::int32_t> stored_cause,
+                              const Blanking* blanking) const;
+
+ private:
+  double of_cause(std::int32_t cause) const;
+
+  OctreeShape raster_shape_;
+  std::vector<double> of_face_, of_edge_, of_leaf_;  // 0: not named
+};
 
 }  // namespace st

@@ -15,14 +15,23 @@ def triangles(path):
 
 
 class Blanking(ToolTest):
-    def two_meshes(self, name):
-        """Folder of the chain without blanking, and of the one blanked with the former's mesh."""
-        a, b = artifacts_of(name), self.folder
-        must("st-prolong", a / "raster.hdf", "-o", b / "sizing.hdf", "--blank", a / "mesh.hdf")
+    def mesh(self, a, name, *options):
+        """Folder of a chain from the raster in `a`."""
+        b = self.folder / name
+        b.mkdir()
+        must("st-prolong", a / "raster.hdf", "-o", b / "sizing.hdf", *options)
         must("st-mesh", a / "geometry.hdf", b / "sizing.hdf", "-o", b / "patches.hdf")
         must("st-merge", b / "patches.hdf", "-o", b / "mesh.hdf")
         must("st-check", b / "mesh.hdf", "--geometry", a / "geometry.hdf", "--sizing", b / "sizing.hdf")
-        return a, b
+        return b
+
+    def check_both_ways(self, name, check):
+        """Calls check(open, blanked): blanked by the raster's own surface, and by a mesh."""
+        raster = artifacts_of(name)
+        unblanked = self.mesh(raster, "open", "--no-blank")
+        for blanked in (raster, self.mesh(raster, "blanked", "--blank", unblanked / "mesh.hdf")):
+            with self.subTest(blanked=blanked.name):
+                check(unblanked, blanked)
 
     def count(self, folder, is_there):
         """Triangles with all corners where is_there(x, y, z) says."""
@@ -33,7 +42,9 @@ class Blanking(ToolTest):
         return must("st-info", folder / "sizing.hdf", "--at=" + ",".join(map(str, xyz)), "--json").json()["length"]
 
     def test_the_outside_of_a_thin_nacelle_loses_the_refinement_inside(self):
-        a, b = self.two_meshes("tube_with_rod")
+        self.check_both_ways("tube_with_rod", self.check_nacelle)
+
+    def check_nacelle(self, a, b):
         rod = 0.3 * 3.14159 / 18
         self.assertAlmostEqual(self.length(a, 10, 0, 20), rod + 0.2 * 0.8, delta=0.06)
         largest = self.length(a, -10, 0, 20)
@@ -49,10 +60,12 @@ class Blanking(ToolTest):
         self.assertAlmostEqual(self.count(b, inside) / self.count(a, inside), 1, delta=0.05, msg="the inside stays")
 
     def test_a_plate_far_thinner_than_the_cells_blocks(self):
-        a, b = self.two_meshes("plate_with_rod")
+        self.check_both_ways("plate_with_rod", self.check_plate)
+
+    def check_plate(self, a, b):
         largest = self.length(a, 50, 14, 0)  # far from the rod and from the rim
         self.assertLess(self.length(a, 50, 30, 0), 0.15 * largest)
-        self.assertAlmostEqual(self.length(b, 50, 30, -0.001), largest, delta=0.02 * largest)
+        self.assertAlmostEqual(self.length(b, 50, 30, -0.001), largest, delta=0.05 * largest)
         self.assertAlmostEqual(self.length(b, 50, 30, 0.2), self.length(a, 50, 30, 0.2), delta=0.05)
         inner = lambda x, y: 14 < x < 86 and 14 < y < 46  # noqa: E731 (the narrow rim has sizes of its own)
         below, above = (lambda x, y, z: inner(x, y) and z < 0.01), (lambda x, y, z: inner(x, y) and 0.19 < z < 0.21)

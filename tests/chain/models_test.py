@@ -93,7 +93,7 @@ class Options(ToolTest):
 
     def test_cell_per_length_gives_another_raster(self):
         a = artifacts_of("torus")
-        must("st-raster", a / "geometry.hdf", "-o", self.folder / "r.hdf", "--cell-per-length", "4")
+        must("st-raster", a / "geometry.hdf", "-o", self.folder / "r.hdf", "--cell-per-length", "2")
         self.assertEqual(Run("st-diff", a / "raster.hdf", self.folder / "r.hdf").code, INCOMPLETE)
 
     def test_enhancer_changes_the_mesh_and_none_is_valid(self):

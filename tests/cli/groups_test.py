@@ -237,11 +237,11 @@ class Options(ToolTest):
     def test_st_prolong_and_st_raster_take_them(self):
         (self.folder / "p.csv").write_text("".join(f"{x},{y},{z}\n" for x in range(0, 160, 8) for y in range(0, 45, 8) for z in range(0, 21, 8)))
         total = {}
-        for slope in ("", "hot=0.02", "pin=0.02"):
+        for slope in ("", "hot=0.02", "assembly/pin#*=0.02"):
             must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", slope, "--sample", self.folder / "p.csv",
                  "--sample-output", self.folder / "o.csv")
             total[slope] = sum(float(line.split(",")[3]) for line in (self.folder / "o.csv").read_text().split("\n")[1:] if line)
-        self.assertLess(total["pin=0.02"], total["hot=0.02"])
+        self.assertLess(total["assembly/pin#*=0.02"], total["hot=0.02"])
         self.assertLess(total["hot=0.02"], total[""])
         self.expect_error(USAGE, "st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", "cold=0.1", says="cold")
         samples = []

@@ -185,7 +185,7 @@ class OptionFile(ToolTest):
 
     def test_template_names_every_option_of_the_stage(self):
         text = must("st-raster", "--print-options").out
-        for line in ("# lmin = ", "# lmax = ", "# alpha = 10", "# cell-per-length = 2"):
+        for line in ("# lmin = ", "# lmax = ", "# alpha = 10", "# cell-per-length = 4"):
             self.assertIn(line, text)
 
     def test_unknown_key_is_2_with_file_and_line(self):

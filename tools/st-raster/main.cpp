@@ -27,8 +27,8 @@ int main(int argc, char** argv) {
   tool.number(o.kChordCells, o.chord_cells);
   tool.number(o.kCellPerLength, o.cell_per_length);
   tool.number(o.kMaxCells, o.max_cells);
-  tool.flag("--surface", o.surface,
-            "store the surface of a closed model, so that st-prolong lets no length pass through solids");
+  tool.flag("--no-surface", o.no_surface,
+            "leave out the coarse surface of a closed model: lengths then pass through solids");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "exit code 0 even when parts could not be sampled; the artifact is marked incomplete");
   tool.preset();

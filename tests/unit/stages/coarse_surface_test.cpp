@@ -24,7 +24,6 @@ class CoarseSurface : public testing::Test {
     RasterStageOptions raster;
     raster.geometry = dir_ / "g.hdf";
     raster.output = dir_ / "r.hdf";
-    raster.surface = true;
     run_raster(raster, Communicator());
     return read_raster(dir_ / "r.hdf").surface;
   }

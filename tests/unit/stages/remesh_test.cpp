@@ -193,6 +193,7 @@ TEST_F(Remesh, limits_decide_what_is_redone) {
   RemeshStageOptions o = options("finer.hdf");
   o.dry_run = true;
   o.too_long = 10;
+  o.too_short = 0.1;
   EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 0);
   o.too_long = 1.05;
   EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 7);

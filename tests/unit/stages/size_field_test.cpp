@@ -22,8 +22,11 @@ namespace {
 struct FieldCase {
   const char* shape;
   bool has_source;
+  double cell_per_length;
 };
-void PrintTo(const FieldCase& c, std::ostream* out) { *out << c.shape << (c.has_source ? " with a source" : ""); }
+void PrintTo(const FieldCase& c, std::ostream* out) {
+  *out << c.shape << (c.has_source ? " with a source" : "") << ", cells of " << c.cell_per_length << " lengths";
+}
 
 class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
  protected:
@@ -37,6 +40,7 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
     RasterStageOptions raster;
     raster.geometry = dir_ / "g.hdf";
     raster.output = dir_ / "r.hdf";
+    raster.cell_per_length = GetParam().cell_per_length;
     run_raster(raster, Communicator());
     ProlongStageOptions prolong;
     prolong.raster = dir_ / "r.hdf";
@@ -51,6 +55,10 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
     field_ = std::make_unique<OctreeField>(sizing_.field_data(), nullptr);
   }
 
+  std::int32_t leaf_at(const LengthSample& s) const {
+    const OctreeView octree = sizing_.shape.view();
+    return octree.find_leaf(morton::encode(octree.grid_point({s.xyz[0], s.xyz[1], s.xyz[2]})));
+  }
   double edge_at(int leaf) const { return sizing_.shape.view().cell_edge(sizing_.shape.leaf_levels[leaf]); }
   Vec3 random_point() {
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -69,8 +77,9 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Models, SizeFieldOfModel,
-                         testing::Values(FieldCase{"torus", false}, FieldCase{"drilled_block", true},
-                                         FieldCase{"thin_plate", false}));
+                         testing::Values(FieldCase{"torus", false, 2}, FieldCase{"torus", false, 4},
+                                         FieldCase{"drilled_block", true, 2}, FieldCase{"drilled_block", true, 4},
+                                         FieldCase{"thin_plate", false, 2}, FieldCase{"thin_plate", false, 4}));
 
 TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -91,10 +100,17 @@ TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
 
 TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
   const Neighbours neighbours(sizing_.shape.view());
+  std::vector<double> least_sample(sizing_.lengths.cells.size(), std::numeric_limits<double>::infinity());
+  for (const LengthSample& s : read_raster(dir_ / "r.hdf").samples) {
+    double& least = least_sample[leaf_at(s)];
+    least = std::min<double>(least, s.length);
+  }
   for (int i = 0; i < 200'000; ++i) {
     int leaf = 0;
     const double h = field_->size(random_point(), leaf);
     double lo = sizing_.lengths.cells[leaf].length, hi = lo;
+    if (GetParam().cell_per_length > kStoredByCellUpTo)  // a cell comes down to its samples as a whole
+      lo = std::min(lo, least_sample[leaf]) - 0.25 * sizing_.slope * edge_at(leaf);
     neighbours.for_each(leaf, [&](std::int32_t other, const CellStep&) {
       lo = std::min<double>(lo, sizing_.lengths.cells[other].length);
       hi = std::max<double>(hi, sizing_.lengths.cells[other].length);
@@ -107,10 +123,14 @@ TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
 TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
   const RasterArtifact raster = read_raster(dir_ / "r.hdf");
   const OctreeView octree = raster.octree.shape.view();
+  const SizeField& field = *field_;
+  ASSERT_EQ(raster.samples.empty(), GetParam().cell_per_length <= kStoredByCellUpTo);
+  for (const LengthSample& s : raster.samples)
+    ASSERT_LE(field.size({s.xyz[0], s.xyz[1], s.xyz[2]}), s.length * (1 + 1e-4));
+  if (!raster.samples.empty()) return;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
-    ASSERT_LE(static_cast<const SizeField&>(*field_).size(octree.leaf_center(leaf)),
-              raster.octree.stored_length[leaf] * (1 + 1e-6));
+    ASSERT_LE(field.size(octree.leaf_center(leaf)), raster.octree.stored_length[leaf] * (1 + 1e-6));
   }
 }
 
