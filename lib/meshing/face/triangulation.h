@@ -12,12 +12,13 @@ namespace st {
 
 /// A node of a face in the plane. Its `h` is the edge length to aim at: the request, limited by growth and turning.
 struct MeshNode : FaceNode {
+  bool is_kept = false;  ///< of a ring about a narrow part: not to be collapsed
   Vec2 p{};              ///< scaled parameter plane
   Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
   double request = 0;    ///< edge length that the field requests
-  bool is_kept = false;  ///< of a ring about a narrow part: not to be collapsed
 };
+static_assert(sizeof(MeshNode) == 152);
 
 /// Plane nodes of one pole: one point in space, no side between them.
 inline bool are_one_pole(const MeshNode& a, const MeshNode& b) { return a.is_pole && b.is_pole && a.id == b.id; }
