@@ -129,6 +129,36 @@ int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeVie
   return std::min(PlanePoints::kLargest, 2 << std::min(deepest - level, 5));
 }
 
+/// Unites points of one cell that follow each other and have one cause.
+class PartCollector {
+ public:
+  /// `area` that each point stands for.
+  PartCollector(FaceId face, double area, const std::function<void(const SizedPart&)>& visit)
+      : visit_(visit), face_(face), area_(area) {}
+
+  /// A point of length `h`; its weight is that of a unit area, without kTrianglesPerGradient.
+  void add(std::int32_t cause, double h, const FaceWeight& weight) {
+    if (!visit_) return;
+    if (part_.area > 0 && cause != part_.cause) finish();
+    if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}};
+    part_.area += area_;
+    part_.least = std::min(part_.least, h);
+    part_.weight.uniform += area_ * weight.uniform;
+    part_.weight.graded += kTrianglesPerGradient * area_ * weight.graded;
+  }
+
+  void finish() {
+    if (part_.area > 0) visit_(part_);
+    part_ = {};
+  }
+
+ private:
+  const std::function<void(const SizedPart&)>& visit_;
+  FaceId face_;
+  double area_;
+  SizedPart part_;
+};
+
 }  // namespace
 
 void FaceCells::append_face(std::span<const CellArea> cells) {
@@ -150,7 +180,10 @@ std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& lo
   return unite(locator.take(), face_area);
 }
 
-std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field) {
+double SizedPart::length() const { return std::max(least, std::sqrt(area / weight.uniform)); }
+
+std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field,
+                                     const std::function<void(const SizedPart&)>& visit) {
   std::vector<FaceWeight> weights(static_cast<std::size_t>(faces.n_faces()));
   PlanePoints points;
   int hint = 0;
@@ -163,14 +196,19 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
       const int n_points = points_per_axis(raster, leaf, field.data().octree);
       const auto& on_plane =
           points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n_points);
+      const double area = static_cast<double>(faces.area[i]) / static_cast<double>(on_plane.size());
       double uniform = 0, graded = 0;
+      PartCollector parts(static_cast<FaceId>(f), area, visit);
       for (const Vec3& x : on_plane) {
         Vec3 gradient;
-        const double h = field.size_and_gradient(x, hint, gradient);
-        uniform += 1 / (h * h);
-        graded += norm(gradient - dot(gradient, normal) * normal) / (h * h);
+        std::int32_t cause = kNone;
+        const double h = field.size_and_gradient(x, hint, gradient, cause);
+        const FaceWeight at_point{1 / (h * h), norm(gradient - dot(gradient, normal) * normal) / (h * h)};
+        uniform += at_point.uniform;
+        graded += at_point.graded;
+        parts.add(cause, h, at_point);
       }
-      const double area = static_cast<double>(faces.area[i]) / static_cast<double>(on_plane.size());
+      parts.finish();
       weights[f].uniform += area * uniform;
       weights[f].graded += kTrianglesPerGradient * area * graded;
     }

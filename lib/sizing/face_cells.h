@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -54,8 +55,22 @@ struct FaceWeight {
 /// 0.2.
 inline constexpr double kTrianglesPerGradient = 0.6;
 
+/// Part of a face in one cell of the raster whose length has one cause.
+struct SizedPart {
+  FaceId face = 0;
+  std::int32_t cause = kNone;  ///< see pack_cause
+  double area = 0;             ///< model unit squared
+  double least = 0;            ///< smallest length in it
+  FaceWeight weight;
+
+  /// The one length that gives as many triangles, but for those of the gradient.
+  double length() const;
+};
+
 /// Per face. `raster`: the octree that `faces` refers to; `field` may live on a finer one: the area in a cell is spread
-/// over its plane, the finer the more the cell was refined there.
-std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field);
+/// over its plane, the finer the more the cell was refined there. `visit` gets the parts that the weights are the sum
+/// of, in the order of `faces`.
+std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field,
+                                     const std::function<void(const SizedPart&)>& visit = {});
 
 }  // namespace st

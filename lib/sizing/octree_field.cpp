@@ -75,10 +75,11 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   return length_in(cell, d);
 }
 
-double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const {
+double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const {
   const Vec3 d = locate(xyz, hint);
   const std::int32_t second = data_.cells[hint].upper < 0 ? find_part(hint, d) : kNone;
   const CellLength& c = second == kNone ? data_.cells[hint] : data_.second_cells[second];
+  cause = second == kNone ? data_.cause[hint] : data_.second_cause[second];
   const double h = length_in(c, d);
   const bool is_cut_off = h >= data_.scale * std::abs(static_cast<double>(c.upper)) || h <= min_size_;
   gradient = is_cut_off ? Vec3{} : data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};

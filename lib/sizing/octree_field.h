@@ -55,8 +55,8 @@ class OctreeField : public SizeField {
   /// asked.
   virtual Similarity frame() const { return {}; }
   virtual SizeExplanation explain(Vec3 xyz) const;
-  /// Likewise size() in the octree's own frame, and its gradient.
-  double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient) const;
+  /// Likewise size() in the octree's own frame, its gradient and its cause.
+  double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const;
 
  private:
   Vec3 locate(Vec3 xyz, int& hint) const;

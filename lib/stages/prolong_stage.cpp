@@ -19,6 +19,7 @@
 #include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"
 #include "stages/size_report.h"
+#include "stages/size_tally.h"
 #include "stages/slope_input.h"
 #include "stages/source_input.h"
 
@@ -27,7 +28,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMostExact = 9e15;  // triangles that are still written as a whole number
+constexpr std::size_t kMostGroups = 12;  // lines of the table of groups
+constexpr double kMostExact = 9e15;      // triangles that are still written as a whole number
 
 void require_valid(const ProlongStageOptions& o) {
   o.kSlope.require(o.slope);
@@ -169,7 +171,13 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   sizing.shape = std::move(raster.octree.shape);
 }
 
-SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
+/// A size field and what it requires of each group.
+struct ProlongedSizes {
+  SizingArtifact sizing;
+  std::vector<GroupSizes> groups;
+};
+
+ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
   const MovedGeometry moved = read_moved(o, raster.header);
   const Similarity to_octree = moved.motion.inverse();
   SourceInput input =
@@ -184,17 +192,21 @@ SizingArtifact prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.names = std::move(raster.names);
   sizing.names.source = std::move(input.names);
   const OctreeField field(sizing.field_data(), nullptr);
-  const std::vector<FaceWeight> weights = face_weights(raster.faces, raster_shape.view(), field);
+  SizeTally tally = tally_by_group(raster);
+  const std::vector<FaceWeight> weights =
+      face_weights(raster.faces, raster_shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
   sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
   input.files.insert(input.files.end(), barrier.file.begin(), barrier.file.end());
   input.files.insert(input.files.begin(), moved.file.begin(), moved.file.end());
   sizing.header = sizing_header(o, raster.header, sizing.scale, input.files);
   sizing.header.geometry_hash = moved.hash;
-  return sizing;
+  std::vector<GroupSizes> groups = tally.groups(sizing.scale, moved.motion.scale);
+  return {std::move(sizing), std::move(groups)};
 }
 
-StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing, double seconds) {
+StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing,
+                       const std::vector<GroupSizes>& groups, double seconds) {
   const auto [smallest, largest] =
       std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                           [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
@@ -230,9 +242,10 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
       {"slope", o.slope},
       {"scale", sizing.scale},
       {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
+      {"groups", groups_json(groups, sizing.names)},
       {"hash", sizing.header.content_hash},
       {"seconds",
-       seconds}}.dump();
+       seconds}}.dump(-1, ' ', false, Json::error_handler_t::replace);
   return summary;
 }
 
@@ -247,8 +260,7 @@ std::string family_member(const std::string& path, const std::string& level) {
 void write_member(ProlongStageOptions o, const std::string& path, double scale) {
   o.scale = scale;
   o.target_triangles.reset();
-  SizingArtifact sizing = prolong_raster(o, read_raster(o.raster));
-  write_sizing(path, sizing);
+  write_sizing(path, prolong_raster(o, read_raster(o.raster)).sizing);
   log_info(fmt::format("  {}: scale {:.4g}", path, scale));
 }
 
@@ -263,7 +275,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   if (!o.sample.empty()) require_writable(o.sample_output);
   RasterArtifact raster = read_raster(o.raster);
   require_complete(o, raster);
-  SizingArtifact sizing = prolong_raster(o, std::move(raster));
+  auto [sizing, groups] = prolong_raster(o, std::move(raster));
   if (!o.sample.empty()) {
     sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,
                  o.sample_output);
@@ -273,7 +285,8 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
     write_member(o, coarse, sizing.scale * *o.family);
     write_member(o, fine, sizing.scale / *o.family);
   }
-  return summarize(o, sizing, timer.seconds());
+  for (const std::string& line : group_lines(groups, sizing.names, kMostGroups)) log_info(line);
+  return summarize(o, sizing, groups, timer.seconds());
 }
 
 }  // namespace st

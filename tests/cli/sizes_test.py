@@ -82,6 +82,15 @@ class Sizes(ToolTest):
             self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
 
 
+class Causes(ToolTest):
+    def test_the_table_of_groups_has_a_line_for_each(self):
+        folder = artifacts_of("assembly")
+        run = must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "-v")
+        heading = run.err.index("least length")
+        for group in must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--json").json()["groups"]:
+            self.assertGreater(run.err.find(group["name"]), heading)
+
+
 class Slopes(ToolTest):
     def test_a_named_part_has_its_own_slope(self):
         folder = artifacts_of("assembly")

@@ -1,0 +1,129 @@
+#include "stages/size_tally.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "stages/expected_triangles.h"
+
+namespace st {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Cells of a line of a table.
+using Row = std::vector<std::string>;
+
+/// Characters of UTF-8 text.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// Pads the columns: the first is aligned left, the next `n_numbers` right, a further one stays as it is.
+std::vector<std::string> aligned(const std::vector<Row>& rows, std::size_t n_numbers) {
+  std::vector<std::size_t> width(1 + n_numbers, 0);
+  for (const Row& row : rows)
+    for (std::size_t c = 0; c < width.size(); ++c) width[c] = std::max(width[c], width_of(row[c]));
+  std::vector<std::string> lines;
+  for (const Row& row : rows) {
+    std::string line = "  ";
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string blanks(c < width.size() ? width[c] - width_of(row[c]) : 0, ' ');
+      if (c > 0) line += "  ";
+      line += c == 0 ? row[c] + blanks : blanks + row[c];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+}  // namespace
+
+SizeTally::SizeTally(std::vector<std::string> names, std::vector<std::int32_t> group_of_face)
+    : group_of_face_(std::move(group_of_face)) {
+  for (std::string& name : names) groups_.push_back({std::move(name), {}, {}});
+}
+
+void SizeTally::add(const SizedPart& part) {
+  const std::int32_t g = group_of_face_[part.face];
+  if (g == kNone) return;
+  Group& group = groups_[g];
+  Share& share = group.causes.try_emplace(part.cause, Share{{}, part.least}).first->second;
+  share.weight.uniform += part.weight.uniform;
+  share.weight.graded += part.weight.graded;
+  share.least = std::min(share.least, part.least);
+  group.lengths.push_back({static_cast<float>(part.length()), static_cast<float>(part.area)});
+}
+
+/// The length below which half of the area lies.
+double SizeTally::median(std::vector<LengthOnArea> lengths) {
+  std::stable_sort(lengths.begin(), lengths.end(),
+                   [](const LengthOnArea& a, const LengthOnArea& b) { return a.length < b.length; });
+  double total = 0, below = 0;
+  for (const LengthOnArea& l : lengths) total += static_cast<double>(l.area);
+  for (const LengthOnArea& l : lengths)
+    if ((below += static_cast<double>(l.area)) >= 0.5 * total) return static_cast<double>(l.length);
+  return static_cast<double>(lengths.back().length);
+}
+
+GroupSizes SizeTally::sizes_of(const Group& group, double scale, double unit) {
+  GroupSizes sizes{group.name, 0, std::numeric_limits<double>::infinity(), 0, {}};
+  for (const auto& [cause, share] : group.causes) {
+    const double triangles = kTrianglesPerWeight * share.weight.at(scale);
+    sizes.causes.push_back({cause, triangles, scale * unit * share.least});
+    sizes.triangles += triangles;
+    sizes.least = std::min(sizes.least, sizes.causes.back().least);
+  }
+  sizes.median = std::max(sizes.least, scale * unit * median(group.lengths));
+  std::stable_sort(sizes.causes.begin(), sizes.causes.end(),
+                   [](const CauseShare& a, const CauseShare& b) { return a.triangles > b.triangles; });
+  return sizes;
+}
+
+std::vector<GroupSizes> SizeTally::groups(double scale, double unit) const {
+  std::vector<GroupSizes> all;
+  for (const Group& group : groups_)
+    if (!group.causes.empty()) all.push_back(sizes_of(group, scale, unit));
+  std::stable_sort(all.begin(), all.end(),
+                   [](const GroupSizes& a, const GroupSizes& b) { return a.triangles > b.triangles; });
+  return all;
+}
+
+SizeTally tally_by_group(const RasterArtifact& raster) {
+  const FaceLabels& labels = raster.labels;
+  if (labels.group_name.size() > 1) return {labels.group_name, labels.face_group};
+  return {{"model"}, std::vector<std::int32_t>(static_cast<std::size_t>(raster.faces.n_faces()), 0)};
+}
+
+std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most) {
+  std::vector<Row> rows{{"group", "triangles", "least length", "median", "most because of"}};
+  for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
+    const GroupSizes& g = groups[i];
+    rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
+                    fmt::format("{:.4g}", g.median),
+                    fmt::format("{} ({})", cause_text(names, g.causes[0].cause), percent(g.share(g.causes[0])))});
+  }
+  std::vector<std::string> lines = aligned(rows, 3);
+  if (groups.size() > most) lines.push_back(fmt::format("  and {} more", groups.size() - most));
+  return lines;
+}
+
+Json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names) {
+  Json all = Json::array();
+  for (const GroupSizes& g : groups)
+    all.push_back({{"name", g.name},
+                   {"expected_triangles", g.triangles},
+                   {"least", g.least},
+                   {"median", g.median},
+                   {"cause", cause_text(names, g.causes[0].cause)},
+                   {"share", g.share(g.causes[0])}});
+  return all;
+}
+
+}  // namespace st
