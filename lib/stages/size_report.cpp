@@ -2,19 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "io/file/temporary_file.h"
 #include "sizing/size_origin.h"
+#include "stages/size_tally.h"
 
 namespace st {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostCauses = 10;  // lines of the table of causes
 
 /// "x,y,z", separated by commas, semicolons or blanks; false: something else.
 bool parse_point(std::string_view text, Vec3& xyz) {
@@ -41,6 +46,47 @@ bool is_inside(const OctreeView& octree, Vec3 x) {
 
 Json to_json(Vec3 v) { return {v.x, v.y, v.z}; }
 std::string to_text(Vec3 v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+
+/// The raster of a sizing artifact, `path` or the one in the folder of the sizing.
+RasterArtifact read_own_raster(const std::string& artifact, const ArtifactHeader& sizing, std::string path) {
+  InputRef own;
+  for (const InputRef& input : sizing.inputs)
+    if (input.role == "raster") own = input;
+  if (path.empty()) {
+    path = std::filesystem::path(artifact).replace_filename(own.name).string();
+    if (!std::filesystem::is_regular_file(path))
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: its raster {} is not there; give it with --raster FILE", artifact, path));
+  }
+  RasterArtifact raster = read_raster(path);
+  if (raster.header.content_hash != own.hash)
+    throw Error(ExitCode::kMismatch,
+                fmt::format("{} was not made from {}; give its own raster with --raster FILE", artifact, path));
+  return raster;
+}
+
+/// [n_faces] 1: of this group or part (find_faces), or, where there is none, of this name.
+std::vector<std::uint8_t> find_named_faces(const std::string& name, const RasterArtifact& raster) {
+  std::vector<std::uint8_t> is_in = find_faces(name, raster.labels);
+  if (!is_in.empty()) return is_in;
+  for (const std::string& face_name : raster.names.face) is_in.push_back(face_name == name);
+  if (std::find(is_in.begin(), is_in.end(), 1) == is_in.end())
+    throw Error(ExitCode::kUsage, fmt::format("--why '{}': no group of faces, part or face has this name{}; "
+                                              "st-info geometry.hdf --groups lists them",
+                                              name, say_other_kind(name, raster.labels)));
+  return is_in;
+}
+
+/// What the field requires of the faces that are 1 in `is_in`.
+GroupSizes sizes_of_faces(const std::string& name, const std::vector<std::uint8_t>& is_in, const RasterArtifact& raster,
+                          const OctreeField& field) {
+  std::vector<std::int32_t> group;
+  for (const std::uint8_t in : is_in) group.push_back(in ? 0 : kNone);
+  SizeTally tally({name}, std::move(group));
+  face_weights(raster.faces, raster.octree.shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
+  const std::vector<GroupSizes> groups = tally.groups(1, field.frame().scale);
+  return groups.empty() ? GroupSizes{name, 0, 0, 0, {}} : groups[0];
+}
 
 }  // namespace
 
@@ -81,6 +127,31 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
       {"cause", cause},
       {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
       {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
+  summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return summary;
+}
+
+StageSummary run_size_why(const std::string& artifact, const std::string& group, const std::string& raster_path) {
+  const MappedSizing sizing = map_sizing(artifact);
+  const RasterArtifact raster = read_own_raster(artifact, sizing.header, raster_path);
+  const CauseNames names = read_cause_names(artifact);
+  const std::vector<std::uint8_t> is_in = find_named_faces(group, raster);
+  const auto n_faces = std::count(is_in.begin(), is_in.end(), 1);
+  const GroupSizes sizes = sizes_of_faces(group, is_in, raster, *sizing.field);
+  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
+  StageSummary summary;
+  summary.line =
+      fmt::format("{}, \"{}\": {} face{}, about {:.0f} triangles, least length {:.4g}{}, median {:.4g}{}", artifact,
+                  group, n_faces, n_faces == 1 ? "" : "s", sizes.triangles, sizes.least, unit, sizes.median, unit);
+  for (const std::string& line : cause_lines(sizes, names, kMostCauses)) summary.line += "\n" + line;
+  const Json json = {{"tool", "st-info"},
+                     {"artifact", artifact},
+                     {"name", group},
+                     {"faces", n_faces},
+                     {"expected_triangles", sizes.triangles},
+                     {"least", sizes.least},
+                     {"median", sizes.median},
+                     {"causes", causes_json(sizes, names)}};
   summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return summary;
 }

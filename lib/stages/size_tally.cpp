@@ -126,4 +126,34 @@ Json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names)
   return all;
 }
 
+Json causes_json(const GroupSizes& group, const CauseNames& names) {
+  Json all = Json::array();
+  for (const CauseShare& c : group.causes)
+    all.push_back({{"cause", cause_text(names, c.cause)},
+                   {"expected_triangles", c.triangles},
+                   {"share", group.share(c)},
+                   {"least", c.least}});
+  return all;
+}
+
+std::vector<std::string> cause_lines(const GroupSizes& group, const CauseNames& names, std::size_t most) {
+  std::vector<Row> rows{{"cause", "triangles", "share", "least length"}};
+  const auto add = [&](const std::string& name, const CauseShare& c) {
+    rows.push_back({name, fmt::format("{:.0f}", c.triangles), fmt::format("{:.1f} %", 100 * group.share(c)),
+                    fmt::format("{:.4g}", c.least)});
+  };
+  CauseShare rest{kNone, 0, std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < group.causes.size(); ++i) {
+    const CauseShare& c = group.causes[i];
+    if (i < most) {
+      add(cause_text(names, c.cause), c);
+    } else {
+      rest.triangles += c.triangles;
+      rest.least = std::min(rest.least, c.least);
+    }
+  }
+  if (group.causes.size() > most) add(fmt::format("{} more", group.causes.size() - most), rest);
+  return aligned(rows, 3);
+}
+
 }  // namespace st

@@ -69,4 +69,10 @@ std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, cons
 /// Every group with its numbers and the cause of most of its triangles.
 nlohmann::ordered_json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names);
 
+/// Every cause with its numbers.
+nlohmann::ordered_json causes_json(const GroupSizes& group, const CauseNames& names);
+
+/// One line per cause, aligned, below a heading; at most `most` of them, then one line of all others together.
+std::vector<std::string> cause_lines(const GroupSizes& group, const CauseNames& names, std::size_t most);
+
 }  // namespace st

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import GEOMETRY, INPUT, USAGE, ToolTest, artifacts_of, must  # noqa: E402
+from chain import GEOMETRY, INPUT, MISMATCH, MODELS, USAGE, ToolTest, artifacts_of, must  # noqa: E402
 
 SOURCE = '[[source]]\nname = "wake"\ntype = "point"\nat = [25, 20, 5]\nlength = 0.1\nradius = 0.5\n'
 
@@ -89,6 +89,61 @@ class Causes(ToolTest):
         heading = run.err.index("least length")
         for group in must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--json").json()["groups"]:
             self.assertGreater(run.err.find(group["name"]), heading)
+
+    def test_the_causes_of_a_group_share_its_triangles(self):
+        folder = artifacts_of("assembly")
+        groups = must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--json").json()["groups"]
+        self.assertGreater(len(groups), 1)
+        for group in groups:
+            why = must("st-info", self.folder / "s.hdf", "--why", group["name"], "--raster", folder / "raster.hdf", "--json").json()
+            self.assertAlmostEqual(sum(c["share"] for c in why["causes"]), 1, delta=1e-9)
+            self.assertAlmostEqual(why["expected_triangles"] / group["expected_triangles"], 1, delta=1e-9)
+            self.assertAlmostEqual(sum(c["expected_triangles"] for c in why["causes"]) / why["expected_triangles"], 1, delta=1e-9)
+            self.assertEqual(why["causes"][0]["cause"], group["cause"])
+            self.assertLessEqual(why["least"], why["median"])
+            self.assertEqual(min(c["least"] for c in why["causes"]), why["least"])
+            triangles = [c["expected_triangles"] for c in why["causes"]]
+            self.assertEqual(triangles, sorted(triangles, reverse=True))
+
+    def test_the_raster_is_found_in_the_folder_of_the_sizing(self):
+        sizing = artifacts_of("assembly") / "sizing.hdf"
+        lines = must("st-info", sizing, "--why", "pin_mantle").out.splitlines()
+        self.assertRegex(lines[0], r'"pin_mantle": 2 faces, about \d+ triangles, least length ')
+        self.assertRegex(lines[1], r"cause +triangles +share +least length")
+        self.assertTrue(3 <= len(lines) <= 13, lines)
+
+    def test_a_face_is_found_by_its_name_where_no_group_has_it(self):
+        (self.folder / "g.toml").write_text('[[group]]\nname = "PINS"\nfaces = "7-12"\n')
+        must("st-import", next(MODELS.glob("assembly.*")), "--groups", self.folder / "g.toml", "-o", self.folder / "g.hdf")
+        must("st-raster", self.folder / "g.hdf", "-o", self.folder / "raster.hdf")
+        must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf")
+        face, group = (must("st-info", self.folder / "s.hdf", "--why", name, "--json").json() for name in ("pin_mantle", "PINS"))
+        self.assertEqual((face["faces"], group["faces"]), (2, 6))
+        self.assertLess(face["expected_triangles"], group["expected_triangles"])
+
+    def test_lengths_grow_with_a_geometry_that_moved_and_triangles_stay(self):
+        box = artifacts_of("box")
+        must("st-edit", box / "geometry.hdf", "--transform", "scale 3", "-o", self.folder / "g.hdf")
+        must("st-prolong", box / "raster.hdf", "--geometry", self.folder / "g.hdf", "-o", self.folder / "s.hdf")
+        here, there = (must("st-info", s, "--why", "*", "--raster", box / "raster.hdf", "--json").json() for s in (box / "sizing.hdf", self.folder / "s.hdf"))
+        for key, factor in (("expected_triangles", 1), ("least", 3), ("median", 3)):
+            self.assertAlmostEqual(there[key] / here[key], factor, delta=1e-6)
+
+    def test_a_source_is_a_cause(self):
+        (self.folder / "near.toml").write_text(SOURCE.replace("25, 20, 5", "1, 1, 1"))
+        box = artifacts_of("box")
+        must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "near.toml")
+        why = must("st-info", self.folder / "s.hdf", "--why", "default", "--raster", box / "raster.hdf", "--json").json()
+        self.assertIn('source 1 "wake"', [c["cause"] for c in why["causes"]])
+
+    def test_unknown_names_and_other_rasters_are_refused(self):
+        box, assembly = artifacts_of("box"), artifacts_of("assembly")
+        self.expect_error(USAGE, "st-info", assembly / "sizing.hdf", "--why", "WING", says=["--why", "WING", "--groups"])
+        self.expect_error(USAGE, "st-info", assembly / "sizing.hdf", "--raster", assembly / "raster.hdf", says="--why")
+        self.expect_error(MISMATCH, "st-info", assembly / "sizing.hdf", "--why", "x", "--raster", box / "raster.hdf", says="--raster")
+        self.expect_error(INPUT, "st-info", assembly / "mesh.hdf", "--why", "x", says="mesh.hdf")
+        must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf")
+        self.expect_error(INPUT, "st-info", self.folder / "s.hdf", "--why", "default", says=["raster.hdf", "--raster"])
 
 
 class Slopes(ToolTest):

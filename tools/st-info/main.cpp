@@ -7,7 +7,7 @@
 #include "stages/size_report.h"
 
 int main(int argc, char** argv) {
-  std::string artifact, at;
+  std::string artifact, at, why, raster;
   bool hash = false, groups = false;
   st::ToolMain tool("st-info", "Prints what an artifact contains and what it was made from.",
                     st::ToolMain::Kind::kReport);
@@ -16,7 +16,13 @@ int main(int argc, char** argv) {
   tool.flag("--groups", groups, "list the groups, parts and face names of a geometry, patches or mesh artifact");
   tool.text("--at", at, "X,Y,Z",
             "print the requested length at this point of a sizing artifact (model unit), and its cause");
+  tool.text("--why", why, "GROUP",
+            "print what causes most triangles on the faces of this group, part or face name, for a sizing artifact");
+  tool.optional_input("--raster", raster,
+                      "raster of the sizing, for --why; default: the one in the folder of the sizing");
   return tool.run(argc, argv, [&] {
+    if (!why.empty()) return st::run_size_why(artifact, why, raster);
+    if (!raster.empty()) throw st::Error(st::ExitCode::kUsage, "--raster is for --why: add --why GROUP");
     if (!at.empty()) return st::run_size_at(artifact, at);
     if (groups) return st::run_groups(artifact);
     return hash ? st::run_hash(artifact) : st::run_info(artifact);

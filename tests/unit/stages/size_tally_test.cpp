@@ -8,6 +8,7 @@
 #include "stages/import_stage.h"
 #include "stages/prolong_stage.h"
 #include "stages/raster_stage.h"
+#include "stages/size_report.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
 
@@ -75,6 +76,14 @@ TEST(SizeTally, shows_the_groups_with_most_triangles_and_counts_the_others) {
                                       "  BODY           2             3       3  face 1 \"wing\" (100 %)"}));
   EXPECT_EQ(group_lines(groups, kNames, 1).back(), "  and 1 more");
   EXPECT_EQ(groups_json(groups, kNames)[0]["cause"], "edge 5 \"TE\"");
+}
+
+TEST(SizeTally, shows_the_causes_with_most_triangles_and_unites_the_others) {
+  const GroupSizes wing = wing_and_body().groups(1, 1)[0];
+  EXPECT_EQ(cause_lines(wing, kNames, 1), (std::vector<std::string>{"  cause        triangles   share  least length",
+                                                                    "  edge 5 \"TE\"        231  95.7 %           0.1",
+                                                                    "  1 more              10   4.3 %             1"}));
+  EXPECT_EQ(cause_lines(wing, kNames, 2).size(), 3U);
 }
 
 class SizesOfModel : public testing::Test {
