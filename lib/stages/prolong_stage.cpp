@@ -28,8 +28,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostGroups = 12;  // lines of the table of groups
-constexpr double kMostExact = 9e15;      // triangles that are still written as a whole number
+constexpr double kMostExact = 9e15;  // triangles that are still written as a whole number
 
 void require_valid(const ProlongStageOptions& o) {
   o.kSlope.require(o.slope);

@@ -30,6 +30,7 @@
 #include "stages/coarse_surface.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
+#include "stages/size_tally.h"
 
 namespace st {
 namespace {
@@ -554,6 +555,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
   artifact.names = {model.tables().edge_name, model.tables().labels.face_name, {}};
   artifact.labels = model.tables().labels;
+  for (const std::string& line : sampled_lines(sampled_groups(artifact), artifact.names, kMostGroups)) log_info(line);
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   times.end("writing");

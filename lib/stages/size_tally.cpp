@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -42,6 +43,22 @@ std::vector<std::string> aligned(const std::vector<Row>& rows, std::size_t n_num
 }
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+std::vector<std::string> table_of(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
+                                  bool has_triangles) {
+  std::vector<Row> rows{{"group", "triangles", "least length", "median", "most because of"}};
+  for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
+    const GroupSizes& g = groups[i];
+    rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
+                    fmt::format("{:.4g}", g.median),
+                    fmt::format("{} ({})", cause_text(names, g.causes[0].cause), percent(g.share(g.causes[0])))});
+  }
+  if (!has_triangles)
+    for (Row& row : rows) row.erase(row.begin() + 1);
+  std::vector<std::string> lines = aligned(rows, has_triangles ? 3 : 2);
+  if (groups.size() > most) lines.push_back(fmt::format("  and {} more", groups.size() - most));
+  return lines;
+}
 
 }  // namespace
 
@@ -102,16 +119,25 @@ SizeTally tally_by_group(const RasterArtifact& raster) {
 }
 
 std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most) {
-  std::vector<Row> rows{{"group", "triangles", "least length", "median", "most because of"}};
-  for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
-    const GroupSizes& g = groups[i];
-    rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
-                    fmt::format("{:.4g}", g.median),
-                    fmt::format("{} ({})", cause_text(names, g.causes[0].cause), percent(g.share(g.causes[0])))});
-  }
-  std::vector<std::string> lines = aligned(rows, 3);
-  if (groups.size() > most) lines.push_back(fmt::format("  and {} more", groups.size() - most));
-  return lines;
+  return table_of(groups, names, most, true);
+}
+
+std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
+  SizeTally tally = tally_by_group(raster);
+  for (FaceId f = 0; f < raster.faces.n_faces(); ++f)
+    for (std::int64_t k = raster.faces.offsets[f]; k < raster.faces.offsets[f + 1]; ++k) {
+      const std::int32_t leaf = raster.faces.leaf[k];
+      const double length = static_cast<double>(raster.octree.stored_length[leaf]),
+                   area = static_cast<double>(raster.faces.area[k]);
+      if (std::isfinite(length))
+        tally.add({f, raster.octree.stored_cause[leaf], area, length, {area / (length * length), 0}});
+    }
+  return tally.groups(1, 1);
+}
+
+std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names,
+                                       std::size_t most) {
+  return table_of(groups, names, most, false);
 }
 
 Json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names) {

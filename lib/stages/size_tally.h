@@ -60,11 +60,22 @@ class SizeTally {
   std::vector<Group> groups_;
 };
 
+/// Groups that a table shows.
+inline constexpr std::size_t kMostGroups = 12;
+
 /// A tally by the main groups of the raster; one of all faces, "model", where there is one group at most.
 SizeTally tally_by_group(const RasterArtifact& raster);
 
 /// One line per group, aligned, below a heading; at most `most` of them, then how many more there are.
 std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most);
+
+/// What the samples of the raster require of its main groups, in the cells that their faces pass through and that hold
+/// a sample. Growth is not limited yet, so the triangles are none that a mesh would have.
+std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster);
+
+/// The same lines without triangles, for sampled_groups().
+std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names,
+                                       std::size_t most);
 
 /// Every group with its numbers and the cause of most of its triangles.
 nlohmann::ordered_json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/log.h"
 #include "stages/expected_triangles.h"
 #include "stages/import_stage.h"
@@ -134,6 +136,29 @@ TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
     EXPECT_NEAR(sum_of_shares(g), 1, 1e-12);
   }
   EXPECT_NEAR(triangles / expected_triangles(sizing.face_weight), 1, 1e-9);
+}
+
+TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
+  prolong();
+  const RasterArtifact raster = read_raster(dir_ / "r.hdf");
+  const MappedSizing sizing = map_sizing(dir_ / "s.hdf");
+  const std::vector<GroupSizes> sampled = sampled_groups(raster);
+  SizeTally tally = tally_by_group(raster);
+  face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) { tally.add(p); });
+  const std::vector<GroupSizes> groups = tally.groups(1, 1);
+  ASSERT_EQ(sampled.size(), groups.size());
+  for (const GroupSizes& g : sampled) {
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const GroupSizes& other) { return other.name == g.name; });
+    ASSERT_NE(same, groups.end());
+    EXPECT_LE(g.least, g.median);
+    EXPECT_GE(g.least, raster.numbers.min_length * (1 - 1e-6));
+    EXPECT_LE(same->least, g.least * (1 + 1e-2)) << "growth makes lengths smaller only";
+    EXPECT_NEAR(sum_of_shares(g), 1, 1e-12);
+  }
+  const std::vector<std::string> lines = sampled_lines(sampled, raster.names, 12);
+  EXPECT_EQ(lines.size(), 1 + sampled.size());
+  EXPECT_EQ(lines[0].find("triangles"), std::string::npos);
 }
 
 TEST_F(SizesOfModel, stand_in_the_summary_and_follow_the_scale) {
