@@ -149,7 +149,8 @@ void bench_accuracy(const std::string& path) {
     }
     seed_lengths(samples, kSlope, raster);
     storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
-    hold_samples(raster.shape.view(), samples, nullptr, storage->lengths);
+    const Neighbours neighbours(raster.shape.view());
+    fit_samples(raster.shape.view(), neighbours, samples, kSlope, nullptr, storage->lengths);
     const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1},
                             storage);
     std::vector<double> errors;

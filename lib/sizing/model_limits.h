@@ -27,6 +27,8 @@ struct ModelLimits {
   std::vector<std::optional<SamplingLimits>> vertex;  ///< [n_vertices] its max_length is asked for there; nullopt: no
                                                       ///< rule names it
   std::vector<std::uint8_t> edge_is_ruled;            ///< [n_edges] 1: a rule names the edge
+  std::vector<std::uint8_t> edge_is_smooth;           ///< [n_edges] 1: the surface goes on smoothly across it
+                                                      ///< (features/smooth_edges.h)
   std::vector<std::int32_t> face_wing;  ///< [n_faces] the lifting surface whose chord limits the face; kNone: none
   std::vector<ChordLine> chords;        ///< of these surfaces
   SamplingLimits far;       ///< the walls' limits with max_length = far_length: for what is not sampled but traced
@@ -35,6 +37,10 @@ struct ModelLimits {
   bool is_material_ahead = false;  ///< normals of faces point into the material
   double far_length = 0;           ///< largest max_length of all: the length where nothing asks for less
 
+  /// Whether an edge only says where the CAD happens to be split: it requires no length of its own.
+  bool is_mere_split(EdgeId e) const {
+    return edge_is_smooth[e] && !edge_is_ruled[e] && !(edge[e] && edge[e]->edge_cells);
+  }
   /// Limits at which an edge is traced as part of a loop.
   const SamplingLimits& trace(EdgeId e) const { return edge[e] ? *edge[e] : far; }
 };

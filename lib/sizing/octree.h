@@ -1,6 +1,8 @@
 // Linear octree of sample lengths: Morton-ordered leaves, built from raster boxes, 2:1 balanced.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -96,8 +98,11 @@ struct RasterOctree {
 struct CellLength {
   float length = 0;               ///< at the centre, model unit, > 0
   float gradient[3] = {0, 0, 0};  ///< change of length per distance
-  float upper = 0;  ///< largest length of the leaf and its neighbours, model unit; negated where a surface splits the
-                    ///< leaf
+  float upper = 0;  ///< bound of all lengths in the leaf: the largest of it and its neighbours, or a sample's; model
+                    ///< unit; negated where a surface splits the leaf
+
+  /// At the centre, the bound taken.
+  float at_centre() const { return std::min(length, std::abs(upper)); }
 };
 
 /// Cube around `box`, enlarged by 1 % on each side; edge 1 for an empty box or a single point.

@@ -14,8 +14,8 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
   if (!(min_length > 0)) {
     const auto smallest =
         std::min_element(data.cells.begin(), data.cells.end(),
-                         [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
-    min_length = smallest->length;
+                         [](const CellLength& a, const CellLength& b) { return a.at_centre() < b.at_centre(); });
+    min_length = smallest->at_centre();
   }
   min_size_ = min_length * data_.scale;
   top_.resize(std::size_t{1} << (3 * kTopLevel));

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/eigen.h"
 #include "base/limits.h"
 
 namespace st {
@@ -46,10 +47,68 @@ bool concerns(const LengthSample& s, const Blanking& blanking, std::int32_t spli
   return is_second ? along < kClear : along > -kClear;
 }
 
+/// A sample in a cell.
+struct CellSample {
+  Vec3 d;            // from the centre
+  double length;     // its own
+  double requested;  // what is requested at its place: no more than its own
+};
+
+double length_at(const CellLength& cell, Vec3 d) {
+  return cell.length + cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
+}
+
+/// Least-squares plane through what is requested at the samples. They lie on a surface or a line: in the directions
+/// that they do not tell, the gradient stays as it is.
+void fit_to_samples(std::span<const CellSample> samples, double edge, double slope, CellLength& cell) {
+  constexpr double kStiffness = 0.02;  // of the gradient, against samples spread over the edge of the cell
+  const Vec3 before{cell.gradient[0], cell.gradient[1], cell.gradient[2]};
+  const double share = 1.0 / static_cast<double>(samples.size());
+  Vec3 middle;
+  double mean = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const CellSample& s : samples) {
+    middle += share * s.d;
+    mean += share * s.requested;
+    smallest = std::min(smallest, s.requested);
+  }
+  Eigen::Matrix3d matrix = kStiffness * edge * edge * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const CellSample& s : samples) {
+    const Eigen::Vector3d d = to_eigen(s.d - middle);
+    matrix += share * d * d.transpose();
+    right += share * (s.requested - mean - dot(before, s.d - middle)) * d;
+  }
+  Vec3 gradient = before + to_vec3(solve(matrix, right, 0).value_or(Eigen::Vector3d::Zero()));
+  if (norm(gradient) > slope) gradient = slope * normalized(gradient);
+  cell.length = static_cast<float>(std::max(smallest, mean - dot(gradient, middle)));
+  cell.gradient[0] = static_cast<float>(gradient.x);
+  cell.gradient[1] = static_cast<float>(gradient.y);
+  cell.gradient[2] = static_cast<float>(gradient.z);
+}
+
+/// Lowers a cell to its samples: as a whole, or by its upper bound, whichever lowers it less at the samples.
+void hold(std::span<const CellSample> samples, CellLength& cell) {
+  double excess = 0, smallest = std::numeric_limits<double>::infinity(), cap = smallest;
+  for (const CellSample& s : samples) {
+    smallest = std::min(smallest, s.length);
+    const double own = length_at(cell, s.d);
+    if (!(own > s.length)) continue;
+    excess = std::max(excess, own - s.length);
+    cap = std::min(cap, s.length);
+  }
+  if (!(excess > 0)) return;
+  double lowered_by_cap = 0;
+  for (const CellSample& s : samples) lowered_by_cap += std::max(0.0, length_at(cell, s.d) - cap);
+  if (cell.length - excess >= smallest && excess * static_cast<double>(samples.size()) < lowered_by_cap)
+    cell.length -= static_cast<float>(excess);
+  else  // a negative bound says that the cell has a second part
+    cell.upper = std::copysign(std::min(std::abs(cell.upper), static_cast<float>(cap)), cell.upper);
+}
+
 /// Samples by the leaf in which they lie.
-class Limits {
+class SamplesByLeaf {
  public:
-  Limits(const OctreeView& octree, std::span<const LengthSample> samples) : octree_(octree), samples_(samples) {
+  SamplesByLeaf(const OctreeView& octree, std::span<const LengthSample> samples) : octree_(octree), samples_(samples) {
     require_countable(samples.size(), "samples of the raster");
     std::vector<std::int32_t> leaf_of;
     first_.assign(octree.leaf_keys.size() + 1, 0);
@@ -63,24 +122,15 @@ class Limits {
     for (std::size_t i = 0; i < leaf_of.size(); ++i) by_leaf_[next[leaf_of[i]]++] = static_cast<std::int32_t>(i);
   }
 
-  /// Lowers a cell of the leaf by those of its samples that `is_wanted` takes.
+  /// The samples of the leaf that `is_wanted` takes: places from its centre, and lengths.
   template <class IsWanted>
-  void hold(std::size_t leaf, const IsWanted& is_wanted, CellLength& cell) const {
-    double excess = 0;
-    float smallest = std::numeric_limits<float>::infinity();
+  std::vector<CellSample> in_leaf(std::int32_t leaf, const IsWanted& is_wanted) const {
+    std::vector<CellSample> result;
     for (std::int32_t k = first_[leaf]; k < first_[leaf + 1]; ++k) {
       const LengthSample& s = samples_[by_leaf_[k]];
-      if (!is_wanted(s)) continue;
-      const Vec3 d = place_of(s) - octree_.leaf_center(static_cast<std::int32_t>(leaf));
-      excess = std::max(
-          excess, cell.length + cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z - s.length);
-      smallest = std::min(smallest, s.length);
+      if (is_wanted(s)) result.push_back({place_of(s) - octree_.leaf_center(leaf), s.length, s.length});
     }
-    if (!(excess > 0)) return;
-    cell.length -= static_cast<float>(excess);
-    if (cell.length >= smallest) return;
-    cell.length = smallest;  // nothing asks for less
-    std::fill_n(cell.gradient, 3, 0.0F);
+    return result;
   }
 
  private:
@@ -179,20 +229,50 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, const Bla
   for (const LengthSample& s : samples) seeder.seed(s);
 }
 
-void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, const Blanking* blanking,
-                  ProlongedLengths& lengths) {
+void fit_samples(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
+                 double slope, const Blanking* blanking, ProlongedLengths& lengths) {
+  constexpr double kReach = 0.75;  // of the edge, from the centre: samples around count, too
   if (samples.empty()) return;
-  const Limits limits(octree, samples);
-  for (std::size_t leaf = 0; leaf < lengths.cells.size(); ++leaf) {
+  const SamplesByLeaf by_leaf(octree, samples);
+  const std::int32_t n = octree.n_leaves();
+  std::vector<float> centre;  // [n_sites] before
+  for (const auto* cells : {&lengths.cells, &lengths.second_cells})
+    for (const CellLength& cell : *cells) centre.push_back(cell.length);
+  const auto leaf_of = [&](std::int32_t site) { return site < n ? site : blanking->split_leaf[site - n]; };
+  const auto samples_of = [&](std::int32_t site) {
+    const std::int32_t leaf = leaf_of(site);
     const bool is_split = lengths.cells[leaf].upper < 0;
-    const std::int32_t k = is_split ? blanking->find_split(static_cast<std::int32_t>(leaf)) : kNone;
-    limits.hold(
-        leaf, [&](const LengthSample& s) { return !is_split || concerns(s, *blanking, k, false); },
-        lengths.cells[leaf]);
-    if (is_split)
-      limits.hold(
-          leaf, [&](const LengthSample& s) { return concerns(s, *blanking, k, true); }, lengths.second_cells[k]);
-  }
+    const std::int32_t k = is_split ? blanking->find_split(leaf) : kNone;
+    return by_leaf.in_leaf(leaf,
+                           [&](const LengthSample& s) { return !is_split || concerns(s, *blanking, k, site >= n); });
+  };
+  const auto fit = [&](std::int32_t site, CellLength& cell) {
+    const std::vector<CellSample> own = samples_of(site);
+    if (own.empty()) return;
+    const std::int32_t leaf = leaf_of(site);
+    const Vec3 c = octree.leaf_center(leaf);
+    const double edge = octree.cell_edge(octree.leaf_levels[leaf]);
+    std::vector<CellSample> all = own;
+    for_each_link(blanking, neighbours, site, [&](std::int32_t to, const CellStep&) {
+      const Vec3 off = octree.leaf_center(leaf_of(to)) - c;
+      for (CellSample s : samples_of(to)) {
+        s.d += off;
+        if (std::max({std::abs(s.d.x), std::abs(s.d.y), std::abs(s.d.z)}) <= kReach * edge) all.push_back(s);
+      }
+    });
+    for (CellSample& s : all) {
+      for (const CellSample& other : all)
+        s.requested = std::min(s.requested, other.length + slope * distance(s.d, other.d));
+      for_each_link(blanking, neighbours, site, [&](std::int32_t to, const CellStep&) {
+        s.requested = std::min(s.requested, centre[to] + slope * distance(c + s.d, octree.leaf_center(leaf_of(to))));
+      });
+    }
+    fit_to_samples(all, edge, slope, cell);
+    hold(own, cell);
+  };
+  for (std::int32_t leaf = 0; leaf < n; ++leaf) fit(leaf, lengths.cells[leaf]);
+  for (std::size_t k = 0; k < lengths.second_cells.size(); ++k)
+    fit(n + static_cast<std::int32_t>(k), lengths.second_cells[k]);
 }
 
 }  // namespace st

@@ -36,9 +36,10 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOct
 void seed_lengths(std::span<const LengthSample> samples, double slope, const Blanking& blanking,
                   const Neighbours& neighbours, RasterOctree& octree);
 
-/// Lowers cells, and second parts of split leaves, in which the linear length at the place of a sample is more than the
-/// sample's. No centre gets below all samples of its cell. `blanking` may be null.
-void hold_samples(const OctreeView& octree, std::span<const LengthSample> samples, const Blanking* blanking,
-                  ProlongedLengths& lengths);
+/// Fits the linear lengths of cells, and second parts of split leaves, to what is requested at the places of the
+/// samples in and around them: by the samples themselves, and by prolongation from linked cells. No sample gets more
+/// than its length, no centre less than all that is requested around. `blanking` may be null.
+void fit_samples(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
+                 double slope, const Blanking* blanking, ProlongedLengths& lengths);
 
 }  // namespace st

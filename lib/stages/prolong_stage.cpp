@@ -166,7 +166,7 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   options.cell_slope = cell_slope;
   const OctreeView octree = raster.octree.shape.view();
   sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  hold_samples(octree, raster.samples, blanking, sizing.lengths);
+  fit_samples(octree, Neighbours(octree), raster.samples, sizing.slope, blanking, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
 }
 
@@ -208,9 +208,10 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
                        const std::vector<GroupSizes>& groups, double seconds) {
   const auto [smallest, largest] =
       std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
-                          [](const CellLength& a, const CellLength& b) { return a.length < b.length; });
+                          [](const CellLength& a, const CellLength& b) { return a.at_centre() < b.at_centre(); });
   const double scale = sizing.scale * sizing.frame.scale;
-  const double lo = scale * smallest->length, hi = scale * largest->length, n = expected_triangles(sizing.face_weight);
+  const double lo = scale * smallest->at_centre(), hi = scale * largest->at_centre(),
+               n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
   const std::string sources =
       sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());

@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
+#include "features/smooth_edges.h"
 #include "features/strip.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
@@ -211,7 +212,8 @@ class RasterTasks {
     const EdgeId end = std::min((batch + 1) * kEdgesPerTask, model_.tables().n_edges());
     for (EdgeId e = batch * kEdgesPerTask; e < end; ++e) {
       const std::optional<SamplingLimits>& limits = limits_.edge[e];
-      if (limits) raster_curve(*model_.curve(e), *limits, pack_cause(CauseKind::kEdge, e), boxes);
+      if (limits && !limits_.is_mere_split(e))
+        raster_curve(*model_.curve(e), *limits, pack_cause(CauseKind::kEdge, e), boxes);
       raster_ends(e, boxes);
     }
   }
@@ -251,7 +253,8 @@ class RasterTasks {
     const auto strip =
         std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
     if (strip != strips_.end() && strip->face == f && !limits_.edge_is_ruled[strip->edges[0]] &&
-        !limits_.edge_is_ruled[strip->edges[1]])
+        !limits_.edge_is_ruled[strip->edges[1]] &&
+        !(limits_.is_mere_split(strip->edges[0]) && limits_.is_mere_split(strip->edges[1])))
       raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
   }
 
@@ -458,6 +461,7 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   wings.edges = find_wing_edges(model, roles);
   wings.surfaces = find_lifting_surfaces(model, roles, wings.edges);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.surfaces);
+  limits.edge_is_smooth = find_smooth_edges(model);
   sample_wings(o, model, roles.reference_diagonal, limits, wings);
   report_wings(o, wings);
   return limits;
@@ -520,8 +524,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   Wings wings;
   ModelLimits limits;
   if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);
-  share(comm, limits.face, limits.edge, limits.vertex, limits.edge_is_ruled, limits.face_wing, limits.chords,
-        limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length);
+  share(comm, limits.face, limits.edge, limits.vertex, limits.edge_is_ruled, limits.edge_is_smooth, limits.face_wing,
+        limits.chords, limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);
   limit_samples(budget.max_samples, limits);

@@ -11,6 +11,7 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
@@ -295,6 +296,32 @@ TopoDS_Shape wing(double closing) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// The sharp wing, its skin cut into n_chord x n_span faces, wide and narrow ones in turn. They join smoothly but at
+/// the trailing edge.
+TopoDS_Shape cut_wing(int n_chord, int n_span) {
+  const Handle(Geom_BSplineCurve) curve = aerofoil(0.1036);
+  const Handle(Geom_Surface) skin = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0, 0, 1));
+  const auto cut = [](int i, int n) {  // between 0 and 1
+    return (i % 2 && i < n ? i + 0.96 : i) / n;
+  };
+  const double u0 = curve->FirstParameter(), u1 = curve->LastParameter();
+  const auto u = [&](int i) { return u0 + (u1 - u0) * cut(i, n_chord); };
+  BRepBuilderAPI_Sewing sewing(1e-6);
+  for (int i = 0; i < n_chord; ++i)
+    for (int k = 0; k < n_span; ++k)
+      sewing.Add(
+          BRepBuilderAPI_MakeFace(skin, u(i), u(i + 1), 30 * cut(k, n_span), 30 * cut(k + 1, n_span), 1e-7).Shape());
+  for (const double z : {0.0, 30.0}) {
+    BRepBuilderAPI_MakeWire rim;
+    for (int i = 0; i < n_chord; ++i)
+      rim.Add(
+          BRepBuilderAPI_MakeEdge(Handle(Geom_Curve)::DownCast(curve->Translated(gp_Vec(0, 0, z))), u(i), u(i + 1)));
+    sewing.Add(BRepBuilderAPI_MakeFace(rim.Wire(), true).Shape());
+  }
+  sewing.Perform();
+  return BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Shape();
+}
+
 /// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of
 /// length 40.
 TopoDS_Shape shallow_prism() {
@@ -365,6 +392,9 @@ const std::map<std::string, Factory>& factories() {
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},
+      {"wing_of_2", [] { return cut_wing(2, 1); }},
+      {"wing_of_8", [] { return cut_wing(4, 2); }},
+      {"wing_of_200", [] { return cut_wing(10, 20); }},
       {"wing_in_box", [] { return BRepAlgoAPI_Cut(moved(box(60, 60, 60), -20, -30, -15), wing(0.1036)).Shape(); }},
       {"drilled_block",
        [] {

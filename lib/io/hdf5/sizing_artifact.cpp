@@ -336,7 +336,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
-  for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.length);
+  for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.at_centre());
   file.set_attribute(kSizing, "slope", sizing.slope);
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);

@@ -254,7 +254,7 @@ TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
     seed_lengths(samples, kSlope, blanking, neighbours, raster);
     ProlongedLengths lengths =
         prolong(octree, raster.stored_length, raster.stored_cause, {kSlope, kLargest}, &blanking);
-    hold_samples(octree, samples, &blanking, lengths);
+    fit_samples(octree, neighbours, samples, kSlope, &blanking, lengths);
     const OctreeField field({octree, lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf, blanking.split,
                              lengths.second_cells, lengths.second_cause},
                             nullptr);

@@ -126,7 +126,7 @@ TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
   const SizeField& field = *field_;
   ASSERT_EQ(raster.samples.empty(), GetParam().cell_per_length <= kStoredByCellUpTo);
   for (const LengthSample& s : raster.samples)
-    ASSERT_LE(field.size({s.xyz[0], s.xyz[1], s.xyz[2]}), s.length * (1 + 1e-4));
+    ASSERT_LE(field.size({s.xyz[0], s.xyz[1], s.xyz[2]}), s.length * 1.02);  // a plane tells the parts of a cell
   if (!raster.samples.empty()) return;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
