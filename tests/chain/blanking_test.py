@@ -65,7 +65,7 @@ class Blanking(ToolTest):
     def check_plate(self, a, b):
         largest = self.length(b, 50, 14, -0.001)  # far from the rod and from the rim
         self.assertLess(self.length(a, 50, 30, 0), 0.15 * largest)
-        self.assertAlmostEqual(self.length(b, 50, 30, -0.001), largest, delta=0.02 * largest)
+        self.assertAlmostEqual(self.length(b, 50, 30, -0.001), largest, delta=0.05 * largest)
         self.assertAlmostEqual(self.length(b, 50, 30, 0.2), self.length(a, 50, 30, 0.2), delta=0.05)
         inner = lambda x, y: 14 < x < 86 and 14 < y < 46  # noqa: E731 (the narrow rim has sizes of its own)
         below, above = (lambda x, y, z: inner(x, y) and z < 0.01), (lambda x, y, z: inner(x, y) and 0.19 < z < 0.21)
