@@ -174,6 +174,13 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
 struct ProlongedSizes {
   SizingArtifact sizing;
   std::vector<GroupSizes> groups;
+  std::vector<FaceWeight> weights;
+
+  void set_scale(double scale) {
+    sizing.scale = scale;
+    sizing.face_weight.clear();
+    for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(scale));
+  }
 };
 
 ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
@@ -192,16 +199,16 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.names.source = std::move(input.names);
   const OctreeField field(sizing.field_data(), nullptr);
   SizeTally tally = tally_by_group(raster);
-  const std::vector<FaceWeight> weights =
+  std::vector<FaceWeight> weights =
       face_weights(raster.faces, raster_shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
-  sizing.scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
-  for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(sizing.scale));
+  const double scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   input.files.insert(input.files.end(), barrier.file.begin(), barrier.file.end());
   input.files.insert(input.files.begin(), moved.file.begin(), moved.file.end());
-  sizing.header = sizing_header(o, raster.header, sizing.scale, input.files);
+  sizing.header = sizing_header(o, raster.header, scale, input.files);
   sizing.header.geometry_hash = moved.hash;
-  std::vector<GroupSizes> groups = tally.groups(sizing.scale, moved.motion.scale);
-  return {std::move(sizing), std::move(groups)};
+  ProlongedSizes result{std::move(sizing), tally.groups(scale, moved.motion.scale), std::move(weights)};
+  result.set_scale(scale);
+  return result;
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing,
@@ -257,10 +264,11 @@ std::string family_member(const std::string& path, const std::string& level) {
 }
 
 /// The size field of the same options with all lengths times `scale`.
-void write_member(ProlongStageOptions o, const std::string& path, double scale) {
-  o.scale = scale;
+void write_member(ProlongStageOptions o, const std::string& path, double scale, ProlongedSizes& sizes) {
   o.target_triangles.reset();
-  write_sizing(path, prolong_raster(o, read_raster(o.raster)).sizing);
+  sizes.set_scale(scale);
+  sizes.sizing.header.options_json = options_json(o, scale);
+  write_sizing(path, sizes.sizing);
   log_info(fmt::format("  {}: scale {:.4g}", path, scale));
 }
 
@@ -275,18 +283,21 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   if (!o.sample.empty()) require_writable(o.sample_output);
   RasterArtifact raster = read_raster(o.raster);
   require_complete(o, raster);
-  auto [sizing, groups] = prolong_raster(o, std::move(raster));
+  ProlongedSizes sizes = prolong_raster(o, std::move(raster));
+  SizingArtifact& sizing = sizes.sizing;
   if (!o.sample.empty()) {
     sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,
                  o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
+  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_info(line);
+  const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());
   if (o.family) {
-    write_member(o, coarse, sizing.scale * *o.family);
-    write_member(o, fine, sizing.scale / *o.family);
+    const double scale = sizing.scale;
+    write_member(o, coarse, scale * *o.family, sizes);
+    write_member(o, fine, scale / *o.family, sizes);
   }
-  for (const std::string& line : group_lines(groups, sizing.names, kMostGroups)) log_info(line);
-  return summarize(o, sizing, groups, timer.seconds());
+  return summary;
 }
 
 }  // namespace st
