@@ -166,7 +166,8 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   options.cell_slope = cell_slope;
   const OctreeView octree = raster.octree.shape.view();
   sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  fit_samples(octree, Neighbours(octree), raster.samples, sizing.slope, blanking, sizing.lengths);
+  if (!raster.samples.empty())
+    fit_samples(octree, Neighbours(octree), raster.samples, sizing.slope, blanking, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
 }
 
