@@ -16,6 +16,10 @@ void log_warning(const std::string& text) {
   if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
+void log_report(const std::string& text) {
+  if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "%s\n", text.c_str());
+}
+
 void log_info(const std::string& text) {
   if (g_verbosity == Verbosity::kVerbose) std::fprintf(stderr, "%s\n", text.c_str());
 }

@@ -14,6 +14,8 @@ Verbosity verbosity();
 
 /// One warning line on stderr ("warning: ..."), shown unless quiet.
 void log_warning(const std::string& text);
+/// One line of a result on stderr, such as a row of a table, shown unless quiet.
+void log_report(const std::string& text);
 /// One information line on stderr, shown when verbose.
 void log_info(const std::string& text);
 

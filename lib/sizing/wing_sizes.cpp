@@ -13,6 +13,28 @@ constexpr double kFinestBase = 0.25;  // of the length at the edge: thinner base
 constexpr int kMaxBoxes = 100000;     // along one edge
 constexpr int kGap = 2;               // stations: noses further apart are not joined
 
+/// Lengths at a place of a wing, by its local chord.
+class LocalLengths {
+ public:
+  LocalLengths(const LiftingSurface& wing, const WingSizes& sizes) : span_(wing.span), sizes_(sizes) {}
+
+  double floor(double chord) const {
+    return sizes_.least ? resolve_length(*sizes_.least, reference_of(chord), "--lmin") : 0;
+  }
+  double asked(double chord) const { return resolve_length(sizes_.edge_size, reference_of(chord), "--edge-size"); }
+
+ private:
+  LengthReference reference_of(double chord) const {
+    LengthReference reference = sizes_.reference;
+    reference.chord = chord;
+    reference.span = span_;
+    return reference;
+  }
+
+  double span_;
+  const WingSizes& sizes_;
+};
+
 class WingRaster {
  public:
   WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
@@ -66,17 +88,9 @@ class WingRaster {
     return strip.stations[i].width + part * (strip.stations[i + 1].width - strip.stations[i].width);
   }
 
-  LengthReference reference_of(double chord) const {
-    LengthReference reference = sizes_.reference;
-    reference.chord = chord;
-    reference.span = wing_.span;
-    return reference;
-  }
-  double floor_of(double chord) const {
-    return sizes_.least ? resolve_length(*sizes_.least, reference_of(chord), "--lmin") : 0;
-  }
+  double floor_of(double chord) const { return LocalLengths(wing_, sizes_).floor(chord); }
   double length_of(double chord) const {
-    return std::max(resolve_length(sizes_.edge_size, reference_of(chord), "--edge-size"), floor_of(chord));
+    return std::max(LocalLengths(wing_, sizes_).asked(chord), floor_of(chord));
   }
 
   /// Boxes one length apart; `place_at` takes a share of the way.
@@ -128,6 +142,18 @@ void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes
     if (has_noses && !(has_base && strip->edges[1] == trailing.edge)) raster.add_noses(trailing);
     if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
   }
+}
+
+std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSizes& sizes) {
+  const LocalLengths lengths(wing, sizes);
+  std::optional<RaisedLength> most;
+  for (const TrailingEdge& trailing : wing.trailing)
+    for (const ChordStation& s : trailing.stations) {
+      if (!s.is_measured) continue;
+      const RaisedLength own{lengths.asked(s.chord), lengths.floor(s.chord)};
+      if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;
+    }
+  return most;
 }
 
 void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines) {

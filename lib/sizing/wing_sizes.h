@@ -28,6 +28,15 @@ struct WingSizes {
 void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::span<const Strip> strips,
                  std::span<const std::uint8_t> is_left_out, std::vector<RasterBox>& boxes);
 
+/// A length that the floor makes larger.
+struct RaisedLength {
+  double asked = 0, floor = 0;  ///< model unit
+};
+
+/// Where `least` makes lengths along edges and noses of a lifting surface larger than `edge_size`, the station where
+/// it does so most; nullopt: nowhere. Local. Throws Error(kUsage).
+std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSizes& sizes);
+
 /// A local chord as the sampling of faces uses it.
 struct ChordLine {
   Vec3 nose, trailing;    ///< model unit

@@ -291,7 +291,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
                  o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
-  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_info(line);
+  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_report(line);
   const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());
   if (o.family) {
     const double scale = sizing.scale;

@@ -138,6 +138,23 @@ struct Wings {
   std::vector<RasterBox> boxes;  ///< what they ask for, besides curvature
 };
 
+/// Where --lmin undoes --edge-size.
+void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface>& surfaces, const WingSizes& sizes) {
+  std::size_t n_raised = 0;
+  RaisedLength most{1, 0};
+  for (const LiftingSurface& wing : surfaces) {
+    const std::optional<RaisedLength> own = most_raised(wing, sizes);
+    if (!own) continue;
+    ++n_raised;
+    if (own->floor * most.asked > most.floor * own->asked) most = *own;
+  }
+  if (n_raised > 0)
+    log_warning(
+        fmt::format("--lmin {} is larger than --edge-size {} on {} of {} lifting surfaces: {:.4g} instead of {:.4g} "
+                    "where it matters most; give a smaller --lmin, or leave it out",
+                    o.lmin, o.edge_size, n_raised, surfaces.size(), most.floor, most.asked));
+}
+
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
 void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, ModelLimits& limits, Wings& wings) {
   const std::optional<LengthSpec> size = edge_size(o);
@@ -147,6 +164,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, double diagon
   for (std::size_t e = 0; e < is_left_out.size(); ++e) is_left_out[e] |= !limits.edge[e];
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
+  warn_of_floor(o, wings.surfaces, sizes);
   for (const LiftingSurface& wing : wings.surfaces) raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
 }
@@ -440,13 +458,17 @@ nlohmann::json wings_json(const Wings& wings) {
 
 /// One line for each lifting surface, or one that there is none.
 void report_wings(const RasterStageOptions& o, const Wings& wings) {
-  if (wings.surfaces.empty()) log_info("no lifting surface found: --edge-size has no effect");
-  for (const LiftingSurface& wing : wings.surfaces)
-    log_info(
-        fmt::format("lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "
+  const std::size_t n = wings.surfaces.size();
+  if (n == 0) log_info("no lifting surface found: --edge-size has no effect");
+  for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i) {
+    const LiftingSurface& wing = wings.surfaces[i];
+    log_report(
+        fmt::format("  lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "
                     "{} along edge and nose",
                     wing.trailing.size(), wing.trailing.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span,
                     wing.least_chord, wing.largest_chord, o.edge_size));
+  }
+  if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
 }
 
 /// What the user asks for.
@@ -463,7 +485,6 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.surfaces);
   limits.edge_is_smooth = find_smooth_edges(model);
   sample_wings(o, model, roles.reference_diagonal, limits, wings);
-  report_wings(o, wings);
   return limits;
 }
 
@@ -473,7 +494,8 @@ ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
 }
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts,
-                       std::size_t n_rules, const Wings& wings, const PhaseTimes& times) {
+                       std::size_t n_rules, const Wings& wings, const std::vector<GroupSizes>& groups,
+                       const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
@@ -482,7 +504,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes,
       n_cells, a.numbers.min_length, a.numbers.max_length, wings.surfaces.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
-  summary.json = nlohmann::json{{"tool", "st-raster"},
+  summary.json = nlohmann::ordered_json{{"tool", "st-raster"},
                                 {"output", o.output},
                                 {"samples", counts.n_boxes},
                                 {"cells", n_cells},
@@ -497,11 +519,12 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                 {"gap_samples", counts.n_gap_boxes},
                                 {"not_sampled", counts.n_failures},
                                 {"beyond_depth", depth_json(counts.depth)},
+                                {"groups", sampled_json(groups, a.names)},
                                 {"hash", a.header.content_hash},
                                 {"seconds", seconds},
                                 {"seconds_of", times.wall()},
                                 {"processor_seconds_of", times.processor()}}
-                     .dump();
+                     .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return summary;
 }
 
@@ -559,11 +582,13 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
   artifact.names = {model.tables().edge_name, model.tables().labels.face_name, {}};
   artifact.labels = model.tables().labels;
-  for (const std::string& line : sampled_lines(sampled_groups(artifact), artifact.names, kMostGroups)) log_info(line);
   fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
   artifact.header.content_hash = write_raster(o.output, artifact);
   times.end("writing");
-  return summarize(o, artifact, counts, rules.size(), wings, times);
+  report_wings(o, wings);
+  const std::vector<GroupSizes> groups = sampled_groups(artifact);
+  for (const std::string& line : sampled_lines(groups, artifact.names, kMostGroups)) log_report(line);
+  return summarize(o, artifact, counts, rules.size(), wings, groups, times);
 }
 
 }  // namespace st

@@ -152,6 +152,12 @@ Json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names)
   return all;
 }
 
+Json sampled_json(const std::vector<GroupSizes>& groups, const CauseNames& names) {
+  Json all = groups_json(groups, names);
+  for (Json& group : all) group.erase("expected_triangles");
+  return all;
+}
+
 Json causes_json(const GroupSizes& group, const CauseNames& names) {
   Json all = Json::array();
   for (const CauseShare& c : group.causes)

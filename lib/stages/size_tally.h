@@ -80,6 +80,9 @@ std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, co
 /// Every group with its numbers and the cause of most of its triangles.
 nlohmann::ordered_json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names);
 
+/// The same without triangles, for sampled_groups().
+nlohmann::ordered_json sampled_json(const std::vector<GroupSizes>& groups, const CauseNames& names);
+
 /// Every cause with its numbers.
 nlohmann::ordered_json causes_json(const GroupSizes& group, const CauseNames& names);
 

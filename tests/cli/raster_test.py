@@ -137,6 +137,15 @@ class LiftingSurfaces(ToolTest):
         self.expect_error(USAGE, "st-raster", artifacts_of("box") / "geometry.hdf", "-o", self.folder / "r.hdf", "--lmax", "3%chord",
                           says=["--lmax", "no lifting surface"])
 
+    def test_a_smallest_length_that_coarsens_their_edges_is_said(self):
+        g = self.folder / "g.hdf"
+        must("st-import", MODELS / "wing_with_flap.step", "-o", g)
+        warning = "--lmin 0.1 is larger than --edge-size 0.3%chord on 1 of 2 lifting surfaces: 0.1 instead of 0.05"
+        run = must("st-raster", g, "-o", self.folder / "r.hdf", "--lmin", 0.1)
+        self.assertIn(warning, run.err)
+        for options in (["--lmin", 0.05], ["--lmin", 0.1, "--edge-size", "1%chord"], []):
+            self.assertNotIn("warning", must("st-raster", g, "-o", self.folder / "r.hdf", *options).err)
+
     def test_do_not_depend_on_the_number_of_ranks(self):
         self.assertEqual(len({self.sizes("--np", n)[0]["hash"] for n in (1, 2, 3)}), 1)
 

@@ -85,10 +85,20 @@ class Sizes(ToolTest):
 class Causes(ToolTest):
     def test_the_table_of_groups_has_a_line_for_each(self):
         folder = artifacts_of("assembly")
-        run = must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "-v")
+        run = must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf")
         heading = run.err.index("least length")
         for group in must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--json").json()["groups"]:
             self.assertGreater(run.err.find(group["name"]), heading)
+
+    def test_st_raster_shows_and_lists_the_lengths_of_groups(self):
+        folder = artifacts_of("assembly")
+        run = must("st-raster", folder / "geometry.hdf", "-o", self.folder / "r.hdf", "--json")
+        groups = run.json()["groups"]
+        self.assertGreater(len(groups), 1)
+        for group in groups:
+            self.assertIn(f"  {group['name']} ", run.err)
+            self.assertLessEqual(group["least"], group["median"])
+            self.assertNotIn("expected_triangles", group)
 
     def test_the_causes_of_a_group_share_its_triangles(self):
         folder = artifacts_of("assembly")

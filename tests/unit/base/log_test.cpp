@@ -22,6 +22,12 @@ TEST(Log, warnings_show_unless_quiet) {
   EXPECT_EQ(said_at(Verbosity::kVerbose, warn), "warning: w\n");
 }
 
+TEST(Log, results_show_unless_quiet) {
+  const auto report = [] { log_report("r"); };
+  EXPECT_EQ(said_at(Verbosity::kQuiet, report), "");
+  EXPECT_EQ(said_at(Verbosity::kNormal, report), "r\n");
+}
+
 TEST(Log, information_shows_only_when_verbose) {
   const auto inform = [] { log_info("i"); };
   EXPECT_EQ(said_at(Verbosity::kQuiet, inform), "");

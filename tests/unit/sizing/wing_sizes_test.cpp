@@ -89,6 +89,21 @@ TEST(WingSizes, take_other_lengths_and_a_floor) {
   for (const RasterBox& b : sample("sharp_wing", sizes).boxes) EXPECT_NEAR(b.length, 0.25, 1e-6);
 }
 
+TEST(WingSizes, tell_where_a_floor_makes_them_larger) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, find_wing_edges(model, roles));
+  ASSERT_EQ(wings.size(), 1u);
+  WingSizes sizes = share_of_chord("0.1%chord");
+  EXPECT_FALSE(most_raised(wings[0], sizes));
+  sizes.least = parse_length("0.005", "--lmin");
+  EXPECT_FALSE(most_raised(wings[0], sizes));
+  sizes.least = parse_length("0.25", "--lmin");
+  ASSERT_TRUE(most_raised(wings[0], sizes));
+  EXPECT_NEAR(most_raised(wings[0], sizes)->asked, 0.01, 1e-4);
+  EXPECT_EQ(most_raised(wings[0], sizes)->floor, 0.25);
+}
+
 TEST(ChordLimit, is_a_share_of_the_nearest_chord_of_its_own_surface) {
   const std::vector<ChordLine> lines = {
       {{0, 0, 0}, {4, 0, 0}, 4, 0}, {{0, 0, 9}, {2, 0, 9}, 2, 0}, {{0, 0, 5}, {1, 0, 5}, 1, 1}};
