@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -12,16 +13,18 @@
 namespace st {
 namespace {
 
-constexpr int kStations = 24;         // measured on each edge
-constexpr double kMeasured = 0.5;     // of the stations of a surface, at least
-constexpr double kLeastSpan = 0.5;    // of the median chord
-constexpr double kWidestBase = 0.06;  // of the median chord
-constexpr double kAlongAxis = 0.5;    // cosine between edge and axis at least, to cut square to the axis
-constexpr double kDeflection = 1e-3;  // of the reference diagonal: of the facets
-constexpr std::size_t kAround = 4;    // stations to either side whose chords are compared
-constexpr double kOutlier = 1.4;      // chord over the median around
-constexpr double kFarOutlier = 4;     // chord over the median of the surface: wings taper less
-constexpr double kNearNose = 0.05;    // of the chord: between nose and leading edge at most
+constexpr int kStations = 24;           // measured on each edge
+constexpr double kMeasured = 0.5;       // of the stations of a surface, at least
+constexpr double kLeastSpan = 0.5;      // of the median chord
+constexpr double kWidestBase = 0.06;    // of the median chord
+constexpr double kAlongAxis = 0.5;      // cosine between edge and axis at least, to cut square to the axis
+constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the facets
+constexpr std::size_t kAround = 4;      // stations to either side whose chords are compared
+constexpr double kOutlier = 1.4;        // chord over the median around
+constexpr double kFarOutlier = 4;       // chord over the median of the surface: wings taper less
+constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: way along the noses
+constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
+constexpr double kNearNose = 0.05;      // of the chord: between nose and leading edge at most
 
 constexpr std::array<Vec3, 3> kAxes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
@@ -83,8 +86,9 @@ class SurfaceMeasurer {
     const bool is_wide = std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
       return w.base != kNone && w.size > kWidestBase * surface.median_chord;
     });
-    return !is_wide && surface.span >= kLeastSpan * surface.median_chord ? std::optional(std::move(surface))
-                                                                         : std::nullopt;
+    return !is_wide && surface.span >= kLeastSpan * surface.median_chord && has_moving_noses(surface)
+               ? std::optional(std::move(surface))
+               : std::nullopt;
   }
 
  private:
@@ -156,8 +160,9 @@ class SurfaceMeasurer {
                           const std::vector<std::optional<Profile>>& profiles) const {
     LiftingSurface surface;
     for (const WingEdge& w : chain) {
-      surface.trailing.push_back({w.edge, w.base, {}});
-      surface.span += w.base == kNone ? w.length : 0.5 * w.length;
+      const bool is_half = w.base != kNone && w.mirror != kNone;
+      surface.trailing.push_back({w.edge, w.base, is_half, {}});
+      surface.span += w.base == kNone || is_half ? w.length : 0.5 * w.length;
       surface.is_blunt = surface.is_blunt || w.base != kNone;
     }
     std::vector<double> chords;
@@ -181,6 +186,20 @@ class SurfaceMeasurer {
     surface.largest_chord = *most;
     fill_in(surface);
     return surface;
+  }
+
+  /// Noses run along the trailing edge: they do not where a body of revolution ends in its apex.
+  static bool has_moving_noses(const LiftingSurface& surface) {
+    double of_noses = 0, of_edge = 0;
+    for (const TrailingEdge& edge : surface.trailing) {
+      const ChordStation* last = nullptr;
+      for (const ChordStation& s : edge.stations) {
+        if (!s.is_measured) continue;
+        if (last) of_noses += distance(last->nose, s.nose), of_edge += distance(last->trailing, s.trailing);
+        last = &s;
+      }
+    }
+    return of_noses >= kLeastNoseWay * of_edge;
   }
 
   /// Chords where none was measured: that of the nearest station that was; the ends of edges go on as their neighbours.
@@ -227,6 +246,34 @@ void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSur
   }
 }
 
+/// The facets and their mirror image; vertices on the plane of `mirror` belong to both.
+Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_plane) {
+  const auto surface = model.surface(mirror);
+  const SurfacePoint at =
+      surface->evaluate({0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())});
+  const Vec3 normal = normalized(cross(at.du, at.dv));
+  std::vector<std::int32_t> image;
+  for (std::size_t i = 0, n = facets.xyz.size(); i < n; ++i) {
+    const Vec3 x = facets.xyz[i];
+    const double height = dot(x - at.x, normal);
+    image.push_back(static_cast<std::int32_t>(std::abs(height) <= on_plane ? i : facets.xyz.size()));
+    if (std::abs(height) > on_plane) facets.xyz.push_back(x - 2 * height * normal);
+  }
+  for (std::size_t i = 0, n = facets.triangle.size(); i < n; ++i) {
+    const auto t = facets.triangle[i];
+    facets.triangle.push_back({image[t[0]], image[t[2]], image[t[1]]});
+    facets.face.push_back(facets.face[i]);
+  }
+  return facets;
+}
+
+/// The plane of symmetry on which a chain lies; kNone: on none.
+FaceId mirror_of(const std::vector<WingEdge>& chain) {
+  for (const WingEdge& w : chain)
+    if (w.mirror != kNone) return w.mirror;
+  return kNone;
+}
+
 }  // namespace
 
 double TrailingEdge::chord_at(double share) const {
@@ -257,10 +304,13 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   for (const FaceRole role : roles.role) is_wall.push_back(role == FaceRole::kWall);
   const double deflection = kDeflection * roles.reference_diagonal;
   const Facets facets = make_facets(model, is_wall, {.deflection = deflection});
-  const ProfileCutter cutter(facets);
-  const SurfaceMeasurer measurer(model, cutter, 2 * deflection);
+  std::map<FaceId, Facets> whole;  // by symmetry plane
   for (const auto& chain : chains) {
-    std::optional<LiftingSurface> surface = measurer.run(chain);
+    const FaceId mirror = mirror_of(chain);
+    if (mirror != kNone && !whole.contains(mirror))
+      whole.emplace(mirror, with_image(model, facets, mirror, kOnPlane * roles.reference_diagonal));
+    const ProfileCutter cutter(mirror == kNone ? facets : whole.at(mirror));
+    std::optional<LiftingSurface> surface = SurfaceMeasurer(model, cutter, 2 * deflection).run(chain);
     if (!surface) continue;
     add_leading(model, edges, *surface);
     surfaces.push_back(std::move(*surface));

@@ -21,7 +21,8 @@ struct ChordStation {
 /// Stations along one CAD edge, in ascending order of `share`, first 0 and last 1.
 struct TrailingEdge {
   EdgeId edge = kNone;
-  FaceId base = kNone;  ///< of a blunt edge: the narrow face between it and its partner
+  FaceId base = kNone;   ///< of a blunt edge: the narrow face between it and its partner
+  bool is_half = false;  ///< a plane of symmetry cuts the base in two: the partner is the edge's own image
   std::vector<ChordStation> stations;
 
   /// Local chord at a share of the edge's length, linear between stations, model unit.

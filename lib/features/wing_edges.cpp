@@ -52,6 +52,14 @@ class WingEdgeFinder {
   }
 
   std::vector<WingEdge> run() {
+    std::vector<WingEdge> found = find();
+    if (!found.empty() || t_.volume) return found;
+    is_turned_ = !is_turned_;  // nothing tells on which side of an open surface the material is
+    return find();
+  }
+
+ private:
+  std::vector<WingEdge> find() {
     std::vector<std::optional<WingEdge>> found(uses_.size());
     for (const Strip& strip : find_strips(model_)) try_blunt(strip, found);
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
@@ -63,16 +71,34 @@ class WingEdgeFinder {
     return result;
   }
 
- private:
   struct Use {
     FaceId face;
     CoedgeId coedge;
   };
 
+  /// Between two walls, or a wall and a symmetry plane.
   bool is_candidate(EdgeId e) const {
     if (t_.edge_is_degenerate[e] || uses_[e].size() != 2) return false;
-    return std::all_of(uses_[e].begin(), uses_[e].end(),
-                       [&](const Use& u) { return roles_.role[u.face] == FaceRole::kWall; });
+    const auto n_walls = std::count_if(uses_[e].begin(), uses_[e].end(),
+                                       [&](const Use& u) { return roles_.role[u.face] == FaceRole::kWall; });
+    return n_walls == 2 || (n_walls == 1 && mirror_of(e));
+  }
+
+  /// The use by the symmetry plane on which an edge lies; nullptr: on none.
+  const Use* mirror_of(EdgeId e) const {
+    const auto use = std::find_if(uses_[e].begin(), uses_[e].end(), [&](const Use& u) {
+      return roles_.role[u.face] == FaceRole::kSymmetry && t_.face_type[u.face] == SurfaceType::kPlane;
+    });
+    return use == uses_[e].end() ? nullptr : &*use;
+  }
+  FaceId mirror_face(EdgeId e) const {
+    const Use* mirror = mirror_of(e);
+    return mirror ? mirror->face : kNone;
+  }
+
+  static Side mirrored(const Side& side, Vec3 plane) {
+    const auto turn = [&](Vec3 v) { return v - 2 * dot(v, plane) * plane; };
+    return {side.face, side.uv, turn(side.normal), turn(side.inward)};
   }
 
   Side side_at(const Surface& surface, const Use& use, Vec2 uv, Vec3 tangent) const {
@@ -92,6 +118,8 @@ class WingEdgeFinder {
       Station s{p.x, {}, kPi};
       for (std::size_t k = 0; k < 2; ++k)
         s.sides[k] = side_at(*surfaces[k], uses_[e][k], pcurves[k]->point(t), normalized(p.d1));
+      for (std::size_t k = 0; k < 2; ++k)
+        if (mirror_of(e) == &uses_[e][k]) s.sides[k] = mirrored(s.sides[1 - k], s.sides[k].normal);
       const double between = angle_between(s.sides[0].inward, s.sides[1].inward);
       s.angle = dot(s.sides[0].inward, s.sides[1].normal) < 0 ? between : 2 * kPi - between;
       result.push_back(s);
@@ -112,7 +140,7 @@ class WingEdgeFinder {
                 FaceId base = kNone) const {
     std::vector<double> angles;
     for (const Station& s : stations) angles.push_back(s.angle);
-    return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size, base};
+    return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size, base, mirror_face(e)};
   }
 
   std::optional<WingEdge> classify(EdgeId e) const {
@@ -123,7 +151,7 @@ class WingEdgeFinder {
     for (const Station& s : places) {
       n_sharp += s.angle <= kSharpest;
       if (std::abs(s.angle - kPi) > kSmooth) continue;
-      const double radius = nose_radius(s, surfaces);
+      const double radius = nose_radius(e, s, surfaces);
       if (radius > 0 && radius <= kNosePerLength * t_.edge_length[e]) radii.push_back(radius);
     }
     if (n_sharp >= kAgreeing) return make(e, WingEdgeKind::kSharpTrailing, places, 0);
@@ -145,15 +173,18 @@ class WingEdgeFinder {
   }
 
   /// Smallest radius of the nose at the edge; 0: no nose.
-  double nose_radius(const Station& s, const std::array<std::unique_ptr<Surface>, 2>& surfaces) const {
+  double nose_radius(EdgeId e, const Station& s, const std::array<std::unique_ptr<Surface>, 2>& surfaces) const {
+    const auto is_wall = [&](std::size_t k) { return mirror_of(e) != &uses_[e][k]; };
     double largest = 0;
     for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_wall(k)) continue;
       const SurfacePoint2 p = surfaces[k]->evaluate2(s.sides[k].uv);
       largest = std::max(largest, bend(p, s.sides[k].normal, rates(p, s.sides[k].inward)));
     }
     if (!(largest * kLargestNose * roles_.reference_diagonal > 1)) return 0;
-    std::array<double, 2> flattened;
+    std::array<double, 2> flattened = {0, 0};
     for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_wall(k)) continue;
       const std::optional<double> end = walk(*surfaces[k], s.sides[k], 1 / largest, largest);
       if (!end) return 0;
       flattened[k] = *end;
@@ -188,17 +219,46 @@ class WingEdgeFinder {
 
   // --- blunt trailing edges
 
-  /// Both long edges of a strip, where the faces beyond look away from each other.
+  using Places = std::array<std::vector<Station>, 2>;
+
+  /// Both long edges of a strip, where the faces beyond look away from each other. Where one of them lies on a symmetry
+  /// plane, the strip is half a base, and the other edge is there twice.
   void try_blunt(const Strip& strip, std::vector<std::optional<WingEdge>>& found) const {
-    std::array<std::vector<Station>, 2> places;
+    Places places;
     for (std::size_t k = 0; k < 2; ++k) {
       if (!is_candidate(strip.edges[k])) return;
       places[k] = stations(strip.edges[k], surfaces_of(strip.edges[k]));
     }
+    const std::array<FaceId, 2> mirror = {mirror_face(strip.edges[0]), mirror_face(strip.edges[1])};
+    if (mirror[0] != kNone && mirror[1] != kNone) return;
+    const bool is_half = mirror[0] != kNone || mirror[1] != kNone;
     std::vector<double> widths;
     for (const auto& station : strip.stations) widths.push_back(station.width);
-    const double width = median(widths);
+    const double width = (is_half ? 2 : 1) * median(widths);
     if (width > kBluntWidth * strip.length) return;
+    if (is_half) complete(strip, places);
+    if (count_blunt(strip, places) < kAgreeing) return;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (mirror[k] != kNone) continue;
+      found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
+      found[strip.edges[k]]->mirror = mirror[1 - k];
+    }
+  }
+
+  /// Puts the mirror image of the other edge where one lies on a symmetry plane.
+  void complete(const Strip& strip, Places& places) const {
+    const std::size_t k = mirror_of(strip.edges[0]) ? 0 : 1;
+    const Use& plane = *mirror_of(strip.edges[k]);
+    const auto surface = model_.surface(plane.face);
+    const Vec3 normal =
+        surface_normal(*surface, model_.pcurve(plane.face, plane.coedge)->point(t_.edge_range[2 * strip.edges[k]]));
+    places[k] = places[1 - k];
+    if (strip.is_opposed) std::reverse(places[k].begin(), places[k].end());
+    for (Station& s : places[k])
+      for (Side& side : s.sides) side = mirrored(side, normal);
+  }
+
+  static int count_blunt(const Strip& strip, const Places& places) {
     int n_agree = 0;
     for (int i = 0; i < kStations; ++i) {
       const Station &a = places[0][i], &b = places[1][strip.is_opposed ? kStations - 1 - i : i];
@@ -206,9 +266,7 @@ class WingEdgeFinder {
       const auto is_corner = [](const Station& s) { return s.angle >= kBluntMin && s.angle <= kBluntMax; };
       n_agree += is_corner(a) && is_corner(b) && dot(beyond(a), beyond(b)) <= kLookAway;
     }
-    if (n_agree < kAgreeing) return;
-    for (std::size_t k = 0; k < 2; ++k)
-      found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
+    return n_agree;
   }
 
   // --- chains

@@ -27,13 +27,15 @@ struct WingEdge {
   double angle = 0;     ///< of the material between the faces, radians; median over the edge
   double size = 0;      ///< model unit: width of a blunt edge, median nose radius of a leading edge; 0 for a sharp edge
   FaceId base = kNone;  ///< of a blunt edge: the narrow face
+  FaceId mirror = kNone;  ///< the symmetry plane that cuts the wing in two along this edge, or along its base
 };
 
 /// Ascending by edge. Dihedral angle and curvature decide, at nine places along each edge, most of which must agree;
 /// edges of one kind that hang together count only when they are at least 1/200 of the reference diagonal long
 /// altogether. A sharp leading edge cannot be told from a trailing edge and counts as one. Material is where the
-/// normals point away from, except in a model with a far field, where it is outside of the domain. Edges of symmetry
-/// planes and far fields are left out. Local. Cost: some hundred evaluations per edge of a nose.
+/// normals point away from, except in a model with a far field, where it is outside of the domain. Where a plane of
+/// symmetry cuts a fin in two, the other half counts as if it were there; other edges of symmetry planes and those of
+/// far fields are left out. Local. Cost: some hundred evaluations per edge of a nose.
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles);
 
 }  // namespace st

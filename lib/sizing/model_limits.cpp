@@ -1,10 +1,14 @@
 #include "sizing/model_limits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace st {
 namespace {
+
+constexpr double kSpare = 1.02;        // segments are some per cent longer than what is requested
+constexpr double kLargestTurning = 2;  // angles on small bodies over those of walls
 
 using Limits = std::optional<SamplingLimits>;
 
@@ -31,9 +35,8 @@ struct FaceLimits {
 class LimitsMaker {
  public:
   LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
-              const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges,
-              std::span<const LiftingSurface> wings)
-      : t_(t), roles_(roles), wall_(wall), rules_(rules), wings_(wings) {
+              const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges, const Aircraft& aircraft)
+      : t_(t), roles_(roles), wall_(wall), rules_(rules), wings_(aircraft.wings), bodies_(aircraft.bodies) {
     for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t, wing_edges));
   }
 
@@ -67,9 +70,32 @@ class LimitsMaker {
       Limits own;
       if (roles_.role[f] != FaceRole::kSymmetry) own = wall_;
       if (roles_.role[f] == FaceRole::kFarfield) own->max_length = far_length(f);
+      if (const Body* body = body_of(f)) limit_by_body(*body, *own);
       face_.surface.push_back(own);
     }
     face_.curve = face_.surface;
+  }
+
+  const Body* body_of(std::size_t f) const {
+    return bodies_.body.empty() || bodies_.of_face[f] == kNone ? nullptr : &bodies_.body[bodies_.of_face[f]];
+  }
+
+  /// A body that is thinner around than the chord is long is bent less finely; its tip caps and fillets are not.
+  double body_alpha(const Body& body) const {
+    if (body.is_wing_piece || !(body.girth > 0)) return wall_.alpha;
+    return std::min(0.5 * kPi, wall_.alpha * std::clamp(std::sqrt(body.chord / body.girth), 1.0, kLargestTurning));
+  }
+
+  /// A body gets the walls' share of its own diagonal, and as many lengths around as a circle, but is no finer than its
+  /// wing between nose and trailing edge.
+  void limit_by_body(const Body& body, SamplingLimits& own) const {
+    if (!(body.girth > 0)) return;
+    const double of_diagonal = wall_.max_length * body.diagonal / roles_.reference_diagonal,
+                 around = body.girth * wall_.alpha / (2 * kPi * kSpare);
+    const double of_wing = wall_.chord_cells ? body.chord / *wall_.chord_cells : wall_.max_length;
+    const double most = std::max({std::min(of_diagonal, around), of_wing, wall_.min_length});
+    own.max_length = std::min(own.max_length, most);
+    own.alpha = body_alpha(body);
   }
 
   void apply_to_faces(std::size_t r) {
@@ -121,6 +147,9 @@ class LimitsMaker {
       Limits own;
       for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) own = finest(own, face_.curve[faces[k]]);
       if (offsets[e] == offsets[e + 1]) own = wall_;
+      if (own && own->alpha == wall_.alpha)  // bent as the body is that ends there
+        for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
+          if (const Body* body = body_of(faces[k])) own->alpha = std::max(own->alpha, body_alpha(*body));
       if (t_.edge_is_degenerate[e]) own.reset();
       edge_.push_back(own);
     }
@@ -167,6 +196,7 @@ class LimitsMaker {
   const SamplingLimits& wall_;
   const std::vector<SizeRule>& rules_;
   std::span<const LiftingSurface> wings_;
+  const Bodies& bodies_;
   std::vector<std::uint8_t> edge_is_ruled_;
   std::vector<RuleTargets> targets_;
   FaceLimits face_;
@@ -177,8 +207,8 @@ class LimitsMaker {
 
 ModelLimits model_limits(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
                          const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges,
-                         std::span<const LiftingSurface> wings) {
-  return LimitsMaker(t, roles, wall, rules, wing_edges, wings).run();
+                         const Aircraft& aircraft) {
+  return LimitsMaker(t, roles, wall, rules, wing_edges, aircraft).run();
 }
 
 }  // namespace st

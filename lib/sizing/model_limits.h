@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "features/bodies.h"
 #include "features/face_roles.h"
 #include "features/lifting_surface.h"
 #include "geometry/model/model.h"
@@ -13,6 +14,12 @@
 #include "sizing/wing_sizes.h"
 
 namespace st {
+
+/// Lifting surfaces, and the bodies around them.
+struct Aircraft {
+  std::vector<LiftingSurface> wings;
+  Bodies bodies;
+};
 
 /// Limits per face and edge, by the role of the face.
 ///
@@ -49,12 +56,16 @@ struct ModelLimits {
 /// field within 0.5 %.
 inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
+/// Bodies around lifting surfaces take the walls' share of their own diagonal as largest length, and 2 pi / alpha
+/// lengths around, but are no finer than the wing is between nose and trailing edge (chord_cells). Where a body is
+/// thinner around than the chord is long, alpha grows with the root of that ratio, twice at most.
+///
 /// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field
 /// there, so that a domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for
-/// a rule that selects nothing or contradicts itself. `wing_edges`, `wings`: what detection found; lengths of chord and
-/// span refer to the lifting surface that is nearest to the face or edge.
+/// a rule that selects nothing or contradicts itself. `wing_edges`, `aircraft`: what detection found; lengths of chord
+/// and span refer to the lifting surface that is nearest to the face or edge.
 ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
                          const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {},
-                         std::span<const LiftingSurface> wings = {});
+                         const Aircraft& aircraft = {});
 
 }  // namespace st

@@ -69,7 +69,7 @@ class WingRaster {
     const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
     walk(arc.length(), pack_cause(CauseKind::kFace, strip.face), [&](double share) {
       const double chord = trailing.chord_at(share), edge = length_of(chord);
-      const double width = width_at(strip, is_turned ? 1 - share : share);
+      const double width = (trailing.is_half ? 2 : 1) * width_at(strip, is_turned ? 1 - share : share);
       const double length = std::clamp(width / sizes_.base_cells, kFinestBase * edge, edge);
       return Place{curve->point(arc.parameter_at(share)), std::max(length, floor_of(chord))};
     });
@@ -89,9 +89,7 @@ class WingRaster {
   }
 
   double floor_of(double chord) const { return LocalLengths(wing_, sizes_).floor(chord); }
-  double length_of(double chord) const {
-    return std::max(LocalLengths(wing_, sizes_).asked(chord), floor_of(chord));
-  }
+  double length_of(double chord) const { return std::max(LocalLengths(wing_, sizes_).asked(chord), floor_of(chord)); }
 
   /// Boxes one length apart; `place_at` takes a share of the way.
   template <class PlaceAt>

@@ -134,7 +134,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
 /// What detection found; on rank 0.
 struct Wings {
   std::vector<WingEdge> edges;
-  std::vector<LiftingSurface> surfaces;
+  Aircraft aircraft;
   std::vector<RasterBox> boxes;  ///< what they ask for, besides curvature
 };
 
@@ -158,14 +158,15 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
 void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, ModelLimits& limits, Wings& wings) {
   const std::optional<LengthSpec> size = edge_size(o);
-  if (!size || wings.surfaces.empty()) return;
+  if (!size || wings.aircraft.wings.empty()) return;
   const std::vector<Strip> strips = find_strips(model);
   std::vector<std::uint8_t> is_left_out = limits.edge_is_ruled;
   for (std::size_t e = 0; e < is_left_out.size(); ++e) is_left_out[e] |= !limits.edge[e];
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
-  warn_of_floor(o, wings.surfaces, sizes);
-  for (const LiftingSurface& wing : wings.surfaces) raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
+  warn_of_floor(o, wings.aircraft.wings, sizes);
+  for (const LiftingSurface& wing : wings.aircraft.wings)
+    raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
 }
 
@@ -441,14 +442,37 @@ nlohmann::json depth_json(const DepthLimit& depth) {
   return json;
 }
 
+/// Measured stations of a lifting surface.
+nlohmann::json stations_json(const LiftingSurface& wing) {
+  nlohmann::json list = nlohmann::json::array();
+  const auto place = [](Vec3 x) { return nlohmann::json{x.x, x.y, x.z}; };
+  for (const TrailingEdge& edge : wing.trailing)
+    for (const ChordStation& s : edge.stations)
+      if (s.is_measured) list.push_back({{"trailing", place(s.trailing)}, {"nose", place(s.nose)}, {"chord", s.chord}});
+  return list;
+}
+
+std::vector<std::int32_t> numbers_of(std::vector<FaceId> faces) {
+  for (FaceId& f : faces) ++f;
+  return faces;
+}
+
 nlohmann::json wings_json(const Wings& wings) {
   nlohmann::json list = nlohmann::json::array();
-  for (const LiftingSurface& wing : wings.surfaces) {
-    std::vector<std::int32_t> edges, leading;
-    for (const TrailingEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
+  for (const LiftingSurface& wing : wings.aircraft.wings) {
+    std::vector<std::int32_t> edges, leading, bases;
+    for (const TrailingEdge& edge : wing.trailing) {
+      edges.push_back(edge.edge + 1);
+      if (edge.base != kNone) bases.push_back(edge.base + 1);
+    }
+    std::sort(bases.begin(), bases.end());
+    bases.erase(std::unique(bases.begin(), bases.end()), bases.end());
     for (const EdgeId e : wing.leading) leading.push_back(e + 1);
     list.push_back({{"trailing_edges", edges},
                     {"leading_edges", leading},
+                    {"bases", bases},
+                    {"faces", numbers_of(wing.faces)},
+                    {"stations", stations_json(wing)},
                     {"is_blunt", wing.is_blunt},
                     {"span", wing.span},
                     {"chord", {wing.least_chord, wing.median_chord, wing.largest_chord}}});
@@ -458,10 +482,10 @@ nlohmann::json wings_json(const Wings& wings) {
 
 /// One line for each lifting surface, or one that there is none.
 void report_wings(const RasterStageOptions& o, const Wings& wings) {
-  const std::size_t n = wings.surfaces.size();
+  const std::size_t n = wings.aircraft.wings.size();
   if (n == 0) log_info("no lifting surface found: --edge-size has no effect");
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i) {
-    const LiftingSurface& wing = wings.surfaces[i];
+    const LiftingSurface& wing = wings.aircraft.wings[i];
     log_report(
         fmt::format("  lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "
                     "{} along edge and nose",
@@ -481,8 +505,9 @@ struct AskedLimits {
 ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const FaceRoles& roles,
                         const AskedLimits& asked, Wings& wings) {
   wings.edges = find_wing_edges(model, roles);
-  wings.surfaces = find_lifting_surfaces(model, roles, wings.edges);
-  ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.surfaces);
+  wings.aircraft.wings = find_lifting_surfaces(model, roles, wings.edges);
+  wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
+  ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
   sample_wings(o, model, roles.reference_diagonal, limits, wings);
   return limits;
@@ -502,28 +527,28 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
   summary.code = code_of(o, counts);
   summary.line = fmt::format(
       "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes,
-      n_cells, a.numbers.min_length, a.numbers.max_length, wings.surfaces.size(),
+      n_cells, a.numbers.min_length, a.numbers.max_length, wings.aircraft.wings.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = nlohmann::ordered_json{{"tool", "st-raster"},
-                                {"output", o.output},
-                                {"samples", counts.n_boxes},
-                                {"cells", n_cells},
-                                {"lmin", a.numbers.min_length},
-                                {"lmax", a.numbers.max_length},
-                                {"far_length", a.numbers.far_length},
-                                {"alpha", a.numbers.alpha_deg},
-                                {"cell_per_length", a.numbers.cell_per_length},
-                                {"rules", n_rules},
-                                {"wing_edges", wings.edges.size()},
-                                {"lifting_surfaces", wings_json(wings)},
-                                {"gap_samples", counts.n_gap_boxes},
-                                {"not_sampled", counts.n_failures},
-                                {"beyond_depth", depth_json(counts.depth)},
-                                {"groups", sampled_json(groups, a.names)},
-                                {"hash", a.header.content_hash},
-                                {"seconds", seconds},
-                                {"seconds_of", times.wall()},
-                                {"processor_seconds_of", times.processor()}}
+                                        {"output", o.output},
+                                        {"samples", counts.n_boxes},
+                                        {"cells", n_cells},
+                                        {"lmin", a.numbers.min_length},
+                                        {"lmax", a.numbers.max_length},
+                                        {"far_length", a.numbers.far_length},
+                                        {"alpha", a.numbers.alpha_deg},
+                                        {"cell_per_length", a.numbers.cell_per_length},
+                                        {"rules", n_rules},
+                                        {"wing_edges", wings.edges.size()},
+                                        {"lifting_surfaces", wings_json(wings)},
+                                        {"gap_samples", counts.n_gap_boxes},
+                                        {"not_sampled", counts.n_failures},
+                                        {"beyond_depth", depth_json(counts.depth)},
+                                        {"groups", sampled_json(groups, a.names)},
+                                        {"hash", a.header.content_hash},
+                                        {"seconds", seconds},
+                                        {"seconds_of", times.wall()},
+                                        {"processor_seconds_of", times.processor()}}
                      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return summary;
 }

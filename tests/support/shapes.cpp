@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -20,6 +22,7 @@
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
@@ -296,6 +299,33 @@ TopoDS_Shape wing(double closing) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// The half of a wing above y = 0, which a plane of symmetry would close.
+TopoDS_Shape half_wing(double closing) {
+  return BRepAlgoAPI_Common(wing(closing), moved(box(14, 5, 34), -2, 0, -2)).Shape();
+}
+
+/// A wing whose noses all lie on one axis, around which it is revolved by a right angle.
+TopoDS_Shape fan() {
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(aerofoil(0.1036)));
+  const gp_Ax1 axis(gp_Pnt(-0.01, 0, 0), gp_Dir(0, 1, 0));
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), axis, 0.5 * M_PI).Shape();
+}
+
+/// The skin of the sharp wing without its tips, turned inside out.
+TopoDS_Shape wing_skin() {
+  BRepBuilderAPI_Sewing sewing(1e-6);
+  for (TopExp_Explorer e(wing(0.1036), TopAbs_FACE); e.More(); e.Next())
+    if (BRepAdaptor_Surface(TopoDS::Face(e.Current())).GetType() != GeomAbs_Plane) sewing.Add(e.Current());
+  sewing.Perform();
+  return sewing.SewedShape().Reversed();
+}
+
+/// The sharp wing with a pod 1 wide and 3.5 long below it, at mid-span.
+TopoDS_Shape wing_with_pod() {
+  const gp_Ax2 axis(gp_Pnt(2, -0.9, 15), gp_Dir(1, 0, 0));
+  return BRepAlgoAPI_Fuse(wing(0.1036), BRepPrimAPI_MakeCylinder(axis, 0.5, 3.5).Shape()).Shape();
+}
+
 /// The sharp wing, its skin cut into n_chord x n_span faces, wide and narrow ones in turn. They join smoothly but at
 /// the trailing edge.
 TopoDS_Shape cut_wing(int n_chord, int n_span) {
@@ -392,6 +422,11 @@ const std::map<std::string, Factory>& factories() {
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},
+      {"wing_with_pod", wing_with_pod},
+      {"half_sharp_wing", [] { return half_wing(0.1036); }},
+      {"half_blunt_wing", [] { return half_wing(0.1015); }},
+      {"fan", fan},
+      {"wing_skin", wing_skin},
       {"wing_of_2", [] { return cut_wing(2, 1); }},
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},

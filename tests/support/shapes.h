@@ -17,6 +17,8 @@ namespace st::test {
 ///   thin_cylinder thin_pipe (radius 10, wall 0.05) spindle_torus (crosses itself on its axis) drilled_block
 ///   stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
 ///   sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
+///   wing_with_pod (3.5 long and 1 wide, half of it below the wing) half_sharp_wing half_blunt_wing (cut at y = 0)
+///   fan (the sharp wing revolved by 90 degrees about its nose) wing_skin (without tips, inside out)
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
 ///   l_face plate_with_hole cone_side sphere_octant
 /// - Sheets: wave rational_wave high_degree_wave bezier rational_bezier stretched kinked

@@ -61,6 +61,29 @@ TEST(LiftingSurface, is_found_in_a_domain) {
   EXPECT_EQ(wings_of(model, roles).size(), 1u);
 }
 
+TEST(LiftingSurface, is_found_where_a_plane_of_symmetry_cuts_it_in_two) {
+  for (const std::string shape : {"half_sharp_wing", "half_blunt_wing"}) {
+    const Model model = test::make_model(shape);
+    FaceRoles roles = face_roles(model.tables());
+    for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+      if (model.tables().face_box[f].hi.y < 1e-6) roles.role[f] = FaceRole::kSymmetry;
+    const std::vector<LiftingSurface> wings = wings_of(model, roles);
+    ASSERT_EQ(wings.size(), 1u) << shape;
+    EXPECT_EQ(wings[0].is_blunt, shape == "half_blunt_wing");
+    ASSERT_EQ(wings[0].trailing.size(), 1u) << shape;
+    EXPECT_EQ(wings[0].trailing[0].is_half, wings[0].is_blunt);
+    expect_wing_of_chord_10(wings[0]);
+  }
+}
+
+TEST(LiftingSurface, of_an_open_skin_does_not_depend_on_its_orientation) {
+  const std::vector<LiftingSurface> wings = wings_of("wing_skin");
+  ASSERT_EQ(wings.size(), 1u);
+  expect_wing_of_chord_10(wings[0]);
+}
+
+TEST(LiftingSurface, is_nothing_whose_noses_stay_in_one_place) { EXPECT_TRUE(wings_of("fan").empty()); }
+
 TEST(LiftingSurface, is_no_plate_and_no_plain_body) {
   for (const char* shape : {"thin_plate", "wedge_strip", "box", "cylinder", "cone", "drilled_block", "stepped_box"})
     EXPECT_TRUE(wings_of(shape).empty()) << shape;

@@ -52,6 +52,36 @@ TEST(ModelLimits, never_make_a_far_field_finer_than_walls) {
   EXPECT_EQ(limits_of(t).face[2]->max_length, kWall.max_length);
 }
 
+/// The limits of a wall with a body's measures in a model of diagonal 20, with a wing's chord beside it.
+SamplingLimits limits_of_body(const Body& body) {
+  ModelTables t = three_faces({"wall", "wall", "wall"});
+  FaceRoles roles{{FaceRole::kWall, FaceRole::kWall, FaceRole::kWall}, {}, 20};
+  SamplingLimits wall = kWall;
+  wall.chord_cells = 30;
+  return *model_limits(t, roles, wall, {}, {}, {{}, {{body}, {0, kNone, kNone}}}).face[0];
+}
+
+TEST(ModelLimits, of_a_body_refer_to_its_own_diagonal) {
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 10, .girth = 100, .chord = 3}).max_length, 0.25);
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 30, .girth = 100, .chord = 3}).max_length, 0.5) << "never coarser";
+}
+
+TEST(ModelLimits, of_a_body_allow_36_lengths_around_it) {
+  EXPECT_NEAR(limits_of_body({.diagonal = 20, .girth = 9, .chord = 3}).max_length, 0.24, 0.01);
+  EXPECT_LT(limits_of_body({.diagonal = 20, .girth = 9, .chord = 3}).max_length, 0.25);
+}
+
+TEST(ModelLimits, of_a_body_are_no_finer_than_the_wing) {
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 2, .girth = 1, .chord = 12}).max_length, 0.4);
+}
+
+TEST(ModelLimits, of_a_body_thinner_than_the_chord_allow_more_turning) {
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 2, .girth = 4, .chord = 3}).alpha, kWall.alpha);
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 2, .girth = 4, .chord = 9}).alpha, 1.5 * kWall.alpha);
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 2, .girth = 1, .chord = 9}).alpha, 2 * kWall.alpha);
+  EXPECT_DOUBLE_EQ(limits_of_body({.diagonal = 2, .girth = 1, .chord = 9, .is_wing_piece = true}).alpha, kWall.alpha);
+}
+
 TEST(ModelLimits, treat_a_model_without_walls_as_one_wall) {
   const ModelLimits limits = limits_of(three_faces({"farfield", "symmetry", "farfield"}));
   for (const auto& face : limits.face) EXPECT_EQ(face->max_length, kWall.max_length);
