@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "features/arc_table.h"
+#include "features/concave_edges.h"
 #include "features/profile.h"
 
 namespace st {
@@ -69,15 +70,52 @@ struct EdgePlace {
   Vec3 x, tangent;
 };
 
+/// A lifting surface that is not finished; see SurfaceMeasurer.
+struct SurfaceDraft {
+  LiftingSurface surface;
+  const Vec3* axis = nullptr;  // to which its profiles are square; null: square to the edge
+};
+
+/// Of the faces that profiles cross those that no concave edge parts from the trailing edge, and of the stations those
+/// whose nose lies there: profiles cross fairings, too.
+void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces, todo;
+  t.edge_faces(offsets, edge_faces);
+  std::vector<std::uint8_t> is_crossed(static_cast<std::size_t>(t.n_faces()), 0), is_own = is_crossed;
+  for (const FaceId f : surface.faces) is_crossed[f] = 1;
+  const auto take_faces_at = [&](EdgeId e) {
+    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) {
+      const FaceId f = edge_faces[k];
+      if (!is_crossed[f] || is_own[f]) continue;
+      is_own[f] = 1;
+      todo.push_back(f);
+    }
+  };
+  for (const TrailingEdge& edge : surface.trailing) take_faces_at(edge.edge);
+  while (!todo.empty()) {
+    const FaceId f = todo.back();
+    todo.pop_back();
+    for (const EdgeId e : t.edges_of(f))
+      if (!is_concave[e] && !t.edge_is_degenerate[e]) take_faces_at(e);
+  }
+  std::erase_if(surface.faces, [&](FaceId f) { return !is_own[f]; });
+  for (TrailingEdge& edge : surface.trailing)
+    for (ChordStation& s : edge.stations)
+      if (s.is_measured && !is_own[s.nose_face]) s = {s.share, s.trailing};
+}
+
 class SurfaceMeasurer {
  public:
   SurfaceMeasurer(const Model& model, const ProfileCutter& cutter, double reach)
       : model_(model), cutter_(cutter), reach_(reach) {}
 
-  std::optional<LiftingSurface> run(const std::vector<WingEdge>& chain) const {
+  /// What profiles show; stations and faces may reach into other bodies yet.
+  std::optional<SurfaceDraft> find(const std::vector<WingEdge>& chain) const {
     const std::vector<EdgePlace> places = places_along(chain);
     if (!is_promising(places)) return std::nullopt;
-    std::vector<std::optional<Profile>> profiles = best_profiles(places);
+    const Vec3* axis = nullptr;
+    std::vector<std::optional<Profile>> profiles = best_profiles(places, axis);
     drop_outliers(places, profiles);
     const auto n = static_cast<std::size_t>(
         std::count_if(profiles.begin(), profiles.end(), [](const auto& p) { return p.has_value(); }));
@@ -86,9 +124,18 @@ class SurfaceMeasurer {
     const bool is_wide = std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
       return w.base != kNone && w.size > kWidestBase * surface.median_chord;
     });
-    return !is_wide && surface.span >= kLeastSpan * surface.median_chord && has_moving_noses(surface)
-               ? std::optional(std::move(surface))
-               : std::nullopt;
+    if (is_wide || surface.span < kLeastSpan * surface.median_chord || !has_moving_noses(surface)) return std::nullopt;
+    return SurfaceDraft{std::move(surface), axis};
+  }
+
+  /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest.
+  LiftingSurface finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave) const {
+    LiftingSurface& surface = draft.surface;
+    keep_own(model_.tables(), is_concave, surface);
+    for (TrailingEdge& edge : surface.trailing) reach_ends(draft.axis, surface.faces, edge);
+    measure_chords(surface);
+    fill_in(surface);
+    return std::move(surface);
   }
 
  private:
@@ -123,7 +170,9 @@ class SurfaceMeasurer {
     return false;
   }
 
-  std::vector<std::optional<Profile>> best_profiles(const std::vector<EdgePlace>& places) const {
+  /// Cut square to `axis`, or to the edge where it is null: whichever shows more.
+  std::vector<std::optional<Profile>> best_profiles(const std::vector<EdgePlace>& places,
+                                                    const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     std::ptrdiff_t n_best = -1;
     for (const Vec3* axis : {kAxes.data(), kAxes.data() + 1, kAxes.data() + 2, static_cast<const Vec3*>(nullptr)}) {
@@ -132,6 +181,7 @@ class SurfaceMeasurer {
       const auto n = std::count_if(own.begin(), own.end(), [](const auto& p) { return p.has_value(); });
       if (n <= n_best) continue;
       n_best = n;
+      best_axis = axis;
       best = std::move(own);
     }
     return best;
@@ -165,7 +215,6 @@ class SurfaceMeasurer {
       surface.span += w.base == kNone || is_half ? w.length : 0.5 * w.length;
       surface.is_blunt = surface.is_blunt || w.base != kNone;
     }
-    std::vector<double> chords;
     for (std::size_t i = 0; i < places.size(); ++i) {
       ChordStation station{places[i].share, places[i].x};
       if (profiles[i]) {
@@ -173,19 +222,55 @@ class SurfaceMeasurer {
         station.chord = profiles[i]->chord;
         station.nose = profiles[i]->nose;
         station.nose_face = profiles[i]->nose_face;
-        chords.push_back(station.chord);
         surface.faces.insert(surface.faces.end(), profiles[i]->faces.begin(), profiles[i]->faces.end());
       }
       surface.trailing[places[i].edge].stations.push_back(station);
     }
     std::sort(surface.faces.begin(), surface.faces.end());
     surface.faces.erase(std::unique(surface.faces.begin(), surface.faces.end()), surface.faces.end());
+    measure_chords(surface);
+    return surface;
+  }
+
+  static void measure_chords(LiftingSurface& surface) {
+    std::vector<double> chords;
+    for (const TrailingEdge& edge : surface.trailing)
+      for (const ChordStation& s : edge.stations)
+        if (s.is_measured) chords.push_back(s.chord);
     surface.median_chord = median(chords);
     const auto [least, most] = std::minmax_element(chords.begin(), chords.end());
     surface.least_chord = *least;
     surface.largest_chord = *most;
-    fill_in(surface);
-    return surface;
+  }
+
+  /// Adds stations where measured ones end: halves the way to the next one, or to the end of the edge. So noses run as
+  /// far as there are profiles, and not on into a fuselage.
+  void reach_ends(const Vec3* axis, std::span<const FaceId> own_faces, TrailingEdge& edge) const {
+    constexpr int kHalvings = 4;
+    const auto curve = model_.curve(edge.edge);
+    const ArcTable arc(*curve);
+    std::vector<ChordStation> added;
+    const auto reach = [&](const ChordStation& from, double to) {
+      double known = from.share;
+      for (int i = 0; i < kHalvings; ++i) {
+        const double share = 0.5 * (known + to);
+        const CurvePoint p = curve->evaluate(arc.parameter_at(share));
+        const std::optional<Profile> own = profile_at({0, share, p.x, normalized(p.d1)}, axis);
+        const bool is_like = own && own->chord < kOutlier * from.chord && from.chord < kOutlier * own->chord &&
+                             std::binary_search(own_faces.begin(), own_faces.end(), own->nose_face);
+        (is_like ? known : to) = share;
+        if (is_like) added.push_back({share, p.x, own->chord, true, own->nose, own->nose_face});
+      }
+    };
+    const std::vector<ChordStation>& s = edge.stations;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      if (!s[i].is_measured) continue;
+      if (i == 0 || !s[i - 1].is_measured) reach(s[i], i == 0 ? 0 : s[i - 1].share);
+      if (i + 1 == s.size() || !s[i + 1].is_measured) reach(s[i], i + 1 == s.size() ? 1 : s[i + 1].share);
+    }
+    edge.stations.insert(edge.stations.end(), added.begin(), added.end());
+    std::sort(edge.stations.begin(), edge.stations.end(),
+              [](const ChordStation& a, const ChordStation& b) { return a.share < b.share; });
   }
 
   /// Noses run along the trailing edge: they do not where a body of revolution ends in its apex.
@@ -305,15 +390,18 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   const double deflection = kDeflection * roles.reference_diagonal;
   const Facets facets = make_facets(model, is_wall, {.deflection = deflection});
   std::map<FaceId, Facets> whole;  // by symmetry plane
+  std::vector<std::uint8_t> is_concave;
   for (const auto& chain : chains) {
     const FaceId mirror = mirror_of(chain);
     if (mirror != kNone && !whole.contains(mirror))
       whole.emplace(mirror, with_image(model, facets, mirror, kOnPlane * roles.reference_diagonal));
     const ProfileCutter cutter(mirror == kNone ? facets : whole.at(mirror));
-    std::optional<LiftingSurface> surface = SurfaceMeasurer(model, cutter, 2 * deflection).run(chain);
-    if (!surface) continue;
-    add_leading(model, edges, *surface);
-    surfaces.push_back(std::move(*surface));
+    const SurfaceMeasurer measurer(model, cutter, 2 * deflection);
+    std::optional<SurfaceDraft> draft = measurer.find(chain);
+    if (!draft) continue;
+    if (is_concave.empty()) is_concave = find_concave_edges(model, roles);
+    surfaces.push_back(measurer.finish(std::move(*draft), is_concave));
+    add_leading(model, edges, surfaces.back());
   }
   return surfaces;
 }

@@ -39,8 +39,9 @@ struct LiftingSurface {
   bool is_blunt = false;
   std::vector<TrailingEdge> trailing;  ///< ascending by edge
   std::vector<EdgeId> leading;         ///< CAD edges along the nose, ascending; a nose inside a face has none
-  std::vector<FaceId> faces;           ///< that measured profiles cross, ascending
-  double span = 0;                     ///< along the trailing edge, model unit
+  std::vector<FaceId> faces;  ///< that measured profiles cross, and that no concave edge parts from the trailing
+                              ///< edge, ascending
+  double span = 0;            ///< along the trailing edge, model unit
   double least_chord = 0, median_chord = 0, largest_chord = 0;  ///< model unit
 
   /// The chord of the measured station that passes nearest to a place. Cost: linear in stations.

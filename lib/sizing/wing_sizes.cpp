@@ -104,17 +104,13 @@ class WingRaster {
     }
   }
 
-  /// Along the noses of stations in a row, half a station beyond either end.
+  /// Along the noses of stations in a row.
   void end_run(std::vector<const ChordStation*>& run) {
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
-      const double before = i == 0 ? 0.5 : 0, after = i + 2 == run.size() ? 0.5 : 0;
-      walk((1 + before + after) * distance(a.nose, b.nose), pack_cause(CauseKind::kFace, a.nose_face),
-           [&](double share) {
-             const double part = share * (1 + before + after) - before;
-             const double chord = a.chord + std::clamp(part, 0.0, 1.0) * (b.chord - a.chord);
-             return Place{a.nose + part * (b.nose - a.nose), length_of(chord)};
-           });
+      walk(distance(a.nose, b.nose), pack_cause(CauseKind::kFace, a.nose_face), [&](double share) {
+        return Place{a.nose + share * (b.nose - a.nose), length_of(a.chord + share * (b.chord - a.chord))};
+      });
     }
     run.clear();
   }

@@ -299,6 +299,9 @@ TopoDS_Shape wing(double closing) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// The sharp wing, its root in a box that ends at z = 4.
+TopoDS_Shape wing_on_body() { return BRepAlgoAPI_Fuse(wing(0.1036), moved(box(16, 4, 8), -3, -2, -4)).Shape(); }
+
 /// The half of a wing above y = 0, which a plane of symmetry would close.
 TopoDS_Shape half_wing(double closing) {
   return BRepAlgoAPI_Common(wing(closing), moved(box(14, 5, 34), -2, 0, -2)).Shape();
@@ -425,6 +428,7 @@ const std::map<std::string, Factory>& factories() {
       {"wing_with_pod", wing_with_pod},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},
+      {"wing_on_body", wing_on_body},
       {"fan", fan},
       {"wing_skin", wing_skin},
       {"wing_of_2", [] { return cut_wing(2, 1); }},

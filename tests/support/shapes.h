@@ -18,6 +18,7 @@ namespace st::test {
 ///   stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
 ///   sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
 ///   wing_with_pod (3.5 long and 1 wide, half of it below the wing) half_sharp_wing half_blunt_wing (cut at y = 0)
+///   wing_on_body (its root in a box of 16 x 4 x 8 that ends at z = 4)
 ///   fan (the sharp wing revolved by 90 degrees about its nose) wing_skin (without tips, inside out)
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
 ///   l_face plate_with_hole cone_side sphere_octant

@@ -53,6 +53,14 @@ TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
   for (const RasterBox& b : s.boxes) EXPECT_NEAR(b.length, 0.05, 1e-4);
 }
 
+TEST(WingSizes, end_where_the_wing_runs_into_a_body) {
+  double root = 30;
+  for (const RasterBox& b : sample("wing_on_body", share_of_chord("0.5%chord")).boxes)
+    root = std::min(root, b.center.z);
+  EXPECT_GT(root, 3.999);
+  EXPECT_LT(root, 4.1);
+}
+
 TEST(WingSizes, lay_cells_across_a_blunt_base) {
   const Sampled s = sample("blunt_wing", share_of_chord("0.5%chord"));
   const std::vector<RasterBox> edges = s.with(CauseKind::kEdge);

@@ -1,0 +1,52 @@
+#include "features/concave_edges.h"
+
+#include <array>
+
+namespace st {
+namespace {
+
+constexpr int kPlaces = 5;                // along each edge
+constexpr double kConcave = radians(30);  // beyond flat: where a body stands on another one
+
+/// One side of an edge at its places.
+struct EdgeSide {
+  std::array<Vec3, kPlaces> normal, inward;  // unit: out of the solid; along the face, away from the edge
+};
+
+bool is_concave(const EdgeSide& a, const EdgeSide& b) {
+  for (int i = 0; i < kPlaces; ++i)
+    if (dot(b.inward[i], a.normal[i]) > 0 && angle_between(a.inward[i], b.inward[i]) <= kPi - kConcave) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles& roles) {
+  const ModelTables& t = model.tables();
+  const bool is_turned = is_material_ahead(t, roles);
+  std::vector<std::vector<EdgeSide>> sides(static_cast<std::size_t>(t.n_edges()));
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    if (roles.role[f] != FaceRole::kWall) continue;
+    const auto surface = model.surface(f);
+    for (const CoedgeId c : t.coedges(f)) {
+      const EdgeId e = t.coedge_edge[c];
+      if (t.edge_is_degenerate[e]) continue;
+      const auto curve = model.curve(e);
+      const auto pcurve = model.pcurve(f, c);
+      EdgeSide side;
+      for (int i = 0; i < kPlaces; ++i) {
+        const double at = curve->t_min() + (curve->t_max() - curve->t_min()) * (i + 0.5) / kPlaces;
+        const Vec3 n = surface_normal(*surface, pcurve->point(at)), tangent = normalized(curve->evaluate(at).d1);
+        side.normal[i] = (t.face_is_reversed[f] != 0) != is_turned ? -n : n;
+        side.inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
+      }
+      sides[e].push_back(side);
+    }
+  }
+  std::vector<std::uint8_t> is_concave_edge;
+  for (const std::vector<EdgeSide>& own : sides)
+    is_concave_edge.push_back(own.size() == 2 && is_concave(own[0], own[1]));
+  return is_concave_edge;
+}
+
+}  // namespace st
