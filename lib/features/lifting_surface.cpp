@@ -23,6 +23,7 @@ constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the fac
 constexpr std::size_t kAround = 4;      // stations to either side whose chords are compared
 constexpr double kOutlier = 1.4;        // chord over the median around
 constexpr double kFarOutlier = 4;       // chord over the median of the surface: wings taper less
+constexpr double kClearlyMore = 1.25;   // way with profiles square to the edge over that square to an axis
 constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
 constexpr double kNearNose = 0.05;      // of the chord: between nose and leading edge at most
@@ -67,13 +68,14 @@ double median(std::vector<double> values) {
 struct EdgePlace {
   std::size_t edge;  // of the chain
   double share;
+  double way;  // along the edge that it stands for, model unit
   Vec3 x, tangent;
 };
 
 /// A lifting surface that is not finished; see SurfaceMeasurer.
 struct SurfaceDraft {
   LiftingSurface surface;
-  const Vec3* axis = nullptr;  // to which its profiles are square; null: square to the edge
+  const Vec3* axis = nullptr;  // to which its profiles are square, or else to the edge
 };
 
 /// Of the faces that profiles cross those that no concave edge parts from the trailing edge, and of the stations those
@@ -117,15 +119,14 @@ class SurfaceMeasurer {
     const Vec3* axis = nullptr;
     std::vector<std::optional<Profile>> profiles = best_profiles(places, axis);
     drop_outliers(places, profiles);
-    const auto n = static_cast<std::size_t>(
-        std::count_if(profiles.begin(), profiles.end(), [](const auto& p) { return p.has_value(); }));
-    if (static_cast<double>(n) < kMeasured * static_cast<double>(places.size())) return std::nullopt;
-    LiftingSurface surface = assemble(chain, places, profiles);
-    const bool is_wide = std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
-      return w.base != kNone && w.size > kWidestBase * surface.median_chord;
-    });
-    if (is_wide || surface.span < kLeastSpan * surface.median_chord || !has_moving_noses(surface)) return std::nullopt;
-    return SurfaceDraft{std::move(surface), axis};
+    double whole = 0;
+    for (const EdgePlace& place : places) whole += place.way;
+    if (measured_way(places, profiles) < kMeasured * whole) return std::nullopt;
+    if (!is_wing(assemble(chain, places, profiles))) return std::nullopt;
+    for (std::size_t i = 0; i < places.size(); ++i)  // winglets
+      if (!profiles[i]) profiles[i] = profile_at(places[i], nullptr);
+    drop_outliers(places, profiles);
+    return SurfaceDraft{assemble(chain, places, profiles), axis};
   }
 
   /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest.
@@ -139,6 +140,13 @@ class SurfaceMeasurer {
   }
 
  private:
+  static bool is_wing(const LiftingSurface& surface) {
+    const bool is_wide = std::any_of(surface.trailing.begin(), surface.trailing.end(), [&](const TrailingEdge& edge) {
+      return edge.base_width > kWidestBase * surface.median_chord;
+    });
+    return !is_wide && surface.span >= kLeastSpan * surface.median_chord && has_moving_noses(surface);
+  }
+
   std::vector<EdgePlace> places_along(const std::vector<WingEdge>& chain) const {
     std::vector<EdgePlace> places;
     for (std::size_t k = 0; k < chain.size(); ++k) {
@@ -147,7 +155,7 @@ class SurfaceMeasurer {
       for (int i = 0; i < kStations; ++i) {
         const double share = (i + 0.5) / kStations;
         const CurvePoint p = curve->evaluate(arc.parameter_at(share));
-        places.push_back({k, share, p.x, normalized(p.d1)});
+        places.push_back({k, share, chain[k].length / kStations, p.x, normalized(p.d1)});
       }
     }
     return places;
@@ -170,17 +178,25 @@ class SurfaceMeasurer {
     return false;
   }
 
-  /// Cut square to `axis`, or to the edge where it is null: whichever shows more.
+  /// How far along the edges profiles were found: in how many pieces they are does not matter.
+  static double measured_way(const std::vector<EdgePlace>& places,
+                             const std::vector<std::optional<Profile>>& profiles) {
+    double way = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) way += profiles[i] ? places[i].way : 0;
+    return way;
+  }
+
+  /// Cut square to the axis of space that shows most; square to the edge only where that shows clearly more.
   std::vector<std::optional<Profile>> best_profiles(const std::vector<EdgePlace>& places,
                                                     const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
-    std::ptrdiff_t n_best = -1;
+    double longest = -1;
     for (const Vec3* axis : {kAxes.data(), kAxes.data() + 1, kAxes.data() + 2, static_cast<const Vec3*>(nullptr)}) {
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
-      const auto n = std::count_if(own.begin(), own.end(), [](const auto& p) { return p.has_value(); });
-      if (n <= n_best) continue;
-      n_best = n;
+      const double way = measured_way(places, own);
+      if (way <= (axis ? 1.0 : kClearlyMore) * longest) continue;
+      longest = way;
       best_axis = axis;
       best = std::move(own);
     }
@@ -211,7 +227,7 @@ class SurfaceMeasurer {
     LiftingSurface surface;
     for (const WingEdge& w : chain) {
       const bool is_half = w.base != kNone && w.mirror != kNone;
-      surface.trailing.push_back({w.edge, w.base, is_half, {}});
+      surface.trailing.push_back({w.edge, w.base, is_half, w.base == kNone ? 0 : w.size, {}});
       surface.span += w.base == kNone || is_half ? w.length : 0.5 * w.length;
       surface.is_blunt = surface.is_blunt || w.base != kNone;
     }
@@ -255,7 +271,9 @@ class SurfaceMeasurer {
       for (int i = 0; i < kHalvings; ++i) {
         const double share = 0.5 * (known + to);
         const CurvePoint p = curve->evaluate(arc.parameter_at(share));
-        const std::optional<Profile> own = profile_at({0, share, p.x, normalized(p.d1)}, axis);
+        const EdgePlace place{0, share, 0, p.x, normalized(p.d1)};
+        std::optional<Profile> own = profile_at(place, axis);
+        if (!own) own = profile_at(place, nullptr);
         const bool is_like = own && own->chord < kOutlier * from.chord && from.chord < kOutlier * own->chord &&
                              std::binary_search(own_faces.begin(), own_faces.end(), own->nose_face);
         (is_like ? known : to) = share;

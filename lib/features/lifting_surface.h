@@ -21,8 +21,9 @@ struct ChordStation {
 /// Stations along one CAD edge, in ascending order of `share`, first 0 and last 1.
 struct TrailingEdge {
   EdgeId edge = kNone;
-  FaceId base = kNone;   ///< of a blunt edge: the narrow face between it and its partner
-  bool is_half = false;  ///< a plane of symmetry cuts the base in two: the partner is the edge's own image
+  FaceId base = kNone;    ///< of a blunt edge: the narrow face between it and its partner
+  bool is_half = false;   ///< a plane of symmetry cuts the base in two: the partner is the edge's own image
+  double base_width = 0;  ///< median, model unit
   std::vector<ChordStation> stations;
 
   /// Local chord at a share of the edge's length, linear between stations, model unit.
@@ -49,9 +50,10 @@ struct LiftingSurface {
 };
 
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
-/// half of 24 stations per edge or more, and whose span is at least half their chord, and whose base is at most 6 per
-/// cent of it. Profiles are cut square to an axis of space or square to the edge, whichever shows more of them. By
-/// first edge. Local. Cost: a coarse triangulation of the walls where there are any trailing edges.
+/// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord, and
+/// whose base is at most 6 per cent of it. Profiles are cut square to an axis of space, and square to the edge where
+/// that shows none or clearly fewer. By first edge. Local. Cost: a coarse triangulation of the walls where there are
+/// any trailing edges.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges);
 
