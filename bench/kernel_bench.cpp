@@ -167,7 +167,8 @@ std::unique_ptr<SizeField> make_octree_field(const Surface& s, double length) {
   const auto storage = std::make_shared<Storage>();
   storage->raster = build_octree(box, boxes);
   const OctreeView octree = storage->raster.shape.view();
-  storage->lengths = prolong(octree, storage->raster.stored_length, storage->raster.stored_cause, {0.2, length});
+  storage->lengths =
+      prolong(Neighbours(octree), storage->raster.stored_length, storage->raster.stored_cause, {0.2, length});
   return std::make_unique<OctreeField>(OctreeFieldData{octree, storage->lengths.cells, storage->lengths.cause, 0.2, 1},
                                        storage);
 }

@@ -90,7 +90,8 @@ void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double f
   const double build = build_timer.seconds();
   const OctreeView octree = storage->raster.shape.view();
   const Timer prolong_timer;
-  storage->lengths = prolong(octree, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, far_length});
+  storage->lengths =
+      prolong(Neighbours(octree), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, far_length});
   const double prolong_seconds = prolong_timer.seconds(), n = static_cast<double>(octree.n_leaves());
   report("octree  {} boxes -> {} cells in {:.3f} s ({:.2g} cells/s), {:.1f} bytes per cell\n", boxes.size(),
          octree.n_leaves(), build, n / build,
@@ -148,9 +149,9 @@ void bench_accuracy(const std::string& path) {
       forget_samples(raster);
     }
     seed_lengths(samples, kSlope, raster);
-    storage->lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, largest});
     const Neighbours neighbours(raster.shape.view());
-    fit_samples(raster.shape.view(), neighbours, samples, kSlope, nullptr, storage->lengths);
+    storage->lengths = prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, largest});
+    fit_samples(neighbours, samples, kSlope, nullptr, storage->lengths);
     const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1},
                             storage);
     std::vector<double> errors;
@@ -229,7 +230,7 @@ void time_blanking(const Box3& root, const std::vector<RasterBox>& boxes, int n)
   const RasterOctree raster = build_octree(root, boxes);
   const OctreeView octree = raster.shape.view();
   const Timer timer;
-  const Blanking blanking = blank_cells(octree, Neighbours(octree), {points, triangles}, BlankSide::kInside);
+  const Blanking blanking = blank_cells(Neighbours(octree), {points, triangles}, BlankSide::kInside);
   const double seconds = timer.seconds();
   const auto n_cut = std::count(blanking.colour.begin(), blanking.colour.end(), CellColour::kCut);
   report("blank   {} cells with {} triangles: {:.3f} s, {} cut ({:.1f} us each)\n", octree.n_leaves(), triangles.size(),

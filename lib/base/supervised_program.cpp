@@ -54,6 +54,21 @@ class SignalPassing {
   std::array<struct sigaction, kPassedOn.size()> old_{};
 };
 
+/// Holds these signals back until released: while a program starts, nobody could pass them on.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : kPassedOn) sigaddset(&held, signal);
+    sigprocmask(SIG_BLOCK, &held, &before_);
+  }
+  void release() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_{};
+};
+
 struct Pipe {
   Pipe() {
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -120,11 +135,14 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
                           const std::function<void(const std::string& line)>& on_error_line) {
   Pipe errors, failure;
   std::fflush(nullptr);
+  const HeldSignals signals;
   const pid_t self = getpid(), program = fork();
+  if (program <= 0) signals.release();
   if (program < 0)
     throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
   if (program == 0) become(words, self, errors.ends[1], failure.ends[1]);
   const SignalPassing passing(program);
+  signals.release();
   errors.close_end(1);
   failure.close_end(1);
   read_lines(errors.ends[0], on_error_line);

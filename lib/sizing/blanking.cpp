@@ -57,10 +57,10 @@ struct Piece {
 
 class Blanker {
  public:
-  Blanker(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+  Blanker(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
           std::span<const Triangle> open_edges)
       : open_edges_(open_edges),
-        octree_(octree),
+        octree_(neighbours.octree()),
         neighbours_(neighbours),
         surface_(surface),
         flow_sign_(side == BlankSide::kInside ? 1 : -1) {}
@@ -495,9 +495,9 @@ std::vector<Triangle> find_open_edges(const SurfaceView& surface) {
   return open;
 }
 
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
                      std::span<const Triangle> open_edges) {
-  return Blanker(octree, neighbours, surface, side, open_edges).run();
+  return Blanker(neighbours, surface, side, open_edges).run();
 }
 
 }  // namespace st

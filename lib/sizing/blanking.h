@@ -60,7 +60,7 @@ struct Blanking {
 /// to flow. Where the surface separates the flow in a cell, the cell has two parts (more are taken together).
 /// Precondition: oriented surface (normals out of its inside), closed but for `open_edges`: where these lie cells count
 /// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell.
-Blanking blank_cells(const OctreeView& octree, const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
+Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
                      std::span<const Triangle> open_edges = {});
 
 /// Edges along which not as many triangles run one way as the other, each as a triangle with a repeated node.

@@ -23,6 +23,8 @@ class Neighbours {
   /// Precondition: balanced 2:1 across faces, edges and corners.
   explicit Neighbours(const OctreeView& octree);
 
+  const OctreeView& octree() const { return octree_; }
+
   /// Calls f(leaf, step) for every leaf that touches `leaf`, in a fixed order. A larger neighbour may come several
   /// times (once for each of the directions in which it lies), always with the same step.
   template <class F>

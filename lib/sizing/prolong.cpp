@@ -8,7 +8,6 @@
 
 #include "base/assert.h"
 #include "base/eigen.h"
-#include "sizing/neighbours.h"
 
 namespace st {
 namespace {
@@ -196,15 +195,15 @@ void add_second_parts(const Blanking& blanking, RasterOctree& octree) {
   }
 }
 
-ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
+ProlongedLengths prolong(const Neighbours& neighbours, std::span<const float> stored_length,
                          std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
                          const Blanking* blanking) {
+  const OctreeView& octree = neighbours.octree();
   ST_ASSERT(stored_length.size() == octree.leaf_keys.size() + (blanking ? blanking->split_leaf.size() : 0));
   ST_ASSERT(stored_cause.size() == stored_length.size());
   ST_ASSERT(options.cell_slope.empty() || options.cell_slope.size() == octree.leaf_keys.size());
   ST_ASSERT(options.slope > 0 && options.max_length > 0);
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
-  const Neighbours neighbours(octree);
   pass_lengths(octree.edge, neighbours, blanking, options, lengths);
   ProlongedLengths result;
   const FitInput input{octree, neighbours, blanking, lengths.length, options};
@@ -222,9 +221,10 @@ ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored
 }
 
 // The label that goes with the lengths is the slope of their origin instead of their cause.
-std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
+std::vector<float> spread_slopes(const Neighbours& neighbours, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking) {
+  const OctreeView& octree = neighbours.octree();
   ST_ASSERT(seed_slope.size() == stored_length.size());
   std::vector<float> kinds(seed_slope.begin(), seed_slope.end());
   for (float& slope : kinds)
@@ -236,7 +236,7 @@ std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float
   for (const float slope : cell_slope)
     label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));
   CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
-  pass_lengths(octree.edge, Neighbours(octree), blanking, {options.slope, options.max_length}, lengths);
+  pass_lengths(octree.edge, neighbours, blanking, {options.slope, options.max_length}, lengths);
   std::vector<float> result;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
     result.push_back(lengths.cause[leaf] == kNone ? static_cast<float>(options.slope) : kinds[lengths.cause[leaf]]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sizing/blanking.h"
+#include "sizing/neighbours.h"
 #include "sizing/octree.h"
 
 namespace st {
@@ -30,7 +31,7 @@ void add_second_parts(const Blanking& blanking, RasterOctree& octree);
 /// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives
 /// to the site that its length comes from (0: options.slope). `seed_slope` and `stored_length` are [n_sites], as in
 /// prolong(); the result is [n_leaves]. Unique, as prolong().
-std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float> stored_length,
+std::vector<float> spread_slopes(const Neighbours& neighbours, std::span<const float> stored_length,
                                  std::span<const float> seed_slope, const ProlongOptions& options,
                                  const Blanking* blanking = nullptr);
 
@@ -39,7 +40,7 @@ std::vector<float> spread_slopes(const OctreeView& octree, std::span<const float
 /// point, so the result is exactly reproducible; equal lengths take the smallest cause. Then the least-squares
 /// gradient. O(n) in practice. Precondition: balanced octree. With `blanking` (may be null) lengths pass through its
 /// open links only, and the stored arrays are [n_sites], see add_second_parts().
-ProlongedLengths prolong(const OctreeView& octree, std::span<const float> stored_length,
+ProlongedLengths prolong(const Neighbours& neighbours, std::span<const float> stored_length,
                          std::span<const std::int32_t> stored_cause, const ProlongOptions& options,
                          const Blanking* blanking = nullptr);
 

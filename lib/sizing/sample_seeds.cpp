@@ -122,15 +122,14 @@ class SamplesByLeaf {
     for (std::size_t i = 0; i < leaf_of.size(); ++i) by_leaf_[next[leaf_of[i]]++] = static_cast<std::int32_t>(i);
   }
 
-  /// The samples of the leaf that `is_wanted` takes: places from its centre, and lengths.
-  template <class IsWanted>
-  std::vector<CellSample> in_leaf(std::int32_t leaf, const IsWanted& is_wanted) const {
-    std::vector<CellSample> result;
+  /// Calls f(sample, place from the leaf's centre and lengths) for the samples in a leaf.
+  template <class F>
+  void visit(std::int32_t leaf, const F& f) const {
+    const Vec3 center = octree_.leaf_center(leaf);
     for (std::int32_t k = first_[leaf]; k < first_[leaf + 1]; ++k) {
       const LengthSample& s = samples_[by_leaf_[k]];
-      if (is_wanted(s)) result.push_back({place_of(s) - octree_.leaf_center(leaf), s.length, s.length});
+      f(s, CellSample{place_of(s) - center, s.length, s.length});
     }
-    return result;
   }
 
  private:
@@ -188,6 +187,88 @@ class SiteSeeder {
   const OctreeView view_;
 };
 
+/// Fits the cells to the samples in and around them.
+class SampleFit {
+ public:
+  SampleFit(const Neighbours& neighbours, std::span<const LengthSample> samples, double slope, const Blanking* blanking,
+            const ProlongedLengths& lengths)
+      : neighbours_(neighbours),
+        octree_(neighbours.octree()),
+        by_leaf_(octree_, samples),
+        slope_(slope),
+        blanking_(blanking),
+        lengths_(lengths) {
+    for (const auto* cells : {&lengths.cells, &lengths.second_cells})
+      for (const CellLength& cell : *cells) centre_length_.push_back(cell.length);
+  }
+
+  void fit(std::int32_t site, CellLength& cell) {
+    own_.clear();
+    add_samples(site, [&](CellSample s) { own_.push_back(s); });
+    if (own_.empty()) return;
+    const std::int32_t leaf = leaf_of(site);
+    const Vec3 c = octree_.leaf_center(leaf);
+    const double edge = octree_.cell_edge(octree_.leaf_levels[leaf]);
+    find_links(site);
+    all_ = own_;
+    for (const Link& link : links_)
+      add_samples(link.site, [&](CellSample s) {
+        s.d += link.center - c;
+        if (std::max({std::abs(s.d.x), std::abs(s.d.y), std::abs(s.d.z)}) <= kReach * edge) all_.push_back(s);
+      });
+    for (CellSample& s : all_) {
+      for (const CellSample& other : all_)
+        s.requested = std::min(s.requested, other.length + slope_ * distance(s.d, other.d));
+      for (const Link& link : links_)
+        s.requested = std::min(s.requested, link.length + slope_ * distance(c + s.d, link.center));
+    }
+    fit_to_samples(all_, edge, slope_, cell);
+    hold(own_, cell);
+  }
+
+ private:
+  static constexpr double kReach = 0.75;  // of the edge, from the centre: samples around count, too
+
+  /// A site to which lengths pass; a large one may come several times.
+  struct Link {
+    std::int32_t site;
+    Vec3 center;
+    float length;  // before
+  };
+
+  std::int32_t leaf_of(std::int32_t site) const {
+    return site < octree_.n_leaves() ? site : blanking_->split_leaf[site - octree_.n_leaves()];
+  }
+
+  void find_links(std::int32_t site) {
+    links_.clear();
+    for_each_link(blanking_, neighbours_, site, [&](std::int32_t to, const CellStep&) {
+      links_.push_back({to, octree_.leaf_center(leaf_of(to)), centre_length_[to]});
+    });
+  }
+
+  /// Calls add(sample) for the samples on the surface of this site.
+  template <class Add>
+  void add_samples(std::int32_t site, const Add& add) const {
+    const std::int32_t leaf = leaf_of(site);
+    const bool is_split = lengths_.cells[leaf].upper < 0, is_second = site >= octree_.n_leaves();
+    const std::int32_t k = is_split ? blanking_->find_split(leaf) : kNone;
+    by_leaf_.visit(leaf, [&](const LengthSample& s, const CellSample& in_cell) {
+      if (!is_split || concerns(s, *blanking_, k, is_second)) add(in_cell);
+    });
+  }
+
+  const Neighbours& neighbours_;
+  const OctreeView& octree_;
+  const SamplesByLeaf by_leaf_;
+  const double slope_;
+  const Blanking* const blanking_;
+  const ProlongedLengths& lengths_;
+  std::vector<float> centre_length_;  // [n_sites] before
+  std::vector<CellSample> own_, all_;
+  std::vector<Link> links_;
+};
+
 }  // namespace
 
 std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes) {
@@ -229,50 +310,14 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, const Bla
   for (const LengthSample& s : samples) seeder.seed(s);
 }
 
-void fit_samples(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
-                 double slope, const Blanking* blanking, ProlongedLengths& lengths) {
-  constexpr double kReach = 0.75;  // of the edge, from the centre: samples around count, too
+void fit_samples(const Neighbours& neighbours, std::span<const LengthSample> samples, double slope,
+                 const Blanking* blanking, ProlongedLengths& lengths) {
   if (samples.empty()) return;
-  const SamplesByLeaf by_leaf(octree, samples);
-  const std::int32_t n = octree.n_leaves();
-  std::vector<float> centre;  // [n_sites] before
-  for (const auto* cells : {&lengths.cells, &lengths.second_cells})
-    for (const CellLength& cell : *cells) centre.push_back(cell.length);
-  const auto leaf_of = [&](std::int32_t site) { return site < n ? site : blanking->split_leaf[site - n]; };
-  const auto samples_of = [&](std::int32_t site) {
-    const std::int32_t leaf = leaf_of(site);
-    const bool is_split = lengths.cells[leaf].upper < 0;
-    const std::int32_t k = is_split ? blanking->find_split(leaf) : kNone;
-    return by_leaf.in_leaf(leaf,
-                           [&](const LengthSample& s) { return !is_split || concerns(s, *blanking, k, site >= n); });
-  };
-  const auto fit = [&](std::int32_t site, CellLength& cell) {
-    const std::vector<CellSample> own = samples_of(site);
-    if (own.empty()) return;
-    const std::int32_t leaf = leaf_of(site);
-    const Vec3 c = octree.leaf_center(leaf);
-    const double edge = octree.cell_edge(octree.leaf_levels[leaf]);
-    std::vector<CellSample> all = own;
-    for_each_link(blanking, neighbours, site, [&](std::int32_t to, const CellStep&) {
-      const Vec3 off = octree.leaf_center(leaf_of(to)) - c;
-      for (CellSample s : samples_of(to)) {
-        s.d += off;
-        if (std::max({std::abs(s.d.x), std::abs(s.d.y), std::abs(s.d.z)}) <= kReach * edge) all.push_back(s);
-      }
-    });
-    for (CellSample& s : all) {
-      for (const CellSample& other : all)
-        s.requested = std::min(s.requested, other.length + slope * distance(s.d, other.d));
-      for_each_link(blanking, neighbours, site, [&](std::int32_t to, const CellStep&) {
-        s.requested = std::min(s.requested, centre[to] + slope * distance(c + s.d, octree.leaf_center(leaf_of(to))));
-      });
-    }
-    fit_to_samples(all, edge, slope, cell);
-    hold(own, cell);
-  };
-  for (std::int32_t leaf = 0; leaf < n; ++leaf) fit(leaf, lengths.cells[leaf]);
+  SampleFit fit(neighbours, samples, slope, blanking, lengths);
+  const std::int32_t n = neighbours.octree().n_leaves();
+  for (std::int32_t leaf = 0; leaf < n; ++leaf) fit.fit(leaf, lengths.cells[leaf]);
   for (std::size_t k = 0; k < lengths.second_cells.size(); ++k)
-    fit(n + static_cast<std::int32_t>(k), lengths.second_cells[k]);
+    fit.fit(n + static_cast<std::int32_t>(k), lengths.second_cells[k]);
 }
 
 }  // namespace st

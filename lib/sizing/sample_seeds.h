@@ -39,7 +39,7 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, const Bla
 /// Fits the linear lengths of cells, and second parts of split leaves, to what is requested at the places of the
 /// samples in and around them: by the samples themselves, and by prolongation from linked cells. No sample gets more
 /// than its length, no centre less than all that is requested around. `blanking` may be null.
-void fit_samples(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
-                 double slope, const Blanking* blanking, ProlongedLengths& lengths);
+void fit_samples(const Neighbours& neighbours, std::span<const LengthSample> samples, double slope,
+                 const Blanking* blanking, ProlongedLengths& lengths);
 
 }  // namespace st

@@ -23,7 +23,7 @@ constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the tri
 std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
   std::vector<CellLength> cells;
   if (executor.is_root())
-    cells = prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause,
+    cells = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length, raster.octree.stored_cause,
                     {kSlope, raster.numbers.far_length, {}, false})
                 .cells;
   share(executor, cells);

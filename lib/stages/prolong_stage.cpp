@@ -125,12 +125,11 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
 }
 
 /// Samples to the cells around them, and where lengths may pass.
-void seed_and_blank(const Barrier& barrier, double slope, RasterArtifact& raster, Blanking& blanking) {
+void seed_and_blank(const Barrier& barrier, double slope, const Neighbours& neighbours, RasterArtifact& raster,
+                    Blanking& blanking) {
   if (barrier.surface.triangles.empty()) return seed_lengths(raster.samples, slope, raster.octree);
-  const OctreeView octree = raster.octree.shape.view();
-  const Neighbours neighbours(octree);
-  blanking = blank_cells(octree, neighbours, barrier.surface.view(), barrier.surface.side,
-                         find_open_edges(barrier.surface.view()));
+  blanking =
+      blank_cells(neighbours, barrier.surface.view(), barrier.surface.side, find_open_edges(barrier.surface.view()));
   blanking.flow_along_normals = barrier.flow_along_normals;
   add_second_parts(blanking, raster.octree);
   seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
@@ -138,11 +137,10 @@ void seed_and_blank(const Barrier& barrier, double slope, RasterArtifact& raster
 
 /// Slope of each cell; empty: o.slope everywhere.
 std::vector<float> cell_slopes(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds,
-                               const RasterArtifact& raster, const Blanking* blanking) {
+                               const Neighbours& neighbours, const RasterArtifact& raster, const Blanking* blanking) {
   if (!seeds) return {};
-  const OctreeView octree = raster.octree.shape.view();
-  return spread_slopes(octree, raster.octree.stored_length,
-                       seeds->of_sites(octree, raster.octree.stored_cause, blanking),
+  return spread_slopes(neighbours, raster.octree.stored_length,
+                       seeds->of_sites(neighbours.octree(), raster.octree.stored_cause, blanking),
                        {o.slope, raster.numbers.far_length}, blanking);
 }
 
@@ -159,15 +157,14 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   if (!input.sources.empty())
     raster.octree =
         refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
-  seed_and_blank(barrier, o.slope, raster, sizing.blanking);
+  const Neighbours neighbours(raster.octree.shape.view());
+  seed_and_blank(barrier, o.slope, neighbours, raster, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   ProlongOptions options{o.slope, raster.numbers.far_length};
-  const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, raster, blanking);
+  const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
   options.cell_slope = cell_slope;
-  const OctreeView octree = raster.octree.shape.view();
-  sizing.lengths = prolong(octree, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  if (!raster.samples.empty())
-    fit_samples(octree, Neighbours(octree), raster.samples, sizing.slope, blanking, sizing.lengths);
+  sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
+  fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
 }
 

@@ -14,7 +14,8 @@ std::vector<FaceNumbers> face_numbers(const SurfaceMesh& mesh) {
 std::vector<std::int32_t> triangle_numbers(const SurfaceMesh& mesh, const FaceNumbers& numbers) {
   std::vector<std::int32_t> of_triangle;
   of_triangle.reserve(mesh.triangle_face.size());
-  for (const FaceId f : mesh.triangle_face) of_triangle.push_back((*numbers.of_face)[f] + 1);
+  for (const FaceId f : mesh.triangle_face)
+    of_triangle.push_back(static_cast<std::size_t>(f) < numbers.of_face->size() ? (*numbers.of_face)[f] + 1 : 0);
   return of_triangle;
 }
 

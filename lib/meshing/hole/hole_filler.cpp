@@ -115,7 +115,7 @@ class HoleBoundaryMaker {
   void close_poles() {
     std::vector<std::tuple<NodeId, NodeId, std::size_t>> by_nodes;
     for (std::size_t i = 0; i < free_.size(); ++i) {
-      const auto [low, high] = std::minmax(node_of(free_[i].first), node_of(free_[i].second));
+      const auto [low, high] = std::minmax({node_of(free_[i].first), node_of(free_[i].second)});
       by_nodes.push_back({low, high, i});
     }
     std::sort(by_nodes.begin(), by_nodes.end());

@@ -39,8 +39,8 @@ SizingArtifact sample_sizing() {
   sizing.numbers = raster.numbers;
   sizing.slope = 0.2;
   sizing.scale = 1.5;
-  sizing.lengths =
-      prolong(raster.octree.shape.view(), raster.octree.stored_length, raster.octree.stored_cause, {0.2, 0.2});
+  sizing.lengths = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
+                           raster.octree.stored_cause, {0.2, 0.2});
   sizing.face_weight = {12.5, 0};
   sizing.names = raster.names;
   sizing.names.source = {"wake"};

@@ -167,7 +167,8 @@ TEST(PatchCrossing, ignores_triangles_without_area_and_faces_without_triangles) 
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, -1, 1}, {0.5, 1, -1}, {0.5, 1, 1}, {0, 3, 0}};
   const std::vector<Triangle> triangles{{{0, 1, 2}}, {{1, 1, 6}}, {{3, 4, 5}}};
   EXPECT_TRUE(Patches(shapes::from(points, triangles, {0, 0, 2})).find().empty());
-  EXPECT_TRUE(find_crossing_patches({}).empty());
+  const std::vector<std::int32_t> no_face{0};
+  EXPECT_TRUE(find_crossing_patches({{}, {}, no_face, {}}).empty());
 }
 
 TEST(PatchCrossing, survives_many_triangles_in_the_same_place) {

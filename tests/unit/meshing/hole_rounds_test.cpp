@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -184,10 +186,21 @@ TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
   const FaceId top = face_at(box, 20);
   HoleMarkOptions options;
   options.redo = {triangle_near(box, HoleMesh(box.mesh, box.model.tables()), top, {30, 20, 20})};
-  Marked m(box, field, options);
   field.is_armed = true;
-  field.n_failures_left = 4;  // the hole as it is, grown twice, as a whole
+  field.n_failures_left = 0;
+  const auto tries = [&] {  // with holes that grow to the whole face
+    Marked m(box, field, options);
+    field.n_failures_left = 1000;
+    MeshResult ignored;
+    HoleRounds(m.holes, field, {}, one_rank, ignored).run();
+    return 1000 - field.n_failures_left;
+  };
+  const int n_tries = tries();
+  field.n_failures_left = 0;
+  Marked m(box, field, options);
+  field.n_failures_left = n_tries;
   const MeshResult r = m.fill();
+  EXPECT_EQ(field.n_failures_left, 0);
   EXPECT_TRUE(r.failures.empty());
   EXPECT_TRUE(check_topology(r.mesh).passes());
   NodeId n_kept = 0;
@@ -198,6 +211,38 @@ TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
     EXPECT_TRUE(r.mesh.node_xyz[n] == box.mesh.node_xyz[before]);
   }
   EXPECT_GT(n_kept, box.mesh.n_nodes() / 4) << "other faces stay";
+  const auto key = [](Vec3 x) { return std::tuple(x.x, x.y, x.z); };
+  std::map<std::tuple<double, double, double>, NodeId> on_edges;
+  for (NodeId n = 0; n < box.mesh.n_nodes(); ++n)
+    if (box.mesh.node_entity_dim[n] < 2) on_edges[key(box.mesh.node_xyz[n])] = n;
+  for (NodeId n = 0; n < r.mesh.n_nodes(); ++n) {
+    const auto same = on_edges.find(key(r.mesh.node_xyz[n]));
+    if (same != on_edges.end() && r.mesh.node_entity_dim[n] < 2) {
+      EXPECT_EQ(r.mesh.node_previous[n], same->second) << "what stays on an edge keeps its number";
+    }
+  }
+}
+
+TEST(HoleRounds, redo_old_triangles_that_new_ones_cross) {
+  const ShapeMesh pipe("thin_pipe", 0.03);
+  const ModelTables& t = pipe.model.tables();
+  const UniformField coarse(4);  // its chords cut through the wall
+  const HoleMesh old(pipe.mesh, t);
+  const auto outer =
+      static_cast<FaceId>(std::max_element(t.face_area.begin(), t.face_area.end()) - t.face_area.begin());
+  HoleMarkOptions options = test::nothing_changes();
+  for (TriangleId i = old.face_begin[outer]; i < old.face_begin[outer + 1]; ++i) options.redo.push_back(i);
+  Marked m(pipe, coarse, options);
+  MeshResult result;
+  HoleRounds rounds(m.holes, coarse, {}, one_rank, result);
+  rounds.run();
+  ASSERT_GT(result.n_rounds, 1) << "new triangles crossed old ones";
+  const std::vector<TriangleId>& redone = m.holes.options().redo;
+  ASSERT_GT(redone.size(), options.redo.size());
+  for (std::size_t i = options.redo.size(); i < redone.size(); ++i) {
+    EXPECT_NE(pipe.mesh.triangle_face[redone[i]], outer);
+    EXPECT_TRUE(m.holes.marks().triangle[redone[i]]);
+  }
 }
 
 TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {

@@ -62,9 +62,9 @@ std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const Surf
   auto s = std::make_unique<Sized>();
   s->raster = build_octree(test::kUnitBox, boxes);
   const OctreeView octree = s->raster.shape.view();
-  if (surface) s->blanking = blank_cells(octree, Neighbours(octree), surface->view(), side);
+  if (surface) s->blanking = blank_cells(Neighbours(octree), surface->view(), side);
   if (surface) add_second_parts(s->blanking, s->raster);
-  s->lengths = prolong(octree, s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest},
+  s->lengths = prolong(Neighbours(octree), s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest},
                        surface ? &s->blanking : nullptr);
   s->field = std::make_unique<OctreeField>(
       OctreeFieldData{octree, s->lengths.cells, s->lengths.cause, kSlope, 1, s->blanking.split_leaf, s->blanking.split,
@@ -247,14 +247,14 @@ TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
     forget_samples(raster);
     const OctreeView octree = raster.shape.view();
     const Neighbours neighbours(octree);
-    Blanking blanking = blank_cells(octree, neighbours, plate.view(), BlankSide::kInside);
+    Blanking blanking = blank_cells(neighbours, plate.view(), BlankSide::kInside);
     blanking.flow_along_normals = 1;
     add_second_parts(blanking, raster);
     const std::vector<LengthSample> samples = sorted_samples(boxes);
     seed_lengths(samples, kSlope, blanking, neighbours, raster);
     ProlongedLengths lengths =
-        prolong(octree, raster.stored_length, raster.stored_cause, {kSlope, kLargest}, &blanking);
-    fit_samples(octree, neighbours, samples, kSlope, &blanking, lengths);
+        prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, kLargest}, &blanking);
+    fit_samples(neighbours, samples, kSlope, &blanking, lengths);
     const OctreeField field({octree, lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf, blanking.split,
                              lengths.second_cells, lengths.second_cause},
                             nullptr);
@@ -275,7 +275,7 @@ TEST(Blanking, leaves_a_hole_open_and_still_separates_what_is_far_from_it) {
   const OctreeView octree = raster.shape.view();
   const std::vector<Triangle> open = find_open_edges(plate.view());
   ASSERT_FALSE(open.empty());
-  const Blanking blanking = blank_cells(octree, Neighbours(octree), plate.view(), BlankSide::kInside, open);
+  const Blanking blanking = blank_cells(Neighbours(octree), plate.view(), BlankSide::kInside, open);
   EXPECT_EQ(std::count(blanking.colour.begin(), blanking.colour.end(), CellColour::kBlanked), 0);
 }
 

@@ -84,7 +84,8 @@ TEST(FaceCells, weigh_area_by_squared_length) {
 TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
   const RasterOctree coarse = build_octree(test::kUnitBox, std::vector<RasterBox>{{{0.5, 0.5, 0.5}, 0.15F, 0.3F, 0}});
   const RasterOctree fine = build_octree(test::kUnitBox, test::wall_boxes(0.01F));
-  const ProlongedLengths lengths = prolong(fine.shape.view(), fine.stored_length, fine.stored_cause, {0.2, 1});
+  const ProlongedLengths lengths =
+      prolong(Neighbours(fine.shape.view()), fine.stored_length, fine.stored_cause, {0.2, 1});
   const OctreeField field = field_on(fine, lengths, 1);
   const PlaneSurface plane(kFrame, 0, 1, 0, 1);
   double expected = 0;

@@ -25,7 +25,8 @@ std::unique_ptr<OctreeField> make_field(double scale = 1) {
   auto storage = std::make_shared<Storage>();
   storage->raster = build_octree(test::kUnitBox, test::sphere_boxes(4000));
   const OctreeView view = storage->raster.shape.view();
-  storage->lengths = prolong(view, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, kMaxLength});
+  storage->lengths =
+      prolong(Neighbours(view), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, kMaxLength});
   const OctreeFieldData data{view, storage->lengths.cells, storage->lengths.cause, kSlope, scale};
   return std::make_unique<OctreeField>(data, storage);
 }
@@ -93,7 +94,8 @@ TEST(OctreeField, interpolates_growth_from_a_wall) {
   auto storage = std::make_shared<Storage>();
   storage->raster = build_octree(test::kUnitBox, test::wall_boxes(0.02F));
   const OctreeView view = storage->raster.shape.view();
-  storage->lengths = prolong(view, storage->raster.stored_length, storage->raster.stored_cause, {kSlope, 10});
+  storage->lengths =
+      prolong(Neighbours(view), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, 10});
   const OctreeField field({view, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage);
   for (double x = 0.05; x < 0.7; x += 0.01)
     EXPECT_NEAR(field.size(Vec3{x, 0.5, 0.5}), 0.02 + kSlope * x, 0.15 * (0.02 + kSlope * x));

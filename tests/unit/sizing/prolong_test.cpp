@@ -22,7 +22,7 @@ struct Case {
 
 Case make_case(int n_boxes, double slope = kSlope) {
   Case c{build_octree(test::kUnitBox, test::sphere_boxes(n_boxes)), {}};
-  c.cells = prolong(c.view(), c.raster.stored_length, c.raster.stored_cause, {slope, kMaxLength});
+  c.cells = prolong(Neighbours(c.view()), c.raster.stored_length, c.raster.stored_cause, {slope, kMaxLength});
   return c;
 }
 
@@ -57,7 +57,7 @@ TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
                                {{0.75, 0.5, 0.5}, 0.004F, 0.004F, pack_cause(CauseKind::kFace, 5)}};
   const RasterOctree raster = build_octree(test::kUnitBox, boxes);
   const OctreeView view = raster.shape.view();
-  const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, {kSlope, 0.05});
+  const ProlongedLengths cells = prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kSlope, 0.05});
   const auto cause_at = [&](Vec3 x) { return cells.cause[view.find_leaf(morton::encode(view.grid_point(x)))]; };
   EXPECT_EQ(cause_at({0.25, 0.5, 0.55}), boxes[0].cause);
   EXPECT_EQ(cause_at({0.75, 0.55, 0.5}), boxes[1].cause);
@@ -66,7 +66,8 @@ TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
 
 TEST(Prolong, does_nothing_without_stored_lengths) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
-  const ProlongedLengths cells = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {kSlope, 0.5});
+  const ProlongedLengths cells =
+      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kSlope, 0.5});
   ASSERT_EQ(cells.cells.size(), 1u);
   EXPECT_EQ(cells.cells[0].length, 0.5F);
   EXPECT_EQ(cells.cells[0].upper, 0.5F);
@@ -77,7 +78,7 @@ TEST(Prolong, does_nothing_without_stored_lengths) {
 TEST(Prolong, gradient_is_the_slope_away_from_a_wall) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::wall_boxes(0.02F));
   const OctreeView view = raster.shape.view();
-  const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, {kSlope, 10});
+  const ProlongedLengths cells = prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kSlope, 10});
   for (const double x : {0.1, 0.2, 0.35, 0.6}) {
     const std::size_t leaf = static_cast<std::size_t>(view.find_leaf(morton::encode(view.grid_point({x, 0.5, 0.5}))));
     EXPECT_NEAR(cells.cells[leaf].gradient[0], kSlope, 0.1 * kSlope);
@@ -115,9 +116,9 @@ TEST(Prolong, slope_of_a_region_holds_where_lengths_come_from_it) {
   std::vector<float> seeds(raster.stored_cause.size(), 0);
   for (std::size_t i = 0; i < seeds.size(); ++i)
     if (raster.stored_cause[i] == boxes[1].cause) seeds[i] = 0.05F;
-  const std::vector<float> slopes = spread_slopes(view, raster.stored_length, seeds, options);
+  const std::vector<float> slopes = spread_slopes(Neighbours(view), raster.stored_length, seeds, options);
   options.cell_slope = slopes;
-  const ProlongedLengths cells = prolong(view, raster.stored_length, raster.stored_cause, options);
+  const ProlongedLengths cells = prolong(Neighbours(view), raster.stored_length, raster.stored_cause, options);
   const auto at = [&](Vec3 x) { return view.find_leaf(morton::encode(view.grid_point(x))); };
   const auto expect_growth = [&](Vec3 from, Vec3 to, double slope) {
     const std::int32_t leaf = at(to);

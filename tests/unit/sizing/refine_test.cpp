@@ -57,7 +57,8 @@ RasterOctree refine(const RasterOctree& raster, const std::vector<std::unique_pt
 Refined refine_and_prolong(const RasterOctree& raster, const std::vector<std::unique_ptr<SizeSource>>& sources) {
   Refined r;
   r.octree = refine(raster, sources);
-  r.lengths = prolong(r.octree.shape.view(), r.octree.stored_length, r.octree.stored_cause, {kSlope, kMaxLength});
+  r.lengths =
+      prolong(Neighbours(r.octree.shape.view()), r.octree.stored_length, r.octree.stored_cause, {kSlope, kMaxLength});
   r.field = std::make_unique<OctreeField>(
       OctreeFieldData{r.octree.shape.view(), r.lengths.cells, r.lengths.cause, kSlope, 1}, nullptr);
   return r;

@@ -43,9 +43,9 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, con
   p->raster = build_octree(test::kUnitBox, boxes);
   if (!samples.empty()) forget_samples(p->raster);
   seed_lengths(samples, kSlope, p->raster);
-  p->lengths = prolong(p->raster.shape.view(), p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
   const Neighbours neighbours(p->raster.shape.view());
-  fit_samples(p->raster.shape.view(), neighbours, samples, kSlope, nullptr, p->lengths);
+  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
+  fit_samples(neighbours, samples, kSlope, nullptr, p->lengths);
   return std::make_unique<OctreeField>(
       OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSlope, 1}, p);
 }

@@ -15,7 +15,7 @@ TEST(SizeOrigin, leads_back_to_the_sample_that_asked_for_it) {
                                      {{0.9, 0.9, 0.9}, 0.02F, 0.02F, pack_cause(CauseKind::kFace, 3)}};
   const RasterOctree raster = build_octree(test::kUnitBox, boxes);
   const OctreeView octree = raster.shape.view();
-  const ProlongedLengths lengths = prolong(octree, raster.stored_length, raster.stored_cause, {0.2, 1});
+  const ProlongedLengths lengths = prolong(Neighbours(octree), raster.stored_length, raster.stored_cause, {0.2, 1});
   const OctreeFieldData field{octree, lengths.cells, lengths.cause, 0.2, 1};
   const Neighbours neighbours(octree);
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
@@ -29,7 +29,8 @@ TEST(SizeOrigin, leads_back_to_the_sample_that_asked_for_it) {
 
 TEST(SizeOrigin, of_the_largest_length_is_the_cell_itself) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
-  const ProlongedLengths lengths = prolong(raster.shape.view(), raster.stored_length, raster.stored_cause, {0.2, 1});
+  const ProlongedLengths lengths =
+      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {0.2, 1});
   const SizeOrigin origin =
       find_origin({raster.shape.view(), lengths.cells, lengths.cause, 0.2, 3}, Neighbours(raster.shape.view()), 0);
   EXPECT_EQ(origin.leaf, 0);

@@ -3,20 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <utility>
 
-#include "base/log.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/octree_field.h"
-#include "stages/import_stage.h"
-#include "stages/mesh_stage.h"
-#include "stages/prolong_stage.h"
-#include "stages/raster_stage.h"
-#include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "support/staged.h"
 
 namespace st {
 namespace {
@@ -29,27 +22,11 @@ struct Sizes {
 class CadSplits : public testing::Test {
  protected:
   Sizes sizes_of(const std::string& shape) {
-    set_verbosity(Verbosity::kQuiet);
-    test::write_brep(shape, dir_ / "m.brep");
-    ImportStageOptions import;
-    import.model = dir_ / "m.brep";
-    import.output = dir_ / "g.hdf";
-    run_import(import);
-    RasterStageOptions raster;
-    raster.geometry = import.output;
-    raster.output = dir_ / "r.hdf";
-    run_raster(raster, Communicator());
-    ProlongStageOptions prolong;
-    prolong.raster = raster.output;
-    prolong.output = dir_ / "s.hdf";
-    run_prolong(prolong);
-    MeshStageOptions mesh;
-    mesh.geometry = import.output;
-    mesh.sizing = prolong.output;
-    mesh.output = dir_ / "p.hdf";
-    const nlohmann::json facts = nlohmann::json::parse(run_mesh(mesh, Communicator()).json);
-    if (points_.empty()) choose_points(read_patches(mesh.output));
-    return {lengths(read_sizing(prolong.output)), read_geometry(import.output).tables.n_faces(), facts.at("triangles")};
+    staged_.make_sizing(shape);
+    const nlohmann::json facts = staged_.make_patches();
+    if (points_.empty()) choose_points(read_patches(staged_.mesh.output));
+    return {lengths(read_sizing(staged_.prolong.output)), read_geometry(staged_.raster.geometry).tables.n_faces(),
+            facts.at("triangles")};
   }
 
   /// 10,000 nodes of a mesh.
@@ -69,7 +46,7 @@ class CadSplits : public testing::Test {
   }
 
   std::vector<Vec3> points_;
-  TemporaryDirectory dir_;
+  test::StagedModel staged_;
 };
 
 TEST_F(CadSplits, do_not_show_in_sizes_and_number_of_triangles) {

@@ -2,12 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/log.h"
-#include "comm/communicator.h"
-#include "stages/import_stage.h"
-#include "stages/raster_stage.h"
-#include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "support/staged.h"
 
 namespace st {
 namespace {
@@ -15,19 +10,10 @@ namespace {
 class CoarseSurface : public testing::Test {
  protected:
   BlankSurface surface_of(const std::string& shape) {
-    set_verbosity(Verbosity::kQuiet);
-    test::write_brep(shape, dir_ / "m.brep");
-    ImportStageOptions import;
-    import.model = dir_ / "m.brep";
-    import.output = dir_ / "g.hdf";
-    run_import(import);
-    RasterStageOptions raster;
-    raster.geometry = dir_ / "g.hdf";
-    raster.output = dir_ / "r.hdf";
-    run_raster(raster, Communicator());
-    return read_raster(dir_ / "r.hdf").surface;
+    staged_.make_raster(shape);
+    return read_raster(staged_.raster.output).surface;
   }
-  TemporaryDirectory dir_;
+  test::StagedModel staged_;
 };
 
 double enclosed(const BlankSurface& s) {
@@ -41,7 +27,7 @@ TEST_F(CoarseSurface, of_a_solid_is_closed_and_encloses_it) {
     const BlankSurface surface = surface_of(shape);
     ASSERT_FALSE(surface.triangles.empty()) << shape;
     EXPECT_TRUE(find_open_edges(surface.view()).empty()) << shape;
-    const double volume = *read_geometry(dir_ / "g.hdf").tables.volume;
+    const double volume = *read_geometry(staged_.raster.geometry).tables.volume;
     EXPECT_NEAR(enclosed(surface), volume, 0.1 * volume) << shape;
     EXPECT_EQ(surface.side, BlankSide::kInside);
   }

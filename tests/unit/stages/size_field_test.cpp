@@ -7,14 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "base/log.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/neighbours.h"
-#include "stages/import_stage.h"
-#include "stages/prolong_stage.h"
-#include "stages/raster_stage.h"
-#include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "support/staged.h"
 
 namespace st {
 namespace {
@@ -31,27 +26,14 @@ void PrintTo(const FieldCase& c, std::ostream* out) {
 class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
  protected:
   void SetUp() override {
-    set_verbosity(Verbosity::kQuiet);
-    test::write_brep(GetParam().shape, dir_ / "m.brep");
-    ImportStageOptions import;
-    import.model = dir_ / "m.brep";
-    import.output = dir_ / "g.hdf";
-    run_import(import);
-    RasterStageOptions raster;
-    raster.geometry = dir_ / "g.hdf";
-    raster.output = dir_ / "r.hdf";
-    raster.cell_per_length = GetParam().cell_per_length;
-    run_raster(raster, Communicator());
-    ProlongStageOptions prolong;
-    prolong.raster = dir_ / "r.hdf";
-    prolong.output = dir_ / "s.hdf";
+    staged_.raster.cell_per_length = GetParam().cell_per_length;
     if (GetParam().has_source) {
-      std::ofstream(dir_ / "s.toml")
+      staged_.prolong.sources = {staged_.dir / "sources.toml"};
+      std::ofstream(staged_.prolong.sources[0])
           << "[[source]]\ntype = \"point\"\nat = [1, 2, 3]\nlength = \"0.1%\"\nradius = \"2%\"\n";
-      prolong.sources = {dir_ / "s.toml"};
     }
-    run_prolong(prolong);
-    sizing_ = read_sizing(dir_ / "s.hdf");
+    staged_.make_sizing(GetParam().shape);
+    sizing_ = read_sizing(staged_.prolong.output);
     field_ = std::make_unique<OctreeField>(sizing_.field_data(), nullptr);
   }
 
@@ -70,7 +52,7 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
            edge * Vec3{uniform(random_) - 0.5, uniform(random_) - 0.5, uniform(random_) - 0.5};
   }
 
-  TemporaryDirectory dir_;
+  test::StagedModel staged_;
   SizingArtifact sizing_;
   std::unique_ptr<OctreeField> field_;
   std::mt19937_64 random_{11};
@@ -101,7 +83,7 @@ TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
 TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
   const Neighbours neighbours(sizing_.shape.view());
   std::vector<double> least_sample(sizing_.lengths.cells.size(), std::numeric_limits<double>::infinity());
-  for (const LengthSample& s : read_raster(dir_ / "r.hdf").samples) {
+  for (const LengthSample& s : read_raster(staged_.raster.output).samples) {
     double& least = least_sample[leaf_at(s)];
     least = std::min<double>(least, s.length);
   }
@@ -121,7 +103,7 @@ TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
 }
 
 TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
-  const RasterArtifact raster = read_raster(dir_ / "r.hdf");
+  const RasterArtifact raster = read_raster(staged_.raster.output);
   const OctreeView octree = raster.octree.shape.view();
   const SizeField& field = *field_;
   ASSERT_EQ(raster.samples.empty(), GetParam().cell_per_length <= kStoredByCellUpTo);

@@ -5,14 +5,9 @@
 
 #include <algorithm>
 
-#include "base/log.h"
 #include "stages/expected_triangles.h"
-#include "stages/import_stage.h"
-#include "stages/prolong_stage.h"
-#include "stages/raster_stage.h"
 #include "stages/size_report.h"
-#include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "support/staged.h"
 
 namespace st {
 namespace {
@@ -90,30 +85,15 @@ TEST(SizeTally, shows_the_causes_with_most_triangles_and_unites_the_others) {
 
 class SizesOfModel : public testing::Test {
  protected:
-  void SetUp() override {
-    set_verbosity(Verbosity::kQuiet);
-    test::write_brep("drilled_block", dir_ / "m.brep");
-    ImportStageOptions import;
-    import.model = dir_ / "m.brep";
-    import.output = dir_ / "g.hdf";
-    run_import(import);
-    RasterStageOptions raster;
-    raster.geometry = dir_ / "g.hdf";
-    raster.output = dir_ / "r.hdf";
-    run_raster(raster, Communicator());
-    prolong_.raster = dir_ / "r.hdf";
-    prolong_.output = dir_ / "s.hdf";
-  }
-  nlohmann::json prolong() const { return nlohmann::json::parse(run_prolong(prolong_).json); }
+  void SetUp() override { staged_.make_raster("drilled_block"); }
 
-  TemporaryDirectory dir_;
-  ProlongStageOptions prolong_;
+  test::StagedModel staged_;
 };
 
 TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
-  prolong();
-  const RasterArtifact raster = read_raster(dir_ / "r.hdf");
-  const MappedSizing sizing = map_sizing(dir_ / "s.hdf");
+  staged_.make_sizing();
+  const RasterArtifact raster = read_raster(staged_.raster.output);
+  const MappedSizing sizing = map_sizing(staged_.prolong.output);
   SizeTally tally = tally_by_group(raster);
   std::vector<double> weight(sizing.face_weight.size(), 0), area(weight.size(), 0);
   face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) {
@@ -139,9 +119,9 @@ TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
 }
 
 TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
-  prolong();
-  const RasterArtifact raster = read_raster(dir_ / "r.hdf");
-  const MappedSizing sizing = map_sizing(dir_ / "s.hdf");
+  staged_.make_sizing();
+  const RasterArtifact raster = read_raster(staged_.raster.output);
+  const MappedSizing sizing = map_sizing(staged_.prolong.output);
   const std::vector<GroupSizes> sampled = sampled_groups(raster);
   SizeTally tally = tally_by_group(raster);
   face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) { tally.add(p); });
@@ -163,8 +143,8 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
 
 TEST_F(SizesOfModel, stand_in_the_summary_and_follow_the_scale) {
   for (const double scale : {1.0, 0.7}) {
-    prolong_.scale = scale;
-    const nlohmann::json json = prolong();
+    staged_.prolong.scale = scale;
+    const nlohmann::json json = staged_.make_sizing();
     double triangles = 0;
     for (const nlohmann::json& g : json["groups"]) {
       triangles += g["expected_triangles"].get<double>();
