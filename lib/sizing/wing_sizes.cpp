@@ -133,7 +133,8 @@ void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes
     const auto strip =
         std::find_if(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == trailing.base; });
     const bool has_base = trailing.base != kNone && strip != strips.end();
-    if (has_noses && !(has_base && strip->edges[1] == trailing.edge)) raster.add_noses(trailing);
+    const bool is_second = has_base && !trailing.is_half && strip->edges[1] == trailing.edge;
+    if (has_noses && !is_second) raster.add_noses(trailing);
     if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
   }
 }

@@ -61,6 +61,21 @@ TEST(WingSizes, end_where_the_wing_runs_into_a_body) {
   EXPECT_LT(root, 4.1);
 }
 
+TEST(WingSizes, run_along_the_nose_of_half_a_wing) {
+  for (const char* shape : {"half_sharp_wing", "half_blunt_wing"}) {
+    const Model model = test::make_model(shape);
+    FaceRoles roles = face_roles(model.tables());
+    for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+      if (model.tables().face_box[f].hi.y < 1e-6) roles.role[f] = FaceRole::kSymmetry;
+    const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
+    std::vector<RasterBox> boxes;
+    for (const LiftingSurface& wing : find_lifting_surfaces(model, roles, find_wing_edges(model, roles)))
+      raster_wing(model, wing, share_of_chord("0.5%chord"), find_strips(model), none, boxes);
+    const auto n_nose = std::count_if(boxes.begin(), boxes.end(), [](const RasterBox& b) { return b.center.x < 0.1; });
+    EXPECT_GT(n_nose, 500) << shape;
+  }
+}
+
 TEST(WingSizes, lay_cells_across_a_blunt_base) {
   const Sampled s = sample("blunt_wing", share_of_chord("0.5%chord"));
   const std::vector<RasterBox> edges = s.with(CauseKind::kEdge);
