@@ -6,7 +6,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-"$1/st-prolong" "$2/raster.hdf" -o "$scratch/open.hdf" -q
+"$1/st-prolong" "$2/raster.hdf" --no-blank -o "$scratch/open.hdf" -q
 "$1/st-prolong" "$2/raster.hdf" --blank "$2/mesh.hdf" -o "$scratch/blanked.hdf" -q
 for field in open blanked; do
   "$1/st-export" "$scratch/$field.hdf" -o "$scratch/$field.vtu" -q
