@@ -6,7 +6,7 @@
 set -eu -o pipefail
 out=$1 model=$2
 [ -f "$model" ] || { echo "workflow: error: MODEL '$model' does not exist" >&2; exit 3; }
-path=$(realpath "$model")
+path=$(realpath -- "$model")
 hash=$(sha256sum < "$model" | cut -d' ' -f1)
 if [ -f "$out/model.ref" ]; then
   { read -r old_hash && IFS= read -r old_path; } < "$out/model.ref"

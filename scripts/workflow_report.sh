@@ -4,10 +4,12 @@
 #        workflow_report.sh write RESULTS OUT BIN_DIR [EXPORTED...]   RESULTS/report.txt
 #        workflow_report.sh show RESULTS                              prints it; exit 5 when the mesh did not pass
 set -eu -o pipefail
+export LC_ALL=C  # printf and awk read 0.5 in every locale
 action=$1 results=$2
 
 check() {
   local out=$1 bin=$2 status=0 said=$results/check.tmp.$$
+  rm -f "$results/check.tmp."* "$results/report.tmp."*  # of runs that were killed
   "$bin/st-check" "$results/mesh.hdf" --options "$out/st-check.toml" \
     --geometry "$out/geometry.hdf" --sizing "$results/sizing.hdf" > "$said" || status=$?
   if [ $status -ne 0 ] && [ $status -ne 5 ]; then

@@ -4,6 +4,7 @@
 # Environment: FROM, TO "x y z" ends of the way; LENGTH, RADIUS of the source; STEPS (10); FRAMES=0: draw none. Defaults suit the bundled aircraft.
 # exit codes: as the tools; 5 when a check fails, quality drifts by more than 0.01, or taking the source away leaves 5 % more or fewer triangles
 set -eu -o pipefail
+export LC_ALL=C  # awk and printf read 0.5 in every locale
 out=$1 bin=$2 np=${3:-1}
 here=$(dirname "$(realpath "$0")")
 from=${FROM:-0.5 0.5 0.5} to=${TO:-32 1.5 1.0} length=${LENGTH:-0.06} radius=${RADIUS:-1} steps=${STEPS:-10}

@@ -192,4 +192,59 @@ unset FAKE_CHECK
 run MODEL=e.step
 expect "and the verdict stays" "$status $ran" "2 "
 
+missing() {  # how many of these files do not exist
+  local n=0 file
+  for file in "$@"; do [ -e "$file" ] || n=$((n + 1)); done
+  echo $n
+}
+mkdir -p proj out/foreign
+cp a.step proj/my.brep
+echo mine > proj/notes.txt
+echo mine > out/foreign/notes.txt
+run MODEL=proj/my.brep OUT="$PWD/proj" EXPORT="stl ugrid" BLANK=1
+expect "results may lie beside the model" "$status" 0
+touch proj/mesh.mapbc proj/log/own.txt
+run MODEL=proj/my.brep OUT="$PWD/proj" clean
+expect "clean removes the results alone" "$status $(cd proj && find . -type f | sort | tr '\n' ' ')" \
+  "0 ./log/own.txt ./my.brep ./notes.txt "
+expect "and names what it keeps" "$(grep -c 'keeps what make did not write: log my.brep notes.txt' <<< "$said")" 1
+run MODEL=a.step OUT=out/foreign clean
+expect "a folder that make did not fill is not cleaned" "$status $(ls out/foreign)" "2 notes.txt"
+run MODEL=a.step OUT=d BLANK=1
+run MODEL=a.step OUT=d remesh
+run MODEL=a.step OUT=d clean
+expect "a folder of results alone is gone" "$status $(missing d)" "0 1"
+run MODEL=a.step OUT=d clean
+expect "cleaning what is not there is fine" "$status" 0
+for odd in .brep ...brep /.step; do
+  run MODEL=$odd clean
+  expect "$odd gives no folder a name: nothing is removed" "$status $(ls -d out/a) $(grep -c 'give OUT=' <<< "$said")" "2 out/a 1"
+done
+
+# shellcheck disable=SC2016
+dollar='a$(shell touch pwned)`touch pwned`$HOME.step'
+cp a.step "$dollar"
+run MODEL="$dollar" OUT=d
+expect "a model's name is text, nothing in it is run" "$status $(missing pwned)" "0 1"
+MODEL=$dollar run OUT=d clean
+expect "nor when it comes from the environment" "$status $(missing pwned d)" "0 2"
+run MODEL=$'a\ntouch pwned\n.step' OUT=d
+expect "a model's name with a line break is refused" "$status $ran" "2 "
+cp a.step ./-f.step
+run MODEL=-f.step OUT=d
+expect "a model's name may begin with a dash" "$status $ran" "0 $all"
+# shellcheck disable=SC2016
+for given in 'OUT=d;touch${IFS}pwned' 'OUT=$(shell touch pwned)' 'NP=1;touch pwned' NP=x 'TOOLS=bin;touch pwned' 'OUT=-rf'; do
+  run MODEL=a.step "$given"
+  expect "$given is refused" "$status $(missing pwned)" "2 1"
+done
+
+if localedef -i de_DE -f UTF-8 "$work/de_DE.UTF-8" > /dev/null 2>&1 || [ -d "$work/de_DE.UTF-8" ]; then
+  export LOCPATH=$work
+  { LC_ALL=de_DE.UTF-8 run MODEL=a.step OUT=f; } 2> /dev/null  # this shell itself cannot
+  expect "a locale with a decimal comma gives the same report" "$status $(grep -c '^  total .*\.[0-9]* s$' f/report.txt)" "0 1"
+else
+  echo "SKIPPED: localedef cannot make a locale with a decimal comma"
+fi
+
 finish "all workflow rules hold"
