@@ -129,6 +129,12 @@ int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeVie
   return std::min(PlanePoints::kLargest, 2 << std::min(deepest - level, 5));
 }
 
+/// Area of a plane, measured in stretched lengths, over that measured in the smallest.
+double area_share(const LocalSize& local, Vec3 normal) {
+  const double out = dot(local.direction, normal), ratio = local.length / local.along;
+  return std::sqrt(1 - (1 - out * out) * (1 - ratio * ratio) * norm2(local.direction));
+}
+
 /// Unites points of one cell that follow each other and have one cause.
 class PartCollector {
  public:
@@ -203,7 +209,8 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
         Vec3 gradient;
         std::int32_t cause = kNone;
         const double h = field.size_and_gradient(x, hint, gradient, cause);
-        const FaceWeight at_point{1 / (h * h), norm(gradient - dot(gradient, normal) * normal) / (h * h)};
+        const double share = field.is_stretched() ? area_share(field.local(x, hint), normal) : 1;
+        const FaceWeight at_point{share / (h * h), share * norm(gradient - dot(gradient, normal) * normal) / (h * h)};
         uniform += at_point.uniform;
         graded += at_point.graded;
         parts.add(cause, h, at_point);

@@ -4,10 +4,17 @@
 
 namespace st {
 
+LocalSize MovedOctreeField::local(Vec3 xyz, int& hint) const {
+  const LocalSize own = OctreeField::local(to_octree_(xyz), hint);
+  return {frame_.scale * own.length, frame_.scale * own.along, frame_.rotated(own.direction)};
+}
+
 SizeExplanation MovedOctreeField::explain(Vec3 xyz) const {
   SizeExplanation e = OctreeField::explain(to_octree_(xyz));
   e.cell_edge *= frame_.scale;
   e.length *= frame_.scale;
+  e.along *= frame_.scale;
+  e.direction = frame_.rotated(e.direction);
   e.gradient = frame_.rotated(e.gradient);  // lengths and distances are scaled alike
   return e;
 }

@@ -33,6 +33,12 @@ struct SmallNormal {
   static std::uint8_t round(double v) { return static_cast<std::uint8_t>(127 * v + 128.5); }
 };
 
+/// Longer lengths along a direction; `along` 0: the same length in all directions.
+struct SampleStretch {
+  SmallNormal direction = {};
+  float along = 0;  ///< model unit
+};
+
 /// A sample of the geometry: the cube center +- half asks for `length`. Its edge is cell_per_length times the length.
 struct RasterBox {
   Vec3 center;       ///< model unit
@@ -40,6 +46,7 @@ struct RasterBox {
   float length = 0;  ///< sample length, model unit, > 0
   std::int32_t cause = kNone;
   SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
+  SampleStretch stretch = {};
 };
 
 /// The shape of an octree over arrays that somebody else owns (vectors, or a mapped artifact).

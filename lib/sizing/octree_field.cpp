@@ -75,6 +75,21 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   return length_in(cell, d);
 }
 
+LocalSize OctreeField::local_in(std::int32_t leaf, std::int32_t second, Vec3 d) const {
+  const double length = length_in(second == kNone ? data_.cells[leaf] : data_.second_cells[second], d);
+  if (data_.along.empty()) return {length, length, {}};
+  const std::int32_t site = second == kNone ? leaf : data_.octree.n_leaves() + second;
+  const double along = std::min(length_in(data_.along[site], d), data_.max_aspect * length);
+  const Vec3 direction = normalized(Vec3(data_.direction[site]));
+  if (direction == Vec3{} || !(along > length)) return {length, length, {}};
+  return {length, along, direction};
+}
+
+LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
+  const Vec3 d = locate(xyz, hint);
+  return local_in(hint, data_.cells[hint].upper < 0 ? find_part(hint, d) : kNone, d);
+}
+
 double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const {
   const Vec3 d = locate(xyz, hint);
   const std::int32_t second = data_.cells[hint].upper < 0 ? find_part(hint, d) : kNone;
@@ -92,7 +107,10 @@ SizeExplanation OctreeField::explain(Vec3 xyz) const {
   const std::int32_t second = data_.cells[leaf].upper < 0 ? find_part(leaf, d) : kNone;
   const CellLength& c = second == kNone ? data_.cells[leaf] : data_.second_cells[second];
   SizeExplanation result;
-  result.length = length_in(c, d);
+  const LocalSize local = local_in(leaf, second, d);
+  result.length = local.length;
+  result.along = local.along;
+  result.direction = local.direction;
   result.leaf = leaf;
   result.level = data_.octree.leaf_levels[leaf];
   result.cell_edge = data_.octree.cell_edge(result.level);

@@ -25,6 +25,9 @@ struct OctreeFieldData {
   std::span<const CellSplit> split = {};
   std::span<const CellLength> second_cells = {};
   std::span<const std::int32_t> second_cause = {};
+  std::span<const CellLength> along = {};       ///< [n_sites] see StretchedCells; empty: no stretch
+  std::span<const SmallNormal> direction = {};  ///< [n_sites]
+  double max_aspect = 1;
 };
 
 /// What stands behind the length at a place.
@@ -33,6 +36,8 @@ struct SizeExplanation {
   int level = 0;
   double cell_edge = 0;  ///< model unit
   double length = 0;     ///< as size() answers
+  double along = 0;      ///< as local() answers, likewise the direction
+  Vec3 direction;
   Vec3 gradient;
   std::int32_t cause = kNone;  ///< see pack_cause
 };
@@ -48,6 +53,8 @@ class OctreeField : public SizeField {
 
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override;
+  bool is_stretched() const override { return !data_.along.empty(); }
   double min_size() const override { return min_size_; }
   double slope() const override { return data_.slope * data_.scale; }
   const OctreeFieldData& data() const { return data_; }
@@ -60,6 +67,8 @@ class OctreeField : public SizeField {
 
  private:
   Vec3 locate(Vec3 xyz, int& hint) const;
+  /// At d from the centre of the leaf, in its part (kNone: the first).
+  LocalSize local_in(std::int32_t leaf, std::int32_t second, Vec3 d) const;
   double length_in(const CellLength& cell, Vec3 d) const {
     const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
     return std::max(data_.scale * std::min<double>(cell.length + rise, std::abs(cell.upper)), min_size_);

@@ -206,18 +206,33 @@ ProlongedLengths prolong(const Neighbours& neighbours, std::span<const float> st
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
   pass_lengths(octree.edge, neighbours, blanking, options, lengths);
   ProlongedLengths result;
-  const FitInput input{octree, neighbours, blanking, lengths.length, options};
-  const std::int32_t n = octree.n_leaves(), n_sites = static_cast<std::int32_t>(lengths.length.size());
+  const std::int32_t n = octree.n_leaves();
+  result.cells = fit_gradients(neighbours, lengths.length, options, blanking);
+  result.second_cells.assign(result.cells.begin() + n, result.cells.end());
   result.cells.resize(static_cast<std::size_t>(n));
-  for (std::int32_t leaf = 0; leaf < n; ++leaf) result.cells[leaf] = fit_cell(input, leaf);
-  for (std::int32_t site = n; site < n_sites; ++site) {
-    result.second_cells.push_back(fit_cell(input, site));
-    result.cells[blanking->split_leaf[site - n]].upper *= -1;  // says that there is a second part
-  }
+  for (std::size_t k = 0; k < result.second_cells.size(); ++k)
+    result.cells[blanking->split_leaf[k]].upper *= -1;  // says that there is a second part
   result.second_cause.assign(lengths.cause.begin() + n, lengths.cause.end());
   lengths.cause.resize(static_cast<std::size_t>(n));
   result.cause = std::move(lengths.cause);
   return result;
+}
+
+std::vector<std::int32_t> spread_labels(const Neighbours& neighbours, std::span<const float> stored_length,
+                                        std::span<const std::int32_t> label, const ProlongOptions& options,
+                                        const Blanking* blanking) {
+  CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
+  pass_lengths(neighbours.octree().edge, neighbours, blanking, options, lengths);
+  return lengths.cause;
+}
+
+std::vector<CellLength> fit_gradients(const Neighbours& neighbours, std::span<const float> lengths,
+                                      const ProlongOptions& options, const Blanking* blanking) {
+  const FitInput input{neighbours.octree(), neighbours, blanking, lengths, options};
+  std::vector<CellLength> cells;
+  for (std::size_t site = 0; site < lengths.size(); ++site)
+    cells.push_back(fit_cell(input, static_cast<std::int32_t>(site)));
+  return cells;
 }
 
 // The label that goes with the lengths is the slope of their origin instead of their cause.
@@ -235,11 +250,11 @@ std::vector<float> spread_slopes(const Neighbours& neighbours, std::span<const f
   std::vector<std::int32_t> label;
   for (const float slope : cell_slope)
     label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));
-  CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
-  pass_lengths(octree.edge, neighbours, blanking, {options.slope, options.max_length}, lengths);
+  const std::vector<std::int32_t> origin =
+      spread_labels(neighbours, stored_length, label, {options.slope, options.max_length}, blanking);
   std::vector<float> result;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf)
-    result.push_back(lengths.cause[leaf] == kNone ? static_cast<float>(options.slope) : kinds[lengths.cause[leaf]]);
+    result.push_back(origin[leaf] == kNone ? static_cast<float>(options.slope) : kinds[origin[leaf]]);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "sizing/cell_limit.h"
+#include "sizing/line_stretch.h"
 #include "sizing/patch_walk.h"
 
 namespace st {
@@ -21,7 +22,9 @@ constexpr double kConfirmed = 2;      // a curvature up to this times the larges
 constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
 constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
-constexpr double kCollapsed = 1e-9;   // derivative over the other one, scaled to the ranges, where a side has collapsed
+constexpr double kClearlyFlatter = 0.3;  // smaller over larger curvature: their directions are certain
+constexpr double kClearlyCurved = 0.01;  // of alpha along one length: likewise
+constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to the ranges, where a side has collapsed
 
 struct CurvatureProbe {
   Vec3 x;
@@ -214,10 +217,48 @@ class FaceRaster {
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
     boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length),
-                      static_cast<float>(length), cause_, SmallNormal(patch.probe[4].normal)});
+                      static_cast<float>(length), cause_, SmallNormal(patch.probe[4].normal),
+                      stretch_of(patch, length)});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
     report_.area += inside_area(patch);
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
+  }
+
+  /// Along the direction of the smaller curvature, where that allows a longer edge: it turns by no more than alpha, and
+  /// its chord is no further from the surface than that of one length across.
+  SampleStretch stretch_of(const CurvaturePatch& patch, double length) {
+    if (!(limits_.max_aspect > 1) || !patch.is_inside[4]) return {};
+    ++report_.n_evaluations;
+    const SurfacePoint2 p = surface_.evaluate2(patch.uv(4));
+    const Curvature own = principal_curvature(p);
+    const ChordLimit::Answer chord = chord_ ? chord_->answer(p.x) : ChordLimit::Answer{};
+    Vec3 direction = flattest_direction(p, own);
+    const bool is_clear = std::abs(own.k2) < kClearlyFlatter * std::abs(own.k1) &&
+                          std::abs(own.k1) * length > kClearlyCurved * limits_.alpha;
+    if (!is_clear && chord.length <= length)  // the chord decides
+      direction = normalized(cross(normalized(cross(p.du, p.dv)), chord.direction));
+    if (direction == Vec3{}) return {};
+    const double curvature = curvature_along(patch, direction, own);
+    double along = std::min(limits_.max_length, limits_.max_aspect * length);
+    if (along * curvature > limits_.alpha) along = limits_.alpha / curvature;
+    if (along * along * curvature > limits_.alpha * length) along = std::sqrt(limits_.alpha * length / curvature);
+    if (!(along > kLeastStretch * length)) return {};
+    return {SmallNormal(direction), static_cast<float>(along)};
+  }
+
+  /// Largest turning per distance of the normal along the direction: at the middle, and between the probes.
+  static double curvature_along(const CurvaturePatch& patch, Vec3 direction, const Curvature& own) {
+    constexpr double kAligned = 0.5;  // cosine: pairs of probes that tell of the direction
+    double curvature = std::abs(own.k2);
+    for_each_pair([&](std::size_t a, std::size_t b) {
+      const CurvatureProbe &pa = patch.probe[a], &pb = patch.probe[b];
+      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{}) return;
+      const Vec3 d = pb.x - pa.x;
+      const double along = std::abs(dot(d, direction));
+      if (along > kAligned * norm(d))
+        curvature = std::max(curvature, std::abs(dot(pb.normal - pa.normal, direction)) / along);
+    });
+    return curvature;
   }
 
   GapPatch gap_patch(const CurvaturePatch& patch, double length) const {

@@ -139,52 +139,49 @@ class SamplesByLeaf {
   std::vector<std::int32_t> by_leaf_;  // [n_samples]
 };
 
-/// Seeds lengths on their side of a surface.
-class SiteSeeder {
+/// Finds the sites that a sample asks something of, on its side of a surface.
+template <class F>
+class SiteVisitor {
  public:
-  SiteSeeder(double slope, const Blanking& blanking, const Neighbours& neighbours, RasterOctree& octree)
-      : slope_(slope), blanking_(blanking), neighbours_(neighbours), octree_(octree), view_(octree.shape.view()) {}
+  SiteVisitor(const OctreeView& octree, const Neighbours& neighbours, const Blanking& blanking, const F& f)
+      : octree_(octree), neighbours_(neighbours), blanking_(blanking), f_(f) {}
 
-  void seed(const LengthSample& s) {
-    const std::int32_t leaf = view_.find_leaf(morton::encode(view_.grid_point(place_of(s))));
+  void visit(const LengthSample& s) const {
+    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(place_of(s))));
     for_parts(s, leaf, [&](std::int32_t site) {
-      lower_at(site, s);
-      for_each_link(&blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { lower_near(other, s); });
+      f_(site, leaf_of(site));
+      for_each_link(&blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { visit_near(other, s); });
     });
     // the surface may bulge a little into what is blanked: lengths do not pass from there
     if (blanking_.colour[leaf] != CellColour::kBlanked) return;
     neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
-      for_parts(s, other, [&](std::int32_t site) { lower_at(site, s); });
+      for_parts(s, other, [&](std::int32_t site) { f_(site, leaf_of(site)); });
     });
   }
 
  private:
   std::int32_t leaf_of(std::int32_t site) const {
-    return site < view_.n_leaves() ? site : blanking_.split_leaf[site - view_.n_leaves()];
+    return site < octree_.n_leaves() ? site : blanking_.split_leaf[site - octree_.n_leaves()];
   }
-  /// Calls f(site) for the parts of the leaf on whose surface the sample lies.
-  template <class F>
-  void for_parts(const LengthSample& s, std::int32_t leaf, const F& f) const {
+  /// Calls g(site) for the parts of the leaf on whose surface the sample lies.
+  template <class G>
+  void for_parts(const LengthSample& s, std::int32_t leaf, const G& g) const {
     const std::int32_t k = blanking_.find_split(leaf);
-    if (k == kNone || concerns(s, blanking_, k, false)) f(leaf);
-    if (k != kNone && concerns(s, blanking_, k, true)) f(view_.n_leaves() + k);
-  }
-  void lower_at(std::int32_t site, const LengthSample& s) {
-    lower(octree_, site, s.length + slope_ * distance(place_of(s), view_.leaf_center(leaf_of(site))), s.cause);
+    if (k == kNone || concerns(s, blanking_, k, false)) g(leaf);
+    if (k != kNone && concerns(s, blanking_, k, true)) g(octree_.n_leaves() + k);
   }
   /// Where the leaf comes within one length along each axis.
-  void lower_near(std::int32_t site, const LengthSample& s) {
+  void visit_near(std::int32_t site, const LengthSample& s) const {
     const std::int32_t leaf = leaf_of(site);
-    const Vec3 d = place_of(s) - view_.leaf_center(leaf);
-    const double reach = 0.5 * view_.cell_edge(view_.leaf_levels[leaf]) + s.length;
-    if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= reach) lower_at(site, s);
+    const Vec3 d = place_of(s) - octree_.leaf_center(leaf);
+    const double reach = 0.5 * octree_.cell_edge(octree_.leaf_levels[leaf]) + s.length;
+    if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= reach) f_(site, leaf);
   }
 
-  const double slope_;
-  const Blanking& blanking_;
+  const OctreeView& octree_;
   const Neighbours& neighbours_;
-  RasterOctree& octree_;
-  const OctreeView view_;
+  const Blanking& blanking_;
+  const F& f_;
 };
 
 /// Fits the cells to the samples in and around them.
@@ -276,8 +273,10 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes) {
   samples.reserve(boxes.size());
   const auto f = [](double x) { return static_cast<float>(x); };
   for (const RasterBox& b : boxes)
-    samples.push_back({{f(b.center.x), f(b.center.y), f(b.center.z)}, b.length, b.cause, b.normal});
-  const auto key = [](const LengthSample& s) { return std::tuple(s.cause, s.xyz[0], s.xyz[1], s.xyz[2], s.length); };
+    samples.push_back({{f(b.center.x), f(b.center.y), f(b.center.z)}, b.length, b.cause, b.normal, b.stretch});
+  const auto key = [](const LengthSample& s) {
+    return std::tuple(s.cause, s.xyz[0], s.xyz[1], s.xyz[2], s.length, s.stretch.along);
+  };
   std::sort(samples.begin(), samples.end(),
             [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
   return samples;
@@ -306,8 +305,27 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOct
 
 void seed_lengths(std::span<const LengthSample> samples, double slope, const Blanking& blanking,
                   const Neighbours& neighbours, RasterOctree& octree) {
-  SiteSeeder seeder(slope, blanking, neighbours, octree);
-  for (const LengthSample& s : samples) seeder.seed(s);
+  const OctreeView view = octree.shape.view();
+  for (const LengthSample& s : samples) {
+    const auto seed = [&](std::int32_t site, std::int32_t leaf) {
+      lower(octree, site, s.length + slope * distance(place_of(s), view.leaf_center(leaf)), s.cause);
+    };
+    SiteVisitor(view, neighbours, blanking, seed).visit(s);
+  }
+}
+
+void for_each_seed(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
+                   const Blanking* blanking, const std::function<void(std::int32_t, std::int32_t)>& f) {
+  const double half = 0.5 * octree.edge;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const LengthSample& s = samples[i];
+    const auto own = [&](std::int32_t site, auto) { f(site, static_cast<std::int32_t>(i)); };
+    if (blanking)
+      SiteVisitor(octree, neighbours, *blanking, own).visit(s);
+    else
+      visit_leaves(octree, octree.node_children.empty() ? ~0 : 0, octree.lo + Vec3{half, half, half}, half, place_of(s),
+                   s.length, own);
+  }
 }
 
 void fit_samples(const Neighbours& neighbours, std::span<const LengthSample> samples, double slope,

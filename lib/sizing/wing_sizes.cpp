@@ -97,8 +97,13 @@ class WingRaster {
     double share = 0;
     for (int n = 0; n < kMaxBoxes; ++n) {
       const Place place = place_at(std::min(share, 1.0));
-      boxes_.push_back({place.x, static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
-                        static_cast<float>(place.length), cause});
+      boxes_.push_back({place.x,
+                        static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
+                        static_cast<float>(place.length),
+                        cause,
+                        {},
+                        stretch_along([&](double at) { return place_at(at).x; }, std::min(share, 1.0), way,
+                                      place.length, sizes_.stretch)});
       if (share >= 1) return;
       share += std::max(place.length / way, 1.0 / kMaxBoxes);
     }
@@ -163,15 +168,17 @@ ChordLimit::ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int 
                [&](const ChordLine& line) { return line.wing == wing; });
 }
 
-double ChordLimit::at(Vec3 x) const {
-  double nearest = std::numeric_limits<double>::infinity(), chord = nearest;
+ChordLimit::Answer ChordLimit::answer(Vec3 x) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  Answer answer;
   for (const ChordLine& line : lines_) {
     const double d = segment_distance(x, line.nose, line.trailing);
     if (d >= nearest) continue;
     nearest = d;
-    chord = line.chord;
+    answer = {line.chord / chord_cells_, line.trailing - line.nose};
   }
-  return chord / chord_cells_;
+  answer.direction = normalized(answer.direction);
+  return answer;
 }
 
 }  // namespace st

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/length.h"
 #include "features/lifting_surface.h"
 #include "features/strip.h"
+#include "sizing/line_stretch.h"
 #include "sizing/octree.h"
 
 namespace st {
@@ -20,6 +22,7 @@ struct WingSizes {
   LengthReference reference;  ///< of lengths that are not the wing's
   std::optional<LengthSpec> least;  ///< nothing is finer; nullopt: no floor
   double cell_per_length = 2;       ///< edge of a raster box over its length
+  StretchLimits stretch = {};       ///< along edge, nose and base
 };
 
 /// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
@@ -52,8 +55,13 @@ class ChordLimit {
  public:
   /// Of the lines of `wing`; without any there is no limit.
   ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int chord_cells);
-  /// That of the nearest line, model unit; infinity without lines. Linear in lines.
-  double at(Vec3 x) const;
+  struct Answer {
+    double length = std::numeric_limits<double>::infinity();  ///< model unit
+    Vec3 direction;                                           ///< unit, along the chord; zero without lines
+  };
+  /// Of the nearest line. Linear in lines.
+  Answer answer(Vec3 x) const;
+  double at(Vec3 x) const { return answer(x).length; }
 
  private:
   std::vector<ChordLine> lines_;

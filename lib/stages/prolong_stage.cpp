@@ -164,6 +164,9 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
   options.cell_slope = cell_slope;
   sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
+  if (raster.numbers.max_aspect > 1)
+    sizing.stretched = prolong_stretch(neighbours, raster.samples, raster.octree.stored_length, sizing.lengths, options,
+                                       raster.numbers.max_aspect, blanking);
   fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
 }

@@ -97,6 +97,11 @@ void require_valid(const RasterStageOptions& o) {
   o.kChordCells.require(o.chord_cells);
   o.kCellPerLength.require(o.cell_per_length);
   o.kMaxCells.require(o.max_cells);
+  o.kMaxAspect.require(o.max_aspect);
+  if (o.max_aspect > 1 && o.cell_per_length <= kStoredByCellUpTo)
+    throw Error(ExitCode::kUsage, fmt::format("--max-aspect needs --cell-per-length above {}: smaller cells keep no "
+                                              "directions",
+                                              kStoredByCellUpTo));
 }
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
@@ -125,6 +130,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   limits.gap_cells = o.gap_cells;
   limits.wall_cells = o.wall_cells;
   limits.edge_cells = o.edge_cells;
+  limits.max_aspect = o.max_aspect;
   if (limits.min_length > limits.max_length)
     throw Error(ExitCode::kUsage, fmt::format("--lmin {} is larger than --lmax {}; give --lmin at most --lmax",
                                               limits.min_length, limits.max_length));
@@ -156,13 +162,15 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
 }
 
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
-void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, ModelLimits& limits, Wings& wings) {
+void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, double max_length,
+                  ModelLimits& limits, Wings& wings) {
   const std::optional<LengthSpec> size = edge_size(o);
   if (!size || wings.aircraft.wings.empty()) return;
   const std::vector<Strip> strips = find_strips(model);
   std::vector<std::uint8_t> is_left_out = limits.edge_is_ruled;
   for (std::size_t e = 0; e < is_left_out.size(); ++e) is_left_out[e] |= !limits.edge[e];
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
+  sizes.stretch = {o.max_aspect, max_length, radians(o.alpha_deg)};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
   warn_of_floor(o, wings.aircraft.wings, sizes);
   for (const LiftingSurface& wing : wings.aircraft.wings)
@@ -396,6 +404,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["base_cells"] = o.base_cells;
   options["chord_cells"] = o.chord_cells;
   if (o.no_surface) options["no_surface"] = true;
+  if (o.max_aspect > 1) options["max_aspect"] = o.max_aspect;
   header.options_json = options.dump();
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
@@ -509,7 +518,7 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
-  sample_wings(o, model, roles.reference_diagonal, limits, wings);
+  sample_wings(o, model, roles.reference_diagonal, asked.wall.max_length, limits, wings);
   return limits;
 }
 
@@ -596,8 +605,8 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   }
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
-  artifact.numbers = {limits.min_length, wall.max_length,   limits.far_length,
-                      o.alpha_deg,       o.cell_per_length, roles.reference_diagonal};
+  artifact.numbers = {limits.min_length, wall.max_length,          limits.far_length, o.alpha_deg,
+                      o.cell_per_length, roles.reference_diagonal, o.max_aspect};
   if (!o.no_surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
   times.end("surface");
   times.gather(comm);

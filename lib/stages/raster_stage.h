@@ -44,6 +44,10 @@ struct RasterStageOptions {
   double cell_per_length = 4;
   static constexpr NumberOption kCellPerLength{"--cell-per-length", "N", "[1, 8]",
                                                "octree cell size in edge lengths: larger means fewer cells"};
+  double max_aspect = 1;
+  static constexpr NumberOption kMaxAspect{
+      "--max-aspect", "A", "[1, 100]",
+      "largest length along noses, edges and flat directions over the length across; 1: the same in all directions"};
   std::optional<int> max_cells;
   static constexpr NumberOption kMaxCells{
       "--max-cells", "N", "[1, 2147483647]",

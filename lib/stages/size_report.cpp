@@ -107,6 +107,8 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   const bool inside = is_inside(field.data().octree, frame.inverse()(x));
   StageSummary summary;
   summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
+  if (why.along > why.length)
+    summary.line += fmt::format("  along     {:.6g}{} in direction {}\n", why.along, unit, to_text(why.direction));
   if (!inside) summary.line += "  outside the box of the octree: the length at its border applies\n";
   summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient),
                               norm(why.gradient), field.slope());
@@ -122,6 +124,7 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
       {"xyz", to_json(x)},
       {"is_inside", inside},
       {"length", why.length},
+      {"along", {{"length", why.along}, {"direction", to_json(why.direction)}}},
       {"gradient", to_json(why.gradient)},
       {"slope", field.slope()},
       {"cause", cause},

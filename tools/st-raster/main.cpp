@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   tool.number(o.kBaseCells, o.base_cells);
   tool.number(o.kChordCells, o.chord_cells);
   tool.number(o.kCellPerLength, o.cell_per_length);
+  tool.number(o.kMaxAspect, o.max_aspect);
   tool.number(o.kMaxCells, o.max_cells);
   tool.flag("--no-surface", o.no_surface,
             "leave out the coarse surface of a closed model: lengths then pass through solids");

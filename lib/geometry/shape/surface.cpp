@@ -57,6 +57,17 @@ Curvature principal_curvature(const SurfacePoint2& p) {
   return c;
 }
 
+// (W - k1)(W - k2) = 0 for the shape operator W: each column of W - k1 is a direction of k2.
+Vec3 flattest_direction(const SurfacePoint2& p, const Curvature& c) {
+  const Vec3 n = normalized(cross(p.du, p.dv));
+  if (n == Vec3{} || c.k1 == c.k2) return {};
+  const Eigen::Matrix2d shape = first_form(p.du, p.dv).inverse() * second_form(p, n);
+  const Vec3 columns[2] = {(shape(0, 0) - c.k1) * p.du + shape(1, 0) * p.dv,
+                           shape(0, 1) * p.du + (shape(1, 1) - c.k1) * p.dv};
+  const double u2 = norm2(columns[0]) * norm2(p.dv), v2 = norm2(columns[1]) * norm2(p.du);
+  return normalized(u2 >= v2 ? columns[0] : columns[1]);
+}
+
 std::optional<Vec2> tangent_step(Vec3 du, Vec3 dv, Vec3 d, double singular) {
   const Eigen::Matrix2d first = first_form(du, dv);
   const auto step = solve(first, along_tangents(du, dv, d), singular * first(0, 0) * first(1, 1));

@@ -85,6 +85,8 @@ struct Curvature {
   double k1 = 0, k2 = 0;
 };
 Curvature principal_curvature(const SurfacePoint2& p);
+/// Unit tangent along which the normal curvature is c.k2; zero where k1 and k2 are equal or the surface is singular.
+Vec3 flattest_direction(const SurfacePoint2& p, const Curvature& c);
 
 /// The step in (u,v) whose way u * du + v * dv in the tangent plane is nearest to `d`. nullopt where the squared sine
 /// of the angle between du and dv is not above `singular`, or one of them is zero.

@@ -46,6 +46,8 @@ constexpr int kUnmovedSizingVersion = 3;  // of one whose octree lies where it w
 constexpr int kPlainRasterVersion = 2;    // of a raster without samples
 constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
 constexpr int kPartialRasterVersion = 4;  // of an incomplete one; from here on not_sampled is written
+constexpr int kSurfaceRasterVersion = 5;  // of one with a coarse surface, the same length in all directions
+constexpr int kPlainSizingVersion = 4;    // of a sizing with the same length in all directions
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -59,6 +61,11 @@ constexpr const char* kSamplePoint = "/st/sample/point";
 constexpr const char* kSampleLength = "/st/sample/length";
 constexpr const char* kSampleCause = "/st/sample/cause";
 constexpr const char* kSampleNormal = "/st/sample/normal";
+constexpr const char* kSampleDirection = "/st/sample/direction";
+constexpr const char* kSampleAlong = "/st/sample/along";
+constexpr const char* kMaxAspect = "max_aspect";
+constexpr const char* kAlong = "/st/octree/along";
+constexpr const char* kDirection = "/st/octree/direction";
 constexpr const char* kSurfacePoint = "/st/surface/point";
 constexpr const char* kSurfaceTriangle = "/st/surface/triangle";
 constexpr const char* kFlowInside = "flow_inside";
@@ -87,12 +94,19 @@ void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
   file.set_attribute(kSizing, "alpha_deg", n.alpha_deg);
   file.set_attribute(kSizing, "cell_per_length", n.cell_per_length);
   file.set_attribute(kSizing, "diagonal", n.diagonal);
+  if (n.max_aspect > 1) file.set_attribute(kSizing, kMaxAspect, n.max_aspect);
 }
 
 SizingNumbers read_numbers(const Hdf5Reader& file) {
   const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
-  return {get("min_length"), get("max_length"),      get("far_length"),
-          get("alpha_deg"),  get("cell_per_length"), get("diagonal")};
+  const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong);
+  return {get("min_length"),
+          get("max_length"),
+          get("far_length"),
+          get("alpha_deg"),
+          get("cell_per_length"),
+          get("diagonal"),
+          is_stretched ? get(kMaxAspect) : 1.0};
 }
 
 /// Older versions lack what this build needs.
@@ -132,20 +146,25 @@ OctreeShape read_shape(const Hdf5Reader& file) {
   return shape;
 }
 
-void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples) {
-  std::vector<float> points, lengths;
+void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, bool is_stretched) {
+  std::vector<float> points, lengths, along;
   std::vector<std::int32_t> causes;
-  std::vector<SmallNormal> normals;
+  std::vector<SmallNormal> normals, directions;
   for (const LengthSample& s : samples) {
     normals.push_back(s.normal);
     points.insert(points.end(), s.xyz, s.xyz + 3);
     lengths.push_back(s.length);
     causes.push_back(s.cause);
+    directions.push_back(s.stretch.direction);
+    along.push_back(s.stretch.along);
   }
   file.write<float>(kSamplePoint, points, 3);
   file.write<float>(kSampleLength, lengths);
   file.write<std::int32_t>(kSampleCause, causes);
   file.write<SmallNormal>(kSampleNormal, normals);
+  if (!is_stretched) return;
+  file.write<SmallNormal>(kSampleDirection, directions);
+  file.write<float>(kSampleAlong, along);
 }
 
 std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
@@ -155,8 +174,18 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
   std::vector<SmallNormal> normals(lengths.size());
   if (file.has(kSampleNormal)) normals = file.read_rows<SmallNormal>(kSampleNormal, lengths.size());
   std::vector<LengthSample> samples;
+  std::vector<SmallNormal> directions(lengths.size());
+  std::vector<float> along(lengths.size());
+  if (file.has(kSampleAlong)) {
+    directions = file.read_rows<SmallNormal>(kSampleDirection, lengths.size());
+    along = file.read_rows<float>(kSampleAlong, lengths.size());
+  }
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]}, lengths[i], causes[i], normals[i]});
+    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
+                       lengths[i],
+                       causes[i],
+                       normals[i],
+                       {directions[i], along[i]}});
   return samples;
 }
 
@@ -212,6 +241,8 @@ struct MappedArrays {
   MappedArray<CellSplit> split;
   MappedArray<CellLength> second_cell;
   MappedArray<std::int32_t> second_cause;
+  MappedArray<CellLength> along;
+  MappedArray<SmallNormal> direction;
 };
 
 std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
@@ -221,6 +252,8 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
                                                                   file.map<std::int32_t>(kNodeChild, 8),
                                                                   file.map<CellLength>(kCell),
                                                                   file.map<std::int32_t>(kCause),
+                                                                  {},
+                                                                  {},
                                                                   {},
                                                                   {},
                                                                   {},
@@ -249,6 +282,16 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   data.split = arrays->split.values();
   data.second_cells = arrays->second_cell.values();
   data.second_cause = arrays->second_cause.values();
+  if (file.has(kAlong)) {
+    arrays->along = file.map<CellLength>(kAlong);
+    arrays->direction = file.map<SmallNormal>(kDirection);
+    if (arrays->along.size() != arrays->cell.size() + arrays->split_leaf.size() ||
+        arrays->direction.size() != arrays->along.size())
+      file.fail(kAlong, "does not fit the number of cells");
+    data.along = arrays->along.values();
+    data.direction = arrays->direction.values();
+    data.max_aspect = read_numbers(file).max_aspect;
+  }
   data.slope = file.double_attribute(kSizing, "slope");
   data.scale = file.double_attribute(kSizing, "scale");
   return make_octree_field(data, arrays, min_length, read_frame(file));
@@ -284,14 +327,15 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   ArtifactHeader header = raster.header;
   header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kSampledRasterVersion;
   if (raster.n_not_sampled > 0) header.schema_version = kPartialRasterVersion;
-  if (!raster.surface.triangles.empty()) header.schema_version = kRasterVersion;
+  if (!raster.surface.triangles.empty()) header.schema_version = kSurfaceRasterVersion;
+  if (raster.numbers.max_aspect > 1) header.schema_version = kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
   if (header.schema_version >= kPartialRasterVersion) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
-  if (!raster.samples.empty()) write_samples(file, raster.samples);
+  if (!raster.samples.empty()) write_samples(file, raster.samples, raster.numbers.max_aspect > 1);
   if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
@@ -332,7 +376,8 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   ArtifactHeader header = sizing.header;
   const bool is_blanked = !sizing.blanking.colour.empty();
   const bool is_moved = sizing.frame != Similarity();
-  header.schema_version = is_moved ? kSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
+  header.schema_version = is_moved ? kPlainSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
+  if (!sizing.stretched.along.empty()) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
@@ -350,6 +395,10 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<CellSplit>(kSplitPlane, sizing.blanking.split);
     file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
     file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
+  }
+  if (!sizing.stretched.along.empty()) {
+    file.write<CellLength>(kAlong, sizing.stretched.along);
+    file.write<SmallNormal>(kDirection, sizing.stretched.direction);
   }
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
@@ -378,6 +427,10 @@ SizingArtifact read_sizing(const std::string& path) {
     sizing.blanking.split = file.read_rows<CellSplit>(kSplitPlane, n_split);
     sizing.lengths.second_cells = file.read_rows<CellLength>(kSplitCell, n_split);
     sizing.lengths.second_cause = file.read_rows<std::int32_t>(kSplitCause, n_split);
+  }
+  if (file.has(kAlong)) {
+    const std::size_t n_sites = n + sizing.blanking.split_leaf.size();
+    sizing.stretched = {file.read_rows<CellLength>(kAlong, n_sites), file.read_rows<SmallNormal>(kDirection, n_sites)};
   }
   sizing.face_weight = file.read<double>(kFaceWeight);
   sizing.names = read_names(file);

@@ -12,11 +12,12 @@
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
 #include "sizing/sample_seeds.h"
+#include "sizing/stretched_cells.h"
 
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 5, kSizingVersion = 4;
+inline constexpr int kRasterVersion = 6, kSizingVersion = 5;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -26,6 +27,7 @@ struct SizingNumbers {
   double alpha_deg = 0;        ///< largest turning along one length, degrees
   double cell_per_length = 0;  ///< edge of a raster box over its sample length
   double diagonal = 0;         ///< what per cents refer to: of the box of all walls
+  double max_aspect = 1;       ///< largest length along a direction over the length across
 };
 
 /// Names of what causes of lengths refer to; UTF-8, empty where there is none.
@@ -62,14 +64,25 @@ struct SizingArtifact {
                      ///< are as before
   OctreeShape shape;
   ProlongedLengths lengths;
+  StretchedCells stretched;         ///< empty: lengths are the same in all directions
   Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
 
   /// Views of the arrays above, in the octree's own frame.
   OctreeFieldData field_data() const {
-    return {shape.view(),   lengths.cells,        lengths.cause,       slope, scale, blanking.split_leaf,
-            blanking.split, lengths.second_cells, lengths.second_cause};
+    return {shape.view(),
+            lengths.cells,
+            lengths.cause,
+            slope,
+            scale,
+            blanking.split_leaf,
+            blanking.split,
+            lengths.second_cells,
+            lengths.second_cause,
+            stretched.along,
+            stretched.direction,
+            numbers.max_aspect};
   }
 };
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/share.h"
+#include "features/strip.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
@@ -50,6 +51,67 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
   result_.edges = std::move(plan_.kept_edges);
   result_.patches = std::move(plan_.kept_patches);
   result_.patches.resize(tables_.n_faces());
+  if (field.is_stretched()) find_followers();
+}
+
+/// The two long edges of each strip, chains of them behind one leader.
+void FaceRounds::find_followers() {
+  std::vector<std::int32_t> role(tables_.n_edges(), kNone);  // in followers_; -2: leads
+  constexpr std::int32_t kLeads = -2;
+  const auto is_free = [&](EdgeId e) { return !topology_.strip_closed_at(e) && !topology_.strip_kept_at(e); };
+  for (const Strip& strip : find_strips(model_)) {
+    auto [leader, follower] = std::pair{strip.edges[0], strip.edges[1]};
+    if (!is_free(leader) || !is_free(follower)) continue;
+    if (role[follower] != kNone) std::swap(leader, follower);
+    if (role[follower] != kNone) continue;
+    bool is_opposed = strip.is_opposed;
+    if (role[leader] >= 0) {
+      is_opposed ^= followers_[role[leader]].is_opposed;
+      leader = followers_[role[leader]].leader;
+    } else {
+      role[leader] = kLeads;
+    }
+    role[follower] = static_cast<std::int32_t>(followers_.size());
+    followers_.push_back({follower, leader, is_opposed});
+  }
+}
+
+/// Where lengths along both are long and about the same.
+bool FaceRounds::follows(const Follower& f, const EdgeMesh& own, const EdgeMesh& leader) const {
+  constexpr double kStretched = 2;  // length along over length across, in the middle
+  constexpr double kAlike = 0.15;   // between the numbers of segments
+  const double n_own = static_cast<double>(own.node_t.size()) - 1, n = static_cast<double>(leader.node_t.size()) - 1;
+  if (n_own < 2 || n < 2 || std::abs(n_own - n) > std::max(1.0, kAlike * n)) return false;
+  const auto curve = model_.curve(f.edge);
+  const CurvePoint middle = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
+  int hint = 0;
+  const LocalSize local = field_.local(middle.x, hint);
+  return local.in(middle.d1) > kStretched * local.length;
+}
+
+/// The fresh nodes of followers; their leaders are fresh, too, or as before.
+void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) const {
+  std::vector<const Follower*> dirty;
+  for (const Follower& f : followers_)
+    if (place[f.edge] != kNone) dirty.push_back(&f);
+  const auto nodes_of = [&](EdgeId e) {
+    EdgeMesh nodes;
+    place[e] == kNone ? nodes.append(result_.edges, e) : nodes.append(fresh, place[e]);
+    return nodes;
+  };
+  const auto make = [&](std::int32_t i) {
+    const Follower& f = *dirty[i];
+    const EdgeMesh own = nodes_of(f.edge), leader = nodes_of(f.leader);
+    if (!follows(f, own, leader)) return own;
+    EdgeMesh nodes = mirror_nodes(*model_.curve(f.leader), leader, *model_.curve(f.edge), f.is_opposed, {});
+    end_at_vertices(f.edge, nodes);
+    return nodes;
+  };
+  const EdgeMesh followed = make_curve_nodes(static_cast<std::int32_t>(dirty.size()), make, executor_);
+  for (EdgeId i = 0; i < followed.n_edges(); ++i) {
+    place[dirty[i]->edge] = fresh.n_edges();
+    fresh.append(followed, i);
+  }
 }
 
 void FaceRounds::report() {
@@ -74,6 +136,7 @@ void FaceRounds::mesh_edges() {
       static_cast<std::int32_t>(own.size()), [&](std::int32_t i) { return make_edge(own[i]); }, executor_);
   std::vector<EdgeId> place(tables_.n_edges(), kNone);  // in `fresh`
   for (EdgeId i = 0; i < fresh.n_edges(); ++i) place[own[i]] = i;
+  follow_leaders(fresh, place);
   const auto mirror = [&](std::int32_t i) {
     EdgeMesh kept;
     kept.append(fresh, place[strips[i]->kept]);
@@ -233,6 +296,8 @@ void FaceRounds::find_dirty(std::size_t first_refinement) {
   }
   for (const MeshTopology::Strip& strip : topology_.strips())
     edge_dirty[strip.closed] = edge_dirty[strip.kept] |= edge_dirty[strip.closed];
+  for (const Follower& f : followers_) edge_dirty[f.leader] |= edge_dirty[f.edge];
+  for (const Follower& f : followers_) edge_dirty[f.edge] |= edge_dirty[f.leader];
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (const EdgeId e : t.edges_of(f)) face_dirty[f] |= edge_dirty[e];
   const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {

@@ -4,6 +4,7 @@
 #include "base/predicates.h"
 #include "geometry/shape/surface_forms.h"
 #include "meshing/face/front.h"
+#include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
@@ -22,8 +23,10 @@ constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
 constexpr double kStill = 0.02;      // of the requested length: a shorter move wakes no neighbours
 constexpr double kSwapGain = 1e-3;
-constexpr double kSwapBelow = 0.9;    // pairs of triangles that are both better are left alone
-constexpr double kRelaxLeast = 0.55;  // no triangle worse than this is made for the sake of the valence
+constexpr double kObtuse = -0.5;         // cosine: larger angles of stretched triangles cost quality
+constexpr double kWorstAngleLoss = 0.8;  // at 180 degrees
+constexpr double kSwapBelow = 0.9;       // pairs of triangles that are both better are left alone
+constexpr double kRelaxLeast = 0.55;     // no triangle worse than this is made for the sake of the valence
 
 class Enhancer {
  public:
@@ -64,15 +67,23 @@ class Enhancer {
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
     const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
     const Vec3 n = cross(ab, ac);
-    const double sum = norm2(ab) + norm2(ac) + norm2(bc);
+    const double sum = length2(ab, a, b, c) + length2(ac, a, b, c) + length2(bc, a, b, c);
     if (!(sum > 0)) return 0;
-    const double area = norm(n), q = 3.4641016151377544 * area / sum;
+    double area = norm(n), q = 3.4641016151377544 * area / sum;
+    if (w_.field->is_stretched()) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
     const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
     if (least >= kSteepCosine * area) return q;
     const Vec3 mean = a.normal + b.normal + c.normal;
     const double cosine = dot(n, mean) / std::max(area * norm(mean), 1e-300);
     if (least >= 0) return q * std::clamp(cosine / kSteepCosine, 0.0, 1.0);
     return cosine > 0.2 ? 0.5 * q : -1 + q;
+  }
+  /// 1, less for a triangle whose largest angle in space is obtuse: what the metric does not see. Squares of its sides.
+  static double angle_share(double a2, double b2, double c2) {
+    const double longest = std::max({a2, b2, c2}), others = a2 + b2 + c2 - longest;
+    const double product = longest == a2 ? b2 * c2 : longest == b2 ? a2 * c2 : a2 * b2;
+    const double cosine = 0.5 * (others - longest) / std::sqrt(std::max(product, 1e-300));
+    return 1 - kWorstAngleLoss * std::clamp((kObtuse - cosine) / (1 + kObtuse), 0.0, 1.0);
   }
   double quality(std::int32_t a, std::int32_t b, std::int32_t c) const {
     return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]);
@@ -112,8 +123,8 @@ class Enhancer {
   bool may_swap(const Quad& q, int k) const {
     const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
     if ((nc.id != kNone && nc.id == nd.id) || are_one_pole(nc, nd) || !m_.can_swap(q.t, k)) return false;
-    const double chord = distance(nc.x, nd.x);
-    return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > distance(m_.nodes[q.a].x, m_.nodes[q.b].x);
+    const double chord = side_length(nc, nd);
+    return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > side_length(m_.nodes[q.a], m_.nodes[q.b]);
   }
 
   void swap(const Quad& q, int k) {
@@ -218,8 +229,8 @@ class Enhancer {
       edge += weight * e;
       weights += weight;
     }
-    const Vec3 target = (middle + kHalfSqrt3 * cross(old.normal, edge)) / weights;
-    const Metric metric = metric_of(old.du, old.dv);
+    const Vec3 target = apex_of(old, middle, edge) / weights;
+    const Metric metric = metric_of(old);
     const Eigen::Matrix2d form = symmetric(metric.e, metric.f, metric.g);
     for (double part : {1.0, 0.4}) {
       const auto step = solve(form, along_tangents(old.du, old.dv, part * (target - old.x)), 0);
@@ -238,6 +249,12 @@ class Enhancer {
         return;
       }
     }
+  }
+
+  /// The third corner of an equilateral triangle over an edge, by the metric of the node. Linear.
+  static Vec3 apex_of(const MeshNode& n, Vec3 middle, Vec3 edge) {
+    if (!is_stretched(n)) return middle + kHalfSqrt3 * cross(n.normal, edge);
+    return middle + unsqueezed(kHalfSqrt3 * cross(n.normal, squeezed(edge, n)), n);
   }
 
   bool is_valid_at(Vec2 p) const {
@@ -264,7 +281,7 @@ class Enhancer {
         if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
         const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
         const double h = 0.5 * (a.h + b.h);
-        if (norm2(a.x - b.x) <= kShortEdge * kShortEdge * h * h)
+        if (length2(a.x - b.x, a, b) <= kShortEdge * kShortEdge * h * h)
           at_short_edge_[t.v[k]] = at_short_edge_[t.v[kNext[k]]] = 1;
       }
     }
@@ -285,7 +302,7 @@ class Enhancer {
     }
     double shortest = 1e300;
     for (std::int32_t j : around_)
-      shortest = std::min(shortest, distance(node.x, m_.nodes[j].x) / (0.5 * (node.h + m_.nodes[j].h)));
+      shortest = std::min(shortest, side_length(node, m_.nodes[j]) / (0.5 * (node.h + m_.nodes[j].h)));
     if (shortest > kShortEdge && n_sides > 4) return;
     int best = -1;
     double best_quality = n_sides <= 4 || shortest < 0.4 ? std::min(before, 0.35) : before;

@@ -7,6 +7,7 @@
 #include "base/limits.h"
 #include "base/predicates.h"
 #include "meshing/face/front.h"
+#include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
@@ -34,7 +35,7 @@ class FaceMesher {
     add_nodes();
     add_segments();
     std::vector<RefinementPoint> places;
-    for (const LoopConflict& c : work_.mesh.build(segments_)) places.push_back(place_of(c));
+    for (const LoopConflict& c : work_.mesh.build(work_.segments)) places.push_back(place_of(c));
     return places;
   }
 
@@ -50,6 +51,11 @@ class FaceMesher {
       return result;
     }
     work_.field = &field;
+    if (field.is_stretched())
+      for (std::int32_t i = 0; i < work_.mesh.n_boundary; ++i) {
+        MeshNode& n = work_.mesh.nodes[i];
+        n.squeeze = squeeze_of(field.local(n.x, work_.hint), n.normal);
+      }
     work_.max_turning = radians(options.max_turning_deg);
     work_.max_nodes = expected_nodes();
     advance_front(work_);
@@ -129,7 +135,7 @@ class FaceMesher {
 
   void add_segments() {
     for (const auto& [a, b] : boundary_.segments)
-      if (node_of_[a] != node_of_[b]) segments_.push_back({node_of_[a], node_of_[b]});
+      if (node_of_[a] != node_of_[b]) work_.segments.push_back({node_of_[a], node_of_[b]});
   }
 
   RefinementPoint place_of(const LoopConflict& c) const {
@@ -292,7 +298,6 @@ class FaceMesher {
   const FaceBoundary& boundary_;
   FaceWork work_;
   std::vector<std::int32_t> node_of_, local_to_boundary_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> segments_;
 };
 
 }  // namespace

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <queue>
+#include <utility>
 
 #include "base/eigen.h"
 #include "base/predicates.h"
+#include "geometry/shape/surface.h"
+#include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
@@ -23,6 +28,9 @@ constexpr double kShortBase = 0.8;  // of the size at its ends: a shorter base d
 constexpr double kTurningFloor = 0.25;  // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.95;      // circumradius over requested length that is split when the front has ended
 
+constexpr double kRowRadius = 0.9;  // circumradius over requested length where sizes are stretched; square: 0.707
+constexpr double kRowAspect = 1.5;  // length along over across: less makes no rows
+
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
 
@@ -36,6 +44,7 @@ class Front {
 
   void run() {
     start();
+    if (w_.field->is_stretched()) lay_rows();
     ring_narrow_parts();
     advance();
     split_large();
@@ -48,11 +57,18 @@ class Front {
 
   bool is_finished(const PlaneTriangle& t) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
-    const double radius2 = w_.circumradius2(t), finished = kFinishedRadius * h;
+    const double radius2 = w_.circumradius2(t), finished = finished_radius(t) * h;
     if (!(radius2 < finished * finished)) return false;
     const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
     const double least = kTurningFloor * kFinishedRadius * request;
     return !(radius2 > least * least && turns_too_far(t));
+  }
+
+  /// Larger where sizes are stretched: rows make right-angled triangles.
+  double finished_radius(const PlaneTriangle& t) const {
+    double squeeze2 = 0;
+    for (const std::int32_t v : t.v) squeeze2 += norm2(m_.nodes[v].squeeze) / 3;
+    return kFinishedRadius + (kRowRadius - kFinishedRadius) * std::clamp(4 * squeeze2 - 2, 0.0, 1.0);
   }
 
   static bool is_done(const PlaneTriangle& t) { return t.state == kFinished || t.state == kRetired; }
@@ -85,7 +101,7 @@ class Front {
       if (length >= kNarrowRing * na.h) continue;
       for (const double share : {1.0 / 3, 2.0 / 3}) {
         MeshNode p = at(share);
-        p.request = p.h = w_.field->size(p.x, w_.hint);
+        w_.ask_sizes(p);
         p.is_kept = true;
         insert(p, inside_triangle_at(a), length / 3, na.h) || insert(p, inside_triangle_at(b), length / 3, na.h);
       }
@@ -159,9 +175,9 @@ class Front {
   /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
   bool ideal_point(const MeshNode& a, const MeshNode& b, double& r, MeshNode& p) {
     const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
-    const Metric m = metric_of(du, dv);
+    const Metric m = metric_of(du, dv, a, b);
     const Vec2 e = b.p - a.p;
-    const double base = distance(a.x, b.x), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
+    const double base = side_length(a, b), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
     if (!(e2 > 0) || !(det > 0)) return false;
     const double height = std::sqrt(std::max(r * r - 0.25 * base * base, 0.04 * r * r));
     const double f = height / std::sqrt(e2 * det);
@@ -169,26 +185,91 @@ class Front {
     for (int step = 0;; ++step) {
       w_.evaluate(p);
       if (step == 0) {  // the side's length is the mean of the sizes at its ends
-        p.request = p.h = w_.field->size(p.x, w_.hint);
+        w_.ask_sizes(p);
         r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base,
                        kGrowth * std::max(base, kShortBase * 0.5 * (a.h + b.h)));
         limit_turning(a, b, p, r);
       }
       const Vec3 ra = p.x - a.x, rb = p.x - b.x;
-      const double la = norm(ra), lb = norm(rb);
+      const double la = std::sqrt(length2(ra, a, p)), lb = std::sqrt(length2(rb, b, p));
       if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
       if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
       Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
-      m << dot(ra, p.du), dot(ra, p.dv), dot(rb, p.du), dot(rb, p.dv);
+      m << product(ra, p.du, a, p), product(ra, p.dv, a, p), product(rb, p.du, b, p), product(rb, p.dv, b, p);
       const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
       const double det_m = m.determinant();
       if (!(std::abs(det_m) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
       const Eigen::Vector2d missing = 0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb);
       Vec2 move = to_vec2(adjugate(m) * missing / det_m);
-      const double length = norm(move.x * p.du + move.y * p.dv);
+      const double length = std::sqrt(length2(move.x * p.du + move.y * p.dv, p));
       if (length > 0.5 * r) move = (0.5 * r / length) * move;
       p.p = p.p + move;
     }
+  }
+
+  /// Where sizes are stretched, nodes in rows: from each node of a row one across, on both sides, and where none is
+  /// left one along it, the finest first. Rows begin at the edges that lie along the direction, and meet nodes of the
+  /// loops elsewhere; the triangles between them are right-angled in space. Rows end where sizes are about equal again.
+  void lay_rows() {
+    for (const auto& [a, b] : w_.segments) seed_rows(a, b);
+    while (!across_.empty() || !along_.empty()) {
+      const bool is_across = !across_.empty();
+      const std::int32_t node = is_across ? across_.front() : -along_.top().second;
+      if (is_across) {
+        across_.pop_front();
+      } else {
+        along_.pop();
+      }
+      for (const double sign : {1.0, -1.0}) step_from(node, is_across, sign);
+    }
+  }
+
+  /// The ends of a boundary segment: first rows along it if it lies so.
+  void seed_rows(std::int32_t a, std::int32_t b) {
+    constexpr double kAligned = 0.7;  // cosine
+    const Vec3 d = normalized(m_.nodes[b].x - m_.nodes[a].x);
+    for (const std::int32_t n : {a, b}) {
+      const MeshNode& node = m_.nodes[n];
+      if (node.is_pole || aspect_of(node) < kRowAspect) continue;
+      if (std::abs(dot(d, node.squeeze)) > kAligned * norm(node.squeeze)) across_.push_back(n);
+      along_.push({-node.h, -n});
+    }
+  }
+
+  void step_from(std::int32_t from, bool is_across, double sign) {
+    const MeshNode a = m_.nodes[from];
+    const Vec3 t = normalized(a.squeeze), across = cross(a.normal, t);
+    double length = a.h;
+    MeshNode p;
+    if (!row_point(a, is_across ? sign * across : sign * aspect_of(a) * t, is_across ? t : across, length, p)) return;
+    if (!insert(p, inside_triangle_at(from), length, kGrowth * a.h)) return;
+    if (aspect_of(p) < kRowAspect) return;
+    const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
+    across_.push_back(added);
+    along_.push({-p.h, -added});
+  }
+
+  /// The point from `a` along `d` (an edge of unit length in a's metric), none of it along the unit vector `aside`, as
+  /// far as the sizes at both say.
+  bool row_point(const MeshNode& a, Vec3 d, Vec3 aside, double& length, MeshNode& p) {
+    const auto first = tangent_step(a.du, a.dv, length * d);
+    if (!first) return false;
+    p.p = a.p + *first;
+    for (int step = 0; step < 4; ++step) {
+      w_.evaluate(p);
+      w_.ask_sizes(p);
+      double wanted = 0.5 * (a.h + std::min(p.h, kGrowth * a.h));
+      limit_turning(a, a, p, wanted);
+      length = step == 0 ? wanted : std::min(wanted, length);
+      const Vec3 chord = p.x - a.x;
+      const double reached = std::sqrt(length2(chord, a, p));
+      if (!(reached > 0)) return false;
+      if (step == 3) break;
+      const auto back = tangent_step(p.du, p.dv, -dot(chord, aside) * aside);
+      if (!back) return false;
+      p.p = a.p + std::clamp(length / reached, 0.4, 2.0) * (p.p - a.p + *back);
+    }
+    return dot(a.normal, p.normal) > cos_too_far_;
   }
 
   /// A side along which the normal turns too far becomes shorter, whatever the field says; to a quarter at the most.
@@ -208,7 +289,7 @@ class Front {
 
   bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
     const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
-    const double base = distance(a.x, b.x);
+    const double base = side_length(a, b);
     if (!(base > 0)) return false;
     const double h = 0.5 * (a.h + b.h);
     double r = std::max(std::min(h, kGrowth * std::max(base, kShortBase * h)), 0.62 * base);
@@ -222,7 +303,7 @@ class Front {
     if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside) return false;
-    const Metric metric = metric_of(p.du, p.dv);
+    const Metric metric = metric_of(p);
     for (const std::int32_t v : m_.triangles[at].v)  // most crowded places show here, before the cavity is looked for
       if (is_near(p, m_.nodes[v], metric, r)) return false;
     if (!m_.find_cavity(p.p, metric, at)) return false;
@@ -246,7 +327,7 @@ class Front {
 
   static bool is_near(const MeshNode& p, const MeshNode& node, const Metric& metric, double r) {
     const double near2 = kNearNode * kNearNode * r * r;
-    return norm2(node.x - p.x) < near2 && (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
+    return length2(node.x - p.x, p, node) < near2 && (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
   }
 
   bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
@@ -254,10 +335,14 @@ class Front {
       const MeshNode &a = m_.nodes[e.a], &b = m_.nodes[e.b];
       if (is_near(p, a, metric, r)) return true;
       if (!e.constrained || are_one_pole(a, b)) continue;
-      if (segment_distance(p.x, a.x, b.x) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r))
-        return true;
+      if (distance_to(p, a, b) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r)) return true;
     }
     return false;
+  }
+
+  static double distance_to(const MeshNode& p, const MeshNode& a, const MeshNode& b) {
+    if (!is_stretched(p)) return segment_distance(p.x, a.x, b.x);
+    return segment_distance({}, squeezed(a.x - p.x, p), squeezed(b.x - p.x, p));
   }
 
   static bool plane_near(const MeshNode& p, const Metric& m, const MeshNode& a, const MeshNode& b, double reach) {
@@ -306,7 +391,7 @@ class Front {
         MeshNode p;
         p.p = attempt == 0 ? middle : centre;
         w_.evaluate(p);
-        p.request = p.h = w_.field->size(p.x, w_.hint);
+        w_.ask_sizes(p);
         if (insert(p, i, closeness * r, h * 1.25)) return true;
       }
     return false;
@@ -316,17 +401,42 @@ class Front {
   Triangulation& m_;
   double cos_turning_, cos_too_far_;
   std::vector<Entry> queue_;
+  std::deque<std::int32_t> across_;                             // nodes from which rows go on
+  std::priority_queue<std::pair<double, std::int32_t>> along_;  // minus size, minus node: the finest first
   std::vector<std::int32_t> fan_;
 };
 
 }  // namespace
 
-Metric metric_of(Vec3 du, Vec3 dv) {
-  Metric m{norm2(du), dot(du, dv), norm2(dv)};
-  const double floor = 1e-9 * (m.e + m.g);  // a pole has a direction without length
+namespace {
+
+/// A pole has a direction without length.
+Metric with_floor(Metric m) {
+  const double floor = 1e-9 * (m.e + m.g);
   m.e += floor;
   m.g += floor;
   return m;
+}
+
+}  // namespace
+
+Metric metric_of(const MeshNode& n) { return with_floor({length2(n.du, n), product(n.du, n.dv, n), length2(n.dv, n)}); }
+
+Metric metric_of(Vec3 du, Vec3 dv, const MeshNode& a, const MeshNode& b) {
+  return with_floor({length2(du, a, b), product(du, dv, a, b), length2(dv, a, b)});
+}
+
+Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
+  if (!(local.along > local.length)) return {};
+  const double ratio = local.length / local.along;
+  const Vec3 s = std::sqrt(1 - ratio * ratio) * local.direction;
+  return s - dot(s, normal) * normal;
+}
+
+void FaceWork::ask_sizes(MeshNode& n) {
+  const LocalSize local = field->local(n.x, hint);
+  n.request = n.h = local.length;
+  n.squeeze = squeeze_of(local, n.normal);
 }
 
 void FaceWork::evaluate(MeshNode& n) const {
@@ -340,17 +450,17 @@ void FaceWork::evaluate(MeshNode& n) const {
 
 double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
   const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
-  const double chord2 = norm2(b.x - a.x);
+  const double chord2 = length2(b.x - a.x, a, b);
   const Vec2 e = 0.5 * (b.p - a.p);
-  const double along2 = norm2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv));
+  const double along2 = length2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv), a, b);
   return along2 > 4 * chord2 && !are_one_pole(a, b) ? along2 : chord2;
 }
 
 double FaceWork::circumradius2(const PlaneTriangle& t) const {
   const double a2 = edge_length2(t.v[0], t.v[1]), b2 = edge_length2(t.v[1], t.v[2]), c2 = edge_length2(t.v[2], t.v[0]);
   const double longest2 = std::max({a2, b2, c2});
-  const Vec3 &x0 = mesh.nodes[t.v[0]].x, &x1 = mesh.nodes[t.v[1]].x, &x2 = mesh.nodes[t.v[2]].x;
-  const double area4_2 = 4 * norm2(cross(x1 - x0, x2 - x0));  // (4 A)^2
+  const MeshNode &a = mesh.nodes[t.v[0]], &b = mesh.nodes[t.v[1]], &c = mesh.nodes[t.v[2]];
+  const double area4_2 = 4 * norm2(cross(b.x - a.x, c.x - a.x)) * area_share2(a, b, c);  // (4 A)^2
   if (area4_2 <= 1e-24 * longest2 * longest2)
     return longest2;  // a sliver, or no triangle in space (at a pole): as large as its longest side
   return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "geometry/shape/surface.h"
@@ -16,11 +17,14 @@ struct FaceWork {
   Triangulation mesh;
   const Surface* surface = nullptr;
   const SizeField* field = nullptr;
-  Vec2 scale{1, 1};           ///< plane = scale * (u,v)
+  std::vector<std::pair<std::int32_t, std::int32_t>> segments;  ///< of the loops, plane nodes
+  Vec2 scale{1, 1};                                             ///< plane = scale * (u,v)
   double max_turning = 1.0;   ///< radians between the normals of two nodes of a side, where L_min would allow more
   std::size_t max_nodes = 0;  ///< more is a runaway: the front stops
   int hint = 0;
 
+  /// Sets request, h and squeeze of a node from the field.
+  void ask_sizes(MeshNode& n);
   /// Fills uv, x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
   /// Square of the circumradius of triangle t in space; large where it does not resolve the surface (seam twins,
@@ -31,7 +35,9 @@ struct FaceWork {
   double edge_length2(std::int32_t a, std::int32_t b) const;
 };
 
-Metric metric_of(Vec3 du, Vec3 dv);
+/// Lengths of steps in the plane at a node, or from one to another.
+Metric metric_of(const MeshNode& n);
+Metric metric_of(Vec3 du, Vec3 dv, const MeshNode& a, const MeshNode& b);
 
 /// Advances the front from the boundary until every triangle is finished or retired, then splits what is still too
 /// large.

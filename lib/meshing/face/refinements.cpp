@@ -29,10 +29,12 @@ double box_distance(const Box3& box, Vec3 p) {
 }
 
 bool Refinements::add(const RefinementPoint& place, double floor) {
-  const double request = field_.size(place.x), length = std::max(place.length, floor * request);
+  int hint = 0;
+  const LocalSize local = field_.local(place.x, hint);
+  const double request = local.along, length = std::max(place.length, floor * local.length);
   Box3 at;
   at.add(place.x);
-  if (length > kWorthwhile * RefinedField(field_, near(at)).size(place.x)) return false;
+  if (length > kWorthwhile * RefinedField(field_, near(at)).local(place.x, hint).along) return false;
   all_.push_back({place.x, length, std::max(0.0, (request - length) / kRefinementSlope)});
   return true;
 }
@@ -86,6 +88,14 @@ double RefinedField::size(Vec3 xyz, int& hint) const {
   double length = base_.size(xyz, hint);
   if (!nodes_.empty()) visit(0, xyz, length);
   return length;
+}
+
+/// A refinement limits both lengths.
+LocalSize RefinedField::local(Vec3 xyz, int& hint) const {
+  LocalSize local = base_.local(xyz, hint);
+  if (!nodes_.empty()) visit(0, xyz, local.along);
+  if (local.along > local.length) return local;
+  return {local.along, local.along, {}};
 }
 
 double RefinedField::min_size() const {

@@ -50,6 +50,8 @@ class RefinedField : public SizeField {
   RefinedField(const SizeField& base, std::vector<Refinement> places);
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override;
+  bool is_stretched() const override { return base_.is_stretched(); }
   double min_size() const override;
   double slope() const override;
 

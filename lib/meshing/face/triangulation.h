@@ -16,9 +16,10 @@ struct MeshNode : FaceNode {
   Vec2 p{};              ///< scaled parameter plane
   Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
+  Vec3 squeeze{};        ///< of stretched sizes, see squeeze_of(); zero: none
   double request = 0;    ///< edge length that the field requests
 };
-static_assert(sizeof(MeshNode) == 152);
+static_assert(sizeof(MeshNode) == 176);
 
 /// Plane nodes of one pole: one point in space, no side between them.
 inline bool are_one_pole(const MeshNode& a, const MeshNode& b) { return a.is_pole && b.is_pole && a.id == b.id; }

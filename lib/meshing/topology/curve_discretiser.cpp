@@ -20,7 +20,8 @@ constexpr double kCornerReach = 0.25;  // lengths: a corner nearer to an end or 
 struct Sample {
   double t;
   Vec3 x, d1;
-  double h;
+  double h;     // requested along the curve
+  double size;  // the smallest requested
 };
 
 class Discretiser {
@@ -39,7 +40,8 @@ class Discretiser {
  private:
   Sample at(double t) {
     const CurvePoint p = curve_.evaluate(t);
-    return {t, p.x, p.d1, field_.size(p.x, hint_)};
+    const LocalSize local = field_.local(p.x, hint_);
+    return {t, p.x, p.d1, local.in(p.d1), local.length};
   }
 
   void sample() {
@@ -139,7 +141,7 @@ class Discretiser {
     for (const double at_t : t) {
       const Sample s = at(at_t);
       x.push_back(s.x);
-      h.push_back(s.h);
+      h.push_back(s.size);
     }
     return EdgeMesh::of_curve(std::move(t), std::move(x), std::move(h));
   }
