@@ -29,8 +29,9 @@ struct Blame {
 
 class Causes {
  public:
-  Causes(const Model& model, const SurfaceMesh& mesh, double angle_deg)
+  Causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners, double angle_deg)
       : mesh_(mesh),
+        shapes_(corners),
         tables_(model.tables()),
         corners_(model, mesh.merged),
         angle_deg_(angle_deg),
@@ -41,8 +42,8 @@ class Causes {
   /// Of the triangle's smallest angle; nullopt when it is not below the limit.
   std::optional<CausePlace> of_angle(TriangleId t) {
     if (sine_of_smallest(t) > sine_limit_) return std::nullopt;
-    const auto& n = mesh_.triangles[t].n;
-    const auto angle = triangle_angles_deg(xyz(n[0]), xyz(n[1]), xyz(n[2]));
+    const auto [a, b, c] = shapes_(t);
+    const auto angle = triangle_angles_deg(a, b, c);
     const int k = static_cast<int>(std::min_element(angle.begin(), angle.end()) - angle.begin());
     if (!(angle[k] < angle_deg_)) return std::nullopt;
     return place(blame_angle(t, angle, k), mesh_.triangle_face[t], angle[k], centre(t));
@@ -73,8 +74,8 @@ class Causes {
   }
   /// Cheaper than the angle itself.
   double sine_of_smallest(TriangleId t) const {
-    const auto& n = mesh_.triangles[t].n;
-    const Vec3 p = xyz(n[1]) - xyz(n[0]), q = xyz(n[2]) - xyz(n[0]), r = q - p;
+    const auto [a, b, c] = shapes_(t);
+    const Vec3 p = b - a, q = c - a, r = q - p;
     const double shortest2 = std::min({norm2(p), norm2(q), norm2(r)}), product2 = norm2(p) * norm2(q) * norm2(r);
     return product2 > 0 ? std::sqrt(norm2(cross(p, q)) * shortest2 / product2) : 0;
   }
@@ -193,6 +194,7 @@ class Causes {
   }
 
   const SurfaceMesh& mesh_;
+  const TriangleCorners& shapes_;
   const ModelTables& tables_;
   CadCorners corners_;
   double angle_deg_, sine_limit_;
@@ -237,9 +239,10 @@ std::int64_t CauseList::total() const {
   return n;
 }
 
-ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const QualityReport& quality,
+ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
+                              const QualityReport& quality,
                               const ConformityReport* conformity, double angle_deg) {
-  Causes causes(model, mesh, angle_deg);
+  Causes causes(model, mesh, corners, angle_deg);
   std::vector<CausePlace> sharp, growth, lengths;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
     if (const auto place = causes.of_angle(t)) sharp.push_back(*place);

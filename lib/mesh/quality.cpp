@@ -13,9 +13,14 @@ namespace st {
 
 namespace {
 
-double area_of(const SurfaceMesh& mesh, TriangleId t) {
-  const auto& n = mesh.triangles[t].n;
-  return 0.5 * norm(cross(mesh.node_xyz[n[1]] - mesh.node_xyz[n[0]], mesh.node_xyz[n[2]] - mesh.node_xyz[n[0]]));
+double area_of(const TriangleCorners& corners, TriangleId t) {
+  const auto [a, b, c] = corners(t);
+  return 0.5 * norm(cross(b - a, c - a));
+}
+
+std::array<double, 3> angles_of(const TriangleCorners& corners, TriangleId t) {
+  const auto [a, b, c] = corners(t);
+  return triangle_angles_deg(a, b, c);
 }
 
 /// The bin of a value among bins of one width from `first`, the last without end.
@@ -24,13 +29,14 @@ std::int64_t& bin_of(std::array<std::int64_t, n>& histogram, double value, doubl
   return histogram[static_cast<std::size_t>(std::clamp((value - first) / width, 0.0, static_cast<double>(n - 1)))];
 }
 
-void add_angles(const std::array<double, 3>& angle_deg, QualityStats& s) {
-  const auto [smallest, largest] = std::minmax({angle_deg[0], angle_deg[1], angle_deg[2]});
+void add_angles(const std::array<double, 3>& angle_deg, double largest, QualityStats& s) {
+  const double smallest = std::min({angle_deg[0], angle_deg[1], angle_deg[2]});
   s.min_angle_deg = std::min(s.min_angle_deg, smallest);
   s.max_angle_deg = std::max(s.max_angle_deg, largest);
   s.n_below_20_deg += smallest < 20;
   s.n_below_10_deg += smallest < 10;
   s.n_below_5_deg += smallest < 5;
+  s.n_above_150_deg += largest > kLargeAngleDeg;
   for (const double angle : angle_deg) ++bin_of(s.angle_histogram, angle, 0, 10);
 }
 
@@ -45,7 +51,8 @@ double percentile(std::vector<double>& values, double share) {
   return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> triangles, std::span<const double> quality) {
+QualityStats stats_of(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<const TriangleId> triangles,
+                      std::span<const double> quality) {
   QualityStats s;
   if (triangles.empty()) return s;
   s.n_triangles = static_cast<std::int64_t>(triangles.size());
@@ -60,8 +67,9 @@ QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> trian
     s.n_below_03 += q < 0.3;
     ++s.histogram[std::clamp(static_cast<int>(10 * q), 0, 9)];
     if (q < s.min) s.min = q, s.worst = t;
-    const auto& n = mesh.triangles[t].n;
-    add_angles(triangle_angles_deg(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]), s);
+    const auto angles = angles_of(corners, t);
+    const auto in_space = corners.is_stretched() ? angles_of(TriangleCorners(mesh), t) : angles;
+    add_angles(angles, *std::max_element(in_space.begin(), in_space.end()), s);
   }
   s.mean /= static_cast<double>(triangles.size());
   s.p1 = nth_smallest(sorted, sorted.size() / 100);
@@ -69,7 +77,8 @@ QualityStats stats_of(const SurfaceMesh& mesh, std::span<const TriangleId> trian
 }
 
 /// Triangles by key (face or group), ascending within each: one QualityStats per key.
-std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const std::int32_t> key, std::size_t n_keys,
+std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, const TriangleCorners& corners,
+                                       std::span<const std::int32_t> key, std::size_t n_keys,
                                        std::span<const double> quality) {
   for (const std::int32_t k : key) n_keys = std::max(n_keys, static_cast<std::size_t>(k) + 1);
   std::vector<std::int64_t> offsets(n_keys + 1, 0);
@@ -81,18 +90,18 @@ std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, std::span<const 
   std::vector<QualityStats> stats;
   for (std::size_t k = 0; k < n_keys; ++k)
     stats.push_back(
-        stats_of(mesh, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
+        stats_of(mesh, corners, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
   return stats;
 }
 
-void measure_jumps(const SurfaceMesh& mesh, QualityReport& report) {
+void measure_jumps(const SurfaceMesh& mesh, const TriangleCorners& corners, QualityReport& report) {
   std::vector<double> jumps;
   report.group_jumps.resize(report.groups.size());
   report.face_jumps.resize(report.faces.size());
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId t = sides[0] / 3;
-      const auto [low, high] = std::minmax({area_of(mesh, t), area_of(mesh, sides[i] / 3)});
+      const auto [low, high] = std::minmax({area_of(corners, t), area_of(corners, sides[i] / 3)});
       if (!(low > 0)) continue;
       jumps.push_back(std::sqrt(high / low));
       if (jumps.back() > kLargeGrowth) report.large_jumps.push_back({t, sides[i] / 3, jumps.back()});
@@ -124,18 +133,34 @@ double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
   return sum > 0 ? 2 * std::sqrt(3.0) * norm(cross(b - a, c - a)) / sum : 0;
 }
 
-QualityReport measure_quality(const SurfaceMesh& mesh) {
+/// Of the three nodes, the mean of their vectors up to the sign, which has no meaning.
+std::array<Vec3, 3> TriangleCorners::operator()(TriangleId t) const {
+  const auto& n = mesh_.triangles[t].n;
+  const std::array<Vec3, 3> x{mesh_.node_xyz[n[0]], mesh_.node_xyz[n[1]], mesh_.node_xyz[n[2]]};
+  if (squeeze_.empty()) return x;
+  const Vec3 first = squeeze_[n[0]];
+  Vec3 squeeze = first;
+  for (const int k : {1, 2}) squeeze += (dot(squeeze, squeeze_[n[k]]) < 0 ? -1.0 : 1.0) * squeeze_[n[k]];
+  squeeze = squeeze / 3;
+  return {Vec3{}, squeezed(x[1] - x[0], squeeze), squeezed(x[2] - x[0], squeeze)};
+}
+
+QualityReport measure_quality(const SurfaceMesh& mesh) { return measure_quality(mesh, TriangleCorners(mesh)); }
+
+QualityReport measure_quality(const SurfaceMesh& mesh, const TriangleCorners& corners) {
   std::vector<double> quality;
   quality.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles)
-    quality.push_back(triangle_quality(mesh.node_xyz[t.n[0]], mesh.node_xyz[t.n[1]], mesh.node_xyz[t.n[2]]));
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const auto [a, b, c] = corners(t);
+    quality.push_back(triangle_quality(a, b, c));
+  }
   std::vector<TriangleId> all(mesh.triangles.size());
   std::iota(all.begin(), all.end(), 0);
   QualityReport report;
-  report.model = stats_of(mesh, all, quality);
-  report.groups = stats_by_key(mesh, mesh.triangle_group, mesh.labels.group_name.size(), quality);
-  report.faces = stats_by_key(mesh, mesh.triangle_face, mesh.labels.face_name.size(), quality);
-  measure_jumps(mesh, report);
+  report.model = stats_of(mesh, corners, all, quality);
+  report.groups = stats_by_key(mesh, corners, mesh.triangle_group, mesh.labels.group_name.size(), quality);
+  report.faces = stats_by_key(mesh, corners, mesh.triangle_face, mesh.labels.face_name.size(), quality);
+  measure_jumps(mesh, corners, report);
   return report;
 }
 
@@ -206,20 +231,23 @@ class ForcedEdges {
 
 }  // namespace
 
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length) {
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<LocalSize(Vec3)>& requested) {
   ConformityReport report;
   report.groups.resize(mesh.labels.group_name.size());
   report.faces.resize(mesh.labels.face_name.size());
-  std::vector<double> inverse(mesh.n_nodes()), ratios;
+  std::vector<LocalSize> at_node(mesh.n_nodes());
+  std::vector<double> ratios;
   ForcedEdges forced(mesh);
-  for (std::int64_t n = 0; n < mesh.n_nodes(); ++n) inverse[n] = 1 / requested_length(mesh.node_xyz[n]);
+  for (std::int64_t n = 0; n < mesh.n_nodes(); ++n) at_node[n] = requested(mesh.node_xyz[n]);
   const auto at = [](std::vector<ConformityStats>& stats, std::int32_t i) -> ConformityStats& {
     if (static_cast<std::size_t>(i) >= stats.size()) stats.resize(i + 1);
     return stats[i];
   };
   EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
-    const double ratio = distance(p, q) * (inverse[a] + 4 / requested_length(0.5 * (p + q)) + inverse[b]) / 6;
+    const auto inverse = [&](const LocalSize& size) { return 1 / size.in(q - p); };
+    const double middle = requested(0.5 * (p + q)).in(q - p);
+    const double ratio = distance(p, q) * (inverse(at_node[a]) + 4 / middle + inverse(at_node[b])) / 6;
     ratios.push_back(ratio);
     report.model.add(ratio);
     if (!forced.take(a, b, sides, ratio)) {

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
+#include "base/local_size.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -17,6 +19,24 @@ double triangle_quality(Vec3 a, Vec3 b, Vec3 c);
 /// Angles at the three corners, degrees.
 std::array<double, 3> triangle_angles_deg(Vec3 a, Vec3 b, Vec3 c);
 
+/// Corners of triangles: in space, or squeezed as stretched sizes see them, where a triangle of the requested shape is
+/// equilateral.
+class TriangleCorners {
+ public:
+  /// `squeeze`: [n_nodes] see base/local_size.h, or empty. All outlive the object.
+  explicit TriangleCorners(const SurfaceMesh& mesh, std::span<const Vec3> squeeze = {})
+      : mesh_(mesh), squeeze_(squeeze) {}
+  std::array<Vec3, 3> operator()(TriangleId t) const;
+  bool is_stretched() const { return !squeeze_.empty(); }
+
+ private:
+  const SurfaceMesh& mesh_;
+  std::span<const Vec3> squeeze_;
+};
+
+/// Angles of stretched triangles in space above this are listed.
+inline constexpr double kLargeAngleDeg = 150;
+
 /// Shapes of a set of triangles. All zero for an empty set.
 struct QualityStats {
   std::int64_t n_triangles = 0;
@@ -25,6 +45,7 @@ struct QualityStats {
   std::array<std::int64_t, 10> histogram{};  ///< triangles by quality in [k/10, (k+1)/10)
   double min_angle_deg = 0, max_angle_deg = 0;
   std::int64_t n_below_20_deg = 0, n_below_10_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
+  std::int64_t n_above_150_deg = 0;  ///< triangles by their largest angle in space
   std::array<std::int64_t, 18> angle_histogram{};  ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
   TriangleId worst = kNone;                        ///< the (first) triangle of least quality
 };
@@ -56,7 +77,9 @@ struct QualityReport {
   std::vector<LargeJump> large_jumps;              ///< by the nodes of their common edge
 };
 
-/// Local, linear. Needs 24 bytes per triangle.
+/// Local, linear. Needs 24 bytes per triangle. Shapes, growth and the smallest angles are those of `corners`, the
+/// largest angles those in space.
+QualityReport measure_quality(const SurfaceMesh& mesh, const TriangleCorners& corners);
 QualityReport measure_quality(const SurfaceMesh& mesh);
 
 /// Lengths of mesh edges over the requested lengths.
@@ -104,6 +127,6 @@ struct ConformityReport {
 /// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
 /// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of
 /// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<double(Vec3)>& requested_length);
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<LocalSize(Vec3)>& requested);
 
 }  // namespace st

@@ -1,28 +1,9 @@
 // The mesh size specification as the mesher sees it: a length at every point of space.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/vec.h"
+#include "base/local_size.h"
 
 namespace st {
-
-/// The requested edge lengths at a point: `length` in every direction but `direction`, along which edges may be longer.
-/// As a metric: length^-2 I - (length^-2 - along^-2) direction direction^T.
-struct LocalSize {
-  double length = 0;  ///< model unit, > 0
-  double along = 0;   ///< model unit, >= length; equal: the same length in all directions
-  Vec3 direction;     ///< unit; zero where both are equal
-
-  /// Requested length of an edge along `d` (any length; zero: the smallest).
-  double in(Vec3 d) const {
-    const double d2 = norm2(d), part = dot(d, direction);
-    if (!(along > length) || !(d2 > 0)) return length;
-    const double share = std::min(1.0, part * part / d2), ratio = length / along;
-    return length / std::sqrt(1 - share * (1 - ratio * ratio));
-  }
-};
 
 /// Requested edge length in space. Implementations are immutable and safe to share between threads; `hint` is the
 /// caller's own.

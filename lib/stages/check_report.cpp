@@ -37,14 +37,17 @@ std::string check_line(const SurfaceMesh& mesh, const Check& c) {
                      note);
 }
 
-std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q) {
+std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool is_stretched) {
   const std::string worst =
       q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
   return fmt::format(
       "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth "
       "{:.2f} (99.9 %)\n",
-      "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg,
-      q.model.max_angle_deg, q.jump_p999);
+      is_stretched ? "stretched quality" : "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg,
+      q.model.max_angle_deg, q.jump_p999) +
+         (is_stretched ? fmt::format("  {:<20} {} triangles with an angle above {:g} deg in space\n", "obtuse",
+                                     q.model.n_above_150_deg, kLargeAngleDeg)
+                       : "");
 }
 
 std::string conformity_lines(const ConformityReport& c) {
@@ -143,6 +146,7 @@ json quality_json(const QualityStats& q, ReportDetail detail) {
          {"below_0.3", q.n_below_03},
          {"min_angle_deg", q.min_angle_deg},
          {"max_angle_deg", q.max_angle_deg},
+         {"above_150_deg", q.n_above_150_deg},
          {"below_20_deg", q.n_below_20_deg},
          {"below_10_deg", q.n_below_10_deg},
          {"below_5_deg", q.n_below_5_deg}};
@@ -291,7 +295,7 @@ json bins_json() {
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string text;
   for (const Check& c : f.checks) text += check_line(mesh, c);
-  text += quality_lines(mesh, f.quality);
+  text += quality_lines(mesh, f.quality, f.is_stretched);
   if (f.conformity) text += conformity_lines(*f.conformity);
   if (f.deviation) text += deviation_line(mesh, *f.deviation);
   if (f.causes) text += cause_lines(mesh, *f.causes, f.conformity.has_value());

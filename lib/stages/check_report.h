@@ -35,6 +35,7 @@ struct Findings {
   std::string crossing_note;  ///< whose crossings they are, empty when nothing is known
   MeshMeasure measure;
   QualityReport quality;
+  bool is_stretched = false;  ///< quality, growth and smallest angles are those that stretched sizes see
   std::optional<ConformityReport> conformity;  ///< with a sizing
   std::optional<ChordError> chords;            ///< with a geometry
   std::optional<SurfaceDeviation> deviation;   ///< with a geometry

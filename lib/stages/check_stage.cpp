@@ -234,13 +234,15 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
 }
 
-void run_mesh_checks(const MeshArtifact& artifact, const CadSide* cad, const CheckThresholds& allow, Findings& f) {
+void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
+                     const CheckThresholds& allow, Findings& f) {
   const SurfaceMesh& mesh = artifact.mesh;
   f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
   f.shape = check_shape(mesh);
   check_crossings_and_contacts(mesh, cad, f);
   f.measure = measure_mesh(mesh);
-  f.quality = measure_quality(mesh);
+  f.quality = measure_quality(mesh, corners);
+  f.is_stretched = corners.is_stretched();
   const std::string open = f.topology.n_cad_boundary_edges
                                ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges)
                                : "";
@@ -294,24 +296,27 @@ Check check_value(const std::string& name, const std::string& what, bool is_good
 
 /// Triangles for which `is_bad(corner, corner, corner)`.
 template <class IsBad>
-Check check_triangles(const SurfaceMesh& mesh, const std::string& name, const std::string& what, const IsBad& is_bad) {
+Check check_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, const std::string& name,
+                      const std::string& what, const IsBad& is_bad) {
   Check c{name, what, {}, true, ""};
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
     const auto& n = mesh.triangles[t].n;
-    const Vec3 p = mesh.node_xyz[n[0]], q = mesh.node_xyz[n[1]], r = mesh.node_xyz[n[2]];
-    if (is_bad(p, q, r)) c.defects.add({(p + q + r) / 3, mesh.triangle_face[t], kNone});
+    const auto [p, q, r] = corners(t);
+    if (is_bad(p, q, r))
+      c.defects.add({(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3, mesh.triangle_face[t],
+                     kNone});
   }
   return c;
 }
 
-void check_quality(const SurfaceMesh& mesh, const CheckThresholds& asked, Findings& f) {
+void check_quality(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked, Findings& f) {
   const QualityReport& q = f.quality;
   if (asked.min_quality)
     f.checks.push_back(
-        check_triangles(mesh, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
+        check_triangles(mesh, corners, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
                         [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
   if (asked.min_angle_deg)
-    f.checks.push_back(check_triangles(mesh, "min-angle",
+    f.checks.push_back(check_triangles(mesh, corners, "min-angle",
                                        fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
                                        [&](Vec3 a, Vec3 b, Vec3 c) {
                                          const auto angles = triangle_angles_deg(a, b, c);
@@ -421,6 +426,15 @@ std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const Ar
   return field;
 }
 
+/// [n_nodes]; empty where sizes are the same length in all directions, or unknown.
+std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* field) {
+  std::vector<Vec3> squeeze;
+  if (!field || !field->is_stretched()) return squeeze;
+  int hint = 0;
+  for (const Vec3& x : mesh.node_xyz) squeeze.push_back(field->local(x, hint).squeeze());
+  return squeeze;
+}
+
 }  // namespace
 
 void CheckStageOptions::validate() const {
@@ -441,17 +455,19 @@ StageSummary run_check(const CheckStageOptions& options) {
   const MeshArtifact artifact = read_checked_mesh(options, cad);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
 
+  const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
+  const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
-  run_mesh_checks(artifact, cad.get(), options.thresholds, f);
+  run_mesh_checks(artifact, corners, cad.get(), options.thresholds, f);
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
   if (field)
-    f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->size(p, hint); });
+    f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->local(p, hint); });
 
   if (cad)
-    f.causes = find_shape_causes(cad->model, artifact.mesh, f.quality, f.conformity ? &*f.conformity : nullptr,
+    f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
                                  options.list_below_deg);
 
-  check_quality(artifact.mesh, options.thresholds, f);
+  check_quality(artifact.mesh, corners, options.thresholds, f);
   check_causes(options.thresholds, f);
   check_sizes(options.thresholds, f);
   if (cad) check_deviation(options.thresholds, cad->model.tables(), f);

@@ -254,7 +254,7 @@ class Enhancer {
   /// The third corner of an equilateral triangle over an edge, by the metric of the node. Linear.
   static Vec3 apex_of(const MeshNode& n, Vec3 middle, Vec3 edge) {
     if (!is_stretched(n)) return middle + kHalfSqrt3 * cross(n.normal, edge);
-    return middle + unsqueezed(kHalfSqrt3 * cross(n.normal, squeezed(edge, n)), n);
+    return middle + unsqueezed(kHalfSqrt3 * cross(n.normal, squeezed(edge, n.squeeze)), n.squeeze);
   }
 
   bool is_valid_at(Vec2 p) const {

@@ -342,7 +342,7 @@ class Front {
 
   static double distance_to(const MeshNode& p, const MeshNode& a, const MeshNode& b) {
     if (!is_stretched(p)) return segment_distance(p.x, a.x, b.x);
-    return segment_distance({}, squeezed(a.x - p.x, p), squeezed(b.x - p.x, p));
+    return segment_distance({}, squeezed(a.x - p.x, p.squeeze), squeezed(b.x - p.x, p.squeeze));
   }
 
   static bool plane_near(const MeshNode& p, const Metric& m, const MeshNode& a, const MeshNode& b, double reach) {
@@ -427,9 +427,7 @@ Metric metric_of(Vec3 du, Vec3 dv, const MeshNode& a, const MeshNode& b) {
 }
 
 Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
-  if (!(local.along > local.length)) return {};
-  const double ratio = local.length / local.along;
-  const Vec3 s = std::sqrt(1 - ratio * ratio) * local.direction;
+  const Vec3 s = local.squeeze();
   return s - dot(s, normal) * normal;
 }
 

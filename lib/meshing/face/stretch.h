@@ -3,12 +3,13 @@
 
 #include <cmath>
 
+#include "base/local_size.h"
 #include "meshing/face/triangulation.h"
+#include "sizing/size_field.h"
 
 namespace st {
 
-/// `squeeze` of a node whose sizes are these: with direction t in the tangent plane, t sqrt(1 - (length/along)^2). Zero:
-/// the same length in all directions. |d|^2 - (squeeze . d)^2 is the squared length of d over that of an edge across.
+/// The `squeeze` of a node whose sizes are these, in its tangent plane; see base/local_size.h.
 Vec3 squeeze_of(const LocalSize& local, Vec3 normal);
 
 /// Product of two vectors, and square, in the mean metric of the nodes.
@@ -34,15 +35,5 @@ inline double area_share2(const MeshNode& a, const MeshNode& b, const MeshNode& 
 inline bool is_stretched(const MeshNode& n) { return n.squeeze != Vec3{}; }
 /// Length along over length across, >= 1.
 inline double aspect_of(const MeshNode& n) { return 1 / std::sqrt(1 - norm2(n.squeeze)); }
-
-/// Into the space in which the node's metric is Euclidean, and back.
-inline Vec3 squeezed(Vec3 d, const MeshNode& n) {
-  const double w = std::sqrt(1 - norm2(n.squeeze));
-  return d - (dot(n.squeeze, d) / (1 + w)) * n.squeeze;
-}
-inline Vec3 unsqueezed(Vec3 d, const MeshNode& n) {
-  const double w = std::sqrt(1 - norm2(n.squeeze));
-  return d + (dot(n.squeeze, d) / (w * (1 + w))) * n.squeeze;
-}
 
 }  // namespace st

@@ -16,7 +16,7 @@ struct MeshNode : FaceNode {
   Vec2 p{};              ///< scaled parameter plane
   Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
-  Vec3 squeeze{};        ///< of stretched sizes, see squeeze_of(); zero: none
+  Vec3 squeeze{};        ///< of stretched sizes, in the tangent plane; see base/local_size.h
   double request = 0;    ///< edge length that the field requests
 };
 static_assert(sizeof(MeshNode) == 176);

@@ -20,7 +20,7 @@ struct Meshed : test::Meshed {
   }
   ShapeCauses causes(double angle_deg = 10) const {
     const ConformityReport sizes = measure_conformity(mesh, [this](Vec3) { return mesh.node_size[0]; });
-    return find_shape_causes(model, mesh, measure_quality(mesh), &sizes, angle_deg);
+    return find_shape_causes(model, mesh, TriangleCorners(mesh), measure_quality(mesh), &sizes, angle_deg);
   }
   /// An edge between two nodes inside the face, all of whose neighbours are inside, too.
   std::pair<NodeId, NodeId> inner_edge() const {

@@ -12,6 +12,10 @@
 namespace st {
 namespace {
 
+std::function<LocalSize(Vec3)> same_everywhere(double length) {
+  return [length](Vec3) { return LocalSize{length, length, {}}; };
+}
+
 TEST(Quality, is_one_for_equilateral_and_zero_for_flat_triangles) {
   EXPECT_NEAR(triangle_quality({0, 0, 0}, {2, 0, 0}, {1, std::sqrt(3.0), 0}), 1, 1e-15);
   EXPECT_EQ(triangle_quality({0, 0, 0}, {1, 0, 0}, {3, 0, 0}), 0);
@@ -55,7 +59,7 @@ TEST(Quality, histograms_hold_every_angle_triangle_pair_and_edge_once) {
   };
   EXPECT_EQ(sum(q.model.angle_histogram), 3 * m.n_triangles());
   EXPECT_EQ(sum(q.jumps.histogram), m.n_triangles() * 3 / 2);
-  EXPECT_EQ(sum(measure_conformity(m, [](Vec3) { return 0.3; }).model.histogram), m.n_triangles() * 3 / 2);
+  EXPECT_EQ(sum(measure_conformity(m, same_everywhere(0.3)).model.histogram), m.n_triangles() * 3 / 2);
 }
 
 TEST(Quality, histogram_of_angles_of_half_squares_has_two_bins) {
@@ -94,18 +98,18 @@ TEST(Quality, sees_a_jump_between_neighbours) {
 
 TEST(Conformity, compares_lengths_with_the_requested_ones) {
   const SurfaceMesh m = shapes::cube(4);  // sides 1/4, diagonals sqrt(2)/4
-  const ConformityReport fits = measure_conformity(m, [](Vec3) { return 0.25; });
+  const ConformityReport fits = measure_conformity(m, same_everywhere(0.25));
   EXPECT_EQ(fits.model.n_edges, 288);
   EXPECT_NEAR(fits.model.min, 1, 1e-12);
   EXPECT_NEAR(fits.model.max, std::sqrt(2.0), 1e-12);
   EXPECT_EQ(fits.model.n_within, 192) << "the diagonals are too long";
-  EXPECT_EQ(measure_conformity(m, [](Vec3) { return 0.3; }).model.share(), 1);
-  EXPECT_EQ(measure_conformity(m, [](Vec3) { return 1.0; }).model.share(), 0);
+  EXPECT_EQ(measure_conformity(m, same_everywhere(0.3)).model.share(), 1);
+  EXPECT_EQ(measure_conformity(m, same_everywhere(1.0)).model.share(), 0);
 }
 
 TEST(Conformity, follows_a_length_that_varies_along_the_edge) {
   const SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}});
-  const ConformityReport r = measure_conformity(m, [](Vec3 p) { return 1 + p.x; });
+  const ConformityReport r = measure_conformity(m, [](Vec3 p) { return LocalSize{1 + p.x, 1 + p.x, {}}; });
   EXPECT_NEAR(r.model.min, std::log(2.0), 2e-3) << "the integral of dx / (1 + x)";
 }
 
@@ -113,7 +117,7 @@ TEST(Conformity, tells_edges_inside_faces_from_those_the_cad_forces) {
   SurfaceMesh m =
       shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}}, {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}});
   m.node_entity_dim = {0, 0, 0, 2};
-  const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
+  const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
   EXPECT_EQ(r.model.n_edges, 6);
   EXPECT_EQ(r.inner.n_edges, 3);
 }
@@ -140,7 +144,7 @@ SurfaceMesh strip() {
 }
 
 TEST(Conformity, lists_what_the_cad_forces_apart) {
-  const ConformityReport r = measure_conformity(strip(), [](Vec3) { return 0.5; });
+  const ConformityReport r = measure_conformity(strip(), same_everywhere(0.5));
   EXPECT_EQ(r.model.n_edges, 81);
   EXPECT_EQ(r.model.n_within, 60) << "20 edges below, 20 above, 20 diagonals; not the 21 across";
   EXPECT_EQ(r.free.n_edges, 60);
@@ -157,13 +161,13 @@ TEST(Conformity, lists_what_the_cad_forces_apart) {
 }
 
 TEST(Conformity, excuses_no_edge_of_a_curve_that_has_room) {
-  const ConformityReport r = measure_conformity(strip(), [](Vec3) { return 1.0; });
+  const ConformityReport r = measure_conformity(strip(), same_everywhere(1.0));
   EXPECT_EQ(r.free.n_edges, 40) << "along both long edges";
   EXPECT_EQ(r.free.n_within, 0);
 }
 
 TEST(Conformity, excuses_no_short_edge_inside_a_face) {
-  const ConformityReport r = measure_conformity(shapes::cube(4), [](Vec3) { return 1.0; });
+  const ConformityReport r = measure_conformity(shapes::cube(4), same_everywhere(1.0));
   EXPECT_TRUE(r.forced.empty());
   EXPECT_EQ(r.free.n_edges, r.model.n_edges);
 }
@@ -172,7 +176,7 @@ TEST(Conformity, takes_a_seam_for_a_boundary) {
   SurfaceMesh m = strip();
   for (std::size_t c = 0; c < m.corner_uv.size(); c += 6)
     for (int k = 0; k < 3; ++k) m.corner_uv[c + k].x += 100;  // no two triangles have a common (u,v)
-  for (const ForcedPlace& p : measure_conformity(m, [](Vec3) { return 0.5; }).forced)
+  for (const ForcedPlace& p : measure_conformity(m, same_everywhere(0.5)).forced)
     EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
 }
 
@@ -186,7 +190,7 @@ TEST(Conformity, excuses_short_edges_of_a_curve_of_three_segments_but_not_of_fou
     m.node_entity_dim.assign(m.node_xyz.size(), 1);
     m.node_entity_dim[0] = m.node_entity_dim[1] = 0;
     m.node_entity_dim[2] = 2;
-    const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
+    const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
     EXPECT_EQ(r.forced.size(), n_inside == 2 ? 1u : 0u) << n_inside;
   }
 }
@@ -198,7 +202,7 @@ TEST(Conformity, percentiles_have_one_of_a_hundred_edges_beyond_them) {
     length.push_back(distance(m.node_xyz[a], m.node_xyz[b]));
   });
   std::sort(length.begin(), length.end());
-  const ConformityReport r = measure_conformity(m, [](Vec3) { return 1.0; });
+  const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
   const auto last = static_cast<double>(length.size() - 1);
   EXPECT_NEAR(r.p1, length[static_cast<std::size_t>(0.01 * last)], 1e-12);
   EXPECT_NEAR(r.p99, length[static_cast<std::size_t>(0.99 * last)], 1e-12);
