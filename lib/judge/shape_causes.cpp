@@ -240,8 +240,7 @@ std::int64_t CauseList::total() const {
 }
 
 ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
-                              const QualityReport& quality,
-                              const ConformityReport* conformity, double angle_deg) {
+                              const QualityReport& quality, const ConformityReport* conformity, double angle_deg) {
   Causes causes(model, mesh, corners, angle_deg);
   std::vector<CausePlace> sharp, growth, lengths;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)

@@ -55,7 +55,6 @@ struct ShapeCauses {
 /// `conformity` may be null. Local, linear in the mesh; the CAD is asked at the places found only. Precondition: `mesh`
 /// was made on `model`. Angles are those of `corners`.
 ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
-                              const QualityReport& quality,
-                              const ConformityReport* conformity, double angle_deg);
+                              const QualityReport& quality, const ConformityReport* conformity, double angle_deg);
 
 }  // namespace st

@@ -89,8 +89,8 @@ std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, const TriangleCo
   for (std::size_t t = 0; t < key.size(); ++t) sorted[fill[key[t]]++] = static_cast<TriangleId>(t);
   std::vector<QualityStats> stats;
   for (std::size_t k = 0; k < n_keys; ++k)
-    stats.push_back(
-        stats_of(mesh, corners, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
+    stats.push_back(stats_of(
+        mesh, corners, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
   return stats;
 }
 

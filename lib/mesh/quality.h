@@ -45,7 +45,7 @@ struct QualityStats {
   std::array<std::int64_t, 10> histogram{};  ///< triangles by quality in [k/10, (k+1)/10)
   double min_angle_deg = 0, max_angle_deg = 0;
   std::int64_t n_below_20_deg = 0, n_below_10_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
-  std::int64_t n_above_150_deg = 0;  ///< triangles by their largest angle in space
+  std::int64_t n_above_150_deg = 0;                ///< triangles by their largest angle in space
   std::array<std::int64_t, 18> angle_histogram{};  ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
   TriangleId worst = kNone;                        ///< the (first) triangle of least quality
 };

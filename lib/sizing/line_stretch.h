@@ -11,7 +11,7 @@ namespace st {
 
 /// How far lengths may be stretched.
 struct StretchLimits {
-  double max_aspect = 1;  ///< length along over length across
+  double max_aspect = 1;                                        ///< length along over length across
   double max_length = std::numeric_limits<double>::infinity();  ///< along, model unit
   double alpha = radians(10);                                   ///< turning along one length, radians
 };

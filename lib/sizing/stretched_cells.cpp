@@ -53,11 +53,11 @@ class StretchProlongation {
     std::vector<std::int32_t> origin(stored_length.size(), n_samples);
     for_each_seed(octree_, neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
-      const auto length =
-          static_cast<float>(s.length + options_.slope * distance(s.place(), centre(site)));
+      const auto length = static_cast<float>(s.length + options_.slope * distance(s.place(), centre(site)));
       if (length == stored_length[site]) origin[site] = std::min(origin[site], sample);
     });
-    const std::vector<std::int32_t> label = spread_labels(octree_, neighbours_, stored_length, origin, options_, blanking_);
+    const std::vector<std::int32_t> label =
+        spread_labels(octree_, neighbours_, stored_length, origin, options_, blanking_);
     for (const std::int32_t sample : label) {
       const bool has_one = sample != kNone && sample < n_samples && samples_[sample].stretch.along > 0;
       direction_.push_back(has_one ? normalized(Vec3(samples_[sample].stretch.direction)) : Vec3{});

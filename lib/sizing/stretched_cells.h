@@ -16,8 +16,8 @@ struct StretchedCells {
 };
 
 /// Prolongs what the samples allow along their directions. Each site takes the direction of the sample that its length
-/// goes back to; the length along it is the largest that every sample allows in this direction and that grows by at most
-/// the slope from cell to cell, also where directions differ: a metric whose growth is limited in every direction
+/// goes back to; the length along it is the largest that every sample allows in this direction and that grows by at
+/// most the slope from cell to cell, also where directions differ: a metric whose growth is limited in every direction
 /// (Alauzet 2010), with the directions fixed beforehand so that the result is unique. `stored_length`: [n_sites] as
 /// seeded by these samples and by sources, which allow no stretch. `lengths`: of prolong().
 StretchedCells prolong_stretch(const OctreeView& octree, const Neighbours& neighbours,

@@ -41,10 +41,11 @@ std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool 
   const std::string worst =
       q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
   return fmt::format(
-      "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; growth "
-      "{:.2f} (99.9 %)\n",
-      is_stretched ? "stretched quality" : "quality", q.model.mean, q.model.p1, q.model.min, worst, q.model.n_below_03, q.model.min_angle_deg,
-      q.model.max_angle_deg, q.jump_p999) +
+             "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; "
+             "growth "
+             "{:.2f} (99.9 %)\n",
+             is_stretched ? "stretched quality" : "quality", q.model.mean, q.model.p1, q.model.min, worst,
+             q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg, q.jump_p999) +
          (is_stretched ? fmt::format("  {:<20} {} triangles with an angle above {:g} deg in space\n", "obtuse",
                                      q.model.n_above_150_deg, kLargeAngleDeg)
                        : "");

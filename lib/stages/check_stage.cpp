@@ -303,8 +303,8 @@ Check check_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, c
     const auto& n = mesh.triangles[t].n;
     const auto [p, q, r] = corners(t);
     if (is_bad(p, q, r))
-      c.defects.add({(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3, mesh.triangle_face[t],
-                     kNone});
+      c.defects.add(
+          {(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3, mesh.triangle_face[t], kNone});
   }
   return c;
 }

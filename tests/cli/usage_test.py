@@ -30,6 +30,7 @@ REFUSED = {
         "--edge-size": ["0", "-1", "3pt", "nothing"],
         "--edge-cells": ["0", "101", "1.5"],
         "--max-cells": ["0", "x", "1.5"],
+        "--max-aspect": ["0.9", "101", "x"],
         "--trailing-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
         "--leading-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
         "--preset": ["ranz"],

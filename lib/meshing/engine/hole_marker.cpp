@@ -27,7 +27,7 @@ HoleMarker::HoleMarker(const Model& model, const HoleMesh& mesh, const MeshShare
 void HoleMarker::mark_again(const Refinements& refinements, std::vector<TriangleId> redo) {
   options_.redo.insert(options_.redo.end(), redo.begin(), redo.end());
   share(executor_, options_.redo);
-  mark(refined_lengths(refinements));
+  mark(refined_sizes(refinements));
 }
 
 void HoleMarker::grow_to_face(FaceId face) {
@@ -41,20 +41,23 @@ void HoleMarker::request_lengths(const SizeField& field) {
   std::fill(is_needed.begin(), is_needed.begin() + n_on_edges, 1);
   for (TriangleId t = share_.begin; t < share_.end; ++t)
     for (const NodeId n : mesh_.mesh.triangles[t].n) is_needed[n] = 1;
-  wanted_.assign(n_nodes, 0);
+  wanted_.assign(n_nodes, {});
+  is_stretched_ = field.is_stretched();
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n)
-    if (is_needed[n]) wanted_[n] = field.size(mesh_.mesh.node_xyz[n], hint);
-  std::vector<double> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
+    if (is_needed[n]) wanted_[n] = field.local(mesh_.mesh.node_xyz[n], hint);
+  std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
 }
 
-std::vector<double> HoleMarker::refined_lengths(const Refinements& refinements) const {
-  std::vector<double> wanted = wanted_;
+std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements) const {
+  std::vector<LocalSize> wanted = wanted_;
   const auto refine = [&](NodeId n, const Refinement& r) {
-    if (const double d = distance(mesh_.mesh.node_xyz[n], r.x); d < r.reach)
-      wanted[n] = std::min(wanted[n], r.length + kRefinementSlope * d);
+    const double d = distance(mesh_.mesh.node_xyz[n], r.x), limit = r.length + kRefinementSlope * d;
+    if (!(d < r.reach)) return;
+    wanted[n].length = std::min(wanted[n].length, limit);
+    wanted[n].along = std::min(wanted[n].along, limit);
   };
   for (const Refinement& r : refinements.all()) {
     for (NodeId n = 0; n < mesh_.inner_begin[0]; ++n) refine(n, r);
@@ -65,10 +68,16 @@ std::vector<double> HoleMarker::refined_lengths(const Refinements& refinements) 
   return wanted;
 }
 
-void HoleMarker::mark(const std::vector<double>& wanted) {
+void HoleMarker::mark(const std::vector<LocalSize>& wanted) {
+  std::vector<double> lengths;
+  options_.squeeze.clear();
+  for (const LocalSize& size : wanted) {
+    lengths.push_back(size.length);
+    if (is_stretched_) options_.squeeze.push_back(size.squeeze());
+  }
   NodeExchange exchange;
   if (executor_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
-  marks_ = mark_share(mesh_, share_, wanted, options_, exchange);
+  marks_ = mark_share(mesh_, share_, lengths, options_, exchange);
   collect_marks();
   dirty_faces_.clear();
   for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {

@@ -41,8 +41,8 @@ class HoleMarker {
 
  private:
   void request_lengths(const SizeField& field);
-  std::vector<double> refined_lengths(const Refinements& refinements) const;
-  void mark(const std::vector<double>& wanted);
+  std::vector<LocalSize> refined_sizes(const Refinements& refinements) const;
+  void mark(const std::vector<LocalSize>& wanted);
   std::vector<TouchedNode> exchange(const std::vector<TouchedNode>& own) const;
   void collect_marks();
 
@@ -51,7 +51,8 @@ class HoleMarker {
   MeshShare share_;
   HoleMarkOptions options_;
   const Executor& executor_;
-  std::vector<double> wanted_;  // [n_nodes] requested lengths, of the nodes that the share needs
+  std::vector<LocalSize> wanted_;  // [n_nodes] requested lengths, of the nodes that the share needs
+  bool is_stretched_ = false;
   HoleMarks marks_;
   std::vector<FaceId> dirty_faces_;
 };

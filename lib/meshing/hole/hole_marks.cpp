@@ -41,11 +41,26 @@ class Marker {
     return std::abs(length - earlier) > options_.change * earlier;
   }
 
+  /// Far off although the length across is as before: made for more stretch, or for less.
+  bool is_of_other_aspect(double ratio, double in_space) const {
+    constexpr double kFarTooLong = 2.5, kFarTooShort = 0.4;
+    return ratio > kFarTooLong ||
+           (ratio < kFarTooShort && in_space > options_.too_short && in_space < options_.too_long);
+  }
+
+  /// As stretched sizes see it.
+  double squeezed_length(NodeId a, NodeId b) const {
+    const Vec3 d = mesh_.node_xyz[b] - mesh_.node_xyz[a];
+    const double along_a = dot(options_.squeeze[a], d), along_b = dot(options_.squeeze[b], d);
+    return std::sqrt(norm2(d) - 0.5 * (along_a * along_a + along_b * along_b));
+  }
+
   bool violates(NodeId a, NodeId b) const {
     const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
     const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
-    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length)) return false;
-    const double ratio = length / size;
+    const double ratio = (options_.squeeze.empty() ? length : squeezed_length(a, b)) / size;
+    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length))
+      return is_of_other_aspect(ratio, length / size);
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 

@@ -18,6 +18,7 @@ struct HoleMarkOptions {
   std::vector<char> keep_edge = {};        ///< [n_edges] 1: its segments stay; empty: none
   std::span<const Vec3> earlier_xyz = {};  ///< empty, or [n_nodes] before the geometry moved: edges that it made longer
                                            ///< or shorter count, too
+  std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
   std::vector<TriangleId> redo = {};       ///< marked whatever their edges, unless kept
 };
 

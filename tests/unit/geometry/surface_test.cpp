@@ -216,5 +216,27 @@ TEST(EvaluateBatch, is_evaluate_at_each_point) {
   }
 }
 
+TEST(FlattestDirection, is_the_axis_of_a_cylinder_and_the_generator_of_a_cone) {
+  const Model cylinder = test::make_model("cylinder"), cone = test::make_model("cone");
+  for (const Model* model : {&cylinder, &cone})
+    for (FaceId f = 0; f < model->tables().n_faces(); ++f) {
+      const auto surface = model->surface(f);
+      if (surface->type() == SurfaceType::kPlane) continue;
+      const Vec2 uv{0.3 * surface->u_min() + 0.7 * surface->u_max(), 0.6 * surface->v_min() + 0.4 * surface->v_max()};
+      const SurfacePoint2 p = surface->evaluate2(uv);
+      const Vec3 t = flattest_direction(p, principal_curvature(p));
+      EXPECT_NEAR(norm(t), 1, 1e-12);
+      EXPECT_NEAR(std::abs(dot(t, normalized(p.dv))), 1, 1e-9);  // straight lines run along v
+    }
+}
+
+TEST(FlattestDirection, is_none_on_a_sphere) {
+  const Model sphere = test::make_model("sphere");
+  const SurfacePoint2 p = sphere.surface(0)->evaluate2({1, 0.3});
+  Curvature c = principal_curvature(p);
+  c.k2 = c.k1;
+  EXPECT_TRUE(flattest_direction(p, c) == Vec3{});
+}
+
 }  // namespace
 }  // namespace st

@@ -219,5 +219,31 @@ TEST(Quality, first_percentile_has_one_of_a_hundred_triangles_below_it) {
   EXPECT_EQ(measure_quality(m).model.p1, quality[quality.size() / 100]);
 }
 
+TEST(TriangleCorners, show_a_stretched_triangle_as_equilateral) {
+  SurfaceMesh m;
+  m.node_xyz = {{0, 0, 0}, {16, 0, 0}, {8, std::sqrt(0.75), 0}};
+  m.triangles = {{{0, 1, 2}}};
+  m.triangle_face = m.triangle_group = {0};
+  m.labels.face_name = m.labels.group_name = {""};
+  const std::vector<Vec3> squeeze(3, LocalSize{1, 16, {1, 0, 0}}.squeeze());
+  std::vector<Vec3> signs = squeeze;
+  signs[1] = -1.0 * signs[1];
+  for (const std::vector<Vec3>& s : {squeeze, signs}) {
+    const QualityReport r = measure_quality(m, TriangleCorners(m, s));
+    EXPECT_NEAR(r.model.mean, 1, 1e-12);
+    EXPECT_NEAR(r.model.min_angle_deg, 60, 1e-9);
+    EXPECT_GT(r.model.max_angle_deg, 165);  // in space
+    EXPECT_EQ(r.model.n_above_150_deg, 1);
+  }
+  EXPECT_LT(measure_quality(m).model.mean, 0.2);
+}
+
+TEST(Conformity, takes_the_length_in_the_direction_of_each_edge) {
+  const SurfaceMesh m = shapes::cube(4);
+  const ConformityReport r = measure_conformity(m, [](Vec3) { return LocalSize{0.25, 2.5, {1, 0, 0}}; });
+  EXPECT_NEAR(r.p1, 0.1, 1e-9);
+  EXPECT_GT(r.model.max, 0.99);
+}
+
 }  // namespace
 }  // namespace st

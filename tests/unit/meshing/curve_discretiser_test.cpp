@@ -198,5 +198,13 @@ TEST(DiscretiseCurve, sees_a_small_place_of_small_sizes) {
   EXPECT_LE(shortest, 0.03);
 }
 
+TEST(DiscretiseCurve, spaces_nodes_by_the_length_along_the_curve) {
+  const LineCurve line({0, 0, 0}, {1, 0, 0}, 0, 20);
+  EXPECT_EQ(discretise_curve(line, test::StretchedField({0.1, 2, {1, 0, 0}}), {}).node_t.size(), 11u);
+  EXPECT_EQ(discretise_curve(line, test::StretchedField({0.1, 2, {0, 0, 1}}), {}).node_t.size(), 201u);
+  for (const double h : discretise_curve(line, test::StretchedField({0.1, 2, {1, 0, 0}}), {}).node_size)
+    EXPECT_EQ(h, 0.1);
+}
+
 }  // namespace
 }  // namespace st

@@ -321,5 +321,51 @@ TEST(MeshFace, grows_from_short_boundary_segments) {
   EXPECT_LT(view.n_triangles(), 3000u);
 }
 
+double largest_angle(const FaceCase& face, const FaceMesh& mesh) {
+  const auto at = [&](std::int32_t c) {
+    const auto n = static_cast<std::int32_t>(face.boundary.nodes.size());
+    return c < n ? face.boundary.nodes[c].x : mesh.inner[c - n].x;
+  };
+  double largest = 0;
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    const Vec3 a = at(mesh.corners[i]), b = at(mesh.corners[i + 1]), c = at(mesh.corners[i + 2]);
+    largest =
+        std::max({largest, angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)});
+  }
+  return degrees(largest);
+}
+
+TEST(StretchedFace, has_as_many_right_angled_triangles_as_its_two_lengths_ask_for) {
+  for (const double aspect : {2.0, 8.0, 16.0}) {
+    const test::StretchedField field({0.1, 0.1 * aspect, {1, 0, 0}});
+    const FaceCase face("square", field);
+    const FaceMesh mesh = face.mesh(field);
+    test::expect_valid(face.boundary, mesh);
+    EXPECT_EQ(mesh.n_folds, 0);
+    const double n_rows = 2 * face.area() / (0.1 * 0.1 * aspect);
+    EXPECT_NEAR(static_cast<double>(mesh.corners.size()) / 3, n_rows, 0.15 * n_rows) << aspect;
+    EXPECT_LT(largest_angle(face, mesh), 135) << aspect;
+  }
+}
+
+TEST(StretchedFace, is_one_of_equal_lengths_across_its_direction) {
+  const test::StretchedField out_of_plane({0.4, 4, {0, 0, 1}});
+  const FaceCase face("square", out_of_plane);
+  const FaceMesh stretched = face.mesh(out_of_plane), plain = face.mesh(UniformField(0.4));
+  EXPECT_EQ(stretched.corners, plain.corners);
+}
+
+TEST(StretchedFace, lies_on_curved_surfaces_without_folds) {
+  const test::StretchedField field({0.5, 8, {0, 0, 1}});
+  for (const FaceId f : {0, 1, 2}) {
+    const FaceCase face("cylinder", field, f);
+    const FaceMesh mesh = face.mesh(field);
+    test::expect_valid(face.boundary, mesh);
+    EXPECT_EQ(mesh.n_folds, 0);
+    const MeshView view{face.boundary, mesh};
+    EXPECT_NEAR(view.area(), face.area(), 2e-3 * face.area());
+  }
+}
+
 }  // namespace
 }  // namespace st

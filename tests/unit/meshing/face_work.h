@@ -39,7 +39,7 @@ struct Prepared {
     std::int32_t at = kNone;
     for (std::size_t i = 0; i < m.triangles.size() && at == kNone; ++i)
       if (is_inside(m.triangles[i]) && holds(m.triangles[i], n.p)) at = static_cast<std::int32_t>(i);
-    if (at == kNone || !m.find_cavity(n.p, metric_of(n.du, n.dv), at)) return kNone;
+    if (at == kNone || !m.find_cavity(n.p, metric_of(n), at)) return kNone;
     m.nodes.push_back(n);
     m.added_node();
     m.fill_cavity(static_cast<std::int32_t>(m.nodes.size()) - 1);

@@ -36,6 +36,17 @@ class LinearField : public SizeField {
   double at_, slope_;
 };
 
+/// The same two lengths and direction everywhere.
+class StretchedField : public UniformField {
+ public:
+  explicit StretchedField(const LocalSize& size) : UniformField(size.length), size_(size) {}
+  LocalSize local(Vec3, int&) const override { return size_; }
+  bool is_stretched() const override { return true; }
+
+ private:
+  LocalSize size_;
+};
+
 /// Leaves another hint at every query, as a field with leaves does.
 class RestlessField : public UniformField {
  public:

@@ -253,10 +253,16 @@ TEST(FaceWork, measures_between_seam_twins_along_the_surface) {
 }
 
 TEST(Metric, of_two_derivatives_is_their_first_fundamental_form) {
-  const Metric m = metric_of({2, 0, 0}, {1, 3, 0});
+  const auto metric = [](Vec3 du, Vec3 dv) {
+    MeshNode n;
+    n.du = du;
+    n.dv = dv;
+    return metric_of(n);
+  };
+  const Metric m = metric({2, 0, 0}, {1, 3, 0});
   EXPECT_NEAR(m.length2({1, 1}), 9 + 9, 1e-6);
   EXPECT_NEAR(m.length2({1, 0}), 4, 1e-6);
-  const Metric pole = metric_of({0, 0, 0}, {0, 5, 0});
+  const Metric pole = metric({0, 0, 0}, {0, 5, 0});
   EXPECT_GT(pole.length2({1, 0}), 0) << "a direction without length is no excuse for a singular metric";
 }
 

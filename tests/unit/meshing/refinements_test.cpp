@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include "unit/meshing/faces.h"
 
 namespace st {
 namespace {
@@ -73,6 +74,26 @@ TEST(Refinements, are_near_a_box_when_they_reach_into_it) {
   EXPECT_EQ(r.near(box).size(), 1u);
   box.lo.x = 21;
   EXPECT_TRUE(r.near(box).empty());
+}
+
+TEST(RefinedField, limits_both_lengths_of_a_stretched_base) {
+  const test::StretchedField base({1, 10, {1, 0, 0}});
+  const RefinedField f(base, {at({0, 0, 0}, 4), at({100, 0, 0}, 0.5)});
+  int hint = 0;
+  EXPECT_EQ(f.local({0, 0, 0}, hint).length, 1);
+  EXPECT_DOUBLE_EQ(f.local({0, 0, 0}, hint).along, 4);
+  EXPECT_DOUBLE_EQ(f.local({10, 0, 0}, hint).along, 4 + kRefinementSlope * 10);
+  EXPECT_EQ(f.local({100, 0, 0}, hint).along, f.local({100, 0, 0}, hint).length);
+  EXPECT_DOUBLE_EQ(f.local({100, 0, 0}, hint).length, 0.5);
+  EXPECT_EQ(f.local({50, 0, 0}, hint).along, 10);
+}
+
+TEST(Refinements, of_a_stretched_field_count_where_they_shorten_the_longer_length) {
+  const test::StretchedField base({1, 10, {1, 0, 0}});
+  Refinements refinements(base);
+  EXPECT_TRUE(refinements.add({{0, 0, 0}, 5}, 0.1));
+  EXPECT_FALSE(refinements.add({{0, 0, 0}, 4.9}, 0.1));
+  EXPECT_FALSE(refinements.add({{500, 0, 0}, 9.9}, 0.1));
 }
 
 }  // namespace

@@ -52,5 +52,30 @@ TEST(MovedField, is_the_plain_field_where_nothing_moved) {
   EXPECT_EQ(dynamic_cast<MovedOctreeField*>(field.get()), nullptr);
 }
 
+TEST(MovedField, turns_the_direction_and_scales_both_lengths) {
+  const EightLeaves octree;
+  OctreeFieldData data = octree.data();
+  const std::vector<CellLength> along(octree.cells.size(), {9, {0, 0, 0}, 9});
+  const std::vector<SmallNormal> direction(octree.cells.size(), SmallNormal(Vec3{1, 0, 0}));
+  data.along = along;
+  data.direction = direction;
+  data.max_aspect = 5;
+  const OctreeField still(data, nullptr);
+  const Similarity motion = rotation_about({1, 2, 3}, 0.7).then({.scale = 3, .translation = {5, -6, 7}});
+  const std::unique_ptr<OctreeField> moved = make_octree_field(data, nullptr, 0, motion);
+  int hint = 0;
+  for (const Vec3 x : {Vec3{1, 1, 1}, Vec3{7, 3, 2}}) {
+    const LocalSize a = still.local(x, hint), b = moved->local(motion(x), hint);
+    EXPECT_EQ(a.length, still.size(x));
+    EXPECT_DOUBLE_EQ(a.along, std::min(1.5 * 9, 5 * a.length));
+    EXPECT_NEAR(b.length, 3 * a.length, 1e-9);
+    EXPECT_NEAR(b.along, 3 * a.along, 1e-9);
+    EXPECT_LE(distance(b.direction, motion.rotated({1, 0, 0})), 1e-9);
+    const SizeExplanation why = moved->explain(motion(x));
+    EXPECT_NEAR(why.along, b.along, 1e-9);
+    EXPECT_LE(distance(why.direction, b.direction), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace st
