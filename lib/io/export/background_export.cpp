@@ -1,6 +1,8 @@
 #include "io/export/background_export.h"
 
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 
 #include "base/error.h"
@@ -48,6 +50,23 @@ class TextFile {
   std::ofstream file_;
 };
 
+/// The three directions of a metric.
+std::array<Vec3, 3> directions_of(const LocalSize& size) {
+  if (size.direction == Vec3{}) return {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  const Vec3 t = size.direction;
+  const Vec3 aside = normalized(cross(t, std::abs(t.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  return {t, aside, cross(t, aside)};
+}
+
+/// length^-2 I - (length^-2 - along^-2) direction direction^T, by rows.
+void write_metric(const LocalSize& size, TextFile& file) {
+  const double across = 1 / (size.length * size.length), along = 1 / (size.along * size.along);
+  const double d[3] = {size.direction.x, size.direction.y, size.direction.z};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      file << (i + j ? "," : "") << static_cast<float>((i == j ? across : 0) - (across - along) * d[i] * d[j]);
+}
+
 }  // namespace
 
 void export_bac(const OctreeField& field, const std::string& output) {
@@ -59,9 +78,10 @@ void export_bac(const OctreeField& field, const std::string& output) {
   int hint = 0;
   for (std::size_t i = 0; i < mesh.node_xyz.size(); ++i) {
     const Vec3 x = frame(mesh.node_xyz[i]);
-    const auto h = static_cast<float>(field.size(x, hint));
-    file << static_cast<std::int64_t>(i + 1) << " " << x.x << " " << x.y << " " << x.z << "\n1 0 0 " << h << "\n0 1 0 "
-         << h << "\n0 0 1 " << h << "\n";
+    const LocalSize size = field.local(x, hint);
+    file << static_cast<std::int64_t>(i + 1) << " " << x.x << " " << x.y << " " << x.z << "\n";
+    for (const Vec3& d : directions_of(size))
+      file << d.x << " " << d.y << " " << d.z << " " << static_cast<float>(size.in(d)) << "\n";
   }
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
     file << static_cast<std::int64_t>(i + 1);
@@ -82,7 +102,7 @@ void export_pos(const OctreeField& field, const std::string& output) {
     const double half = 0.5 * octree.cell_edge(octree.leaf_levels[leaf]);
     constexpr double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-    file << "SH(";
+    file << (field.is_stretched() ? "TH(" : "SH(");
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
       const Vec3 x = frame(c + half * Vec3{d[0], d[1], d[2]});
@@ -93,8 +113,12 @@ void export_pos(const OctreeField& field, const std::string& output) {
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
       int hint = leaf;
-      file << (k ? "," : "")
-           << static_cast<float>(field.size(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint));
+      const LocalSize size = field.local(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint);
+      file << (k ? "," : "");
+      if (field.is_stretched())
+        write_metric(size, file);
+      else
+        file << static_cast<float>(size.length);
     }
     file << "};\n";
   }

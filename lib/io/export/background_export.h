@@ -7,12 +7,13 @@
 
 namespace st {
 
-/// FLITE background mesh (.bac): the octree as a conforming tetrahedral mesh with isotropic spacings, no sources.
+/// FLITE background mesh (.bac): the octree as a conforming tetrahedral mesh with three directions and spacings at each
+/// node, no sources.
 /// Throws Error(kOutput).
 void export_bac(const OctreeField& field, const std::string& output);
 
-/// Gmsh list-based view (.pos) of hexahedra with the length at their corners: `Merge "size.pos"; Field[1] = PostView;`.
-/// Throws Error(kOutput).
+/// Gmsh list-based view (.pos) of hexahedra with the length at their corners, or the metric where lengths are
+/// stretched: `Merge "size.pos"; Field[1] = PostView;`. Throws Error(kOutput).
 void export_pos(const OctreeField& field, const std::string& output);
 
 }  // namespace st

@@ -23,6 +23,8 @@ struct CellData {
   std::vector<float> size;
   std::vector<std::int32_t> cause;
   std::vector<std::uint8_t> colour;  // empty: nothing is blanked
+  std::vector<float> along;          // empty: lengths are the same in all directions
+  std::vector<float> direction;      // [3*n_leaves] likewise
   Similarity frame;                  // where the octree lies
 };
 
@@ -36,6 +38,9 @@ std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays&
   return "      <CellData Scalars=\"size\">\n" + arrays.add("size", "Float32", data.size) +
          arrays.add("level", "Int32", level) + arrays.add("cause_kind", "Int32", kind) +
          arrays.add("cause_id", "Int32", id) + (data.colour.empty() ? "" : arrays.add("colour", "UInt8", data.colour)) +
+         (data.along.empty()
+              ? ""
+              : arrays.add("along", "Float32", data.along) + arrays.add("direction", "Float32", data.direction, 3)) +
          "      </CellData>\n";
 }
 
@@ -93,6 +98,14 @@ void write_vtu(const OctreeView& octree, const CellData& data, const std::string
   temporary.commit();
 }
 
+void add_stretch(const SizingArtifact& sizing, CellData& data) {
+  for (std::int32_t leaf = 0; leaf < sizing.shape.view().n_leaves(); ++leaf) {
+    const Vec3 d = sizing.frame.rotated(normalized(Vec3(sizing.stretched.direction[leaf])));
+    data.along.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * sizing.stretched.along[leaf].length);
+    for (const double x : {d.x, d.y, d.z}) data.direction.push_back(static_cast<float>(x));
+  }
+}
+
 }  // namespace
 
 void export_octree(const std::string& artifact, const std::string& output) {
@@ -120,6 +133,7 @@ void export_octree(const std::string& artifact, const std::string& output) {
     data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * c.length);
   data.cause = sizing.lengths.cause;
   data.frame = sizing.frame;
+  if (!sizing.stretched.along.empty()) add_stretch(sizing, data);
   for (const CellColour c : sizing.blanking.colour) data.colour.push_back(static_cast<std::uint8_t>(c));
   write_vtu(sizing.shape.view(), data, output);
 }

@@ -101,7 +101,9 @@ void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) con
   };
   const auto make = [&](std::int32_t i) {
     const Follower& f = *dirty[i];
-    const EdgeMesh own = nodes_of(f.edge), leader = nodes_of(f.leader);
+    const EdgeMesh own = nodes_of(f.edge);
+    const bool has_leader = place[f.leader] != kNone || result_.edges.n_nodes(f.leader) > 0;
+    const EdgeMesh leader = has_leader ? nodes_of(f.leader) : make_edge(f.leader);  // of another part
     if (!follows(f, own, leader)) return own;
     EdgeMesh nodes = mirror_nodes(*model_.curve(f.leader), leader, *model_.curve(f.edge), f.is_opposed, {});
     end_at_vertices(f.edge, nodes);

@@ -75,7 +75,7 @@ RasterArtifact sample_raster() {
   RasterArtifact r;
   r.header = sample_header();
   r.header.schema = "raster";
-  r.numbers = {0.1, 1, 2, 10, 2, 40};
+  r.numbers = {0.1, 1, 2, 10, 2, 40, 16};
   r.octree.shape.leaf_keys.resize(15);
   r.octree.shape.leaf_levels.resize(15);
   r.octree.shape.node_children.resize(16);
@@ -111,6 +111,8 @@ SizingArtifact sample_sizing() {
   s.blanking.split.resize(2);
   s.lengths.second_cells.resize(2);
   s.lengths.second_cause.resize(2);
+  s.stretched.along.resize(17);
+  s.stretched.direction.resize(17);
   s.face_weight = {1, 2, 3};
   s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};
   return s;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "io/export/octree_export.h"
 #include "unit/io/sample_artifacts.h"
@@ -45,6 +47,16 @@ SizingArtifact sample_sizing() {
   sizing.names = raster.names;
   sizing.names.source = {"wake"};
   sizing.shape = raster.octree.shape;
+  return sizing;
+}
+
+SizingArtifact stretched_sizing() {
+  SizingArtifact sizing = sample_sizing();
+  sizing.numbers.max_aspect = 8;
+  for (const CellLength& cell : sizing.lengths.cells) {
+    sizing.stretched.along.push_back({6 * cell.length, {0, 0, 0}, 6 * cell.length});
+    sizing.stretched.direction.push_back(SmallNormal(Vec3{0, 1, 0}));
+  }
   return sizing;
 }
 
@@ -95,6 +107,59 @@ TEST_F(SizingArtifacts, sizing_is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = write_sizing(file("a.hdf"), sample_sizing());
   EXPECT_EQ(write_sizing(file("b.hdf"), read_sizing(file("a.hdf"))), hash);
   EXPECT_EQ(read_bytes(file("a.hdf")), read_bytes(file("b.hdf")));
+}
+
+TEST_F(SizingArtifacts, stretched_ones_are_the_same_bytes_after_reading_and_writing) {
+  RasterArtifact raster = sample_raster();
+  raster.numbers.max_aspect = 8;
+  raster.samples[2].stretch = {SmallNormal(Vec3{0, 0, 1}), 0.7F};
+  const std::string hash = write_raster(file("a.hdf"), raster);
+  const RasterArtifact read = read_raster(file("a.hdf"));
+  EXPECT_EQ(read.samples[2].stretch.along, 0.7F);
+  EXPECT_EQ(read.header.schema_version, 6);
+  EXPECT_EQ(write_raster(file("b.hdf"), read), hash);
+  const std::string of_sizing = write_sizing(file("c.hdf"), stretched_sizing());
+  EXPECT_EQ(write_sizing(file("d.hdf"), read_sizing(file("c.hdf"))), of_sizing);
+  EXPECT_EQ(read_sizing(file("d.hdf")).header.schema_version, 5);
+}
+
+TEST_F(SizingArtifacts, a_stretched_field_is_mapped_with_its_direction) {
+  write_sizing(file("a.hdf"), stretched_sizing());
+  const MappedSizing mapped = map_sizing(file("a.hdf"));
+  EXPECT_TRUE(mapped.field->is_stretched());
+  int hint = 0;
+  const LocalSize size = mapped.field->local({0.4, 0.5, 0.3}, hint);
+  EXPECT_GT(size.along, 2 * size.length);
+  EXPECT_LE(distance(size.direction, {0, 1, 0}), 1e-12);
+  SizingArtifact torn = stretched_sizing();
+  torn.stretched.along.pop_back();
+  write_sizing(file("b.hdf"), torn);
+  EXPECT_ERROR(read_sizing(file("b.hdf")), kInput, "along");
+  EXPECT_ERROR(map_sizing(file("b.hdf")), kInput, "along");
+}
+
+TEST_F(SizingArtifacts, a_stretched_field_is_exported_as_metric_spacings_and_arrays) {
+  const SizingArtifact sizing = stretched_sizing();
+  write_sizing(file("a.hdf"), sizing);
+  export_octree(file("a.hdf"), file("a.pos"));
+  const std::string pos = read_bytes(file("a.pos"));
+  EXPECT_NE(pos.find("TH("), std::string::npos);
+  EXPECT_EQ(pos.find("SH("), std::string::npos);
+  // nine numbers at each corner: 1/length^2 but along y, where it is 36 times less
+  const std::size_t at = pos.find("){") + 2;
+  double m[9];
+  std::string values = pos.substr(at, pos.find('}', at) - at);
+  std::replace(values.begin(), values.end(), ',', ' ');
+  std::istringstream stream(values);
+  for (double& x : m) stream >> x;
+  EXPECT_NEAR(m[0] / m[4], 36, 1.5);
+  EXPECT_EQ(m[0], m[8]);
+  EXPECT_NEAR(m[1], 0, 1e-6 * m[0]);
+  export_octree(file("a.hdf"), file("a.bac"));
+  EXPECT_NE(read_bytes(file("a.bac")).find("\n0 1 0 "), std::string::npos);
+  export_octree(file("a.hdf"), file("a.vtu"));
+  EXPECT_NE(read_bytes(file("a.vtu")).find("\"along\""), std::string::npos);
+  EXPECT_NE(read_bytes(file("a.vtu")).find("\"direction\""), std::string::npos);
 }
 
 TEST_F(SizingArtifacts, name_what_causes_a_length) {
