@@ -314,8 +314,9 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, const Bla
   }
 }
 
-void for_each_seed(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
-                   const Blanking* blanking, const std::function<void(std::int32_t, std::int32_t)>& f) {
+void for_each_seed(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
+                   const std::function<void(std::int32_t, std::int32_t)>& f) {
+  const OctreeView& octree = neighbours.octree();
   const double half = 0.5 * octree.edge;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const LengthSample& s = samples[i];

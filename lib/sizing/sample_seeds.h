@@ -31,8 +31,8 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes);
 /// Calls f(site, sample) for all sites that a sample asks something of: the cells that come within one length of it,
 /// and with `blanking` (may be null) its own cell, on the side of the surface that it lies on, and those to which a
 /// length passes from there. A pair may come several times.
-void for_each_seed(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
-                   const Blanking* blanking, const std::function<void(std::int32_t, std::int32_t)>& f);
+void for_each_seed(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
+                   const std::function<void(std::int32_t, std::int32_t)>& f);
 
 /// Takes away the lengths that edges and faces store, before sources are added and samples seeded.
 void forget_samples(RasterOctree& octree);

@@ -17,10 +17,10 @@ double length_in(Vec3 t, double across, double along, Vec3 direction) {
 
 class StretchProlongation {
  public:
-  StretchProlongation(const OctreeView& octree, const Neighbours& neighbours, std::span<const LengthSample> samples,
+  StretchProlongation(const Neighbours& neighbours, std::span<const LengthSample> samples,
                       const ProlongedLengths& lengths, const ProlongOptions& options, double max_aspect,
                       const Blanking* blanking)
-      : octree_(octree),
+      : octree_(neighbours.octree()),
         neighbours_(neighbours),
         samples_(samples),
         options_(options),
@@ -36,7 +36,7 @@ class StretchProlongation {
     pass();
     StretchedCells result;
     for (const Vec3& d : direction_) result.direction.push_back(d == Vec3{} ? SmallNormal() : SmallNormal(d));
-    result.along = fit_gradients(octree_, neighbours_, along_, options_, blanking_);
+    result.along = fit_gradients(neighbours_, along_, options_, blanking_);
     return result;
   }
 
@@ -51,13 +51,12 @@ class StretchProlongation {
   void find_directions(std::span<const float> stored_length) {
     const auto n_samples = static_cast<std::int32_t>(samples_.size());
     std::vector<std::int32_t> origin(stored_length.size(), n_samples);
-    for_each_seed(octree_, neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
+    for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
       const auto length = static_cast<float>(s.length + options_.slope * distance(s.place(), centre(site)));
       if (length == stored_length[site]) origin[site] = std::min(origin[site], sample);
     });
-    const std::vector<std::int32_t> label =
-        spread_labels(octree_, neighbours_, stored_length, origin, options_, blanking_);
+    const std::vector<std::int32_t> label = spread_labels(neighbours_, stored_length, origin, options_, blanking_);
     for (const std::int32_t sample : label) {
       const bool has_one = sample != kNone && sample < n_samples && samples_[sample].stretch.along > 0;
       direction_.push_back(has_one ? normalized(Vec3(samples_[sample].stretch.direction)) : Vec3{});
@@ -72,7 +71,7 @@ class StretchProlongation {
                          ? across_[site]
                          : static_cast<float>(std::min(options_.max_length, max_aspect_ * across_[site]));
     std::vector<float> by_samples(along_.size(), std::numeric_limits<float>::infinity());
-    for_each_seed(octree_, neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
+    for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
       const double rise = options_.slope * distance(s.place(), centre(site));
       by_samples[site] = std::min(by_samples[site], static_cast<float>(s.length + rise));
@@ -123,11 +122,10 @@ class StretchProlongation {
 
 }  // namespace
 
-StretchedCells prolong_stretch(const OctreeView& octree, const Neighbours& neighbours,
-                               std::span<const LengthSample> samples, std::span<const float> stored_length,
-                               const ProlongedLengths& lengths, const ProlongOptions& options, double max_aspect,
-                               const Blanking* blanking) {
-  return StretchProlongation(octree, neighbours, samples, lengths, options, max_aspect, blanking).run(stored_length);
+StretchedCells prolong_stretch(const Neighbours& neighbours, std::span<const LengthSample> samples,
+                               std::span<const float> stored_length, const ProlongedLengths& lengths,
+                               const ProlongOptions& options, double max_aspect, const Blanking* blanking) {
+  return StretchProlongation(neighbours, samples, lengths, options, max_aspect, blanking).run(stored_length);
 }
 
 }  // namespace st

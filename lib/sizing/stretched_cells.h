@@ -20,9 +20,8 @@ struct StretchedCells {
 /// most the slope from cell to cell, also where directions differ: a metric whose growth is limited in every direction
 /// (Alauzet 2010), with the directions fixed beforehand so that the result is unique. `stored_length`: [n_sites] as
 /// seeded by these samples and by sources, which allow no stretch. `lengths`: of prolong().
-StretchedCells prolong_stretch(const OctreeView& octree, const Neighbours& neighbours,
-                               std::span<const LengthSample> samples, std::span<const float> stored_length,
-                               const ProlongedLengths& lengths, const ProlongOptions& options, double max_aspect,
-                               const Blanking* blanking);
+StretchedCells prolong_stretch(const Neighbours& neighbours, std::span<const LengthSample> samples,
+                               std::span<const float> stored_length, const ProlongedLengths& lengths,
+                               const ProlongOptions& options, double max_aspect, const Blanking* blanking);
 
 }  // namespace st

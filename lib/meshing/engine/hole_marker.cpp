@@ -43,12 +43,28 @@ void HoleMarker::request_lengths(const SizeField& field) {
     for (const NodeId n : mesh_.mesh.triangles[t].n) is_needed[n] = 1;
   wanted_.assign(n_nodes, {});
   is_stretched_ = field.is_stretched();
+  char was_stretched = is_stretched_ || (executor_.is_root() && has_long_edges());
+  share(executor_, was_stretched);
+  options_.was_stretched = was_stretched != 0;
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n)
     if (is_needed[n]) wanted_[n] = field.local(mesh_.mesh.node_xyz[n], hint);
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
+}
+
+/// Whether the mesh has more edges far longer than they were made for than a mesh without stretch has.
+bool HoleMarker::has_long_edges() const {
+  constexpr double kLong = 2.5, kShare = 0.005;
+  std::int64_t n_long = 0;
+  for (const Triangle& t : mesh_.mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = t.n[k], b = t.n[(k + 1) % 3];
+      const double size = 0.5 * (mesh_.mesh.node_size[a] + mesh_.mesh.node_size[b]);
+      n_long += distance(mesh_.mesh.node_xyz[a], mesh_.mesh.node_xyz[b]) > kLong * size;
+    }
+  return static_cast<double>(n_long) > kShare * 3 * static_cast<double>(mesh_.mesh.triangles.size());
 }
 
 std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements) const {

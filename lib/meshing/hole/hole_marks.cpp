@@ -60,7 +60,7 @@ class Marker {
     const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
     const double ratio = (options_.squeeze.empty() ? length : squeezed_length(a, b)) / size;
     if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length))
-      return is_of_other_aspect(ratio, length / size);
+      return options_.was_stretched && is_of_other_aspect(ratio, length / size);
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 

@@ -19,6 +19,7 @@ struct HoleMarkOptions {
   std::span<const Vec3> earlier_xyz = {};  ///< empty, or [n_nodes] before the geometry moved: edges that it made longer
                                            ///< or shorter count, too
   std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
+  bool was_stretched = false;              ///< the mesh was made for stretched sizes, or these are
   std::vector<TriangleId> redo = {};       ///< marked whatever their edges, unless kept
 };
 

@@ -38,13 +38,13 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes,
   const auto p = std::make_shared<Prolonged>();
   p->raster = build_octree(test::kUnitBox, boxes);
   const OctreeView view = p->raster.shape.view();
+  const Neighbours neighbours(view);
   const std::vector<LengthSample> samples = sorted_samples(boxes);
   forget_samples(p->raster);
   seed_lengths(samples, kSlope, p->raster);
   const ProlongOptions options{kSlope, kLargest};
-  p->lengths = prolong(view, p->raster.stored_length, p->raster.stored_cause, options);
-  p->stretched =
-      prolong_stretch(view, Neighbours(view), samples, p->raster.stored_length, p->lengths, options, kAspect, nullptr);
+  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, options);
+  p->stretched = prolong_stretch(neighbours, samples, p->raster.stored_length, p->lengths, options, kAspect, nullptr);
   if (out) *out = p;
   OctreeFieldData data{view, p->lengths.cells, p->lengths.cause, kSlope, 1};
   data.along = p->stretched.along;

@@ -1,19 +1,11 @@
 // --max-aspect through the whole chain.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/log.h"
-#include "io/hdf5/sizing_artifact.h"
 #include "stages/check_stage.h"
-#include "stages/import_stage.h"
 #include "stages/merge_stage.h"
-#include "stages/mesh_stage.h"
-#include "stages/prolong_stage.h"
-#include "stages/raster_stage.h"
-#include "support/shapes.h"
-#include "unit/io/temporary_directory.h"
+#include "support/staged.h"
 
 namespace st {
 namespace {
@@ -22,47 +14,25 @@ using Json = nlohmann::json;
 
 class StretchedSizes : public testing::Test {
  protected:
-  StretchedSizes() { set_verbosity(Verbosity::kQuiet); }
-
   /// The report of st-check on the shape.
   Json checked(const std::string& shape, double aspect) {
-    test::write_brep(shape, dir_ / "m.brep");
-    import_shape();
-    RasterStageOptions raster;
-    raster.geometry = dir_ / "g.hdf";
-    raster.output = dir_ / "r.hdf";
-    raster.max_aspect = aspect;
-    run_raster(raster, Communicator());
-    ProlongStageOptions prolong;
-    prolong.raster = raster.output;
-    prolong.output = dir_ / "s.hdf";
-    expected_ = Json::parse(run_prolong(prolong).json)["expected_triangles"];
-    MeshStageOptions mesh;
-    mesh.geometry = dir_ / "g.hdf";
-    mesh.sizing = prolong.output;
-    mesh.output = dir_ / "p.hdf";
-    run_mesh(mesh, Communicator());
+    m_.raster.max_aspect = aspect;
+    expected_ = m_.make_sizing(shape)["expected_triangles"];
+    m_.make_patches();
     MergeStageOptions merge;
-    merge.patches = {mesh.output};
-    merge.output = dir_ / "mesh.hdf";
+    merge.patches = {m_.mesh.output};
+    merge.output = m_.dir / "mesh.hdf";
     run_merge(merge);
     CheckStageOptions check;
     check.mesh = merge.output;
-    check.geometry = dir_ / "g.hdf";
-    check.sizing = prolong.output;
+    check.geometry = m_.mesh.geometry;
+    check.sizing = m_.mesh.sizing;
     const StageSummary summary = run_check(check);
     EXPECT_EQ(summary.code, ExitCode::kOk) << summary.line;
     return Json::parse(summary.json);
   }
 
-  void import_shape() const {
-    ImportStageOptions o;
-    o.model = dir_ / "m.brep";
-    o.output = dir_ / "g.hdf";
-    run_import(o);
-  }
-
-  TemporaryDirectory dir_;
+  test::StagedModel m_;
   double expected_ = 0;  // triangles, by st-prolong
 };
 
@@ -84,14 +54,9 @@ TEST_F(StretchedSizes, are_the_same_in_all_directions_on_a_sphere) {
 }
 
 TEST_F(StretchedSizes, need_samples_with_their_places) {
-  test::write_brep("box", dir_ / "m.brep");
-  import_shape();
-  RasterStageOptions raster;
-  raster.geometry = dir_ / "g.hdf";
-  raster.output = dir_ / "r.hdf";
-  raster.max_aspect = 4;
-  raster.cell_per_length = 2;
-  EXPECT_THROW(run_raster(raster, Communicator()), Error);
+  m_.raster.max_aspect = 4;
+  m_.raster.cell_per_length = 2;
+  EXPECT_THROW(m_.make_raster("box"), Error);
 }
 
 }  // namespace
