@@ -94,6 +94,7 @@ class LimitsMaker {
                  around = body.girth * wall_.alpha / (2 * kPi * kSpare);
     const double of_wing = wall_.chord_cells ? body.chord / *wall_.chord_cells : wall_.max_length;
     const double most = std::max({std::min(of_diagonal, around), of_wing, wall_.min_length});
+    own.max_along = std::min(own.max_length, of_diagonal);
     own.max_length = std::min(own.max_length, most);
     own.alpha = body_alpha(body);
   }

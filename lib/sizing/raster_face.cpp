@@ -239,7 +239,7 @@ class FaceRaster {
       direction = normalized(cross(normalized(cross(p.du, p.dv)), chord.direction));
     if (direction == Vec3{}) return {};
     const double curvature = curvature_along(patch, direction, own);
-    double along = std::min(limits_.max_length, limits_.max_aspect * length);
+    double along = std::min(limits_.max_along.value_or(limits_.max_length), limits_.max_aspect * length);
     if (along * curvature > limits_.alpha) along = limits_.alpha / curvature;
     if (along * along * curvature > limits_.alpha * length) along = std::sqrt(limits_.alpha * length / curvature);
     if (!(along > kLeastStretch * length)) return {};

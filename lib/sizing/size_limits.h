@@ -26,6 +26,7 @@ struct SamplingLimits {
   std::optional<int> chord_cells = std::nullopt;  ///< lengths along the local chord of a lifting surface at least;
                                                   ///< nullopt: the chord does not matter
   double max_aspect = 1;  ///< largest length along a direction in which the shape allows it, over the length across
+  std::optional<double> max_along = std::nullopt;  ///< largest length along it, model unit; nullopt: max_length
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 

@@ -145,7 +145,7 @@ SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const
     return resolve_length(spec, reference, text_of(rule.where, ": ", key));
   };
   if (rule.lmin) limits.min_length = resolved(*rule.lmin, "lmin");
-  if (rule.lmax) limits.max_length = resolved(*rule.lmax, "lmax");
+  if (rule.lmax) limits.max_length = resolved(*rule.lmax, "lmax"), limits.max_along.reset();
   if (rule.chord) limits.chord = resolved(*rule.chord, "chord");
   if (rule.alpha_deg) limits.alpha = radians(*rule.alpha_deg);
   if (rule.gap_cells) limits.gap_cells = *rule.gap_cells > 0 ? rule.gap_cells : std::nullopt;
