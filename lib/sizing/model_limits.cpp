@@ -24,6 +24,8 @@ Limits finest(const Limits& a, const Limits& b) {
   both.wall_cells = std::max(a->wall_cells, b->wall_cells);
   both.edge_cells = std::max(a->edge_cells, b->edge_cells);
   both.min_length = std::min(both.min_length, both.max_length);
+  both.max_aspect = std::min(a->max_aspect, b->max_aspect);
+  both.stretches_curve = a->stretches_curve && b->stretches_curve;
   return both;
 }
 
@@ -160,11 +162,13 @@ class LimitsMaker {
     ModelLimits limits;
     limits.far_length = wall_.max_length;
     limits.min_length = wall_.min_length;
+    limits.max_aspect = wall_.max_aspect;
     for (const std::vector<Limits>* all : {&face_.surface, &edge_, &vertex_})
       for (const Limits& own : *all) {
         if (!own) continue;
         limits.far_length = std::max(limits.far_length, own->max_length);
         limits.min_length = std::min(limits.min_length, own->min_length);
+        limits.max_aspect = std::max(limits.max_aspect, own->max_aspect);
       }
     for (const Limits& own : face_.surface)
       limits.wants_gaps = limits.wants_gaps || (own && (own->gap_cells || own->wall_cells));

@@ -43,6 +43,7 @@ struct ModelLimits {
   bool wants_gaps = false;  ///< some face has gap_cells or wall_cells
   bool is_material_ahead = false;  ///< normals of faces point into the material
   double far_length = 0;           ///< largest max_length of all: the length where nothing asks for less
+  double max_aspect = 1;           ///< largest of all
 
   /// Whether an edge only says where the CAD happens to be split: it requires no length of its own.
   bool is_mere_split(EdgeId e) const {

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "sizing/cell_limit.h"
+#include "sizing/line_stretch.h"
 
 namespace st {
 namespace {
@@ -103,7 +104,7 @@ class PieceWalker {
       const double stop = s1 + kSmallRest * (s1 - s0) < end ? s1 : end;
       const Vec3 x1 = curve_.point(parameter(stop, i));
       const double length = is_rest ? rest_length(s0, end, i) : distance(x0, x1);
-      add_box(curve_.point(parameter(0.5 * (s0 + stop), i)), length, cause, boxes);
+      add_box(0.5 * (s0 + stop), i, length, cause, boxes);
       s0 = stop;
       x0 = x1;
     }
@@ -154,10 +155,22 @@ class PieceWalker {
   }
   double parameter(double s, std::size_t i) const { return interpolate(table_.s, table_.t, s, i); }
 
-  void add_box(Vec3 center, double length, std::int32_t cause, std::vector<RasterBox>& boxes) const {
+  void add_box(double s, std::size_t i, double length, std::int32_t cause, std::vector<RasterBox>& boxes) const {
     length = std::clamp(std::min(length, table_.s.back()), limits_.min_length, limits_.max_length);
-    boxes.push_back(
-        {center, static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause});
+    boxes.push_back({curve_.point(parameter(s, i)),
+                     static_cast<float>(0.5 * limits_.cell_per_length * length),
+                     static_cast<float>(length),
+                     cause,
+                     {},
+                     stretch_at(s, length)});
+  }
+
+  SampleStretch stretch_at(double s, double length) const {
+    if (!limits_.stretches_curve) return {};
+    const double way = table_.s.back();
+    const auto point_at = [&](double share) { return curve_.point(parameter(share * way, 0)); };
+    return stretch_along(point_at, s / way, way, length,
+                         {limits_.max_aspect, limits_.max_along.value_or(limits_.max_length), limits_.alpha});
   }
 
   const Curve& curve_;

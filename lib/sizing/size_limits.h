@@ -27,6 +27,7 @@ struct SamplingLimits {
                                                   ///< nullopt: the chord does not matter
   double max_aspect = 1;  ///< largest length along a direction in which the shape allows it, over the length across
   std::optional<double> max_along = std::nullopt;  ///< largest length along it, model unit; nullopt: max_length
+  bool stretches_curve = false;                    ///< lengths along a curve are stretched, too
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 

@@ -145,7 +145,13 @@ SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const
     return resolve_length(spec, reference, text_of(rule.where, ": ", key));
   };
   if (rule.lmin) limits.min_length = resolved(*rule.lmin, "lmin");
+  const double before = limits.max_along.value_or(limits.max_length);
   if (rule.lmax) limits.max_length = resolved(*rule.lmax, "lmax"), limits.max_along.reset();
+  if (rule.max_aspect) {
+    limits.max_aspect = *rule.max_aspect;
+    limits.max_along = std::max(before, limits.max_length);
+    limits.stretches_curve = true;
+  }
   if (rule.chord) limits.chord = resolved(*rule.chord, "chord");
   if (rule.alpha_deg) limits.alpha = radians(*rule.alpha_deg);
   if (rule.gap_cells) limits.gap_cells = *rule.gap_cells > 0 ? rule.gap_cells : std::nullopt;

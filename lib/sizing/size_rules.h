@@ -26,10 +26,11 @@ struct SizeRule {
   bool for_curves = true;              ///< the edges of the faces selected
   std::optional<bool> is_sampled;      ///< false: asks for nothing
   std::optional<LengthSpec> lmin, lmax, chord;
-  std::optional<double> alpha_deg;  ///< (0, 90]
-  std::optional<int> gap_cells;     ///< [1, 100]; 0: gaps do not matter
-  std::optional<int> wall_cells;    ///< [1, 100]; 0: thin walls do not matter
-  std::optional<int> edge_cells;    ///< [1, 100]; 0: one length along an edge will do
+  std::optional<double> alpha_deg;   ///< (0, 90]
+  std::optional<int> gap_cells;      ///< [1, 100]; 0: gaps do not matter
+  std::optional<int> wall_cells;     ///< [1, 100]; 0: thin walls do not matter
+  std::optional<int> edge_cells;     ///< [1, 100]; 0: one length along an edge will do
+  std::optional<double> max_aspect;  ///< [1, 100]; edges that are named are stretched along themselves
 
   bool has_selection() const {
     return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty());

@@ -98,10 +98,6 @@ void require_valid(const RasterStageOptions& o) {
   o.kCellPerLength.require(o.cell_per_length);
   o.kMaxCells.require(o.max_cells);
   o.kMaxAspect.require(o.max_aspect);
-  if (o.max_aspect > 1 && o.cell_per_length <= kStoredByCellUpTo)
-    throw Error(ExitCode::kUsage, fmt::format("--max-aspect needs --cell-per-length above {}: smaller cells keep no "
-                                              "directions",
-                                              kStoredByCellUpTo));
 }
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
@@ -522,6 +518,13 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   return limits;
 }
 
+void require_places(const RasterStageOptions& o, const ModelLimits& limits) {
+  if (limits.max_aspect > 1 && o.cell_per_length <= kStoredByCellUpTo)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--max-aspect {:g} needs --cell-per-length above {:g}: smaller cells keep no directions",
+                            limits.max_aspect, kStoredByCellUpTo));
+}
+
 /// Incomplete: the artifact is written, and says so.
 ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
   return counts.n_failures == 0 || o.allow_incomplete ? ExitCode::kOk : ExitCode::kIncomplete;
@@ -582,7 +585,9 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   ModelLimits limits;
   if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);
   share(comm, limits.face, limits.edge, limits.vertex, limits.edge_is_ruled, limits.edge_is_smooth, limits.face_wing,
-        limits.chords, limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length);
+        limits.chords, limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length,
+        limits.max_aspect);
+  require_places(o, limits);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);
   limit_samples(budget.max_samples, limits);
@@ -606,7 +611,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
   times.end("faces");
   artifact.numbers = {limits.min_length, wall.max_length,          limits.far_length, o.alpha_deg,
-                      o.cell_per_length, roles.reference_diagonal, o.max_aspect};
+                      o.cell_per_length, roles.reference_diagonal, limits.max_aspect};
   if (!o.no_surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
   times.end("surface");
   times.gather(comm);

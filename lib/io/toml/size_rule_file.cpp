@@ -1,5 +1,7 @@
 #include "io/toml/size_rule_file.h"
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
@@ -8,7 +10,8 @@ namespace st {
 namespace {
 
 constexpr const char* kKeys =
-    "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells";
+    "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, wall_cells, "
+    "edge_cells, max_aspect";
 
 /// One table [[size]].
 class RuleReader : TomlEntry {
@@ -18,10 +21,11 @@ class RuleReader : TomlEntry {
   SizeRule run() {
     for (const auto& [key, node] : table()) read(std::string(key.str()), node);
     const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg ||
-                      rule_.gap_cells || rule_.wall_cells || rule_.edge_cells;
+                      rule_.gap_cells || rule_.wall_cells || rule_.edge_cells || rule_.max_aspect;
     if (!asks)
       fail(table(),
-           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells or sample");
+           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells, max_aspect or "
+           "sample");
     return std::move(rule_);
   }
 
@@ -55,6 +59,8 @@ class RuleReader : TomlEntry {
       rule_.wall_cells = count(key, node);
     else if (key == "edge_cells")
       rule_.edge_cells = count(key, node);
+    else if (key == "max_aspect")
+      rule_.max_aspect = number(key, node, 1, 100);
     else
       fail(node, "unknown key '" + key + "' of a [[size]]; allowed are " + kKeys);
   }
@@ -86,6 +92,13 @@ class RuleReader : TomlEntry {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !(*value > 0 && *value <= 90)) fail(node, "alpha: takes degrees in (0, 90]");
     rule_.alpha_deg = *value;
+  }
+
+  double number(const std::string& key, const toml::node& node, double least, double most) const {
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= least && *value <= most))
+      fail(node, fmt::format("{}: takes a number in [{:g}, {:g}]", key, least, most));
+    return *value;
   }
 
   int count(const std::string& key, const toml::node& node) const {

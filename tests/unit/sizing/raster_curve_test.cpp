@@ -165,5 +165,25 @@ TEST(RasterCurve, boxes_grow_with_cell_per_length_and_still_cover) {
   }
 }
 
+TEST(RasterCurve, is_stretched_along_itself_where_a_rule_says_so) {
+  const LineCurve line({0, 0, 0}, {0, 1, 0}, 0, 20);
+  SamplingLimits limits;
+  limits.min_length = 0.1;
+  limits.max_length = 0.5;
+  limits.max_aspect = 8;
+  limits.max_along = 3;
+  std::vector<RasterBox> plain, stretched;
+  raster_curve(line, limits, 0, plain);
+  limits.stretches_curve = true;
+  raster_curve(line, limits, 0, stretched);
+  ASSERT_EQ(plain.size(), stretched.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    EXPECT_EQ(plain[i].stretch.along, 0);
+    EXPECT_EQ(stretched[i].length, plain[i].length);
+    EXPECT_FLOAT_EQ(stretched[i].stretch.along, 3);
+    EXPECT_NEAR(std::abs(Vec3(stretched[i].stretch.direction).y), 1, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace st

@@ -1,6 +1,7 @@
 // --max-aspect through the whole chain.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "stages/check_stage.h"
@@ -57,6 +58,19 @@ TEST_F(StretchedSizes, need_samples_with_their_places) {
   m_.raster.max_aspect = 4;
   m_.raster.cell_per_length = 2;
   EXPECT_THROW(m_.make_raster("box"), Error);
+}
+
+TEST_F(StretchedSizes, a_rule_stretches_an_edge_along_itself_and_leaves_the_length_across) {
+  const std::string rule = "[[size]]\nedges = 1\nlmax = 0.3\nmax_aspect = 10\n";
+  std::ofstream(m_.dir / "rules.toml") << rule;
+  m_.raster.sizes = m_.dir / "rules.toml";
+  const Json stretched = checked("box", 1);
+  std::ofstream(m_.dir / "rules.toml") << rule.substr(0, rule.find("max_aspect"));
+  const Json plain = checked("box", 1);
+  m_.raster.sizes.clear();
+  const double n = checked("box", 1)["triangles"], n_plain = plain["triangles"], n_stretched = stretched["triangles"];
+  EXPECT_LT(n_stretched - n, 0.5 * (n_plain - n)) << n << " without the rule";
+  EXPECT_GE(stretched["quality"]["mean"].get<double>(), 0.9);
 }
 
 }  // namespace
