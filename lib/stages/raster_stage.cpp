@@ -565,6 +565,12 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
   return summary;
 }
 
+/// Gives every rank what rank 0 decided.
+void share_limits(const Communicator& comm, ModelLimits& l) {
+  share(comm, l.face, l.edge, l.vertex, l.edge_is_ruled, l.edge_is_smooth, l.face_wing, l.chords, l.far, l.min_length,
+        l.wants_gaps, l.is_material_ahead, l.far_length, l.max_aspect);
+}
+
 }  // namespace
 
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
@@ -584,9 +590,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   Wings wings;
   ModelLimits limits;
   if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);
-  share(comm, limits.face, limits.edge, limits.vertex, limits.edge_is_ruled, limits.edge_is_smooth, limits.face_wing,
-        limits.chords, limits.far, limits.min_length, limits.wants_gaps, limits.is_material_ahead, limits.far_length,
-        limits.max_aspect);
+  share_limits(comm, limits);
   require_places(o, limits);
   const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
   require_cells(least_cells(model.tables(), limits), budget.max_cells);

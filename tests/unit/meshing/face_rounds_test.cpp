@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "features/strip.h"
+#include "meshing/topology/curve_discretiser.h"
 #include "support/meshed.h"
 
 namespace st {
@@ -38,6 +40,37 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   EXPECT_EQ(r.failed_faces[0].face, top);
   EXPECT_FALSE(r.failed_faces[0].xyz.empty());
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == top) << f;
+}
+
+/// Stretched along z; the length along grows a little with y.
+class GrowingStretch : public UniformField {
+ public:
+  using UniformField::UniformField;
+  LocalSize local(Vec3 x, int&) const override { return {min_size(), 1 + 2 * x.y, {0, 0, 1}}; }
+  bool is_stretched() const override { return true; }
+};
+
+TEST(FaceRounds, give_the_two_long_edges_of_a_narrow_face_opposite_nodes_where_lengths_are_stretched) {
+  set_verbosity(Verbosity::kQuiet);
+  const Model wing = test::make_model("blunt_wing");
+  const std::vector<Strip> strips = find_strips(wing);
+  ASSERT_FALSE(strips.empty());
+  const MeshTopology topology(wing.tables());
+  const GrowingStretch field(0.05);
+  MeshResult r;
+  FaceRounds rounds(wing, topology, field, plan_all(topology), {}, test::one_rank, r);
+  rounds.run();
+  const auto [a, b] = std::pair{strips[0].edges[0], strips[0].edges[1]};
+  const std::int32_t n = r.edges.n_nodes(a);
+  ASSERT_EQ(r.edges.n_nodes(b), n);
+  EXPECT_GT(n, 10);
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t k = strips[0].is_opposed ? n - 1 - i : i;
+    const Vec3 x = r.edges.node_xyz[r.edges.first_node(a) + i], y = r.edges.node_xyz[r.edges.first_node(b) + k];
+    EXPECT_NEAR(x.z, y.z, 1e-6);
+  }
+  const EdgeMesh own = discretise_curve(*wing.curve(b), field, {});
+  EXPECT_NE(static_cast<std::int32_t>(own.node_t.size()), n) << "would not have been opposite anyway";
 }
 
 }  // namespace
