@@ -2,7 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "base/vec.h"
@@ -22,6 +26,25 @@ inline Eigen::Matrix2d symmetric(double a, double b, double c) { return (Eigen::
 /// The adjugate: m * adjugate(m) is the determinant times the identity.
 inline Eigen::Matrix2d adjugate(const Eigen::Matrix2d& m) {
   return (Eigen::Matrix2d() << m(1, 1), -m(0, 1), -m(1, 0), m(0, 0)).finished();
+}
+
+/// Of a symmetric matrix: eigenvalues ascending, and a unit vector for each, whose largest component is positive.
+struct PrincipalAxes {
+  std::array<double, 3> value;
+  std::array<Vec3, 3> axis;
+};
+
+inline PrincipalAxes principal_axes(const Eigen::Matrix3d& symmetric_matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(symmetric_matrix);
+  PrincipalAxes result{};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = to_vec3(Eigen::Vector3d(solver.eigenvectors().col(k)));
+    const double ends[] = {axis.x, axis.y, axis.z};
+    const double sign = *std::max_element(ends, ends + 3, [](double a, double b) { return std::abs(a) < std::abs(b); });
+    result.value[k] = solver.eigenvalues()[k];
+    result.axis[k] = sign < 0 ? -1 * axis : axis;
+  }
+  return result;
 }
 
 /// x of m x = b, for 2 x 2 and 3 x 3 (more would need pivots). nullopt unless the determinant is above

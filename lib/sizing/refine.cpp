@@ -67,16 +67,19 @@ class Refinement {
     std::vector<Candidate> candidates;
     ActiveSources active;
     active.hi = options_.max_length;
+    double in_all_directions = options_.max_length;  // no edge is longer
     for (const std::int32_t i : from.index) {
       const SizeSource& source = *sources_[i].source;
       const SizeRange range = source.range(cell.center, 0.5 * cell.edge);
       if (!(range.lo < options_.max_length)) continue;
       candidates.push_back({i, range});
-      if (source.is_everywhere()) active.hi = std::min(active.hi, range.hi);  // a bound for all of the cell
+      if (!source.is_everywhere()) continue;
+      active.hi = std::min(active.hi, range.hi);  // a bound for all of the cell
+      in_all_directions = std::min(in_all_directions, source.max_aspect() * range.hi);
     }
     double highest = 0;
     for (const auto& [i, range] : candidates) {
-      if (range.lo > active.hi) continue;
+      if (range.lo > in_all_directions) continue;
       active.index.push_back(i);
       active.lo = std::min(active.lo, range.lo);
       active.has_detail |= range.has_detail;
@@ -155,8 +158,9 @@ void inherit_lengths(const RasterOctree& coarse, RasterOctree& fine) {
 /// Second walk: the smallest length of the sources in each leaf.
 class SourceStore {
  public:
-  SourceStore(const Refinement& refinement, std::span<const NamedSource> sources, RasterOctree& octree)
-      : refinement_(refinement), sources_(sources), octree_(octree), view_(octree.shape.view()) {}
+  SourceStore(const Refinement& refinement, std::span<const NamedSource> sources, RasterOctree& octree,
+              std::vector<SourceRequest>* requests)
+      : refinement_(refinement), sources_(sources), octree_(octree), view_(octree.shape.view()), requests_(requests) {}
 
   void store() { visit(view_.node_children.empty() ? ~0 : 0, root_cell(view_), refinement_.all()); }
 
@@ -177,6 +181,7 @@ class SourceStore {
       if (any_covers && !source.covers(cell.center)) continue;
       const SizeRange range = source.range(cell.center, 0.5 * cell.edge);
       const auto length = static_cast<float>(range.meets_core ? range.lo : source.size(cell.center));
+      if (requests_) requests_->push_back({leaf, length, stretch_of(source, cell.center, length)});
       float& stored = octree_.stored_length[leaf];
       std::int32_t& cause = octree_.stored_cause[leaf];
       if (length > stored || (length == stored && sources_[i].cause >= cause)) continue;
@@ -185,16 +190,25 @@ class SourceStore {
     }
   }
 
+  /// As at the place, where the length may be another.
+  static SampleStretch stretch_of(const SizeSource& source, Vec3 x, float length) {
+    int hint = 0;
+    const LocalSize local = source.local(x, hint);
+    if (!(local.along > local.length)) return {};
+    return {SmallNormal(local.direction), static_cast<float>(length * (local.along / local.length))};
+  }
+
   const Refinement& refinement_;
   std::span<const NamedSource> sources_;
   RasterOctree& octree_;
   OctreeView view_;
+  std::vector<SourceRequest>* requests_;
 };
 
 }  // namespace
 
 RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSource> sources,
-                           const RefineOptions& options) {
+                           const RefineOptions& options, std::vector<SourceRequest>* requests) {
   ST_ASSERT(options.max_length > 0 && options.cell_per_length > 0);
   Refinement refinement(raster, sources, options);
   NodeLevels nodes = refinement.split();
@@ -204,7 +218,7 @@ RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSour
   fine.shape.edge = raster.shape.edge;
   link_tree(nodes, fine.shape);
   inherit_lengths(raster, fine);
-  SourceStore(refinement, sources, fine).store();
+  SourceStore(refinement, sources, fine, requests).store();
   return fine;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/eigen.h"
+
 namespace st {
 namespace {
 
@@ -89,6 +91,12 @@ class ShapeSource final : public SizeSource {
     const Nearest n = nearest(x);
     return length_at(n.spacing, slope_, n.distance);
   }
+  LocalSize local(Vec3 x, int& hint) const override {
+    const double length = size(x, hint);
+    return {length, spec_.aspect * length, spec_.aspect > 1 ? spec_.direction : Vec3{}};
+  }
+  bool is_stretched() const override { return spec_.aspect > 1; }
+  double max_aspect() const override { return spec_.aspect; }
   double min_size() const override { return min_size_; }
   double slope() const override { return slope_; }
 
@@ -156,7 +164,11 @@ class ShapeSource final : public SizeSource {
 /// One tetrahedron of a background mesh. Barycentric coordinate k at x is weight_[k] . x + offset_[k].
 class TetSource final : public SizeSource {
  public:
-  TetSource(const std::array<Vec3, 4>& p, const std::array<double, 4>& h) : length_(h) {
+  TetSource(const std::array<Vec3, 4>& p, const std::array<LocalSize, 4>& size) {
+    std::array<double, 4> h{};
+    for (std::size_t k = 0; k < 4; ++k) h[k] = size[k].length;
+    length_ = h;
+    find_direction(size);
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 a = p[(k + 1) % 4], b = p[(k + 2) % 4], c = p[(k + 3) % 4], n = cross(b - a, c - a);
       weight_[k] = n / dot(n, p[k] - a);
@@ -168,15 +180,13 @@ class TetSource final : public SizeSource {
   }
 
   /// Inside: linear. Outside: at the nearest point, roughly (coordinates cut off at zero).
-  double size(Vec3 x, int&) const override {
-    double sum = 0, weights = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double w = std::max(0.0, coordinate(k, x));
-      sum += w * length_[k];
-      weights += w;
-    }
-    return sum / weights;
+  double size(Vec3 x, int&) const override { return interpolate(length_, x); }
+  LocalSize local(Vec3 x, int& hint) const override {
+    const double length = size(x, hint);
+    return {length, is_stretched() ? std::max(length, interpolate(along_, x)) : length, direction_};
   }
+  bool is_stretched() const override { return max_aspect_ > 1; }
+  double max_aspect() const override { return max_aspect_; }
   double min_size() const override { return min_size_; }
   double slope() const override { return norm(gradient_); }
   bool is_everywhere() const override { return false; }
@@ -206,9 +216,30 @@ class TetSource final : public SizeSource {
  private:
   static double sum_abs(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
   double coordinate(std::size_t k, Vec3 x) const { return dot(weight_[k], x) + offset_[k]; }
+  double interpolate(const std::array<double, 4>& value, Vec3 x) const {
+    double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double w = std::max(0.0, coordinate(k, x));
+      sum += w * value[k];
+      weights += w;
+    }
+    return sum / weights;
+  }
+  /// The direction that the squeezes of the nodes share most, and the lengths along it.
+  void find_direction(const std::array<LocalSize, 4>& size) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const LocalSize& s : size) sum += to_eigen(s.squeeze()) * to_eigen(s.squeeze()).transpose();
+    if (sum.trace() > 0) direction_ = principal_axes(sum).axis[2];
+    for (std::size_t k = 0; k < 4; ++k) {
+      along_[k] = size[k].in(direction_);
+      max_aspect_ = std::max(max_aspect_, along_[k] / length_[k]);
+    }
+  }
 
   std::array<Vec3, 4> weight_;
-  std::array<double, 4> offset_{}, length_;
+  std::array<double, 4> offset_{}, length_{}, along_{};
+  Vec3 direction_;
+  double max_aspect_ = 1;
   Vec3 gradient_;
   Box3 box_;
   double min_size_ = 0;
@@ -224,11 +255,22 @@ void transform(const Similarity& motion, SourceSpec& source) {
   for (SourceSpacing& s : source.spacing)
     s = {motion.scale * s.length, motion.scale * s.radius, motion.scale * s.doubling};
   source.extent *= motion.scale;
+  source.direction = motion.rotated(source.direction);
 }
 
 void transform(const Similarity& motion, BackgroundMesh& mesh) {
   for (Vec3& p : mesh.node_xyz) p = motion(p);
-  for (double& h : mesh.node_length) h *= motion.scale;
+  for (LocalSize& s : mesh.node_size)
+    s = {motion.scale * s.length, motion.scale * s.along, motion.rotated(s.direction)};
+}
+
+std::int64_t remove_stretch(BackgroundMesh& mesh) {
+  std::int64_t n_stretched = 0;
+  for (LocalSize& s : mesh.node_size) {
+    n_stretched += s.along > s.length;
+    s = {s.length, s.length, {}};
+  }
+  return n_stretched;
 }
 
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope) {
@@ -240,14 +282,14 @@ std::vector<std::unique_ptr<SizeSource>> make_sources(const BackgroundMesh& mesh
   std::vector<std::unique_ptr<SizeSource>> sources;
   for (const auto& tet : mesh.tets) {
     std::array<Vec3, 4> p;
-    std::array<double, 4> h;
+    std::array<LocalSize, 4> size;
     for (std::size_t k = 0; k < 4; ++k) {
       p[k] = mesh.node_xyz[tet[k]];
-      h[k] = mesh.node_length[tet[k]];
+      size[k] = mesh.node_size[tet[k]];
     }
     const Vec3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
     const double volume6 = std::abs(dot(cross(a, b), c)), longest = std::max({norm(a), norm(b), norm(c)});
-    if (volume6 > kFlat * longest * longest * longest) sources.push_back(std::make_unique<TetSource>(p, h));
+    if (volume6 > kFlat * longest * longest * longest) sources.push_back(std::make_unique<TetSource>(p, size));
   }
   return sources;
 }

@@ -31,6 +31,8 @@ class SizeSource : public SizeField {
   /// the border.
   virtual bool is_everywhere() const { return true; }
   virtual bool covers(Vec3) const { return true; }
+  /// Largest ratio of the two lengths of local().
+  virtual double max_aspect() const { return 1; }
 };
 
 enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
@@ -51,24 +53,29 @@ struct SourceSpec {
   std::array<SourceSpacing, 3> spacing;  ///< at each point of point, line and triangle; [0] for the others
   std::array<Vec3, 3> half_axis;         ///< box: its three half axes; disc: [0] the normal
   double extent = 0;                     ///< radius of cylinder, sphere, disc: the length is constant inside
+  double aspect = 1;                     ///< >= 1: length along `direction` over that across
+  Vec3 direction = {};                   ///< unit, where aspect > 1
 };
 
 /// Points of a line or triangle, 1 for the rest.
 int n_spacings(SourceKind kind);
 
-/// Positions are moved; lengths, radii and extents are scaled.
+/// Positions and directions are moved; lengths, radii and extents are scaled.
 void transform(const Similarity& motion, SourceSpec& source);
 
 /// The source as a field that grows by at most `slope`. Precondition: lengths > 0, radii >= 0, slope > 0.
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope);
 
-/// A background mesh: lengths at the nodes of tetrahedra, linear inside.
+/// A background mesh: lengths at the nodes of tetrahedra, linear inside. In each tetrahedron one direction may have a
+/// longer length: the one along which its nodes together are stretched most.
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
-  std::vector<double> node_length;                ///< model unit, > 0
+  std::vector<LocalSize> node_size;
   std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
-  std::int64_t n_anisotropic = 0;                 ///< nodes whose three lengths differed: the smallest was taken
 };
+
+/// Takes the smallest length in all directions; the number of nodes that had a longer one.
+std::int64_t remove_stretch(BackgroundMesh& mesh);
 
 void transform(const Similarity& motion, BackgroundMesh& mesh);
 

@@ -154,9 +154,12 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
     for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
   }
   if (!raster.samples.empty()) forget_samples(raster.octree);
+  const bool is_stretched = sizing.numbers.max_aspect > 1;
+  std::vector<SourceRequest> requests;
   if (!input.sources.empty())
     raster.octree =
-        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length});
+        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length},
+                      is_stretched ? &requests : nullptr);
   const Neighbours neighbours(raster.octree.shape.view());
   seed_and_blank(barrier, o.slope, neighbours, raster, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
@@ -164,9 +167,9 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
   options.cell_slope = cell_slope;
   sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  if (raster.numbers.max_aspect > 1)
-    sizing.stretched = prolong_stretch(neighbours, raster.samples, raster.octree.stored_length, sizing.lengths, options,
-                                       raster.numbers.max_aspect, blanking);
+  if (is_stretched)
+    sizing.stretched = prolong_stretch(neighbours, {raster.samples, requests}, raster.octree.stored_length,
+                                       sizing.lengths, options, sizing.numbers.max_aspect, blanking);
   fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
   sizing.shape = std::move(raster.octree.shape);
 }
@@ -187,12 +190,13 @@ struct ProlongedSizes {
 ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
   const MovedGeometry moved = read_moved(o, raster.header);
   const Similarity to_octree = moved.motion.inverse();
-  SourceInput input =
-      read_sources(o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
-                   {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m});
+  SourceInput input = read_sources(
+      o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
+      {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m}, raster.numbers.max_aspect > 1);
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
+  sizing.numbers.max_aspect = std::max(sizing.numbers.max_aspect, input.max_aspect);
   const OctreeShape raster_shape = raster.octree.shape;
   const Barrier barrier = find_barrier(o, raster, to_octree);
   make_lengths(o, input, barrier, raster, sizing);

@@ -41,10 +41,12 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
   }
 }
 
-void add_background(BackgroundMesh&& mesh, const Similarity& motion, SourceInput& input) {
-  if (mesh.n_anisotropic > 0)
-    log_warning(fmt::format("{} nodes of the background mesh are anisotropic; their smallest spacing is used",
-                            mesh.n_anisotropic));
+void add_background(BackgroundMesh&& mesh, const Similarity& motion, bool is_stretched, SourceInput& input) {
+  if (const std::int64_t n = is_stretched ? 0 : remove_stretch(mesh))
+    log_warning(
+        fmt::format("{} nodes of the background mesh are anisotropic, and their smallest spacing is used; give "
+                    "st-raster --max-aspect to keep the others",
+                    n));
   transform(motion, mesh);
   for (auto& tet : make_sources(mesh)) {
     input.sources.push_back({tet.get(), pack_cause(CauseKind::kOther, 0)});
@@ -56,12 +58,12 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, SourceInput
 }  // namespace
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
-                         double slope, const ModelScale& scale) {
+                         double slope, const ModelScale& scale, bool is_stretched) {
   SourceInput input;
   std::vector<SourceSpec> specs;
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {
     merge(specs, file, path);
-    add_background(std::move(file.background), motion, input);
+    add_background(std::move(file.background), motion, is_stretched, input);
     input.files.push_back(file_ref(role, path));
   };
   if (!background.empty()) take(read_background_file(background), background, "background");
@@ -72,6 +74,7 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
     input.sources.push_back(
         {input.owned.back().get(), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(input.names.size()))});
     input.names.push_back(spec.name);
+    input.max_aspect = std::max(input.max_aspect, spec.aspect);
   }
   return input;
 }

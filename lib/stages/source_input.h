@@ -18,12 +18,13 @@ struct SourceInput {
   std::vector<std::string> names;  ///< of causes of kind source
   std::vector<InputRef> files;     ///< for the header
   std::size_t n_tets = 0;          ///< of the background mesh
+  double max_aspect = 1;           ///< of the sources
 };
 
 /// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up.
-/// Warns where an anisotropic background is taken by its smallest spacings. `motion` brings everything into the
-/// octree's frame. Throws Error(kInput), Error(kUsage).
+/// `motion` brings everything into the octree's frame. `is_stretched`: an anisotropic background keeps its directions;
+/// otherwise it is taken by its smallest spacings, with a warning. Throws Error(kInput), Error(kUsage).
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
-                         double slope, const ModelScale& scale);
+                         double slope, const ModelScale& scale, bool is_stretched);
 
 }  // namespace st

@@ -7,6 +7,9 @@
 #include <sstream>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "base/eigen.h"
 #include "base/text.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
@@ -84,23 +87,29 @@ std::array<std::int32_t, 4> tet_of(const LineReader& file, const std::map<std::i
   return tet;
 }
 
+/// Nearly equal lengths are one; a direction of any length.
+LocalSize uniaxial(const LocalSize& s) {
+  constexpr double kEqual = 1 + 1e-6;
+  const bool is_stretched = s.along > kEqual * s.length && norm(s.direction) > 0;
+  return is_stretched ? LocalSize{s.length, s.along, normalized(s.direction)} : LocalSize{s.length, s.length, {}};
+}
+
 // --- FLITE .bac ---
 
 void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets, BackgroundMesh& mesh) {
   std::map<std::int64_t, std::int32_t> index;
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const std::vector<double> at = file.numbers("a background node", 4);
-    double least = 0, most = 0;
+    LocalSize size;
     for (int axis = 0; axis < 3; ++axis) {
-      const double d = file.numbers("a direction and its spacing", 4)[3];
-      if (!(d > 0)) file.fail("spacing must be positive");
-      least = axis ? std::min(least, d) : d;
-      most = std::max(most, d);
+      const std::vector<double> v = file.numbers("a direction and its spacing", 4);
+      if (!(v[3] > 0)) file.fail("spacing must be positive");
+      size.length = axis ? std::min(size.length, v[3]) : v[3];
+      if (v[3] > size.along) size.along = v[3], size.direction = {v[0], v[1], v[2]};
     }
-    mesh.n_anisotropic += most > least * (1 + 1e-6);
     index.emplace(static_cast<std::int64_t>(at[0]), static_cast<std::int32_t>(i));
     mesh.node_xyz.push_back({at[1], at[2], at[3]});
-    mesh.node_length.push_back(least);
+    mesh.node_size.push_back(uniaxial(size));
   }
   for (std::int64_t i = 0; i < n_tets; ++i)
     mesh.tets.push_back(tet_of(file, index, file.numbers("a tetrahedron", 5).data() + 1));
@@ -154,6 +163,15 @@ void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32
   }
 }
 
+/// `m`: nine components; the lengths are one over the roots of the eigenvalues.
+LocalSize size_of_metric(const LineReader& file, const double* m) {
+  Eigen::Matrix3d metric;
+  metric << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
+  const PrincipalAxes axes = principal_axes(0.5 * (metric + metric.transpose()));
+  if (!(axes.value[0] > 0)) file.fail("a metric must be positive definite");
+  return uniaxial({1 / std::sqrt(axes.value[2]), 1 / std::sqrt(axes.value[0]), axes.axis[0]});
+}
+
 void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
   std::vector<double> integers;
   for (int block = 0; block < 3; ++block) {  // strings, reals, integers: a count, then as many lines
@@ -165,14 +183,16 @@ void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>&
         file.line("a tag");
     }
   }
-  if (integers.size() < 3 || integers[1] != 1) file.fail("$NodeData: one value per node expected");
+  if (integers.size() < 3 || (integers[1] != 1 && integers[1] != 9))
+    file.fail("$NodeData: a length per node expected, or the nine components of a metric");
+  const bool is_metric = integers[1] == 9;
   const std::int64_t n = file.count(integers[2], "values");
   for (std::int64_t i = 0; i < n; ++i) {
-    const std::vector<double> v = file.numbers("a node and its length", 2);
+    const std::vector<double> v = file.numbers("a node and its value", is_metric ? 10 : 2);
     const auto it = index.find(static_cast<std::int64_t>(v[0]));
     if (it == index.end()) file.fail("$NodeData names a node that does not exist");
-    if (!(v[1] > 0)) file.fail("length must be positive");
-    mesh.node_length[it->second] = v[1];
+    if (!is_metric && !(v[1] > 0)) file.fail("length must be positive");
+    mesh.node_size[it->second] = is_metric ? size_of_metric(file, v.data() + 1) : LocalSize{v[1], v[1], {}};
   }
 }
 
@@ -184,7 +204,7 @@ std::map<std::int64_t, std::int32_t> read_msh_nodes(LineReader& file, Background
     index.emplace(static_cast<std::int64_t>(v[0]), static_cast<std::int32_t>(i));
     mesh.node_xyz.push_back({v[1], v[2], v[3]});
   }
-  mesh.node_length.assign(mesh.node_xyz.size(), 0);
+  mesh.node_size.resize(mesh.node_xyz.size());
   return index;
 }
 
@@ -213,7 +233,7 @@ SourceFile read_msh(const std::string& path) {
   if (!has_data) file.fail("no $NodeData with lengths");
   for (const auto& tet : mesh.tets)
     for (const std::int32_t node : tet)
-      if (!(mesh.node_length[node] > 0)) file.fail("a tetrahedron has a node without a length");
+      if (!(mesh.node_size[node].length > 0)) file.fail("a tetrahedron has a node without a length");
   return result;
 }
 
@@ -255,6 +275,13 @@ class SourceTable {
     return points;
   }
   double length(const char* key) const { return length(key, *table_.get(key)); }
+  double number(const char* key, double least, double most) const {
+    const toml::node& node = *table_.get(key);
+    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !(*value >= least && *value <= most))
+      fail(fmt::format("{}: a number from {:g} to {:g} expected", key, least, most), &node);
+    return *value;
+  }
   /// One value for all points, or one for each.
   std::vector<double> lengths(const char* key, std::size_t n, double fallback, bool may_be_zero) const {
     const toml::node* node = table_.get(key);
@@ -347,9 +374,21 @@ void read_shape(const SourceTable& table, SourceSpec& source) {
   }
 }
 
+void read_stretch(const SourceTable& table, SourceSpec& source) {
+  if (table.has("aspect")) source.aspect = table.number("aspect", 1, 100);
+  const bool has_axis = source.kind == SourceKind::kLine || source.kind == SourceKind::kCylinder;
+  if (table.has("direction"))
+    source.direction = table.vector("direction");
+  else if (has_axis)
+    source.direction = source.point[1] - source.point[0];
+  if (source.aspect > 1 && !(norm(source.direction) > 0))
+    table.fail("source with an aspect needs direction = [x, y, z], not zero");
+  source.direction = source.aspect > 1 ? normalized(source.direction) : Vec3{};
+}
+
 SourceSpec read_source(const SourceTable& table) {
   table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent", "length",
-                       "radius", "doubling"});
+                       "radius", "doubling", "aspect", "direction"});
   SourceSpec source;
   source.name = table.text("name");
   const auto kind = kKinds.find(table.text("type"));
@@ -365,6 +404,7 @@ SourceSpec read_source(const SourceTable& table) {
     source.spacing[k] = {length[k], radius[k], doubling[k]};
     if (table.has("doubling") && doubling[k] <= radius[k]) table.fail("doubling must be larger than radius");
   }
+  read_stretch(table, source);
   return source;
 }
 

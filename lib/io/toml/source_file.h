@@ -31,13 +31,15 @@ struct SourceFile {
 ///   length = "5mm"             # or one for each point; likewise radius and doubling
 ///   radius = 0.2               # constant up to this distance; default 0
 ///   doubling = 0.6             # twice the length at this distance; default: as the slope allows
+///   aspect = 8                 # so many times the length along `direction`; default 1
+///   direction = [1, 0, 0]      # default: along a line or the axis of a cylinder
 ///
 /// [[st-prolong.source]] counts, too; what else an option file may hold is passed over. Coordinates and plain numbers
 /// are in the model unit. Throws Error(kInput) with file and line.
 SourceFile read_source_file(const std::string& path, const ModelScale& scale);
 
-/// Reads a background mesh: .bac/.ba3 (its sources, too), or .msh of version 2.2 in text form with tetrahedra and one
-/// scalar node data set. Throws Error(kInput) with file and line.
+/// Reads a background mesh: .bac/.ba3 (its sources, too), or .msh of version 2.2 in text form with tetrahedra and node
+/// data: a length, or the nine components of a metric. Throws Error(kInput) with file and line.
 SourceFile read_background_file(const std::string& path);
 
 }  // namespace st

@@ -160,13 +160,21 @@ Leading edge 1
   0 1 0  0.3  0.2  0.4
 )";
 
+std::vector<double> lengths_of(const BackgroundMesh& mesh) {
+  std::vector<double> lengths;
+  for (const LocalSize& s : mesh.node_size) lengths.push_back(s.length);
+  return lengths;
+}
+
 TEST_F(SourceFiles, bac_has_background_and_sources) {
   const SourceFile f = read_source_file(write("m.bac", kBac), {});
   ASSERT_EQ(f.background.tets.size(), 1u);
   EXPECT_EQ(f.background.tets[0], (std::array<std::int32_t, 4>{0, 1, 2, 3}));
   EXPECT_EQ(f.background.node_xyz[1], (Vec3{1, 0, 0}));
-  EXPECT_EQ(f.background.node_length, (std::vector<double>{0.5, 0.25, 1, 1}));
-  EXPECT_EQ(f.background.n_anisotropic, 1);
+  EXPECT_EQ(lengths_of(f.background), (std::vector<double>{0.5, 0.25, 1, 1}));
+  EXPECT_EQ(f.background.node_size[0].along, 0.5);
+  EXPECT_EQ(f.background.node_size[1].along, 0.5);
+  EXPECT_EQ(f.background.node_size[1].direction, (Vec3{1, 0, 0}));
   ASSERT_EQ(f.sources.size(), 3u);
   EXPECT_EQ(f.sources[0].name, "global");
   EXPECT_EQ(f.sources[1].name, "Leading edge 1");
@@ -216,7 +224,52 @@ TEST_F(SourceFiles, msh_has_lengths_at_the_nodes_of_tetrahedra) {
   const SourceFile f = read_background_file(write("m.msh", kMsh));
   ASSERT_EQ(f.background.tets.size(), 1u);
   EXPECT_EQ(f.background.tets[0], (std::array<std::int32_t, 4>{0, 1, 2, 3}));
-  EXPECT_EQ(f.background.node_length, (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(lengths_of(f.background), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(f.background.node_size[2].direction, Vec3{});
+}
+
+TEST_F(SourceFiles, msh_may_have_metrics_at_the_nodes) {
+  std::string text = kMsh;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("0\n1\n4\n", "0\n9\n4\n");
+  replace("1 0.1\n", "1 100 0 0 0 100 0 0 0 100\n");
+  replace("2 0.2\n", "2 25 0 0 0 6.25 0 0 0 25\n");
+  replace("5 0.3\n", "5 2.5 1.5 0 1.5 2.5 0 0 0 4\n");  // lengths 1, 0.5, 0.5; the long one along (1, -1, 0)
+  replace("7 0.4\n", "7 4 0 0 0 4 0 0 0 4\n");
+  const BackgroundMesh mesh = read_background_file(write("m.msh", text)).background;
+  ASSERT_EQ(mesh.node_size.size(), 4u);
+  const double length[] = {0.1, 0.2, 0.5, 0.5}, along[] = {0.1, 0.4, 1, 0.5};
+  const Vec3 direction[] = {{}, {0, 1, 0}, normalized(Vec3{1, -1, 0}), {}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(mesh.node_size[k].length, length[k], 1e-12);
+    EXPECT_NEAR(mesh.node_size[k].along, along[k], 1e-12);
+    EXPECT_NEAR(norm(cross(mesh.node_size[k].direction, direction[k])), 0, 1e-12);
+    EXPECT_NEAR(norm(mesh.node_size[k].direction), norm(direction[k]), 1e-12);
+  }
+  replace("2 25 0", "2 -25 0");
+  EXPECT_ERROR(read_background_file(write("m.msh", text)), kInput, "positive definite");
+}
+
+TEST_F(SourceFiles, sources_may_be_stretched) {
+  const auto spec = [&](const std::string& text) {
+    return read_source_file(write("s.toml", "[[source]]\nlength = 1\n" + text), {}).sources.at(0);
+  };
+  const SourceSpec line = spec("type = \"line\"\npoints = [[0, 0, 0], [0, 2, 0]]\naspect = 4");
+  EXPECT_EQ(line.aspect, 4);
+  EXPECT_EQ(line.direction, (Vec3{0, 1, 0}));
+  const SourceSpec cylinder =
+      spec("type = \"cylinder\"\nfrom = [0, 0, 0]\nto = [3, 0, 0]\nextent = 1\naspect = 2\ndirection = [0, 0, 5]");
+  EXPECT_EQ(cylinder.direction, (Vec3{0, 0, 1}));
+  EXPECT_EQ(spec("type = \"point\"\nat = [0, 0, 0]").aspect, 1);
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    EXPECT_ERROR(spec("type = \"point\"\nat = [0, 0, 0]\n" + text), kInput, message);
+  };
+  refused("aspect = 4", "needs direction");
+  refused("aspect = 4\ndirection = [0, 0, 0]", "needs direction");
+  refused("aspect = 0.5\ndirection = [0, 0, 1]", "s.toml:5: aspect: a number from 1 to 100");
+  refused("aspect = \"4\"\ndirection = [0, 0, 1]", "a number from 1 to 100");
 }
 
 TEST_F(SourceFiles, msh_of_another_version_or_without_data_is_refused) {

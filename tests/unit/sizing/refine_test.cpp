@@ -147,7 +147,8 @@ TEST(RefineOctree, interpolates_a_background_mesh) {
   BackgroundMesh mesh;  // the unit cube in six tetrahedra around the diagonal 0-7
   for (int i = 0; i < 8; ++i) {
     mesh.node_xyz.push_back({static_cast<double>(i & 1), static_cast<double>(i >> 1 & 1), static_cast<double>(i >> 2)});
-    mesh.node_length.push_back(0.02 + 0.05 * (i & 1));
+    const double length = 0.02 + 0.05 * (i & 1);
+    mesh.node_size.push_back({length, length, {}});
   }
   mesh.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
   const Refined r = refine_and_prolong(build_octree(test::kUnitBox, {}), make_sources(mesh));

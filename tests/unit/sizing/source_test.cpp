@@ -125,10 +125,42 @@ TEST(Source, moves_with_its_frame) {
   }
 }
 
+TEST(Source, may_be_stretched_along_a_direction_that_turns_with_it) {
+  SourceSpec spec = point_source({0.1, 0.5, 0});
+  spec.aspect = 5;
+  spec.direction = {1, 0, 0};
+  const auto local = [](const SourceSpec& s, Vec3 x) {
+    int hint = 0;
+    return make_source(s, kSlope)->local(x, hint);
+  };
+  EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({1, 0, 0}), 0.5);
+  EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.1);
+  EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * (0.1 + 0.5 * kSlope), 1e-12);
+  transform(parse_similarity("rotate 0 0 1 90", ""), spec);
+  EXPECT_NEAR(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.5, 1e-9);
+}
+
+TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
+  BackgroundMesh mesh;
+  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Vec3 t = normalized(Vec3{1, 2, 0});
+  mesh.node_size = {{0.1, 0.8, t}, {0.1, 0.4, -t}, {0.2, 0.2, {}}, {0.1, 0.6, t}};
+  mesh.tets = {{0, 1, 2, 3}};
+  const auto tets = make_sources(mesh);
+  int hint = 0;
+  const LocalSize first = tets[0]->local({0, 0, 0}, hint), middle = tets[0]->local({0.25, 0.25, 0.25}, hint);
+  EXPECT_NEAR(first.in(t), 0.8, 1e-9);
+  EXPECT_NEAR(middle.in(t), (0.8 + 0.4 + 0.2 + 0.6) / 4, 1e-9);
+  EXPECT_NEAR(middle.length, 0.125, 1e-12);
+  EXPECT_NEAR(tets[0]->max_aspect(), 8, 1e-9);
+  EXPECT_EQ(remove_stretch(mesh), 3);
+  EXPECT_EQ(make_sources(mesh)[0]->local({0, 0, 0}, hint).in(t), 0.1);
+}
+
 TEST(BackgroundMesh, is_linear_in_each_tetrahedron_and_silent_outside) {
   BackgroundMesh mesh;
   mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  mesh.node_length = {0.1, 0.2, 0.3, 0.4};
+  for (const double h : {0.1, 0.2, 0.3, 0.4}) mesh.node_size.push_back({h, h, {}});
   mesh.tets = {{0, 1, 2, 3}, {0, 1, 2, 2}};
   const auto tets = make_sources(mesh);
   ASSERT_EQ(tets.size(), 1u);  // the flat one is left out
