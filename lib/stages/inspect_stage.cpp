@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/failure_artifact.h"
 #include "io/hdf5/inspect.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "stages/mesh_export.h"
 
 namespace st {
@@ -152,12 +155,32 @@ StageSummary export_summary(const std::string& artifact, const std::string& outp
   return summary;
 }
 
-void export_artifact(const std::string& artifact, const std::string& output) {
+void export_mesh_artifact(const ExportStageOptions& o) {
+  const bool is_sol = o.output.ends_with(".sol");
+  if (is_sol != !o.sizing.empty())
+    throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds what a sizing asks for; give --sizing sizing.hdf"
+                                         : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
+  if (!is_sol) require_export_suffix(o.output, o.quads);
+  require_writable(o.output);
+  const MeshArtifact artifact = read_mesh(o.artifact);
+  if (!is_sol)
+    return export_and_warn(o.output, artifact.mesh,
+                           o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh));
+  ArtifactHeader sizing;
+  const std::unique_ptr<SizeField> field = open_sizing(o.sizing, &sizing);
+  if (sizing.geometry_hash != artifact.header.geometry_hash)
+    throw Error(ExitCode::kMismatch, o.sizing + ": is of another geometry than " + o.artifact);
+  export_sol(o.output, artifact.mesh, *field);
+}
+
+void export_artifact(const ExportStageOptions& o) {
+  const auto& [artifact, output] = std::tie(o.artifact, o.output);
   const std::string schema = read_header(artifact).schema;
+  if (schema != "mesh" && (o.quads || !o.sizing.empty()))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: --quads and --sizing are for meshes; this is a {} artifact", artifact, schema));
   if (schema == "mesh") {
-    require_export_suffix(output);
-    require_writable(output);
-    export_and_warn(output, read_mesh(artifact).mesh);
+    export_mesh_artifact(o);
   } else if (schema == "raster" || schema == "sizing") {
     require_writable(output);
     export_octree(artifact, output);
@@ -175,10 +198,6 @@ void export_artifact(const std::string& artifact, const std::string& output) {
             "{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
             artifact, schema));
   }
-}
-
-bool has_suffix(const std::string& path, const std::string& suffix) {
-  return path.size() > suffix.size() && path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 
 /// A geometry as FLITE surfaces; the summary says how close they are and what was divided.
@@ -246,8 +265,8 @@ StageSummary run_diff(const DiffStageOptions& o) {
 StageSummary run_export(const ExportStageOptions& o) {
   const Timer timer;
   parse_length(o.tolerance, "--tolerance");
-  if (has_suffix(o.output, ".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
-  export_artifact(o.artifact, o.output);
+  if (o.output.ends_with(".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
+  export_artifact(o);
   return export_summary(o.artifact, o.output, timer);
 }
 

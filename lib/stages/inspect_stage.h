@@ -25,9 +25,10 @@ StageSummary run_diff(const DiffStageOptions& options);
 struct ExportStageOptions {
   std::string artifact, output;
   std::string tolerance = "0.001%";  ///< length: distance of FLITE curves and surfaces from the model
+  bool quads = false;                ///< of a mesh: rows of stretched triangles as quadrilaterals
+  std::string sizing = {};           ///< of a mesh, for .sol: what its nodes are asked for
 };
-/// Exports a mesh artifact (.stl .vtu .obj .ply), a raster/sizing artifact's octree (.vtu), or a geometry (FLITE .dat),
-/// by suffix.
+/// Exports a mesh artifact, a raster/sizing artifact's octree, or a geometry (FLITE .dat), by suffix.
 StageSummary run_export(const ExportStageOptions& options);
 
 }  // namespace st

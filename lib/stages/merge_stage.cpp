@@ -173,7 +173,7 @@ StageSummary run_merge(const MergeStageOptions& options) {
   const TopologyReport topology = check_topology(mesh);
   const MeshMeasure measure = measure_mesh(mesh);
   const std::string hash = write_mesh(options.output, artifact);
-  for (const std::string& path : options.exports) export_and_warn(path, mesh);
+  for (const std::string& path : options.exports) export_and_warn(path, mesh, all_triangles(mesh));
 
   const double seconds = timer.seconds();
   const nlohmann::json json{{"output", options.output},

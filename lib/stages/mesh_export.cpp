@@ -8,8 +8,8 @@
 
 namespace st {
 
-void export_and_warn(const std::string& path, const SurfaceMesh& mesh) {
-  const std::size_t n_lost = export_mesh(path, mesh);
+void export_and_warn(const std::string& path, const SurfaceMesh& mesh, const QuadPairs& elements) {
+  const std::size_t n_lost = export_mesh(path, mesh, elements);
   if (n_lost > 0)
     log_warning(
         fmt::format("{}: this format has no groups of edges or vertices, so {} are not exported; .msh, .vtu, .obj and "

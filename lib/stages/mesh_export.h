@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "mesh/surface_mesh.h"
+#include "mesh/quad_pairs.h"
 
 namespace st {
 
 /// export_mesh(), and a warning when the format cannot hold the mesh's groups of edges and vertices. Local.
-void export_and_warn(const std::string& path, const SurfaceMesh& mesh);
+void export_and_warn(const std::string& path, const SurfaceMesh& mesh, const QuadPairs& elements);
 
 }  // namespace st

@@ -96,6 +96,30 @@ class Exports(unittest.TestCase):
         expected = [[str(i + 1), "4000", n] for i, n in enumerate(self.names)]
         self.assertEqual([line.split() for line in lines[1:-1]], expected)
 
+    def test_quadrilaterals_cover_the_rows_of_a_stretched_mesh(self):
+        run("st-import", MODELS / "wing_with_flap.step", "-o", WORK / "wing.hdf")
+        run("st-raster", WORK / "wing.hdf", "-o", WORK / "wing_raster.hdf", "--max-aspect", 8)
+        run("st-prolong", WORK / "wing_raster.hdf", "-o", WORK / "wing_sizing.hdf")
+        run("st-mesh", WORK / "wing.hdf", WORK / "wing_sizing.hdf", "-o", WORK / "wing_patches.hdf")
+        run("st-merge", WORK / "wing_patches.hdf", "-o", WORK / "wing_mesh.hdf")
+        run("st-export", WORK / "wing_mesh.hdf", "-o", WORK / "wing.off")
+        reference = meshio.read(WORK / "wing.off")
+        n_triangles = len(reference.cells_dict["triangle"])
+        whole = area(reference.points, reference.cells_dict["triangle"])
+        for suffix in ("ugrid", "lb8.ugrid", "su2", "mesh", "msh"):
+            with self.subTest(suffix):
+                path = WORK / f"wing.{suffix}"
+                run("st-export", WORK / "wing_mesh.hdf", "-o", path, "--quads")
+                mesh = meshio.read(path)
+                tags = mesh.cell_data.get("su2:tag", [numpy.zeros(len(c.data)) for c in mesh.cells])
+                cells = [(c.type, c.data[tag == 0]) for c, tag in zip(mesh.cells, tags)]  # > 0: a marker's
+                triangles, quads = (numpy.concatenate([data for kind, data in cells if kind == wanted])
+                                    for wanted in ("triangle", "quad"))
+                self.assertEqual(len(triangles) + 2 * len(quads), n_triangles)
+                self.assertGreater(2 * len(quads), 0.3 * n_triangles)
+                halves = numpy.concatenate([triangles, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+                self.assertAlmostEqual(area(mesh.points, halves), whole, delta=1e-3 * whole)
+
     def test_tetgen_takes_both_of_its_formats(self):
         if not shutil.which("tetgen"):
             self.skipTest("SKIPPED: no tetgen; install Debian's package")

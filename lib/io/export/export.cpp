@@ -196,35 +196,37 @@ namespace {
 /// How a format is written.
 struct Format {
   const char* suffix;
-  void (*write)(Output&, const SurfaceMesh&);
-  bool has_entity_groups;  ///< holds groups of edges and vertices
-  bool has_mapbc = false;  ///< a list of boundaries is written next to the mesh: NAME.mapbc for NAME.ugrid
+  void (*write_triangles)(Output&, const SurfaceMesh&);  ///< null: it takes quadrilaterals, too
+  void (*write_elements)(Output&, const SurfaceMesh&, const QuadPairs&) = nullptr;
+  bool has_entity_groups = false;  ///< holds groups of edges and vertices
+  bool has_mapbc = false;          ///< a list of boundaries is written next to the mesh: NAME.mapbc for NAME.ugrid
 };
 
 /// A suffix with two dots stands before the one that it ends with.
 constexpr Format kFormats[] = {
-    {".ascii.stl", export_ascii_stl, false},
-    {".stl", export_stl, false},
-    {".vtu", export_vtu, true},
-    {".obj", export_obj, true},
-    {".ply", export_ply, true},
-    {".msh", export_msh, true},
-    {".fro", export_fro, false},
-    {".lb8.ugrid", export_lb8_ugrid, false, true},
-    {".b8.ugrid", export_b8_ugrid, false, true},
-    {".ugrid", export_ugrid, false, true},
-    {".su2", export_su2, false},
-    {".bdf", export_nastran, false},
-    {".nas", export_nastran, false},
-    {".mesh", export_medit, false},
-    {".off", export_off, false},
-    {".smesh", export_smesh, false},
-    {".poly", export_poly, false},
+    {".ascii.stl", export_ascii_stl},
+    {".stl", export_stl},
+    {".vtu", nullptr, export_vtu, true},
+    {".obj", export_obj, nullptr, true},
+    {".ply", export_ply, nullptr, true},
+    {".msh", nullptr, export_msh, true},
+    {".fro", export_fro},
+    {".lb8.ugrid", nullptr, export_lb8_ugrid, false, true},
+    {".b8.ugrid", nullptr, export_b8_ugrid, false, true},
+    {".ugrid", nullptr, export_ugrid, false, true},
+    {".su2", nullptr, export_su2},
+    {".bdf", export_nastran},
+    {".nas", export_nastran},
+    {".mesh", nullptr, export_medit},
+    {".off", export_off},
+    {".smesh", export_smesh},
+    {".poly", export_poly},
 };
 
-std::string known_suffixes() {
+std::string known_suffixes(bool wants_quads) {
   std::string list;
-  for (const Format& f : kFormats) list.append(list.empty() ? "" : ", ").append(f.suffix);
+  for (const Format& f : kFormats)
+    if (!wants_quads || f.write_elements) list.append(list.empty() ? "" : ", ").append(f.suffix);
   return list;
 }
 
@@ -241,17 +243,26 @@ const Format& format_of(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
   throw Error(ExitCode::kUsage, path + ": unknown suffix '" + (dot == std::string::npos ? "" : name.substr(dot)) +
-                                    "' for an export; use one of " + known_suffixes());
+                                    "' for an export; use one of " + known_suffixes(false));
 }
 
 }  // namespace
 
-void require_export_suffix(const std::string& path) { format_of(path); }
+void require_export_suffix(const std::string& path, bool wants_quads) {
+  const Format& format = format_of(path);
+  if (wants_quads && !format.write_elements)
+    throw Error(ExitCode::kUsage,
+                path + ": this format holds triangles only; for --quads use one of " + known_suffixes(true));
+}
 
-std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
+std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh, const QuadPairs& elements) {
+  require_export_suffix(path, !elements.quads.empty());
   const Format& format = format_of(path);
   Output out(path);
-  format.write(out, mesh);
+  if (format.write_elements)
+    format.write_elements(out, mesh, elements);
+  else
+    format.write_triangles(out, mesh);
   if (format.has_mapbc) {
     Output boundaries(path.substr(0, path.size() - std::strlen(format.suffix)) + ".mapbc");
     export_mapbc(boundaries, mesh);
@@ -259,6 +270,10 @@ std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
   }
   out.commit();
   return format.has_entity_groups ? 0 : mesh.labels.edge_groups.size() + mesh.labels.vertex_groups.size();
+}
+
+std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh) {
+  return export_mesh(path, mesh, all_triangles(mesh));
 }
 
 }  // namespace st

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/file/temporary_file.h"
+#include "mesh/quad_pairs.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -92,18 +93,20 @@ void export_stl(Output& out, const SurfaceMesh& mesh);
 void export_ascii_stl(Output& out, const SurfaceMesh& mesh);
 void export_obj(Output& out, const SurfaceMesh& mesh);
 void export_ply(Output& out, const SurfaceMesh& mesh);
-void export_vtu(Output& out, const SurfaceMesh& mesh);
-void export_msh(Output& out, const SurfaceMesh& mesh);
 void export_fro(Output& out, const SurfaceMesh& mesh);
-void export_ugrid(Output& out, const SurfaceMesh& mesh);
-void export_lb8_ugrid(Output& out, const SurfaceMesh& mesh);
-void export_b8_ugrid(Output& out, const SurfaceMesh& mesh);
 void export_mapbc(Output& out, const SurfaceMesh& mesh);
-void export_su2(Output& out, const SurfaceMesh& mesh);
 void export_nastran(Output& out, const SurfaceMesh& mesh);
-void export_medit(Output& out, const SurfaceMesh& mesh);
 void export_off(Output& out, const SurfaceMesh& mesh);
 void export_smesh(Output& out, const SurfaceMesh& mesh);
 void export_poly(Output& out, const SurfaceMesh& mesh);
+
+// With quadrilaterals.
+void export_vtu(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_msh(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_lb8_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_b8_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_su2(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+void export_medit(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
 
 }  // namespace st

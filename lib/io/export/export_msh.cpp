@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 
 #include "io/export/export_formats.h"
 #include "io/hdf5/face_numbers.h"
@@ -10,7 +11,7 @@
 namespace st {
 namespace {
 
-constexpr int kLine = 1, kTriangle = 2, kPoint = 15;  // Gmsh's element types
+constexpr int kLine = 1, kTriangle = 2, kQuadrilateral = 3, kPoint = 15;  // Gmsh's element types
 
 /// Nodes of one entity: a run, since nodes are in the order of their entities.
 struct NodeRun {
@@ -30,18 +31,24 @@ std::vector<NodeRun> node_runs(const SurfaceMesh& m) {
   return runs;
 }
 
-/// A run of triangles of one face.
-struct TriangleRun {
+/// Elements of one kind in one face.
+struct ElementRun {
   FaceId face = 0;
-  std::size_t begin = 0, end = 0;
+  int type = kTriangle;
+  std::size_t begin = 0, end = 0;  ///< in the elements of this kind
 };
 
-std::vector<TriangleRun> triangle_runs(const SurfaceMesh& m) {
-  std::vector<TriangleRun> runs;
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
-    if (runs.empty() || runs.back().face != m.triangle_face[i]) runs.push_back({m.triangle_face[i], i, i});
+/// By face, its triangles before its quadrilaterals.
+std::vector<ElementRun> element_runs(const SurfaceMesh& m, const QuadPairs& elements) {
+  std::vector<ElementRun> runs;
+  const auto add = [&](FaceId face, int type, std::size_t i) {
+    if (runs.empty() || runs.back().face != face || runs.back().type != type) runs.push_back({face, type, i, i});
     runs.back().end = i + 1;
-  }
+  };
+  for (std::size_t i = 0; i < elements.triangles.size(); ++i) add(m.triangle_face[elements.triangles[i]], kTriangle, i);
+  for (std::size_t i = 0; i < elements.quads.size(); ++i)
+    add(m.triangle_face[elements.quads[i].triangle], kQuadrilateral, i);
+  std::stable_sort(runs.begin(), runs.end(), [](const ElementRun& a, const ElementRun& b) { return a.face < b.face; });
   return runs;
 }
 
@@ -181,25 +188,27 @@ std::vector<LowElements> low_elements(const SurfaceMesh& m, const AllPhysicals& 
   return blocks;
 }
 
-/// Triangles have the numbers that they have in the mesh, from 1.
-void write_elements(TextBuffer& text, const SurfaceMesh& m, const AllPhysicals& physicals) {
-  const std::vector<TriangleRun> runs = triangle_runs(m);
+/// Numbers go on from block to block, from 1: without quadrilaterals those of the triangles in the mesh.
+void write_elements(TextBuffer& text, const SurfaceMesh& m, const QuadPairs& elements, const AllPhysicals& physicals) {
+  const std::vector<ElementRun> runs = element_runs(m, elements);
   const std::vector<LowElements> low = low_elements(m, physicals);
-  std::int64_t n_elements = m.n_triangles();
+  std::int64_t n_elements = static_cast<std::int64_t>(elements.triangles.size() + elements.quads.size()), number = 0;
   for (const LowElements& block : low) n_elements += static_cast<std::int64_t>(block.nodes.size()) / (block.dim + 1);
   text << "$Elements\n"
        << static_cast<std::int64_t>(runs.size() + low.size()) << " " << n_elements << " "
        << std::int64_t{n_elements > 0} << " " << n_elements << "\n";
-  for (const TriangleRun& run : runs) {
-    text << "2 " << std::int64_t{run.face + 1} << " " << std::int64_t{kTriangle} << " "
+  for (const ElementRun& run : runs) {
+    text << "2 " << std::int64_t{run.face + 1} << " " << std::int64_t{run.type} << " "
          << static_cast<std::int64_t>(run.end - run.begin) << "\n";
     for (std::size_t i = run.begin; i < run.end; ++i) {
-      text << static_cast<std::int64_t>(i + 1);
-      for (const NodeId n : m.triangles[i].n) text << " " << std::int64_t{n + 1};
+      text << ++number;
+      const bool is_triangle = run.type == kTriangle;
+      const std::span<const NodeId> nodes = is_triangle ? std::span<const NodeId>(m.triangles[elements.triangles[i]].n)
+                                                        : std::span<const NodeId>(elements.quads[i].n);
+      for (const NodeId n : nodes) text << " " << std::int64_t{n + 1};
       text << "\n";
     }
   }
-  std::int64_t number = m.n_triangles();
   for (const LowElements& block : low) {
     const std::size_t n_corners = block.dim + 1, n = block.nodes.size() / n_corners;
     text << std::int64_t{block.dim} << " " << std::int64_t{block.entity + 1} << " " << std::int64_t{block.type} << " "
@@ -214,7 +223,7 @@ void write_elements(TextBuffer& text, const SurfaceMesh& m, const AllPhysicals& 
 
 }  // namespace
 
-void export_msh(Output& out, const SurfaceMesh& m) {
+void export_msh(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
   const std::vector<NodeRun> runs = node_runs(m);
   const AllPhysicals all(m);
   const std::vector<std::string>& surfaces = all.surfaces.names();
@@ -225,7 +234,7 @@ void export_msh(Output& out, const SurfaceMesh& m) {
   text << all.curves.names << all.points.names << "$EndPhysicalNames\n";
   write_entities(text, m, runs, all);
   write_nodes(text, m, runs);
-  write_elements(text, m, all);
+  write_elements(text, m, elements, all);
   text.flush();
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/face_labels.h"
+#include "io/export/export.h"
 #include "io/export/export_formats.h"
 
 namespace st {
@@ -67,33 +68,54 @@ void put(Output& out, T value, bool is_big_endian) {
   out.bytes(bytes.data(), bytes.size());
 }
 
-void write_binary_ugrid(Output& out, const SurfaceMesh& m, bool is_big_endian) {
+std::int64_t n_of(const auto& items) { return static_cast<std::int64_t>(items.size()); }
+
+void write_binary_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements, bool is_big_endian) {
   const auto integer = [&](std::int64_t v) { put(out, static_cast<std::int32_t>(v), is_big_endian); };
   integer(m.n_nodes());
-  integer(m.n_triangles());
-  for (int i = 0; i < 5; ++i) integer(0);
+  integer(n_of(elements.triangles));
+  integer(n_of(elements.quads));
+  for (int i = 0; i < 4; ++i) integer(0);
   for (const Vec3& p : m.node_xyz)
     for (const double x : {p.x, p.y, p.z}) put(out, x, is_big_endian);
-  for (const Triangle& t : m.triangles)
-    for (const NodeId n : t.n) integer(std::int64_t{n} + 1);
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) integer(tag(m, i));
+  for (const TriangleId t : elements.triangles)
+    for (const NodeId n : m.triangles[t].n) integer(std::int64_t{n} + 1);
+  for (const Quadrilateral& q : elements.quads)
+    for (const NodeId n : q.n) integer(std::int64_t{n} + 1);
+  for (const TriangleId t : elements.triangles) integer(tag(m, t));
+  for (const Quadrilateral& q : elements.quads) integer(tag(m, q.triangle));
+}
+
+/// Numbers of an element's nodes from `first` on, with blanks between them.
+TextBuffer& write_corners(TextBuffer& text, const auto& nodes, std::int64_t first) {
+  const char* before = "";
+  for (const NodeId n : nodes) {
+    text << before << n + first;
+    before = " ";
+  }
+  return text;
 }
 
 }  // namespace
 
-/// AFLR3's UGRID: counts, nodes, triangles, then the group of each triangle.
-void export_ugrid(Output& out, const SurfaceMesh& m) {
+/// AFLR3's UGRID: counts, nodes, triangles, quadrilaterals, then the group of each.
+void export_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
   TextBuffer text(out);
-  text << m.n_nodes() << " " << m.n_triangles() << " 0 0 0 0 0\n";
+  text << m.n_nodes() << " " << n_of(elements.triangles) << " " << n_of(elements.quads) << " 0 0 0 0\n";
   write_nodes(text, m, "", "\n");
-  for (const Triangle& t : m.triangles)
-    text << std::int64_t{t.n[0] + 1} << " " << std::int64_t{t.n[1] + 1} << " " << std::int64_t{t.n[2] + 1} << "\n";
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) text << tag(m, i) << "\n";
+  for (const TriangleId t : elements.triangles) write_corners(text, m.triangles[t].n, 1) << "\n";
+  for (const Quadrilateral& q : elements.quads) write_corners(text, q.n, 1) << "\n";
+  for (const TriangleId t : elements.triangles) text << tag(m, t) << "\n";
+  for (const Quadrilateral& q : elements.quads) text << tag(m, q.triangle) << "\n";
   text.flush();
 }
 
-void export_lb8_ugrid(Output& out, const SurfaceMesh& m) { write_binary_ugrid(out, m, false); }
-void export_b8_ugrid(Output& out, const SurfaceMesh& m) { write_binary_ugrid(out, m, true); }
+void export_lb8_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+  write_binary_ugrid(out, m, elements, false);
+}
+void export_b8_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+  write_binary_ugrid(out, m, elements, true);
+}
 
 /// FUN3D's list of boundaries that stands beside a UGRID file: number, boundary condition, name.
 void export_mapbc(Output& out, const SurfaceMesh& m) {
@@ -106,25 +128,28 @@ void export_mapbc(Output& out, const SurfaceMesh& m) {
   text.flush();
 }
 
-/// SU2: triangles as elements, and again as boundary elements in the marker of their group.
-void export_su2(Output& out, const SurfaceMesh& m) {
+/// SU2: the elements, and again as boundary elements in the marker of their group.
+void export_su2(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
   TextBuffer text(out);
-  const auto element = [&](std::size_t i) -> TextBuffer& {
-    const auto& n = m.triangles[i].n;
-    return text << "5 " << std::int64_t{n[0]} << " " << std::int64_t{n[1]} << " " << std::int64_t{n[2]};
+  const std::int64_t n_triangles = n_of(elements.triangles), n_elements = n_triangles + n_of(elements.quads);
+  const auto element = [&](std::int64_t i) -> TextBuffer& {  // VTK's numbers of the two kinds
+    return i < n_triangles ? write_corners(text << "5 ", m.triangles[elements.triangles[i]].n, 0)
+                           : write_corners(text << "9 ", elements.quads[i - n_triangles].n, 0);
   };
-  text << "NDIME= 3\nNELEM= " << m.n_triangles() << "\n";
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) element(i) << " " << static_cast<std::int64_t>(i) << "\n";
+  text << "NDIME= 3\nNELEM= " << n_elements << "\n";
+  for (std::int64_t i = 0; i < n_elements; ++i) element(i) << " " << i << "\n";
   text << "NPOIN= " << m.n_nodes() << "\n";
   std::int64_t number = 0;
   for (const Vec3& p : m.node_xyz) text << p.x << " " << p.y << " " << p.z << " " << number++ << "\n";
   const std::vector<std::string> words = group_words(m);
-  std::vector<std::vector<std::size_t>> of_group(words.size());
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) of_group[m.triangle_group[i]].push_back(i);
+  std::vector<std::vector<std::int64_t>> of_group(words.size());
+  for (std::int64_t i = 0; i < n_elements; ++i)
+    of_group[m.triangle_group[i < n_triangles ? elements.triangles[i] : elements.quads[i - n_triangles].triangle]]
+        .push_back(i);
   text << "NMARK= " << static_cast<std::int64_t>(words.size()) << "\n";
   for (std::size_t g = 0; g < words.size(); ++g) {
     text << "MARKER_TAG= " << words[g] << "\nMARKER_ELEMS= " << static_cast<std::int64_t>(of_group[g].size()) << "\n";
-    for (const std::size_t i : of_group[g]) element(i) << "\n";
+    for (const std::int64_t i : of_group[g]) element(i) << "\n";
   }
   text.flush();
 }
@@ -174,18 +199,40 @@ void export_nastran(Output& out, const SurfaceMesh& m) {
   text.flush();
 }
 
-/// INRIA's Medit, text: the group of each triangle is its reference.
-void export_medit(Output& out, const SurfaceMesh& m) {
+/// INRIA's Medit, text: the group of each element is its reference.
+void export_medit(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
   TextBuffer text(out);
   text << "MeshVersionFormatted 2\nDimension\n3\nVertices\n" << m.n_nodes() << "\n";
   write_nodes(text, m, "", " 0\n");
-  text << "Triangles\n" << m.n_triangles() << "\n";
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
-    for (const NodeId n : m.triangles[i].n) text << std::int64_t{n + 1} << " ";
-    text << tag(m, i) << "\n";
+  text << "Triangles\n" << n_of(elements.triangles) << "\n";
+  for (const TriangleId t : elements.triangles) write_corners(text, m.triangles[t].n, 1) << " " << tag(m, t) << "\n";
+  if (!elements.quads.empty()) text << "Quadrilaterals\n" << n_of(elements.quads) << "\n";
+  for (const Quadrilateral& q : elements.quads) write_corners(text, q.n, 1) << " " << tag(m, q.triangle) << "\n";
+  text << "End\n";
+  text.flush();
+}
+
+void export_sol(const std::string& path, const SurfaceMesh& m, const SizeField& field) {
+  constexpr int kScalar = 1, kMetric = 3;
+  Output out(path);
+  TextBuffer text(out);
+  text << "MeshVersionFormatted 2\nDimension\n3\nSolAtVertices\n"
+       << m.n_nodes() << "\n1 " << std::int64_t{field.is_stretched() ? kMetric : kScalar} << "\n";
+  int hint = 0;
+  for (const Vec3& x : m.node_xyz) {
+    const LocalSize s = field.local(x, hint);
+    if (field.is_stretched()) {  // the lower triangle by rows: xx, xy, yy, xz, yz, zz
+      const double least = 1 / (s.length * s.length), cut = least - 1 / (s.along * s.along);
+      const Vec3 d = s.direction;
+      text << least - cut * d.x * d.x << " " << 0 - cut * d.x * d.y << " " << least - cut * d.y * d.y << " "
+           << 0 - cut * d.x * d.z << " " << 0 - cut * d.y * d.z << " " << least - cut * d.z * d.z << "\n";
+    } else {
+      text << s.length << "\n";
+    }
   }
   text << "End\n";
   text.flush();
+  out.commit();
 }
 
 /// Geomview's OFF: nodes and triangles alone.

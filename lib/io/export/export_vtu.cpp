@@ -47,6 +47,14 @@ class VtuArrays {
   std::size_t n_bytes_ = 0;
 };
 
+/// Values of triangles as values of elements.
+std::vector<std::int32_t> of_elements(const std::vector<std::int32_t>& of_triangle, const QuadPairs& elements) {
+  std::vector<std::int32_t> values;
+  for (const TriangleId t : elements.triangles) values.push_back(of_triangle[t]);
+  for (const Quadrilateral& q : elements.quads) values.push_back(of_triangle[q.triangle]);
+  return values;
+}
+
 std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
   std::vector<std::int32_t> shifted(ids);
   for (std::int32_t& id : shifted) ++id;
@@ -65,15 +73,20 @@ std::string field_data(const SurfaceMesh& m, VtuArrays& arrays) {
 
 }  // namespace
 
-void export_vtu(Output& out, const SurfaceMesh& m) {
+void export_vtu(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+  constexpr std::uint8_t kTriangle = 5, kQuad = 9;  // VTK's cell types
   std::vector<std::int32_t> connectivity;
   std::vector<std::int64_t> offsets;
-  for (const Triangle& t : m.triangles) {
-    connectivity.insert(connectivity.end(), t.n, t.n + 3);
+  std::vector<std::uint8_t> types;
+  const auto add_cell = [&](const auto& nodes, std::uint8_t type) {
+    connectivity.insert(connectivity.end(), std::begin(nodes), std::end(nodes));
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-  }
-  const std::vector<std::uint8_t> types(m.triangles.size(), 5);
-  const std::vector<std::int32_t> face = one_based(m.triangle_face), group = one_based(m.triangle_group),
+    types.push_back(type);
+  };
+  for (const TriangleId t : elements.triangles) add_cell(m.triangles[t].n, kTriangle);
+  for (const Quadrilateral& q : elements.quads) add_cell(q.n, kQuad);
+  const std::vector<std::int32_t> face = one_based(of_elements(m.triangle_face, elements)),
+                                  group = one_based(of_elements(m.triangle_group, elements)),
                                   entity = one_based(m.node_entity);
   std::list<std::vector<std::int32_t>> numbers;
   VtuArrays arrays;
@@ -82,13 +95,13 @@ void export_vtu(Output& out, const SurfaceMesh& m) {
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n");
   out.text(field_data(m, arrays));
   out.text("<Piece NumberOfPoints=\"" + std::to_string(m.n_nodes()) + "\" NumberOfCells=\"" +
-           std::to_string(m.n_triangles()) + "\">\n");
+           std::to_string(types.size()) + "\">\n");
   out.text("<Points>\n" + arrays.add("Float64", "Points", 3, m.node_xyz) + "</Points>\n");
   out.text("<Cells>\n" + arrays.add("Int32", "connectivity", 1, connectivity) +
            arrays.add("Int64", "offsets", 1, offsets) + arrays.add("UInt8", "types", 1, types) + "</Cells>\n");
   out.text("<CellData>\n" + arrays.add("Int32", "face", 1, face) + arrays.add("Int32", "group", 1, group));
   for (const FaceNumbers& d : face_numbers(m))
-    out.text(arrays.add("Int32", d.name, 1, numbers.emplace_back(triangle_numbers(m, d))));
+    out.text(arrays.add("Int32", d.name, 1, numbers.emplace_back(of_elements(triangle_numbers(m, d), elements))));
   out.text("</CellData>\n");
   out.text("<PointData>\n" + arrays.add("UInt8", "entity_dim", 1, m.node_entity_dim) +
            arrays.add("Int32", "entity_id", 1, entity) + arrays.add("Float64", "size", 1, m.node_size));

@@ -53,6 +53,55 @@ TEST(ExportSolvers, su2_names_its_markers) {
   EXPECT_NE(text.find("MARKER_TAG= a_b_2\n"), std::string::npos);
 }
 
+TEST(ExportSolvers, quadrilaterals_follow_the_triangles) {
+  const SurfaceMesh m = three_triangles();
+  const QuadPairs pairs{{2}, {{{0, 1, 3, 2}, 0}}};
+  TemporaryDirectory dir;
+  const auto text_of = [&](const std::string& name) {
+    export_mesh(dir / name, m, pairs);
+    return read_bytes(dir / name);
+  };
+  EXPECT_TRUE(text_of("m.ugrid").starts_with("5 1 1 0 0 0 0\n"));
+  EXPECT_TRUE(text_of("m.ugrid").ends_with("\n1 2 5\n1 2 4 3\n3\n1\n"));
+  EXPECT_EQ(text_of("m.lb8.ugrid").size(), 7u * 4 + 5 * 24 + 7 * 4 + 2 * 4);
+  EXPECT_NE(text_of("m.su2").find("NELEM= 2\n5 0 1 4 0\n9 0 1 3 2 1\n"), std::string::npos);
+  EXPECT_NE(text_of("m.su2").find("MARKER_TAG= a_b\nMARKER_ELEMS= 1\n9 0 1 3 2\n"), std::string::npos);
+  EXPECT_NE(text_of("m.mesh").find("Triangles\n1\n1 2 5 3\nQuadrilaterals\n1\n1 2 4 3 1\nEnd"), std::string::npos);
+  EXPECT_NE(text_of("m.msh").find("2 1 3 1\n1 1 2 4 3\n2 3 2 1\n2 1 2 5\n"), std::string::npos);
+  for (const char* name : {"m.stl", "m.off", "m.poly"})
+    EXPECT_ERROR(export_mesh(dir / name, m, pairs), kUsage, "triangles only");
+}
+
+/// Stretched along a direction where x > 0.5.
+class HalfStretched : public UniformField {
+ public:
+  using UniformField::UniformField;
+  LocalSize local(Vec3 x, int&) const override {
+    return x.x > 0.5 ? LocalSize{min_size(), 2 * min_size(), {0.6, 0.8, 0}} : LocalSize{min_size(), min_size(), {}};
+  }
+  bool is_stretched() const override { return true; }
+};
+
+TEST(ExportSolvers, sol_holds_lengths_or_metrics) {
+  TemporaryDirectory dir;
+  export_sol(dir / "m.sol", three_triangles(), UniformField(0.25));
+  EXPECT_EQ(read_bytes(dir / "m.sol"),
+            "MeshVersionFormatted 2\nDimension\n3\nSolAtVertices\n5\n1 1\n0.25\n0.25\n0.25\n0.25\n0.25\nEnd\n");
+  export_sol(dir / "m.sol", three_triangles(), HalfStretched(0.5));
+  std::istringstream text(read_bytes(dir / "m.sol"));
+  std::string line;
+  for (int i = 0; i < 6; ++i) std::getline(text, line);
+  EXPECT_EQ(line, "1 3");
+  double m[5][6];
+  for (auto& row : m)
+    for (double& value : row) text >> value;
+  ASSERT_TRUE(text.good());
+  const double expected[] = {4 - 3 * 0.36, -3 * 0.48, 4 - 3 * 0.64, 0, 0, 4};  // of node 1, at x = 1
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(m[1][k], expected[k], 1e-12);
+  EXPECT_EQ(m[0][0], 4);
+  EXPECT_EQ(m[0][1], 0);
+}
+
 TEST(ExportSolvers, nastran_reals_have_a_point_and_fit_their_fields) {
   SurfaceMesh m = three_triangles();
   m.node_xyz[1] = {-1.23456789012345678e-123, 1e22, 3};

@@ -89,6 +89,13 @@ TEST(ExportStage, exports_meshes_and_refuses_what_has_no_export) {
   EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "none/m.stl"}), kOutput, "create it first");
   EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.stl"}), kInput,
                "is a patches artifact, which has no export");
+  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl", .quads = true}), kUsage,
+               "triangles only");
+  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.sol"}), kUsage, "give --sizing");
+  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl", .sizing = dir / "s.hdf"}), kUsage,
+               "for .sol only");
+  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.vtu", .quads = true}), kUsage,
+               "are for meshes");
   EXPECT_EQ(dir.files().size(), 3u);
 }
 
