@@ -26,7 +26,9 @@ std::array<double, 3> angles_of(const TriangleCorners& corners, TriangleId t) {
 /// The bin of a value among bins of one width from `first`, the last without end.
 template <std::size_t n>
 std::int64_t& bin_of(std::array<std::int64_t, n>& histogram, double value, double first, double width) {
-  return histogram[static_cast<std::size_t>(std::clamp((value - first) / width, 0.0, static_cast<double>(n - 1)))];
+  const double bin = (value - first) / width;
+  if (!(bin > 0)) return histogram[0];  // NaN, too: of coordinates that overflow
+  return histogram[static_cast<std::size_t>(std::min(bin, static_cast<double>(n - 1)))];
 }
 
 void add_angles(const std::array<double, 3>& angle_deg, double largest, QualityStats& s) {

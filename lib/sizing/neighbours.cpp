@@ -1,5 +1,7 @@
 #include "sizing/neighbours.h"
 
+#include "base/error.h"
+
 namespace st {
 
 Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
@@ -19,6 +21,9 @@ Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
         bool is_larger = false;
         const std::int32_t other =
             beside(static_cast<std::int32_t>(node), o, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1, is_larger);
+        if (is_larger && other != kOutside)
+          throw Error(ExitCode::kInput,
+                      "the octree is not balanced 2:1: the raster or sizing is damaged; make it again");
         // Balanced: beside a node there is always a cell of its size, or the end of the root cube.
         node_neighbours_[27 * static_cast<std::size_t>(child) + static_cast<std::size_t>(d)] =
             is_larger ? kOutside : other;

@@ -20,7 +20,8 @@ struct CellStep {
 /// 20 bytes per leaf.
 class Neighbours {
  public:
-  /// Precondition: balanced 2:1 across faces, edges and corners.
+  /// Precondition: octree_tree_defect() is "". Throws Error(kInput) unless it is balanced 2:1 across faces, edges and
+  /// corners.
   explicit Neighbours(const OctreeView& octree);
 
   const OctreeView& octree() const { return octree_; }

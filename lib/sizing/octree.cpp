@@ -357,7 +357,8 @@ const char* shape_defect(const OctreeView& octree) {
   if (n == 0 || octree.leaf_levels.size() != n || octree.node_children.size() % 8 != 0)
     return "array lengths do not fit";
   if (n != 7 * (octree.node_children.size() / 8) + 1) return "number of leaves does not fit the number of nodes";
-  if (!(octree.edge > 0) || !std::isfinite(octree.edge)) return "root cube has no size";
+  if (!(octree.edge > 0) || !std::isfinite(octree.edge) || !std::isfinite(norm2(octree.lo)))
+    return "root cube has no size";
   std::uint64_t expected = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (octree.leaf_levels[i] > kMaxLevel) return "level out of range";
@@ -367,24 +368,34 @@ const char* shape_defect(const OctreeView& octree) {
   return expected == 1ull << (3 * kMaxLevel) ? nullptr : "leaves do not fill the root cube";
 }
 
-/// Walks all links: each leaf and node is reached once, from where its key says.
+/// Follows all links: parents come before their children, and each leaf and node is reached once, from where its key
+/// says. One pass over the nodes.
 const char* link_defect(const OctreeView& octree) {
-  std::int32_t next_leaf = 0;
-  std::size_t n_visited = 0;
-  const auto walk = [&](const auto& self, std::int32_t node, std::uint64_t key, int level) -> bool {
-    if (node < 0) {
-      const std::int32_t leaf = ~node;
-      return leaf == next_leaf++ && leaf < octree.n_leaves() && octree.leaf_keys[leaf] == key &&
-             octree.leaf_levels[leaf] == level;
-    }
-    if (node >= octree.n_nodes() || level >= kMaxLevel || ++n_visited > octree.node_children.size() / 8) return false;
-    for (std::uint64_t o = 0; o < 8; ++o)
-      if (!self(self, octree.node_children[8 * static_cast<std::size_t>(node) + o],
-                key | o << (3 * (kMaxLevel - 1 - level)), level + 1))
-        return false;
-    return true;
+  constexpr const char* kDefect = "links and keys do not agree";
+  struct Place {
+    std::uint64_t key = 0;
+    int level = -1;  // not reached yet
   };
-  return walk(walk, octree.node_children.empty() ? ~0 : 0, 0, 0) ? nullptr : "links and keys do not agree";
+  std::vector<Place> place(octree.node_children.size() / 8);
+  if (place.empty()) return octree.leaf_levels[0] == 0 ? nullptr : kDefect;
+  place[0].level = 0;
+  for (std::size_t node = 0; node < place.size(); ++node) {
+    const Place here = place[node];
+    if (here.level < 0 || here.level >= kMaxLevel) return kDefect;
+    for (std::uint64_t o = 0; o < 8; ++o) {
+      const std::int32_t child = octree.node_children[8 * node + o];
+      const std::uint64_t key = here.key | o << (3 * (kMaxLevel - 1 - here.level));
+      if (child >= 0) {
+        const std::size_t c = static_cast<std::size_t>(child);
+        if (c <= node || c >= place.size() || place[c].level >= 0) return kDefect;
+        place[c] = {key, here.level + 1};
+      } else if (~child >= octree.n_leaves() || octree.leaf_keys[~child] != key ||
+                 octree.leaf_levels[~child] != here.level + 1) {
+        return kDefect;
+      }
+    }
+  }
+  return nullptr;
 }
 
 const char* balance_defect(const OctreeView& octree) {
@@ -403,11 +414,17 @@ const char* balance_defect(const OctreeView& octree) {
 
 }  // namespace
 
-const char* octree_defect(const OctreeView& octree) {
+const char* octree_tree_defect(const OctreeView& octree) {
   if (const char* defect = shape_defect(octree)) return defect;
   if (const char* defect = link_defect(octree)) return defect;
-  if (const char* defect = balance_defect(octree)) return defect;
   return "";
+}
+
+const char* octree_defect(const OctreeView& octree) {
+  const char* const defect = octree_tree_defect(octree);
+  if (*defect != '\0') return defect;
+  const char* const imbalance = balance_defect(octree);
+  return imbalance ? imbalance : "";
 }
 
 }  // namespace st

@@ -121,7 +121,10 @@ void octree_root(const Box3& box, Vec3& lo, double& edge);
 /// in boxes and cells.
 RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes);
 
-/// First defect of an octree's shape (order, gaps, links, balance), or empty. For tests and for artifacts from outside.
+/// First defect of an octree's arrays (lengths, order, gaps, links), or "". O(n): for every artifact that is read.
+const char* octree_tree_defect(const OctreeView& octree);
+
+/// Likewise, and its balance, which takes longer: for tests.
 const char* octree_defect(const OctreeView& octree);
 
 }  // namespace st

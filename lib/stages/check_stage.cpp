@@ -19,6 +19,7 @@
 #include "judge/cad_contacts.h"
 #include "stages/check_report.h"
 #include "stages/foreign_mesh.h"
+#include "stages/stored_model.h"
 
 namespace st {
 
@@ -29,7 +30,7 @@ struct CadSide {
   Model model;
   std::vector<std::uint8_t> may_be_open, may_be_nonmanifold;
 
-  explicit CadSide(GeometryArtifact&& g) : model(std::move(g.tables), std::move(g.brep)) {
+  CadSide(GeometryArtifact&& g, const std::string& path) : model(stored_model(g, path)) {
     std::vector<std::int32_t> offsets;
     std::vector<FaceId> faces;
     model.tables().edge_faces(offsets, faces);
@@ -392,7 +393,20 @@ std::unique_ptr<CadSide> read_cad(const CheckStageOptions& options, const Artifa
   if (options.geometry.empty()) return nullptr;
   GeometryArtifact geometry = read_geometry(options.geometry);
   require_same_geometry(options.mesh, mesh_header, options.geometry, geometry.header);
-  return std::make_unique<CadSide>(std::move(geometry));
+  return std::make_unique<CadSide>(std::move(geometry), options.geometry);
+}
+
+/// Nodes lie on entities that the geometry has. Throws Error(kInput).
+void require_entities(const std::string& path, const SurfaceMesh& mesh, const ModelTables& t) {
+  const std::int32_t n_entities[] = {t.n_vertices(), t.n_edges(), t.n_faces()};
+  for (std::size_t n = 0; n < mesh.node_entity.size(); ++n) {
+    const std::size_t dim = mesh.node_entity_dim[n];
+    if (dim > 2 || mesh.node_entity[n] < 0 || mesh.node_entity[n] >= n_entities[dim])
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: node {} lies on an entity that the geometry does not have; the file "
+                              "is damaged: make it again with st-merge",
+                              path, n + 1));
+  }
 }
 
 /// The mesh and its geometry (null: not given); a mesh of another program is associated to it first.
@@ -401,6 +415,7 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
   if (!is_foreign_mesh(o.mesh)) {
     artifact = read_mesh(o.mesh);
     cad = read_cad(o, artifact.header);
+    if (cad) require_entities(o.mesh, artifact.mesh, cad->model.tables());
   } else if (o.geometry.empty()) {
     if (!o.sizing.empty())
       throw Error(ExitCode::kUsage,
@@ -409,7 +424,7 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
   } else {
     GeometryArtifact geometry = read_geometry(o.geometry);
     const std::string hash = geometry.header.content_hash;
-    cad = std::make_unique<CadSide>(std::move(geometry));
+    cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
     ForeignMesh foreign = read_foreign_mesh(o.mesh, cad->model, {});
     log_info(association_summary(o.mesh, foreign.artifact.mesh, foreign.report).line);
     artifact = std::move(foreign.artifact);

@@ -16,12 +16,14 @@
 #include "geometry/model/edit_model.h"
 #include "geometry/model/model_state.h"
 #include "geometry/model/unused_labels.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "judge/part_crossings.h"
 #include "stages/edit_names.h"
 #include "stages/edit_provenance.h"
 #include "stages/edit_trace.h"
+#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -105,7 +107,7 @@ Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
     if (all) keep_names_apart(all->tables(), inputs.names[i], join, a.tables);
     trace.append(a.tables, static_cast<std::int32_t>(i));
     placement.resize(trace.faces.size(), {static_cast<int>(i)});
-    Model model(std::move(a.tables), std::move(a.brep));
+    Model model = stored_model(a, o.geometries[i]);
     all = all ? append(*all, model) : std::move(model);
   }
   return {std::move(*all), std::move(trace), std::vector<Similarity>(placement.size()), std::move(placement)};
@@ -295,7 +297,7 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
       {"pairs_not_compared", r.crossings.n_near - r.crossings.n_compared},
       {"area", area},
       {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
-  s.json = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  s.json = json_text(json);
   return s;
 }
 
@@ -318,7 +320,7 @@ StageSummary run_edit(const EditStageOptions& o) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary.json);
   json["hash"] = hash;
   json["seconds"] = timer.seconds();
-  summary.json = json.dump();
+  summary.json = json_text(json);
   summary.line += fmt::format(", {:.2f} s", timer.seconds());
   return summary;
 }

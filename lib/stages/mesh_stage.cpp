@@ -17,6 +17,7 @@
 #include "meshing/engine/mesh_regions.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
+#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -96,7 +97,7 @@ ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& ge
       {"enhance_rounds", o.enhance_rounds},
       {"merge_below", o.merge_below},
       {"max_turning",
-       o.max_turning_deg}}.dump();
+       o.max_turning_deg}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.content_hash}};
   return header;
@@ -112,7 +113,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   const MappedSizing sizing = map_sizing(o.sizing);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  const Model model(std::move(geometry.tables), std::move(geometry.brep));
+  const Model model = stored_model(geometry, o.geometry);
   std::vector<FaceId> faces = select_faces(o, model.tables());
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing);
   EarlierPart earlier = read_earlier_part(o, geometry.header);

@@ -15,6 +15,7 @@
 #include "base/share.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
@@ -32,6 +33,7 @@
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
 #include "stages/size_tally.h"
+#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -401,7 +403,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["chord_cells"] = o.chord_cells;
   if (o.no_surface) options["no_surface"] = true;
   if (o.max_aspect > 1) options["max_aspect"] = o.max_aspect;
-  header.options_json = options.dump();
+  header.options_json = json_text(options);
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;
   header.geometry_hash = geometry.content_hash;
@@ -586,7 +588,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   std::vector<SizeRule> rules = option_rules(o);  // those of the file come later, and win
   rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
   const ArtifactHeader geometry_header = geometry.header;
-  const Model model(std::move(geometry.tables), std::move(geometry.brep));
+  const Model model = stored_model(geometry, o.geometry);
   Wings wings;
   ModelLimits limits;
   if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);

@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
@@ -26,6 +27,7 @@
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
 #include "stages/patches_result.h"
+#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -97,7 +99,7 @@ StageSummary dry_run_summary(const HoleMarker& holes) {
                   holes.mesh().tables.n_faces(), holes.n_marked_segments);
   nlohmann::json json = counts(holes, {});
   json["tool"] = "st-remesh";
-  s.json = json.dump();
+  s.json = json_text(json);
   return s;
 }
 
@@ -135,7 +137,7 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     made_for.emplace(map_sizing(o.made_for));
     require_same_geometry(o.geometry, geometry.header, o.made_for, made_for->header);
   }
-  Model model(std::move(geometry.tables), std::move(geometry.brep));
+  Model model = stored_model(geometry, o.geometry);
   ForeignMesh foreign =
       read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
   MeshArtifact old = std::move(foreign.artifact);
@@ -186,8 +188,7 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   ArtifactHeader header = geometry.header;
-  RemeshInput in{std::move(old), std::move(header), Model(std::move(geometry.tables), std::move(geometry.brep)),
-                 std::move(sizing)};
+  RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};
   in.share = share;
   if (o.moved) move(in);
   return in;
@@ -213,7 +214,7 @@ ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in,
                                        {"keep", o.keep},
                                        {"sizes_on_nodes", std::filesystem::path(o.sizes_on_nodes).filename().string()},
                                        {"faces_redone", holes.dirty_faces().size()}}
-                            .dump();
+                            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), in.old.header.content_hash},
                    {"geometry", std::filesystem::path(o.geometry).filename().string(), in.geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), in.sizing.header.content_hash}};
@@ -269,7 +270,7 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
                           {"seconds", seconds},
                           {"seconds_load", facts.load_seconds},
                           {"seconds_write", write_seconds}}
-               .dump();
+               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return s;
 }
 
@@ -291,7 +292,7 @@ StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, co
       o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), facts) : write_merged(o, in, holes, r, facts);
   nlohmann::json json = nlohmann::json::parse(summary.json);
   json.update(more);
-  summary.json = json.dump();
+  summary.json = json_text(json);
   summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
   return summary;
 }
@@ -301,7 +302,7 @@ StageSummary with_association(StageSummary summary, const std::optional<StageSum
   nlohmann::json json = nlohmann::json::parse(summary.json);
   json["association"] = nlohmann::json::parse(association->json);
   summary.line += fmt::format("; nodes within {:.3g} of the CAD", json["association"]["farthest"].get<double>());
-  summary.json = json.dump();
+  summary.json = json_text(json);
   return summary;
 }
 

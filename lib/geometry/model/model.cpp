@@ -99,7 +99,7 @@ Model::Model(ModelTables tables, std::vector<std::byte> brep)
     }
   } catch (const Standard_Failure& e) {
     throw Error(ExitCode::kInput, std::string("the B-Rep of the geometry artifact cannot be read (") +
-                                      e.GetMessageString() + "); run st-import again");
+                                      e.DynamicType()->Name() + "); run st-import again");
   }
   if (impl_->faces.Extent() != tables_.n_faces() || impl_->edges.Extent() != tables_.n_edges())
     throw Error(ExitCode::kInput, "the B-Rep of the geometry artifact contradicts its tables; run st-import again");

@@ -1,6 +1,7 @@
 // VTKHDF of other programs: an UnstructuredGrid in one part.
 #include <hdf5.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "base/error.h"
@@ -13,6 +14,8 @@ class VtkhdfParser {
  public:
   explicit VtkhdfParser(const std::string& path) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    std::error_code none;
+    bytes_ = std::filesystem::file_size(path, none);
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0) fail("an HDF5 file that cannot be read: damaged or cut off; write it again");
   }
@@ -61,6 +64,9 @@ class VtkhdfParser {
     const H5T_class_t kind = H5Tget_class(stored);
     const hssize_t n = H5Sget_simple_extent_npoints(space);
     std::optional<std::vector<Value>> values;
+    if (n > 0 && static_cast<double>(n) > kMostExpansion * static_cast<double>(bytes_))
+      fail("the dataset " + path + " claims " + std::to_string(n) + " values, too many for a file of " +
+           std::to_string(bytes_) + " bytes; write it again");
     if ((kind == H5T_INTEGER || kind == H5T_FLOAT) && n >= 0 && n < 6000000000) {
       values.emplace(static_cast<std::size_t>(n));
       if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data()) < 0) values.reset();
@@ -77,7 +83,9 @@ class VtkhdfParser {
     return std::move(*values);
   }
 
+  static constexpr double kMostExpansion = 256;  // values per byte of the file: of what compresses best, all alike
   const std::string& path_;
+  std::uint64_t bytes_ = 0;
   hid_t file_ = -1;
 };
 

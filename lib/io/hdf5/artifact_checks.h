@@ -1,11 +1,15 @@
 // Contents that contradict each other are refused when an artifact is read: no reader behind trusts an index blindly.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/ids.h"
+#include "base/vec.h"
 #include "io/hdf5/hdf5_file.h"
 
 namespace st {
@@ -23,6 +27,37 @@ template <class Offset>
 void require_offsets(const Hdf5Reader& reader, const std::string& name, const std::vector<Offset>& offsets,
                      std::size_t n_items) {
   require_offsets(reader, name, std::span<const Offset>(offsets), n_items);
+}
+
+/// Every row is as `is_good` wants it. Throws Error(kInput) naming the dataset and its first bad row. One pass.
+template <class T, class IsGood>
+void require_rows_to_be(const Hdf5Reader& reader, const std::string& name, std::span<const T> rows, const char* what,
+                        const IsGood& is_good) {
+  bool is_all_good = true;
+  for (const T& row : rows) is_all_good &= is_good(row);
+  if (is_all_good) return;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!is_good(rows[i])) reader.fail(name, "row " + std::to_string(i) + " is not " + what);
+}
+
+template <class T>
+bool is_finite(T x) {
+  return std::abs(x) <= std::numeric_limits<T>::max();  // false for NaN
+}
+inline bool is_finite(Vec3 x) { return is_finite(x.x) & is_finite(x.y) & is_finite(x.z); }
+inline bool is_finite(Vec2 x) { return is_finite(x.x) & is_finite(x.y); }
+inline bool is_finite(const Box3& box) { return is_finite(box.lo) & is_finite(box.hi); }
+
+/// Numbers and places are finite.
+template <class T>
+void require_finite(const Hdf5Reader& reader, const std::string& name, const std::vector<T>& rows) {
+  require_rows_to_be(reader, name, std::span<const T>(rows), "finite", [](const T& row) { return is_finite(row); });
+}
+/// Lengths, areas, tolerances: finite and >= 0.
+template <class T>
+void require_lengths(const Hdf5Reader& reader, const std::string& name, const std::vector<T>& rows) {
+  require_rows_to_be(reader, name, std::span<const T>(rows), "a finite number of at least 0",
+                     [](T x) { return is_finite(x) & (x >= 0); });
 }
 
 /// Ids are in [lowest, n). Throws Error(kInput) naming the dataset.

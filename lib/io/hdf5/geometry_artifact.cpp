@@ -83,6 +83,11 @@ void read_vertices_and_edges(const Hdf5Reader& r, ModelTables& t) {
   t.edge_tolerance = r.read_rows<double>("/st/edge/tolerance", n);
   t.edge_is_degenerate = r.read_rows<std::uint8_t>("/st/edge/is_degenerate", n);
   t.edge_name = r.read_string_rows("/st/edge/name", n);
+  require_finite(r, "/st/vertex/xyz", t.vertex_xyz);
+  require_lengths(r, "/st/vertex/tolerance", t.vertex_tolerance);
+  require_lengths(r, "/st/edge/length", t.edge_length);
+  require_lengths(r, "/st/edge/tolerance", t.edge_tolerance);
+  require_finite(r, "/st/edge/range", t.edge_range);
 }
 
 void read_loops(const Hdf5Reader& r, ModelTables& t, std::size_t n_faces) {
@@ -109,6 +114,11 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
     for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
   }
   t.face_box = r.read_rows<Box3>("/st/face/box", n);
+  require_finite(r, "/st/face/uv_bounds", t.face_uv_bounds);
+  require_lengths(r, "/st/face/tolerance", t.face_tolerance);
+  require_finite(r, "/st/face/area", t.face_area);
+  require_lengths(r, "/st/face/width", t.face_width);
+  require_finite(r, "/st/face/box", t.face_box);
   t.face_color = r.read_rows<std::int32_t>("/st/face/color", n);
   t.face_layer = r.read_string_rows("/st/face/layer", n);
   t.labels = read_labels(r, n);

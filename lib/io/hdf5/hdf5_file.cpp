@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 
 namespace st {
@@ -56,6 +58,10 @@ using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
 using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
+
+// HDF5 1.10 keeps a file whose closing failed (disk full) and crashes over it at exit. Its clean-up is not needed:
+// every file is closed by its handle.
+[[maybe_unused]] const herr_t kNoCleanUp = H5dont_atexit();
 
 /// HDF5 prints its error stack unless told not to, per thread.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
@@ -141,6 +147,12 @@ nlohmann::json inputs_to_json(const std::vector<InputRef>& inputs) {
   for (const InputRef& input : inputs)
     list.push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
   return list;
+}
+
+/// A text in a JSON object; "" when there is none, or it is no text.
+std::string text_of(const nlohmann::json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : "";
 }
 
 /// "st-import" for "geometry": the tool to run again.
@@ -294,7 +306,7 @@ Hdf5Writer::Hdf5Writer(const std::string& path, const ArtifactHeader& header) {
   set_attribute(kRoot, "tool", header.tool);
   set_attribute(kRoot, "tool_version", header.tool_version);
   set_attribute(kRoot, "options", header.options_json);
-  set_attribute(kRoot, "inputs", inputs_to_json(header.inputs).dump());
+  set_attribute(kRoot, "inputs", json_text(inputs_to_json(header.inputs)));
   set_attribute(kRoot, "geometry_hash", header.geometry_hash);
 }
 
@@ -484,7 +496,6 @@ void Hdf5Reader::Impl::require_schema(const std::string& schema, int newest_vers
     throw Error(ExitCode::kInput,
                 path + ": " + schema + " schema version " + version + " is newer than this tool knows (" + newest +
                     "); use the version of st that wrote it (" + header.tool_version + ") or a newer one");
-  if (header.schema_version < 1) damaged("schema version " + version + " does not exist");
 }
 
 /// Lists everything and compares it with the content hash.
@@ -565,6 +576,8 @@ void Hdf5Reader::Impl::read_header() {
   if (integer == attributes.end() || integer->second.kind != 'i') damaged("attribute /st@schema_version is missing");
   std::int64_t version = 0;
   std::memcpy(&version, integer->second.bytes.data(), sizeof version);
+  if (version < 1 || version > std::numeric_limits<int>::max())
+    damaged("schema version " + std::to_string(version) + " does not exist");
   header.schema_version = static_cast<int>(version);
   header.tool = text("tool", false);
   header.tool_version = text("tool_version", false);
@@ -579,7 +592,7 @@ void Hdf5Reader::Impl::read_header() {
   if (inputs.is_array())
     for (const auto& input : inputs)
       if (input.is_object())
-        header.inputs.push_back({input.value("role", ""), input.value("name", ""), input.value("hash", "")});
+        header.inputs.push_back({text_of(input, "role"), text_of(input, "name"), text_of(input, "hash")});
 }
 
 const DatasetInfo* Hdf5Reader::Impl::find(const std::string& name) const {

@@ -20,7 +20,10 @@ std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
   return shifted;
 }
 
-std::vector<std::int32_t> zero_based(std::vector<std::int32_t> ids) {
+/// Of ids in the file, 0: none.
+std::vector<std::int32_t> read_ids(const Hdf5Reader& r, const std::string& name, std::size_t n_rows) {
+  std::vector<std::int32_t> ids = r.read_rows<std::int32_t>(name, n_rows);
+  require_rows_to_be(r, name, std::span<const std::int32_t>(ids), "an id", [](std::int32_t id) { return id >= 0; });
   for (std::int32_t& id : ids) --id;
   return ids;
 }
@@ -117,23 +120,32 @@ MeshArtifact read_mesh(const std::string& path) {
   artifact.header = r.header();
   artifact.is_complete = r.int_attribute("/st", "is_complete") != 0;
   SurfaceMesh& m = artifact.mesh;
+  for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
+    r.verify(std::string("/VTKHDF/") + count);  // for other programs
   m.node_xyz = r.read<Vec3>("/VTKHDF/Points");
   const std::size_t n_nodes = m.node_xyz.size();
   m.node_entity_dim = r.read_rows<std::uint8_t>("/VTKHDF/PointData/entity_dim", n_nodes);
-  m.node_entity = zero_based(r.read_rows<std::int32_t>("/VTKHDF/PointData/entity_id", n_nodes));
+  m.node_entity = read_ids(r, "/VTKHDF/PointData/entity_id", n_nodes);
   m.node_size = r.read_rows<double>("/VTKHDF/PointData/size", n_nodes);
+  require_finite(r, "/VTKHDF/Points", m.node_xyz);
+  require_lengths(r, "/VTKHDF/PointData/size", m.node_size);
   m.node_t = r.read_rows<double>("/st/node/t", n_nodes);
   m.triangles = read_triangles(r, n_nodes);
   m.labels = read_labels(r, r.read_strings("/st/face/name").size());
   for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made anew of the labels
-  m.triangle_face = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/face", m.triangles.size()));
+  m.triangle_face = read_ids(r, "/VTKHDF/CellData/face", m.triangles.size());
   require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.labels.face_name.size());
-  m.triangle_group = zero_based(r.read_rows<std::int32_t>("/VTKHDF/CellData/group", m.triangles.size()));
+  for (std::size_t n = 0; n < n_nodes; ++n)
+    if (m.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace) &&
+        m.node_entity[n] >= static_cast<std::int64_t>(m.labels.face_name.size()))
+      r.fail("/VTKHDF/PointData/entity_id", "row " + std::to_string(n) + " names no face");
+  m.triangle_group = read_ids(r, "/VTKHDF/CellData/group", m.triangles.size());
   require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.labels.group_name.size());
   if (r.has("/st/segment/edge")) {
     m.segment_edge = r.read<std::int32_t>("/st/segment/edge");
     m.segment_nodes = r.read_rows<std::int32_t>("/st/segment/nodes", m.segment_edge.size(), 2);
     require_ids(r, "/st/segment/nodes", m.segment_nodes, n_nodes);
+    require_ids(r, "/st/segment/edge", m.segment_edge, kAnyEdge);
   }
   for (const NodeGroups& n : node_groups(m)) r.verify("/VTKHDF/PointData/" + n.name);
   m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());

@@ -21,27 +21,38 @@ namespace {
   throw Error(ExitCode::kInput, fmt::format("{}: array '{}' {}", path, name, what));
 }
 
-/// Reads the whole dataset as doubles; nullopt: there is none of this name.
-std::optional<std::vector<double>> read_dataset(hid_t file, const std::string& name) {
+void require_count(const std::string& path, const std::string& name, std::int64_t n, std::size_t n_nodes) {
+  if (n < 0 || static_cast<std::size_t>(n) != n_nodes)
+    fail(
+        path, name,
+        fmt::format("has {} values, the mesh {} nodes; give one length per node of the mesh to be redone", n, n_nodes));
+}
+
+/// Reads a whole dataset of `n_nodes` values as doubles; nullopt: there is none of this name.
+std::optional<std::vector<double>> read_dataset(hid_t file, const std::string& path, const std::string& name,
+                                                std::size_t n_nodes) {
   const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
   if (dataset < 0) return std::nullopt;
   const hid_t space = H5Dget_space(dataset);
   const hssize_t n = H5Sget_simple_extent_npoints(space);
-  std::vector<double> values(n > 0 ? static_cast<std::size_t>(n) : 0);
-  const bool ok = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
+  std::vector<double> values;
+  const bool is_expected = n >= 0 && static_cast<std::size_t>(n) == n_nodes;  // else its size is not to be trusted
+  if (is_expected) values.resize(n_nodes);
+  const bool ok = is_expected && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
   H5Sclose(space);
   H5Dclose(dataset);
-  if (!ok) values.clear();
+  require_count(path, name, n, n_nodes);
+  if (!ok) fail(path, name, "cannot be read");
   return values;
 }
 
-std::vector<double> read_hdf5(const std::string& path, const std::string& name) {
+std::vector<double> read_hdf5(const std::string& path, const std::string& name, std::size_t n_nodes) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) throw Error(ExitCode::kInput, path + ": no HDF5 file that can be read; give .vtu or HDF5");
   std::optional<std::vector<double>> values;
-  if (name.find('/') == std::string::npos) values = read_dataset(file, "/VTKHDF/PointData/" + name);
-  if (!values) values = read_dataset(file, name);
+  if (name.find('/') == std::string::npos) values = read_dataset(file, path, "/VTKHDF/PointData/" + name, n_nodes);
+  if (!values) values = read_dataset(file, path, name, n_nodes);
   H5Fclose(file);
   if (!values) fail(path, name, "is not in the file, neither as /VTKHDF/PointData/" + name + " nor by that path");
   return *values;
@@ -75,7 +86,9 @@ std::vector<double> read_appended(const std::string& path, const std::string& na
       text.find("compressor=") < data)
     fail(path, name, "is compressed or encoded; write the file as ascii, or appended raw without compression");
   const std::size_t header = attribute(text, "header_type") == "UInt64" ? 8 : 4;
-  const std::size_t at = text.find('_', open) + 1 + std::strtoull(attribute(tag, "offset").c_str(), nullptr, 10);
+  const std::size_t offset = std::strtoull(attribute(tag, "offset").c_str(), nullptr, 10);
+  if (offset > text.size()) fail(path, name, "is cut off");
+  const std::size_t at = text.find('_', open) + 1 + offset;
   std::uint64_t n = 0;
   if (at + header <= text.size()) std::memcpy(&n, text.data() + at, header);
   if (at + header > text.size() || n > text.size() - at - header) fail(path, name, "is cut off");
@@ -113,11 +126,8 @@ std::vector<double> read_vtu(const std::string& path, const std::string& name) {
 std::vector<double> read_node_lengths(const std::string& path, const std::string& name, std::size_t n_nodes) {
   if (!std::filesystem::is_regular_file(path)) throw Error(ExitCode::kInput, path + ": no such file");
   const std::vector<double> values =
-      std::filesystem::path(path).extension() == ".vtu" ? read_vtu(path, name) : read_hdf5(path, name);
-  if (values.size() != n_nodes)
-    fail(path, name,
-         fmt::format("has {} values, the mesh {} nodes; give one length per node of the mesh to be redone",
-                     values.size(), n_nodes));
+      std::filesystem::path(path).extension() == ".vtu" ? read_vtu(path, name) : read_hdf5(path, name, n_nodes);
+  require_count(path, name, static_cast<std::int64_t>(values.size()), n_nodes);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0) || !std::isfinite(values[i]))
       fail(path, name, fmt::format("is {} at node {}; lengths must be positive and finite", values[i], i));

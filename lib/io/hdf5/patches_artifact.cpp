@@ -33,6 +33,8 @@ template <class T>
 void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets,
                 std::vector<FacePatch>& patches, PatchArray<T> array, std::int64_t factor = 1) {
   const std::vector<T> all = r.read_rows<T>(name, static_cast<std::size_t>(factor * offsets.back()));
+  if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Vec2> || std::is_same_v<T, double>)
+    require_finite(r, name, all);
   for (std::size_t i = 0; i < patches.size(); ++i)
     (patches[i].*array).assign(all.begin() + factor * offsets[i], all.begin() + factor * offsets[i + 1]);
 }
@@ -75,7 +77,7 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
       if (entity < 0 || entity >= static_cast<std::int64_t>(a.vertex_xyz.size()))
         r.fail("/st/boundary/entity", label + ": no vertex " + std::to_string(entity + 1));
     } else {
-      if (entity < 0 || entity + 1 >= static_cast<std::int64_t>(a.edges.edge_offsets.size()))
+      if (entity < 0 || static_cast<std::size_t>(entity) >= a.edges.edge_offsets.size() - 1)
         r.fail("/st/boundary/entity", label + ": no edge " + std::to_string(entity + 1));
       if (index < 0 || index >= a.edges.edge_offsets[entity + 1] - a.edges.edge_offsets[entity])
         r.fail("/st/boundary/index",
@@ -140,11 +142,12 @@ void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
   w.write("/st/failure/xyz", xyz);
 }
 
-std::vector<FaceFailure> read_failures(const Hdf5Reader& r) {
+std::vector<FaceFailure> read_failures(const Hdf5Reader& r, std::size_t n_faces) {
   const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/failure/face");
   const std::vector<std::string> cause = r.read_string_rows("/st/failure/cause", face.size());
   const std::vector<std::string> remedy = r.read_string_rows("/st/failure/remedy", face.size());
   const std::vector<Vec3> xyz = r.read_rows<Vec3>("/st/failure/xyz", face.size());
+  require_ids(r, "/st/failure/face", face, n_faces);
   std::vector<FaceFailure> failures;
   for (std::size_t i = 0; i < face.size(); ++i) failures.push_back({face[i], cause[i], remedy[i], xyz[i]});
   return failures;
@@ -152,12 +155,16 @@ std::vector<FaceFailure> read_failures(const Hdf5Reader& r) {
 
 void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
   a.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
+  require_finite(r, "/st/vertex/xyz", a.vertex_xyz);
   a.edge_vertices = r.read<std::int32_t>("/st/edge/vertices", 2);
   require_ids(r, "/st/edge/vertices", a.edge_vertices, a.vertex_xyz.size());
   EdgeMesh& e = a.edges;
   e.node_t = r.read<double>("/st/edge_node/t");
   e.node_xyz = r.read_rows<Vec3>("/st/edge_node/xyz", e.node_t.size());
   e.node_size = r.read_rows<double>("/st/edge_node/size", e.node_t.size());
+  require_finite(r, "/st/edge_node/t", e.node_t);
+  require_finite(r, "/st/edge_node/xyz", e.node_xyz);
+  require_lengths(r, "/st/edge_node/size", e.node_size);
   if (r.has("/st/edge_node/request")) e.node_request = r.read_rows<double>("/st/edge_node/request", e.node_t.size());
   e.edge_offsets = r.read_rows<std::int32_t>("/st/edge/node_offsets", a.edge_vertices.size() / 2 + 1);
   require_offsets(r, "/st/edge/node_offsets", e.edge_offsets, e.node_t.size());
@@ -206,7 +213,7 @@ PatchesArtifact read_patches(const std::string& path) {
   read_faces(r, a);
   a.patches = read_patch_arrays(r, a);
   read_previous(r, a);
-  a.failures = read_failures(r);
+  a.failures = read_failures(r, a.face_shell.size());
   a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.labels.face_group.size());
   a.is_complete = r.int_attribute("/st", "is_complete") != 0;
   return a;

@@ -1,6 +1,10 @@
 #include "io/hdf5/sizing_artifact.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -100,6 +104,8 @@ void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
 SizingNumbers read_numbers(const Hdf5Reader& file) {
   const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
   const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong);
+  for (const char* name : {"min_length", "max_length", "far_length", "alpha_deg", "cell_per_length", "diagonal"})
+    if (!is_finite(get(name)) || get(name) < 0) file.fail(std::string(kSizing) + "@" + name, "is no length");
   return {get("min_length"),
           get("max_length"),
           get("far_length"),
@@ -125,14 +131,42 @@ void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
   file.write<std::int32_t>(kNodeChild, shape.node_children, 8);
 }
 
-/// Sizes that any use of the arrays relies on; their values are covered by checksums.
-void require_shape(const Hdf5Reader& file, std::size_t n_leaves, std::size_t n_levels, std::size_t n_children,
-                   double edge) {
-  if (n_leaves == 0 || n_children % 8 != 0 || n_leaves != 7 * (n_children / 8) + 1)
-    file.fail(kLeafKey, "number of leaves does not fit the tree");
-  require_countable(n_leaves, "cells of one octree");
-  if (n_levels != n_leaves) file.fail(kLeafLevel, "length does not fit the number of leaves");
-  if (!(edge > 0)) file.fail(kRoot, "root cube has no size");
+/// What any walk through the octree relies on.
+void require_shape(const Hdf5Reader& file, const OctreeView& octree) {
+  require_countable(octree.leaf_keys.size(), "cells of one octree");
+  if (const std::string defect = octree_tree_defect(octree); !defect.empty()) file.fail("/st/octree", defect);
+}
+
+bool is_positive(float x) { return is_finite(x) & (x > 0); }
+
+/// Finite lengths > 0; `upper` may be negated.
+bool is_length(const CellLength& c) {
+  return is_positive(c.length) & is_positive(std::abs(c.upper)) & is_finite(c.gradient[0]) & is_finite(c.gradient[1]) &
+         is_finite(c.gradient[2]);
+}
+
+void require_cells(const Hdf5Reader& file, const char* name, std::span<const CellLength> cells) {
+  require_rows_to_be(file, name, cells, "a finite length > 0", is_length);
+}
+
+/// Split leaves ascend and exist; their planes are finite.
+void require_split(const Hdf5Reader& file, std::span<const std::int32_t> leaf, std::span<const CellSplit> split,
+                   std::size_t n_leaves) {
+  require_ids(file, kSplitLeaf, leaf, n_leaves);
+  for (std::size_t i = 1; i < leaf.size(); ++i)
+    if (leaf[i] <= leaf[i - 1]) file.fail(kSplitLeaf, "does not ascend at row " + std::to_string(i));
+  require_rows_to_be(file, kSplitPlane, split, "a plane", [](const CellSplit& s) {
+    return is_finite(s.normal[0]) & is_finite(s.normal[1]) & is_finite(s.normal[2]) & is_finite(s.offset) &
+           is_finite(s.margin);
+  });
+}
+
+/// Slope and scale of a sizing.
+std::pair<double, double> read_slope_and_scale(const Hdf5Reader& file) {
+  const double slope = file.double_attribute(kSizing, "slope"), scale = file.double_attribute(kSizing, "scale");
+  if (!is_finite(slope) || slope < 0) file.fail(std::string(kSizing) + "@slope", "is no slope");
+  if (!is_finite(scale) || !(scale > 0)) file.fail(std::string(kSizing) + "@scale", "is no scale");
+  return {slope, scale};
 }
 
 OctreeShape read_shape(const Hdf5Reader& file) {
@@ -142,7 +176,7 @@ OctreeShape read_shape(const Hdf5Reader& file) {
                     file.read<std::uint64_t>(kLeafKey),
                     file.read<std::uint8_t>(kLeafLevel),
                     file.read<std::int32_t>(kNodeChild, 8)};
-  require_shape(file, shape.leaf_keys.size(), shape.leaf_levels.size(), shape.node_children.size(), shape.edge);
+  require_shape(file, shape.view());
   return shape;
 }
 
@@ -173,12 +207,15 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
   if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
   std::vector<SmallNormal> normals(lengths.size());
   if (file.has(kSampleNormal)) normals = file.read_rows<SmallNormal>(kSampleNormal, lengths.size());
+  require_finite(file, kSamplePoint, points);
+  require_rows_to_be(file, kSampleLength, std::span<const float>(lengths), "a finite length > 0", is_positive);
   std::vector<LengthSample> samples;
   std::vector<SmallNormal> directions(lengths.size());
   std::vector<float> along(lengths.size());
   if (file.has(kSampleAlong)) {
     directions = file.read_rows<SmallNormal>(kSampleDirection, lengths.size());
     along = file.read_rows<float>(kSampleAlong, lengths.size());
+    require_lengths(file, kSampleAlong, along);
   }
   for (std::size_t i = 0; i < lengths.size(); ++i)
     samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
@@ -198,16 +235,22 @@ void write_surface(Hdf5Writer& file, const BlankSurface& surface) {
 BlankSurface read_surface(const Hdf5Reader& file) {
   BlankSurface surface{file.read<Vec3>(kSurfacePoint), file.read<Triangle>(kSurfaceTriangle), BlankSide::kInside};
   for (const Triangle& t : surface.triangles) require_ids(file, kSurfaceTriangle, t.n, surface.points.size());
+  require_finite(file, kSurfacePoint, surface.points);
   if (file.int_attribute(kSizing, kFlowInside) != 0) surface.side = BlankSide::kOutside;
   return surface;
 }
 
-FaceCells read_face_cells(const Hdf5Reader& file) {
+FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves) {
   FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}};
   faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
   faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
-  if (faces.offsets.empty() || faces.offsets.back() != static_cast<std::int64_t>(faces.leaf.size()))
-    file.fail(kFaceOffset, "does not fit cell_leaf");
+  require_offsets(file, kFaceOffset, faces.offsets, faces.leaf.size());
+  require_ids(file, kFaceLeaf, faces.leaf, n_leaves);
+  require_lengths(file, kFaceArea, faces.area);
+  require_rows_to_be(file, kFacePlane, std::span<const CellPlane>(faces.plane), "a plane", [](const CellPlane& p) {
+    return is_finite(p.center[0]) & is_finite(p.center[1]) & is_finite(p.center[2]) & is_finite(p.normal[0]) &
+           is_finite(p.normal[1]) & is_finite(p.normal[2]);
+  });
   return faces;
 }
 
@@ -226,6 +269,7 @@ Similarity read_frame(const Hdf5Reader& file) {
   for (std::size_t i = 0; i < 3; ++i) frame.rotation[i] = {n[3 * i], n[3 * i + 1], n[3 * i + 2]};
   frame.scale = n[9];
   frame.translation = {n[10], n[11], n[12]};
+  require_finite(file, kFrame, n);
   if (!(frame.scale > 0)) file.fail(kFrame, "its scale is not positive");
   return frame;
 }
@@ -244,6 +288,17 @@ struct MappedArrays {
   MappedArray<CellLength> along;
   MappedArray<SmallNormal> direction;
 };
+
+/// The smallest length of the field is one, and coordinates of the model have digits enough for it.
+void require_distinct_lengths(const Hdf5Reader& file, double min_length, double scale, double root_edge) {
+  constexpr double kSmallest = 1e-15;
+  if (!is_finite(min_length) || !(min_length > 0)) file.fail(std::string(kSizing) + "@smallest_length", "is no length");
+  if (min_length * scale < kSmallest * root_edge)
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("{}: lengths down to {:.3g} cannot be told apart in a model of {:.3g}; use a larger --scale",
+                    file.path(), min_length * scale, root_edge));
+}
 
 std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
   const std::vector<double> root = file.read_rows<double>(kRoot, 4);
@@ -267,7 +322,6 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
     if (arrays->split.size() != n || arrays->second_cell.size() != n || arrays->second_cause.size() != n)
       file.fail(kSplitLeaf, "does not fit the other arrays of split cells");
   }
-  require_shape(file, arrays->leaf_key.size(), arrays->leaf_level.size(), arrays->node_child.size(), root[3]);
   if (arrays->cell.size() != arrays->leaf_key.size()) file.fail(kCell, "length does not fit the number of leaves");
   if (arrays->cause.size() != arrays->leaf_key.size()) file.fail(kCause, "length does not fit the number of leaves");
   OctreeFieldData data;
@@ -276,25 +330,36 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
                  arrays->leaf_key.values(),
                  arrays->leaf_level.values(),
                  arrays->node_child.values()};
+  require_shape(file, data.octree);
   data.cells = arrays->cell.values();
   data.cause = arrays->cause.values();
   data.split_leaf = arrays->split_leaf.values();
   data.split = arrays->split.values();
   data.second_cells = arrays->second_cell.values();
   data.second_cause = arrays->second_cause.values();
+  require_cells(file, kCell, data.cells);
+  require_split(file, data.split_leaf, data.split, data.cells.size());
+  require_cells(file, kSplitCell, data.second_cells);
   if (file.has(kAlong)) {
     arrays->along = file.map<CellLength>(kAlong);
     arrays->direction = file.map<SmallNormal>(kDirection);
     if (arrays->along.size() != arrays->cell.size() + arrays->split_leaf.size() ||
         arrays->direction.size() != arrays->along.size())
       file.fail(kAlong, "does not fit the number of cells");
+    require_cells(file, kAlong, arrays->along.values());
     data.along = arrays->along.values();
     data.direction = arrays->direction.values();
     data.max_aspect = read_numbers(file).max_aspect;
   }
-  data.slope = file.double_attribute(kSizing, "slope");
-  data.scale = file.double_attribute(kSizing, "scale");
+  std::tie(data.slope, data.scale) = read_slope_and_scale(file);
+  require_distinct_lengths(file, min_length, data.scale, root[3]);
   return make_octree_field(data, arrays, min_length, read_frame(file));
+}
+
+std::vector<double> read_face_weight(const Hdf5Reader& file) {
+  std::vector<double> weight = file.read<double>(kFaceWeight);
+  require_lengths(file, kFaceWeight, weight);
+  return weight;
 }
 
 CauseNames read_names(const Hdf5Reader& file) {
@@ -365,8 +430,12 @@ RasterArtifact read_raster(const std::string& path) {
   raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
   if (file.has(kSamplePoint)) raster.samples = read_samples(file);
   if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
-  raster.faces = read_face_cells(file);
+  require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length), "a length > 0",
+                     [](float x) { return x > 0; });
+  raster.faces = read_face_cells(file, n);
   raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
+  if (raster.faces.offsets.size() != raster.names.face.size() + 1)
+    file.fail(kFaceOffset, "does not fit the number of faces");
   if (!file.has(kFaceGroup)) return raster;  // written before groups were
   raster.labels = read_labels(file, raster.names.face.size());
   return raster;
@@ -413,13 +482,13 @@ SizingArtifact read_sizing(const std::string& path) {
   SizingArtifact sizing;
   sizing.header = file.header();
   sizing.numbers = read_numbers(file);
-  sizing.slope = file.double_attribute(kSizing, "slope");
-  sizing.scale = file.double_attribute(kSizing, "scale");
+  std::tie(sizing.slope, sizing.scale) = read_slope_and_scale(file);
   sizing.shape = read_shape(file);
   sizing.frame = read_frame(file);
   const std::size_t n = sizing.shape.leaf_keys.size();
   sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
   sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
+  require_cells(file, kCell, sizing.lengths.cells);
   if (file.has(kColour)) {
     sizing.blanking.colour = file.read_rows<CellColour>(kColour, n);
     sizing.blanking.split_leaf = file.read<std::int32_t>(kSplitLeaf);
@@ -427,12 +496,15 @@ SizingArtifact read_sizing(const std::string& path) {
     sizing.blanking.split = file.read_rows<CellSplit>(kSplitPlane, n_split);
     sizing.lengths.second_cells = file.read_rows<CellLength>(kSplitCell, n_split);
     sizing.lengths.second_cause = file.read_rows<std::int32_t>(kSplitCause, n_split);
+    require_split(file, sizing.blanking.split_leaf, sizing.blanking.split, n);
+    require_cells(file, kSplitCell, sizing.lengths.second_cells);
   }
   if (file.has(kAlong)) {
     const std::size_t n_sites = n + sizing.blanking.split_leaf.size();
     sizing.stretched = {file.read_rows<CellLength>(kAlong, n_sites), file.read_rows<SmallNormal>(kDirection, n_sites)};
+    require_cells(file, kAlong, sizing.stretched.along);
   }
-  sizing.face_weight = file.read<double>(kFaceWeight);
+  sizing.face_weight = read_face_weight(file);
   sizing.names = read_names(file);
   return sizing;
 }
@@ -440,7 +512,7 @@ SizingArtifact read_sizing(const std::string& path) {
 MappedSizing map_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
   require_version(file, kOpenSizingVersion, "st-prolong");
-  return {file.header(), read_numbers(file), file.read<double>(kFaceWeight),
+  return {file.header(), read_numbers(file), read_face_weight(file),
           map_field(file, file.double_attribute(kSizing, "smallest_length"))};
 }
 

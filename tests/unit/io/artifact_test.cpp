@@ -7,8 +7,10 @@
 #include <unistd.h>
 #include <csignal>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -415,6 +417,59 @@ TEST(RequireWritable, refuses_what_could_not_be_written_later) {
   EXPECT_ERROR(require_writable(dir / "file/a.hdf"), kOutput, "file");
   EXPECT_ERROR(require_writable("/proc/a.hdf"), kOutput, "cannot be written");
   EXPECT_EQ(dir.files().size(), 1u);
+}
+
+TEST(Artifacts, of_meshes_with_ids_or_numbers_that_do_not_exist_are_refused) {
+  const TemporaryDirectory dir;
+  const std::vector<std::pair<const char*, std::function<void(SurfaceMesh&)>>> breaks = {
+      {"entity_id", [](auto& m) { m.node_entity[0] = -2; }},
+      {"entity_id", [](auto& m) { m.node_entity_dim[0] = 2, m.node_entity[0] = 1000; }},
+      {"CellData/face", [](auto& m) { m.triangle_face[0] = 1000; }},
+      {"Points", [](auto& m) { m.node_xyz[0].x = std::nan(""); }},
+      {"PointData/size", [](auto& m) { m.node_size[0] = std::nan(""); }}};
+  for (const auto& [name, break_it] : breaks) {
+    MeshArtifact mesh = sample_mesh();
+    break_it(mesh.mesh);
+    write_mesh(dir / "a.hdf", mesh);
+    EXPECT_ERROR(read_mesh(dir / "a.hdf"), kInput, name);
+  }
+}
+
+TEST(Artifacts, of_patches_with_ids_or_numbers_that_do_not_exist_are_refused) {
+  const TemporaryDirectory dir;
+  constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
+  const auto set_entities = [](PatchesArtifact& p, std::uint8_t dim, std::int32_t id) {
+    for (FacePatch& patch : p.patches) {
+      patch.boundary_dim.assign(patch.boundary_dim.size(), dim);
+      patch.boundary_entity.assign(patch.boundary_entity.size(), id);
+    }
+  };
+  const std::vector<std::pair<const char*, std::function<void(PatchesArtifact&)>>> breaks = {
+      {"boundary/entity", [&](auto& p) { set_entities(p, 1, kLargest); }},
+      {"boundary/entity", [&](auto& p) { set_entities(p, 0, kLargest); }},
+      {"edge_node/size", [](auto& p) { p.edges.node_size[0] = std::nan(""); }},
+      {"vertex/xyz", [](auto& p) { p.vertex_xyz[0].y = std::nan(""); }}};
+  for (const auto& [name, break_it] : breaks) {
+    PatchesArtifact patches = sample_patches();
+    break_it(patches);
+    write_patches(dir / "a.hdf", patches);
+    EXPECT_ERROR(read_patches(dir / "a.hdf"), kInput, name);
+  }
+}
+
+TEST(Artifacts, of_geometries_with_numbers_that_are_none_are_refused) {
+  const TemporaryDirectory dir;
+  const std::vector<std::pair<const char*, std::function<void(ModelTables&)>>> breaks = {
+      {"vertex/xyz", [](auto& t) { t.vertex_xyz[0].z = std::nan(""); }},
+      {"uv_bounds", [](auto& t) { t.face_uv_bounds[0] = std::numeric_limits<double>::infinity(); }},
+      {"edge/length", [](auto& t) { t.edge_length[0] = -1; }},
+      {"edge/range", [](auto& t) { t.edge_range[0] = std::nan(""); }}};
+  for (const auto& [name, break_it] : breaks) {
+    GeometryArtifact geometry = sample_geometry();
+    break_it(geometry.tables);
+    write_geometry(dir / "a.hdf", geometry);
+    EXPECT_ERROR(read_geometry(dir / "a.hdf"), kInput, name);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <random>
 #include <sstream>
 
@@ -215,13 +217,68 @@ TEST_F(SizingArtifacts, refuse_arrays_that_do_not_fit) {
   SizingArtifact sizing = sample_sizing();
   sizing.shape.leaf_levels.pop_back();
   write_sizing(file("a.hdf"), sizing);
-  EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "leaf_level");
-  EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "leaf_level");
+  EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "/st/octree: array lengths");
+  EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "/st/octree: array lengths");
   sizing = sample_sizing();
   sizing.lengths.cells.pop_back();
   write_sizing(file("a.hdf"), sizing);
   EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "cell");
   EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "cell");
+}
+
+TEST_F(SizingArtifacts, a_raster_whose_links_or_numbers_are_wrong_is_refused) {
+  const auto n_leaves = static_cast<std::int32_t>(sample_raster().octree.shape.leaf_keys.size());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::pair<const char*, std::function<void(RasterArtifact&)>>> breaks = {
+      {"octree", [](auto& r) { r.octree.shape.node_children[3] = 1 << 30; }},
+      {"octree", [](auto& r) { std::fill_n(r.octree.shape.node_children.begin(), 8, 0); }},
+      {"octree", [&](auto& r) { r.octree.shape.node_children[7] = ~n_leaves; }},
+      {"octree", [](auto& r) { r.octree.shape.leaf_levels[0] = 255; }},
+      {"octree", [](auto& r) { std::swap(r.octree.shape.leaf_keys[0], r.octree.shape.leaf_keys[1]); }},
+      {"octree", [](auto& r) { r.octree.shape.lo.x = std::numeric_limits<double>::infinity(); }},
+      {"stored_length", [](auto& r) { r.octree.stored_length[2] = 0; }},
+      {"stored_length", [&](auto& r) { r.octree.stored_length[2] = nan; }},
+      {"cell_offset", [](auto& r) { r.faces.offsets[1] = -1; }},
+      {"cell_offset", [](auto& r) { r.faces.offsets[1] = 1000; }},
+      {"cell_leaf", [&](auto& r) { r.faces.leaf[0] = n_leaves; }},
+      {"cell_area", [&](auto& r) { r.faces.area[0] = nan; }},
+      {"cell_plane", [&](auto& r) { r.faces.plane[1].normal[0] = nan; }},
+      {"sample/point", [&](auto& r) { r.samples[1].xyz[0] = nan; }},
+      {"sample/length", [](auto& r) { r.samples[1].length = -1; }},
+      {"far_length", [](auto& r) { r.numbers.far_length = -1; }}};
+  for (const auto& [name, break_it] : breaks) {
+    RasterArtifact raster = sample_raster();
+    break_it(raster);
+    write_raster(file("a.hdf"), raster);
+    EXPECT_ERROR(read_raster(file("a.hdf")), kInput, name);
+  }
+}
+
+TEST_F(SizingArtifacts, a_sizing_whose_links_or_numbers_are_wrong_is_refused) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::pair<const char*, std::function<void(SizingArtifact&)>>> breaks = {
+      {"octree", [](auto& s) { std::fill(s.shape.node_children.begin(), s.shape.node_children.end(), 0); }},
+      {"octree", [](auto& s) { std::fill(s.shape.node_children.begin(), s.shape.node_children.end(), -1); }},
+      {"octree", [](auto& s) { s.shape.leaf_keys[4] = ~std::uint64_t{0}; }},
+      {"octree/cell", [&](auto& s) { s.lengths.cells[3].length = nan; }},
+      {"octree/cell", [](auto& s) { s.lengths.cells[3].length = 0; }},
+      {"octree/cell", [&](auto& s) { s.lengths.cells[3].gradient[1] = nan; }},
+      {"octree/cell", [](auto& s) { s.lengths.cells[3].upper = std::numeric_limits<float>::infinity(); }},
+      {"scale", [](auto& s) { s.scale = 0; }},
+      {"scale", [&](auto& s) { s.scale = nan; }},
+      {"slope", [](auto& s) { s.slope = -1; }},
+      {"face/weight", [&](auto& s) { s.face_weight[0] = nan; }}};
+  for (const auto& [name, break_it] : breaks) {
+    SizingArtifact sizing = sample_sizing();
+    break_it(sizing);
+    write_sizing(file("a.hdf"), sizing);
+    EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, name);
+    EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, name);
+  }
+  SizingArtifact sizing = sample_sizing();
+  sizing.scale = 1e-300;
+  write_sizing(file("a.hdf"), sizing);
+  EXPECT_ERROR(map_sizing(file("a.hdf")), kUsage, "--scale");
 }
 
 TEST_F(SizingArtifacts, export_needs_a_vtu_name_and_an_octree) {
