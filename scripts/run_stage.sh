@@ -14,9 +14,10 @@ for ((i = 1; i < $#; ++i)); do
 done
 log=$out/log/$stage
 mkdir -p "$out/log"
+runs() { kill -0 "$1" 2> /dev/null && ! grep -q '^State:.Z' "/proc/$1/status" 2> /dev/null; }
 for leftover in "$(dirname "$artifact")/.$(basename "$artifact").tmp."*; do  # of a run that was killed
   owner=${leftover##*.tmp.}
-  [ ! -f "$leftover" ] || kill -0 "${owner%%.*}" 2> /dev/null || rm -f "$leftover"
+  [ ! -f "$leftover" ] || runs "${owner%%.*}" || rm -f "$leftover"
 done
 touch "$out/log/fresh"  # something ran: the report is new
 

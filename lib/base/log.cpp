@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "base/text.h"
+
 namespace st {
 namespace {
 Verbosity g_verbosity = Verbosity::kNormal;
@@ -13,15 +15,15 @@ void set_verbosity(Verbosity v) { g_verbosity = v; }
 Verbosity verbosity() { return g_verbosity; }
 
 void log_warning(const std::string& text) {
-  if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "warning: %s\n", text.c_str());
+  if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "warning: %s\n", one_line(text).c_str());
 }
 
 void log_report(const std::string& text) {
-  if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "%s\n", text.c_str());
+  if (g_verbosity != Verbosity::kQuiet) std::fprintf(stderr, "%s\n", printable(text).c_str());
 }
 
 void log_info(const std::string& text) {
-  if (g_verbosity == Verbosity::kVerbose) std::fprintf(stderr, "%s\n", text.c_str());
+  if (g_verbosity == Verbosity::kVerbose) std::fprintf(stderr, "%s\n", printable(text).c_str());
 }
 
 Progress::Progress(std::string label, double total) : label_(std::move(label)), total_(total) {}

@@ -10,6 +10,27 @@ std::string trimmed(std::string_view text) {
   return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
 }
 
+std::string printable(std::string_view text) {
+  std::string shown(text);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const auto c = static_cast<unsigned char>(shown[i]);
+    if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f) shown[i] = '?';
+    const bool is_c1 = c == 0xc2 && i + 1 < shown.size() && (static_cast<unsigned char>(shown[i + 1]) & 0xe0) == 0x80;
+    if (is_c1) shown.replace(i, 2, "?");  // U+0080 to U+009F: control characters, too
+  }
+  return shown;
+}
+
+std::string one_line(std::string_view text) {
+  constexpr std::size_t kLongest = 2000, kEnds = 900;
+  std::string line = text.size() <= kLongest
+                         ? std::string(text)
+                         : std::string(text.substr(0, kEnds)) + " ... " + std::string(text.substr(text.size() - kEnds));
+  for (char& c : line)
+    if (c == '\n' || c == '\r') c = ' ';
+  return printable(line);
+}
+
 std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text) {
   const char *const begin = text.data(), *const end = begin + text.size();
   std::int64_t first = 0, last = 0;

@@ -12,6 +12,14 @@ namespace st {
 /// Without blanks, tabs and ends of lines around it.
 std::string trimmed(std::string_view text);
 
+/// For a terminal: control characters become '?', so that names from files cannot steer it; lines may end, and tabs
+/// stay.
+std::string printable(std::string_view text);
+
+/// For a message of one line: printable(), ends of lines become blanks, and the middle of what is longer than 2000
+/// bytes is left out.
+std::string one_line(std::string_view text);
+
 /// "17" is 17 to 17, "17-20" is 17 to 20; nullopt: a name.
 std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text);
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -203,9 +204,25 @@ int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
 
 }  // namespace
 
+namespace {
+
+/// Started here; a batch system's job may have many machines.
+int most_ranks() {
+  constexpr int kPerProcessor = 16, kAlways = 64, kInJob = 1 << 16;
+  for (const char* job : {"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID", "JOB_ID", "OMPI_MCA_orte_default_hostfile"})
+    if (std::getenv(job)) return kInJob;
+  return std::max(kAlways, kPerProcessor * static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
 std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& arguments_without_np,
                                     const std::function<void(const std::string& text)>& on_error_text) {
   if (n < 1) throw Error(ExitCode::kUsage, "--np: " + std::to_string(n) + " is not a number of ranks; give 1 or more");
+  if (launched_ranks() == 0 && n > most_ranks())
+    throw Error(ExitCode::kUsage,
+                "--np: " + std::to_string(n) + " ranks are more than 16 per processor of this machine (" +
+                    std::to_string(most_ranks()) + "); give fewer, or start them with mpirun yourself");
   if (n == 1 || launched_ranks() != 0) return std::nullopt;
   set_launch_environment();
   char self[4096];

@@ -1,5 +1,7 @@
 #include "stages/check_report.h"
 
+#include "io/file/json_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -342,7 +344,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
   if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
   if (f.causes) j["causes"] = causes_json(mesh, *f.causes, f.conformity.has_value());
   if (detail == ReportDetail::kFull) j["bins"] = bins_json();
-  return j.dump(detail == ReportDetail::kFull ? 1 : -1);
+  return json_text(j, detail == ReportDetail::kFull ? 1 : -1);
 }
 
 }  // namespace st

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
+#include "io/file/json_text.h"
 
 namespace st {
 namespace {
@@ -126,7 +127,7 @@ void scale_tolerance(double scale, std::string& attributes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(attributes, nullptr, false);
   if (!json.is_object() || !json.contains("tolerance") || !json["tolerance"].is_number()) return;
   json["tolerance"] = scale * json["tolerance"].get<double>();
-  attributes = json.dump();
+  attributes = json_text(json);
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ StageSummary association_summary(const std::string& path, const SurfaceMesh& mes
                           {"nodes_unused", r.n_unused},
                           {"merged_edges", mesh.merged.edge.size()},
                           {"triangles_per_face", r.face_triangles}}
-               .dump();
+               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return s;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "geometry/model/groups.h"
+#include "io/file/json_text.h"
 #include "io/hdf5/artifact.h"
 
 namespace st {
@@ -136,7 +137,7 @@ std::string row(const std::string& name, const Json& entities, const std::string
 std::string group_row(const Json& g) {
   const char* const kind = g.contains("edges") ? "edges" : g.contains("vertices") ? "vertices" : "faces";
   const std::string role = g.contains("role") ? ", " + g["role"].get<std::string>() : "",
-                    attributes = g["attributes"].empty() ? "" : ", " + g["attributes"].dump();
+                    attributes = g["attributes"].empty() ? "" : ", " + json_text(g["attributes"]);
   return row(g["name"], g[kind], role + attributes, kind);
 }
 
@@ -165,7 +166,7 @@ std::string lines(const Json& json) {
 StageSummary run_groups(const std::string& artifact) {
   Json json = {{"tool", "st-info"}, {"artifact", artifact}};
   json.update(report(identity_of(artifact)));
-  return {lines(json), json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  return {lines(json), json_text(json)};
 }
 
 }  // namespace st

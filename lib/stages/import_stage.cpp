@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "features/wing_edges.h"
 #include "geometry/import/import.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
@@ -204,7 +205,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
-    g.header.options_json = used.dump();
+    g.header.options_json = json_text(used);
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
@@ -219,9 +220,17 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   }
   json["seconds"] = timer.seconds();
   s.line += fmt::format(", {:.2f} s", timer.seconds());
-  s.json = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  s.json = json_text(json);
   return s;
 }
+
+/// Removes, at the end of its scope, what a child left that was ended while it wrote `output`.
+struct LeftTemporaries {
+  std::string output;
+  ~LeftTemporaries() {
+    if (!output.empty()) remove_left_temporaries(output);
+  }
+};
 
 /// Meshes are used elsewhere.
 void require_cad(const std::string& path) {
@@ -243,6 +252,7 @@ StageSummary run_import(const ImportStageOptions& o) {
     const StageSummary s = import_here(o, groups);
     return s.line + '\n' + s.json;
   };
+  const LeftTemporaries left{o.check ? "" : o.output};
   const std::string both = run_in_child(work, {time_limit(o)}, o.model);
   const std::size_t line_end = both.find('\n');
   return {both.substr(0, line_end), both.substr(line_end + 1), ExitCode::kOk};

@@ -12,6 +12,7 @@
 
 #include "base/length.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "geometry/flite/flite_writer.h"
 #include "io/export/export.h"
 #include "io/export/octree_export.h"
@@ -22,6 +23,7 @@
 #include "io/hdf5/inspect.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "stages/mesh_export.h"
+#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -130,9 +132,9 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
                        const std::vector<std::int64_t>& n_faces) {
   const ArtifactHeader& h = artifact.header;
   std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version,
-                                 h.tool, h.tool_version);
+                                 one_line(h.tool), one_line(h.tool_version));
   const auto row = [&](const std::string& name, const std::string& value) {
-    text += fmt::format("  {:<16} {}\n", name, value);
+    text += fmt::format("  {:<16} {}\n", one_line(name), one_line(value));
   };
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
@@ -207,7 +209,7 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   const double tolerance =
       resolve_length(parse_length(o.tolerance, "--tolerance"), {diagonal, geometry.tables.unit_in_m}, "--tolerance");
   require_writable(o.output);
-  const FliteExport flite = make_flite(Model(std::move(geometry.tables), std::move(geometry.brep)), tolerance);
+  const FliteExport flite = make_flite(stored_model(geometry, o.artifact), tolerance);
   write_text_file(o.output, flite_text(flite.file));
   StageSummary summary;
   const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);

@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "io/export/export.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "mesh/checks.h"
@@ -141,7 +142,7 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   artifact.header.schema = "mesh";
   artifact.header.tool = "st-merge";
   artifact.header.tool_version = ST_VERSION;
-  artifact.header.options_json = nlohmann::json{{"allow_incomplete", options.allow_incomplete}}.dump();
+  artifact.header.options_json = json_text(nlohmann::json{{"allow_incomplete", options.allow_incomplete}});
   artifact.header.unit = patches.header.unit;
   artifact.header.unit_in_m = patches.header.unit_in_m;
   artifact.header.geometry_hash = patches.header.geometry_hash;
@@ -198,7 +199,7 @@ StageSummary run_merge(const MergeStageOptions& options) {
                                               topology.nonmanifold_edges.count);
   return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(),
                       state, artifact.is_complete ? "" : ", INCOMPLETE", seconds),
-          json.dump(), ExitCode::kOk};
+          json_text(json), ExitCode::kOk};
 }
 
 }  // namespace st

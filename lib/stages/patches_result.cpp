@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "io/file/json_text.h"
 #include "io/hdf5/failure_artifact.h"
 
 namespace st {
@@ -165,7 +166,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
                {"seconds_load", facts.load_seconds},
                {"seconds_write", write_seconds},
                {"hash", hash}});
-  s.json = json.dump();
+  s.json = json_text(json);
   return s;
 }
 

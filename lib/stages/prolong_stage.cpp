@@ -12,6 +12,7 @@
 
 #include "base/limits.h"
 #include "base/log.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
@@ -53,7 +54,7 @@ std::string options_json(const ProlongStageOptions& o, double scale) {
   if (!o.transform.empty()) json["transform"] = o.transform;
   if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
   if (o.allow_incomplete) json["allow_incomplete"] = true;
-  return json.dump();
+  return json_text(json);
 }
 
 ArtifactHeader sizing_header(const ProlongStageOptions& o, const ArtifactHeader& raster, double scale,

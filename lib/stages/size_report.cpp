@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
 #include "sizing/size_origin.h"
 #include "stages/size_tally.h"
 
@@ -161,6 +162,7 @@ StageSummary run_size_why(const std::string& artifact, const std::string& group,
 
 std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, const std::string& points,
                          const std::string& output) {
+  refuse_pipe(points);
   std::ifstream in(points);
   if (!in) throw Error(ExitCode::kInput, points + ": cannot be read; check name and permissions");
   TemporaryFile temporary(output);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -39,6 +40,9 @@ toml::table parse_text(const std::string& text, const std::string& path) {
 }
 
 std::string read_text(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_other(std::filesystem::status(path, none)))
+    fail(path, "is a pipe or a device, which might never end; name a file");
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   if (!file || !(text << file.rdbuf() || file.peek() == std::ifstream::traits_type::eof()) || file.bad())

@@ -77,7 +77,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
     if (job_code) return static_cast<ExitCode>(*job_code);
     if (!comm->is_root()) set_verbosity(Verbosity::kQuiet);
     if (text) {
-      if (comm->is_root()) std::fputs(text->c_str(), stdout);
+      if (comm->is_root()) print_text(*text);
       return ExitCode::kOk;
     }
     const StageSummary summary = stage(*comm);

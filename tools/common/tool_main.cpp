@@ -1,8 +1,10 @@
 #include "common/tool_main.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -12,9 +14,11 @@
 
 #include "base/length.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "common/option_file.h"
 #include "common/presets.h"
 #include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
 
 namespace st {
@@ -42,6 +46,13 @@ void install_signal_handlers() {
     action.sa_handler = end_on_signal;
     sigaction(signal, &action, nullptr);
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size: the write fails and says so
+}
+
+/// A stream that the parent closed must not become an output file: it stays one that takes and gives nothing.
+void occupy_standard_streams() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (fcntl(fd, F_GETFD) < 0 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
 /// The reading is left to CLI11; only the bounds are checked here, so that "not a number" has one message.
@@ -91,13 +102,15 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
                   "read options from this file (TOML, long names without dashes); the command line wins")
       ->type_name("FILE");
   app_.add_flag_function(
-      "--print-options", [](std::int64_t) {},
-      "print an option file that lists every option with its default, and exit");
+          "--print-options", [](std::int64_t) {},
+          "print an option file that lists every option with its default, and exit")
+      ->disable_flag_override();
   app_.add_flag_function(
-      "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit");
-  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only");
-  app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet);
-  app_.add_flag("--json", json_, "print one JSON object as the last line of stdout");
+          "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit")
+      ->disable_flag_override();
+  auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only")->disable_flag_override();
+  app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet)->disable_flag_override();
+  app_.add_flag("--json", json_, "print one JSON object as the last line of stdout")->disable_flag_override();
 }
 
 void ToolMain::input(const std::string& name, std::string& path, const std::string& help) {
@@ -173,7 +186,7 @@ void ToolMain::add_number(const NumberOption& option, CLI::Option* bound) {
 }
 
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
-  file_options_.push_back(app_.add_flag(flag, value, help));
+  file_options_.push_back(app_.add_flag(flag, value, help)->disable_flag_override());
 }
 
 void ToolMain::preset() {
@@ -182,6 +195,7 @@ void ToolMain::preset() {
 }
 
 void ToolMain::begin(int argc, char** argv) {
+  occupy_standard_streams();
   install_signal_handlers();
   json_ = has_argument(argc, argv, "--json");
 }
@@ -207,6 +221,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose cannot be used together; leave one out");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
   require_distinct_files();
+  for (const std::string& path : input_files()) refuse_pipe(path);
   if (!lists_inputs) return std::nullopt;
   std::string lines;
   for (const std::string& path : input_files()) lines += path + "\n";
@@ -244,23 +259,32 @@ void ToolMain::require_distinct_files() const {
            fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
   };
   const std::vector<std::string> outputs = output_paths();
+  std::vector<std::string> inputs = input_files();
+  if (!options_file_.empty()) inputs.push_back(options_file_);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
       if (same(outputs[i], outputs[j]))
         throw Error(ExitCode::kUsage, outputs[i] + ": given twice as an output; choose another name for one of them");
-    for (const std::string& path : input_files())
+    for (const std::string& path : inputs)
       if (same(outputs[i], path))
         throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; choose another output");
   }
 }
 
 void ToolMain::print_summary(const StageSummary& summary) const {
-  const std::string& text = json_ ? summary.json : summary.line;
+  const std::string text = json_ ? summary.json : printable(summary.line);
   if (!text.empty() && (json_ || kind_ == Kind::kReport || !quiet_)) {
     std::fputs(text.c_str(), stdout);
     if (text.back() != '\n') std::fputc('\n', stdout);
   }
-  if (std::fflush(stdout) != 0) throw Error(ExitCode::kOutput, "stdout: cannot write the summary");
+  if (std::fflush(stdout) == 0) return;
+  if (kind_ == Kind::kReport || json_) throw Error(ExitCode::kOutput, "stdout: cannot write the summary");
+  log_warning("stdout takes nothing; what was to be written is complete");
+}
+
+void ToolMain::print_text(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0) throw Error(ExitCode::kOutput, "stdout: cannot be written");
 }
 
 void ToolMain::print_error(ExitCode code, const std::string& message) const {
@@ -269,7 +293,7 @@ void ToolMain::print_error(ExitCode code, const std::string& message) const {
     std::puts(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     std::fflush(stdout);
   }
-  const std::string line = name_ + ": error: " + message + "\n";
+  const std::string line = name_ + ": error: " + one_line(message) + "\n";
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
@@ -297,7 +321,7 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
   begin(argc, argv);
   const auto action = [&] {
     if (const auto text = parse(argc, argv)) {
-      std::fputs(text->c_str(), stdout);
+      print_text(*text);
       return ExitCode::kOk;
     }
     const StageSummary summary = stage();

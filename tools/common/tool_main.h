@@ -90,8 +90,11 @@ class ToolMain {
   std::vector<std::string> input_files() const;
   /// Throws Error(kUsage) when an output would overwrite an input or another output.
   void require_distinct_files() const;
-  /// Prints the summary to stdout. Throws Error(kOutput) when stdout takes nothing.
+  /// Prints the summary to stdout. When stdout takes nothing: throws Error(kOutput) for a report and for JSON, which
+  /// are lost then; only warns for a stage, whose outputs are complete.
   void print_summary(const StageSummary& summary) const;
+  /// Of --help and the like. Throws Error(kOutput) when stdout takes nothing.
+  static void print_text(const std::string& text);
   void print_error(ExitCode code, const std::string& message) const;
   /// Runs `action` and catches everything it throws: the one catch of the program. `report` is told the code and the
   /// message.

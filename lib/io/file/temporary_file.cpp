@@ -9,9 +9,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
 
 #include "base/error.h"
 
@@ -43,6 +47,22 @@ std::string base_of(const std::string& path) {
   throw Error(ExitCode::kOutput, path + ": " + what + "; " + remedy);
 }
 
+/// Eight digits that nobody can foresee.
+std::string random_digits() {
+  static thread_local std::random_device device;
+  char text[9];
+  std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(device()));
+  return text;
+}
+
+/// Makes an empty file that was not there before, and follows no link; its errno, or 0.
+int make_new(const std::string& name) {
+  const int fd = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (fd < 0) return errno;
+  close(fd);
+  return 0;
+}
+
 int reserve_slot(const std::string& name) {
   for (int i = 0; i < kSlots; ++i) {
     int free = 0;
@@ -66,10 +86,25 @@ void sync(const std::string& name, const std::string& path) {
          "free some space or choose another directory");
 }
 
+void fail_unless_made(const std::string& path, int error) {
+  if (error != 0)
+    fail(path, std::string("cannot be written (") + std::strerror(error) + ")",
+         "check permissions and space, or choose another directory");
+}
+
 /// Process that made a temporary file of `base`: the number in ".base.tmp.<pid>.<n>", 0 for any other name.
 pid_t maker_of(const std::string& name, const std::string& base) {
   const std::string start = "." + base + ".tmp.";
   return name.rfind(start, 0) == 0 ? static_cast<pid_t>(std::atol(name.c_str() + start.size())) : 0;
+}
+
+/// Whether the process still runs. One that has ended but whose parent has not asked for its end counts as ended.
+bool is_running(pid_t process) {
+  if (kill(process, 0) != 0 && errno == ESRCH) return false;
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const std::size_t end_of_name = text.rfind(')');  // "17 (name) S ..."
+  return end_of_name == std::string::npos || end_of_name + 2 >= text.size() || text[end_of_name + 2] != 'Z';
 }
 
 constexpr auto kGrace = std::chrono::minutes(1);  // it might be a process of another machine
@@ -80,7 +115,7 @@ void remove_stale(const std::string& path, std::chrono::seconds grace) {
   std::error_code error;
   for (fs::directory_iterator it(directory_of(path), error), end; !error && it != end; it.increment(error)) {
     const pid_t maker = maker_of(it->path().filename().string(), base_of(path));
-    if (maker <= 0 || kill(maker, 0) == 0 || errno != ESRCH) continue;
+    if (maker <= 0 || is_running(maker)) continue;
     std::error_code gone;
     const auto written = fs::last_write_time(it->path(), gone);
     if (!gone && fs::file_time_type::clock::now() - written >= grace) fs::remove(it->path(), gone);
@@ -102,27 +137,27 @@ void require_writable(const std::string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) fail(path, "is a directory", "give a file name");
   if (base_of(path).empty()) fail(path, "is a directory name", "give a file name");
+  if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
+    fail(path, "is a device, a pipe or a socket and would be replaced", "give the name of a file");
   if (stat(directory.c_str(), &info) != 0)
     fail(path, "directory " + directory + ": " + std::strerror(errno), "create it first");
   if (!S_ISDIR(info.st_mode)) fail(path, directory + " is not a directory", "choose another directory");
-  const std::string probe = directory + "/.st.probe." + std::to_string(getpid());
-  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (fd < 0)
-    fail(path, std::string("cannot be written (") + std::strerror(errno) + ")",
-         "check permissions and space, or choose another directory");
-  close(fd);
+  const std::string probe = directory + "/.st.probe." + random_digits();
+  fail_unless_made(path, make_new(probe));
   unlink(probe.c_str());
 }
 
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
-  static std::atomic<int> counter{0};
   require_writable(path);
   remove_stale(path, kGrace);
-  name_ =
-      directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + std::to_string(counter++);
+  name_ = directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
   if (name_.size() >= kNameLength || base_of(path).size() > 220)
     fail(path, "the name is too long", "choose a shorter one");
   slot_ = reserve_slot(name_);
+  if (const int error = make_new(name_)) {
+    g_slots[slot_].state.store(0);
+    fail_unless_made(path, error);
+  }
 }
 
 TemporaryFile::~TemporaryFile() {

@@ -5,9 +5,9 @@
 
 namespace st {
 
-/// A file `.name.tmp.<pid>.<n>` beside `path`, made by whoever opens it for writing. commit() gives it its name;
-/// without commit() the destructor removes it, and so does remove_temporaries() in a signal handler. What a killed
-/// process (SIGKILL) left is removed by the next that writes `path`.
+/// An empty file `.name.tmp.<pid>.<random>` beside `path`, new and no link, for whoever opens it for writing. commit()
+/// gives it its name; without commit() the destructor removes it, and so does remove_temporaries() in a signal handler.
+/// What a killed process (SIGKILL) left is removed by the next that writes `path`.
 class TemporaryFile {
  public:
   /// Reserves a name. Throws Error(kOutput) when `path` cannot be written (see require_writable).
@@ -29,7 +29,7 @@ class TemporaryFile {
 };
 
 /// Throws Error(kOutput) now, before hours of work, when `path` cannot be written (directory missing, no permission, is
-/// a directory).
+/// a directory, a device, a pipe).
 void require_writable(const std::string& path);
 
 /// Removes the temporary files of this process; called by the signal handlers of the tools (async-signal-safe).

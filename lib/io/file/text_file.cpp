@@ -9,9 +9,17 @@
 
 namespace st {
 
+void refuse_pipe(const std::string& path) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  if (std::filesystem::is_other(status))
+    throw Error(ExitCode::kInput, path + ": is a pipe or a device, which might never end; name a file");
+}
+
 std::string read_text_file(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
+  refuse_pipe(path);
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();

@@ -5,7 +5,10 @@
 
 namespace st {
 
-/// The bytes of the file. Throws Error(kInput) for a folder and for what cannot be read.
+/// Throws Error(kInput) for a pipe, a socket or a device: reading it might never end.
+void refuse_pipe(const std::string& path);
+
+/// The bytes of the file. Throws Error(kInput) for a folder, as refuse_pipe(), and for what cannot be read.
 std::string read_text_file(const std::string& path);
 
 /// Writes `text` to `path` by way of a temporary name. Throws Error(kOutput).
