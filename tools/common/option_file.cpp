@@ -1,6 +1,6 @@
 #include "common/option_file.h"
 
-#define TOML_HEADER_ONLY 1
+#define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#define TOML_IMPLEMENTATION  // the parser is compiled here alone
 #include "io/toml/toml_entry.h"
 
 #include <cmath>

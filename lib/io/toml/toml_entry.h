@@ -2,7 +2,7 @@
 // shows.
 #pragma once
 
-#define TOML_HEADER_ONLY 1
+#define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>
 
 #include <string>

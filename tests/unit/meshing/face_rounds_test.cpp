@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "features/strip.h"
 #include "meshing/topology/curve_discretiser.h"
@@ -46,7 +48,7 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
 class GrowingStretch : public UniformField {
  public:
   using UniformField::UniformField;
-  LocalSize local(Vec3 x, int&) const override { return {min_size(), 1 + 2 * x.y, {0, 0, 1}}; }
+  LocalSize local(Vec3 x, int&) const override { return {min_size(), std::max(0.5, 1 + 2 * x.y), {0, 0, 1}}; }
   bool is_stretched() const override { return true; }
 };
 
