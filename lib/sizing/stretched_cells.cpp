@@ -28,6 +28,9 @@ class StretchProlongation {
         blanking_(blanking) {
     for (const auto* cells : {&lengths.cells, &lengths.second_cells})
       for (const CellLength& cell : *cells) across_.push_back(cell.at_centre());
+    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) centre_.push_back(octree_.leaf_center(leaf));
+    for (std::size_t k = centre_.size(); k < across_.size(); ++k)
+      centre_.push_back(centre_[blanking_->split_leaf[k - octree_.n_leaves()]]);
   }
 
   StretchedCells run(std::span<const float> stored_length) {
@@ -41,12 +44,6 @@ class StretchProlongation {
   }
 
  private:
-  std::int32_t leaf_of(std::int32_t site) const {
-    const std::int32_t n = octree_.n_leaves();
-    return site < n ? site : blanking_->split_leaf[site - n];
-  }
-  Vec3 centre(std::int32_t site) const { return octree_.leaf_center(leaf_of(site)); }
-
   /// Calls f(site, request) for what sources ask of leaves and their second parts.
   template <class F>
   void for_each_request(const F& f) const {
@@ -72,7 +69,7 @@ class StretchProlongation {
     std::vector<std::int32_t> origin(stored_length.size(), n_all);
     for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
-      const auto length = static_cast<float>(s.length + options_.slope * distance(s.place(), centre(site)));
+      const auto length = static_cast<float>(s.length + options_.slope * distance(s.place(), centre_[site]));
       if (length == stored_length[site]) origin[site] = std::min(origin[site], sample);
     });
     for_each_request([&](std::int32_t site, std::int32_t r) {
@@ -95,7 +92,7 @@ class StretchProlongation {
     std::vector<float> known(along_.size(), std::numeric_limits<float>::infinity());
     for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
-      const double rise = options_.slope * distance(s.place(), centre(site));
+      const double rise = options_.slope * distance(s.place(), centre_[site]);
       known[site] = std::min(known[site], static_cast<float>(s.length + rise));
       limit(site, s.length, s.stretch, rise);
     });
@@ -126,13 +123,14 @@ class StretchProlongation {
     std::deque<std::int32_t> queue;
     std::vector<std::uint8_t> is_waiting(along_.size(), 1);
     for (std::size_t site = 0; site < along_.size(); ++site) queue.push_back(static_cast<std::int32_t>(site));
+    std::stable_sort(queue.begin(), queue.end(), [&](std::int32_t a, std::int32_t b) { return along_[a] < along_[b]; });
     while (!queue.empty()) {
       const std::int32_t from = queue.front();
       queue.pop_front();
       is_waiting[from] = 0;
       for_each_link(blanking_, neighbours_, from, [&](std::int32_t to, const CellStep&) {
         if (direction_[to] == Vec3{}) return;
-        const double rise = options_.slope * distance(centre(from), centre(to));
+        const double rise = options_.slope * distance(centre_[from], centre_[to]);
         if (!lower(to, length_in(direction_[to], across_[from], along_[from], direction_[from]) + rise)) return;
         if (!is_waiting[to]) queue.push_back(to);
         is_waiting[to] = 1;
@@ -147,6 +145,7 @@ class StretchProlongation {
   const ProlongOptions& options_;
   const double max_aspect_;
   const Blanking* blanking_;
+  std::vector<Vec3> centre_;     // [n_sites]
   std::vector<float> across_;    // [n_sites] at the centre
   std::vector<float> along_;     // [n_sites]
   std::vector<Vec3> direction_;  // [n_sites]
