@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/predicates.h"
 #include "geometry/shape/surface_forms.h"
@@ -46,6 +47,8 @@ class Enhancer {
  private:
   void start() {
     quality_.assign(m_.triangles.size(), kNoTriangle);
+    changed_.assign(m_.triangles.size(), 0);
+    tried_.assign(m_.triangles.size(), 0);
     degree_.assign(m_.nodes.size(), 0);
     is_active_.assign(m_.nodes.size(), 1);
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
@@ -57,7 +60,11 @@ class Enhancer {
 
   void update(std::int32_t t) {
     const PlaneTriangle& r = m_.triangles[t];
-    quality_[t] = static_cast<float>(quality(r.v[0], r.v[1], r.v[2]));
+    set_quality(t, static_cast<float>(quality(r.v[0], r.v[1], r.v[2])));
+  }
+  void set_quality(std::int32_t t, float quality) {
+    quality_[t] = quality;
+    changed_[t] = clock_;
   }
 
   bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
@@ -96,8 +103,12 @@ class Enhancer {
       std::size_t n_swaps = 0;
       for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
         if (quality_[i] > kSwapBelow) continue;
-        for (int k = 0; k < 3; ++k)
+        const std::uint32_t last = std::exchange(tried_[i], ++clock_);
+        for (int k = 0; k < 3; ++k) {
+          const std::int32_t other = m_.triangles[i].n[k];
+          if (other == kNone || (changed_[i] < last && changed_[other] < last)) continue;  // as when it was tried last
           if (try_swap(static_cast<std::int32_t>(i), k)) ++n_swaps;
+        }
       }
       if (n_swaps * 1000 < m_.triangles.size()) return;
     }
@@ -242,7 +253,7 @@ class Enhancer {
       if (ring_about(moved, before).improves(before)) {
         const bool is_far = norm2(moved.x - old.x) > kStill * kStill * old.h * old.h;
         m_.nodes[i] = moved;
-        for (std::size_t j = 0; j < n; ++j) quality_[tris_[j]] = ring_quality_[j];
+        for (std::size_t j = 0; j < n; ++j) set_quality(tris_[j], ring_quality_[j]);
         if (!is_far) return;
         is_active_[i] = 1;
         for (const std::int32_t j : around_) is_active_[j] = 1;
@@ -321,7 +332,7 @@ class Enhancer {
     m_.collapse(i, best, around_, tris_);
     for (std::int32_t t : tris_)
       if (m_.triangles[t].state == kDead)
-        quality_[t] = kNoTriangle;
+        set_quality(t, kNoTriangle);
       else
         update(t);
   }
@@ -352,6 +363,9 @@ class Enhancer {
   Triangulation& m_;
   std::vector<float> ring_quality_;
   std::vector<float> quality_;               // of each inside triangle, kept up to date
+  std::uint32_t clock_ = 0;                  // counts the triangles that swap_sweeps() has tried
+  std::vector<std::uint32_t> changed_;       // when each triangle got its quality
+  std::vector<std::uint32_t> tried_;         // when its sides were last tried
   std::vector<std::uint8_t> at_short_edge_;  // nodes that may be worth a collapse
   std::vector<std::uint8_t> is_active_;      // nodes to be smoothed: something about them changed
   std::vector<std::int32_t> degree_;         // triangles at each node
