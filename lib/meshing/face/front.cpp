@@ -29,6 +29,7 @@ constexpr double kTurningFloor = 0.25;  // of the requested length: turning shor
 constexpr double kTooLarge = 0.95;      // circumradius over requested length that is split when the front has ended
 
 constexpr double kRowRadius = 0.9;  // circumradius over requested length where sizes are stretched; square: 0.707
+constexpr double kRowMiss = 0.003;  // of its length, by which a point of a row may miss its place
 constexpr double kRowAspect = 1.5;  // length along over across: less makes no rows
 
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
@@ -264,8 +265,10 @@ class Front {
       const Vec3 chord = p.x - a.x;
       const double reached = std::sqrt(length2(chord, a, p));
       if (!(reached > 0)) return false;
-      if (step == 3) break;
-      const auto back = tangent_step(p.du, p.dv, -dot(chord, aside) * aside);
+      const double aslant = dot(chord, aside);
+      if (step == 3 || (std::abs(length - reached) < kRowMiss * length && std::abs(aslant) < kRowMiss * norm(chord)))
+        break;
+      const auto back = tangent_step(p.du, p.dv, -aslant * aside);
       if (!back) return false;
       p.p = a.p + std::clamp(length / reached, 0.4, 2.0) * (p.p - a.p + *back);
     }
