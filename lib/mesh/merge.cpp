@@ -134,7 +134,17 @@ std::vector<NodeId> boundary_nodes(const SurfaceMesh& mesh, const FaceRange& r) 
   return nodes;
 }
 
+/// Nodes of the face's triangles are inside it or on edges and vertices, as split_patches() relies on.
+void require_own_nodes(const SurfaceMesh& mesh, const FaceRange& r, std::size_t n_boundary) {
+  for (TriangleId i = r.begin; i < r.end; ++i)
+    for (const NodeId n : mesh.triangles[i].n)
+      if (static_cast<std::size_t>(n) >= n_boundary && (n < r.first || n >= r.last))
+        throw Error(ExitCode::kInput, "triangle " + std::to_string(i + 1) + " of face " + std::to_string(r.face + 1) +
+                                          " has a node inside another face; the mesh is damaged: make it again");
+}
+
 FacePatch patch_of(const SurfaceMesh& mesh, const FaceRange& r, const std::vector<std::int32_t>& index) {
+  require_own_nodes(mesh, r, index.size());
   const auto part = [](auto& to, const auto& from, std::size_t begin, std::size_t end) {
     if (!from.empty()) to.assign(from.begin() + begin, from.begin() + end);
   };

@@ -6,7 +6,15 @@
 #include <numeric>
 #include <vector>
 
+#include "base/memory.h"
+
 namespace st {
+namespace {
+
+constexpr double kShare = 0.8;                 // of the memory
+constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/bench.md)
+
+}  // namespace
 
 double expected_triangles(std::span<const double> face_weight) {
   return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
@@ -22,18 +30,17 @@ void require_countable_mesh(const ModelTables& tables, std::span<const double> f
   if (n <= limit) return;
   const auto heaviest = static_cast<FaceId>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   const double n_heaviest = kTrianglesPerWeight * weight[heaviest];
-  throw Error(
-      ExitCode::kUsage,
-      fmt::format(
-          "{}: these sizes need about {:.3g} triangles ({:.3g} of them on {}), but a mesh can have at most {:.0f}; {}",
-          sizing, n, n_heaviest, tables.face_label(heaviest), limit,
-          n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
-                             : "use larger lengths, or mesh parts with --faces"));
+  throw Error(ExitCode::kUsage, fmt::format("{}: these sizes need about {:.3g} triangles ({:.3g} of them on {}), but a "
+                                            "mesh can have at most {:.0f} here; {}",
+                                            sizing, n, n_heaviest, tables.face_label(heaviest), limit,
+                                            n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
+                                                               : "use larger lengths, or mesh parts with --faces"));
 }
 
 void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
                             std::span<const FaceId> faces, const std::string& sizing) {
-  require_countable_mesh(tables, face_weight, faces, sizing, static_cast<double>(kMaxTriangles));
+  const double fitting = kShare * memory_limit() / kMeshBytesPerTriangle;
+  require_countable_mesh(tables, face_weight, faces, sizing, std::min(static_cast<double>(kMaxTriangles), fitting));
 }
 
 }  // namespace st

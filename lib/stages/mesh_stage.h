@@ -25,7 +25,8 @@ struct MeshStageOptions {
       "merge CAD edges shorter and strips narrower than this times the requested length; 0: merge nothing"};
   double max_turning_deg = 30;
   static constexpr NumberOption kMaxTurning{
-      "--max-turning", "DEG", "(0, 60]", "largest angle in degrees by which a CAD edge turns along one mesh segment"};
+      "--max-turning", "DEG", "[0.001, 60]",
+      "largest angle in degrees by which a CAD edge turns along one mesh segment"};
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

@@ -17,7 +17,7 @@ struct RasterStageOptions {
   std::string lmax;  ///< largest length; empty: 2.5 % of the diagonal
   double alpha_deg = 10;
   static constexpr NumberOption kAlpha{
-      "--alpha", "DEG", "(0, 90]",
+      "--alpha", "DEG", "[0.001, 90]",
       "curvature angle: largest angle in degrees by which normal or tangent turn along one edge length"};
   std::string chord;  ///< largest distance of a length's chord from the geometry; empty: no limit
   std::string sizes;  ///< file of rules for groups, faces and edges; empty: none

@@ -155,10 +155,22 @@ MeshShare share_of(const SurfaceMesh& whole, const Communicator& comm) {
   return {at(comm.rank()), at(comm.rank() + 1), 0, 0};
 }
 
+/// A node inside a face belongs to triangles of that face alone. Throws Error(kInput).
+void require_own_nodes(const std::string& path, const SurfaceMesh& mesh) {
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+    for (const NodeId n : mesh.triangles[t].n)
+      if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace) &&
+          mesh.node_entity[n] != mesh.triangle_face[t])
+        throw Error(ExitCode::kInput, fmt::format("{}: triangle {} of face {} has a node inside another face; the file "
+                                                  "is damaged: make it again with st-merge",
+                                                  path, t + 1, mesh.triangle_face[t] + 1));
+}
+
 /// Rank 0 needs the whole mesh; others their share, unless the move or lengths on nodes ask for all of it.
 MeshArtifact read_share(const RemeshStageOptions& o, const Communicator& comm, MeshShare& share) {
   if (comm.is_root() || o.moved || !o.sizes_on_nodes.empty()) {
     MeshArtifact whole = read_mesh(o.mesh);
+    require_own_nodes(o.mesh, whole.mesh);
     share = share_of(whole.mesh, comm);
     return whole;
   }

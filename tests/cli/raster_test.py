@@ -44,7 +44,7 @@ class Rules(ToolTest):
 
     def test_wrong_rules_are_refused_with_file_and_line(self):
         self.refuse("[[size]]\nlmax = 1\nlmxa = 2\n", "sizes.toml:3", "'lmxa'", "allowed are", "lmin")
-        self.refuse('[[size]]\nlmax = 1\nalpha = 91\n', "sizes.toml:3", "(0, 90]")
+        self.refuse('[[size]]\nlmax = 1\nalpha = 91\n', "sizes.toml:3", "[0.001, 90]")
         self.refuse('[[size]]\nlmax = "3pt"\n', "sizes.toml:2", "lmax")
         self.refuse('[[size]]\nlmax = -1\n', "sizes.toml:2", "positive")
         self.refuse('[[size]]\nlmax = 1\nfor = "edges"\n', "sizes.toml:3", "curves")

@@ -17,6 +17,7 @@
 #include "geometry/import/sewing.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
+#include "geometry/import/sound_geometry.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/model/imported_shape.h"
 #include "geometry/model/model.h"
@@ -184,6 +185,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportResult result;
   result.format = file.format;
   ImportedShape model = occt::collect_parts(file, path);
+  occt::require_sound_geometry(model.shape, path);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);

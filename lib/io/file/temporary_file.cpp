@@ -142,7 +142,8 @@ void require_writable(const std::string& path) {
   if (stat(directory.c_str(), &info) != 0)
     fail(path, "directory " + directory + ": " + std::strerror(errno), "create it first");
   if (!S_ISDIR(info.st_mode)) fail(path, directory + " is not a directory", "choose another directory");
-  const std::string probe = directory + "/.st.probe." + random_digits();
+  const std::string probe =
+      directory + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
   fail_unless_made(path, make_new(probe));
   unlink(probe.c_str());
 }

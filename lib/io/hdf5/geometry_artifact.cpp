@@ -100,6 +100,14 @@ void read_loops(const Hdf5Reader& r, ModelTables& t, std::size_t n_faces) {
   require_offsets(r, "/st/face/loop_offsets", t.face_loop_offsets, t.loop_coedge_offsets.size() - 1);
 }
 
+/// A number of shells or solids, each of which has a face.
+std::int32_t read_count(const Hdf5Reader& r, const std::string& name, std::size_t n_faces) {
+  const std::int64_t n = r.int_attribute("/st", name);
+  if (n < 0 || static_cast<std::uint64_t>(n) > n_faces)
+    r.fail("/st@" + name, std::to_string(n) + " is not possible with " + std::to_string(n_faces) + " faces");
+  return static_cast<std::int32_t>(n);
+}
+
 void read_faces(const Hdf5Reader& r, ModelTables& t) {
   t.face_is_reversed = r.read<std::uint8_t>("/st/face/is_reversed");
   const std::size_t n = t.face_is_reversed.size();
@@ -125,8 +133,8 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
   for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
   for (const EntityGroup& g : t.labels.vertex_groups)
     require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());
-  t.n_shells = static_cast<std::int32_t>(r.int_attribute("/st", "n_shells"));
-  t.n_solids = static_cast<std::int32_t>(r.int_attribute("/st", "n_solids"));
+  t.n_shells = read_count(r, "n_shells", n);
+  t.n_solids = read_count(r, "n_solids", n);
   t.face_shell = r.read_rows<std::int32_t>("/st/face/shell", n);
   require_ids(r, "/st/face/shell", t.face_shell, t.n_shells, kNone);
   t.face_solid = r.read_rows<std::int32_t>("/st/face/solid", n);

@@ -90,7 +90,7 @@ class RuleReader : TomlEntry {
 
   void read_alpha(const toml::node& node) {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !(*value > 0 && *value <= 90)) fail(node, "alpha: takes degrees in (0, 90]");
+    if (!value || !(*value >= 0.001 && *value <= 90)) fail(node, "alpha: takes degrees in [0.001, 90]");
     rule_.alpha_deg = *value;
   }
 

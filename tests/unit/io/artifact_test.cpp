@@ -463,7 +463,9 @@ TEST(Artifacts, of_geometries_with_numbers_that_are_none_are_refused) {
       {"vertex/xyz", [](auto& t) { t.vertex_xyz[0].z = std::nan(""); }},
       {"uv_bounds", [](auto& t) { t.face_uv_bounds[0] = std::numeric_limits<double>::infinity(); }},
       {"edge/length", [](auto& t) { t.edge_length[0] = -1; }},
-      {"edge/range", [](auto& t) { t.edge_range[0] = std::nan(""); }}};
+      {"edge/range", [](auto& t) { t.edge_range[0] = std::nan(""); }},
+      {"n_shells", [](auto& t) { t.n_shells = 1 << 30; }},
+      {"n_solids", [](auto& t) { t.n_solids = 1 << 30; }}};
   for (const auto& [name, break_it] : breaks) {
     GeometryArtifact geometry = sample_geometry();
     break_it(geometry.tables);

@@ -61,6 +61,13 @@ TEST(Merge, gives_the_mesh_again_for_the_patches_that_it_splits_into) {
   EXPECT_TRUE(same(c.merge(), m));
 }
 
+TEST(Merge, refuses_to_split_triangles_with_nodes_inside_another_face) {
+  CubePatches c;
+  SurfaceMesh m = c.merge();
+  m.triangles.front().n[0] = m.n_nodes() - 1;
+  EXPECT_THROW(split_patches(m, c.edges, 6), Error);
+}
+
 TEST(Merge, splits_a_mesh_without_some_faces_into_patches_without_triangles_there) {
   CubePatches c;
   c.patches.erase(c.patches.begin() + 2);

@@ -1,0 +1,148 @@
+#include "geometry/import/sound_geometry.h"
+
+#include <fmt/format.h>
+
+#include <BRep_Tool.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierCurve.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SweptSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+
+namespace st::occt {
+namespace {
+
+struct ControlPoint {
+  std::array<double, 3> xyz;
+  const char* kind;  ///< "face", "edge", "vertex"
+  int number;        ///< from 1, in the shape
+};
+
+/// All points that the shape is made of, in its own frame.
+class PointCollector {
+ public:
+  explicit PointCollector(const std::string& path) : path_(path) {}
+
+  void add_shape(const TopoDS_Shape& shape) {
+    TopTools_IndexedMapOfShape vertices, edges, faces;
+    TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    begin("vertex");
+    for (; number_ <= vertices.Extent(); ++number_) add(BRep_Tool::Pnt(TopoDS::Vertex(vertices(number_))), 1);
+    begin("edge");
+    for (; number_ <= edges.Extent(); ++number_) add_edge(TopoDS::Edge(edges(number_)));
+    begin("face");
+    for (; number_ <= faces.Extent(); ++number_) add_face(TopoDS::Face(faces(number_)));
+  }
+
+  const std::vector<ControlPoint>& points() const { return points_; }
+
+ private:
+  void begin(const char* kind) {
+    kind_ = kind;
+    number_ = 1;
+  }
+
+  void add(const gp_Pnt& p, double weight) {
+    if (!std::isfinite(p.X() + p.Y() + p.Z()) || !std::isfinite(weight))
+      throw Error(ExitCode::kGeometry,
+                  fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}) that is not finite; the file is damaged: "
+                              "export it again from the CAD system",
+                              path_, kind_, number_, p.X(), p.Y(), p.Z()));
+    points_.push_back({{p.X(), p.Y(), p.Z()}, kind_, number_});
+  }
+
+  void add_edge(const TopoDS_Edge& edge) {
+    TopLoc_Location where;
+    double first = 0, last = 0;
+    add_curve(BRep_Tool::Curve(edge, where, first, last), where.Transformation());
+  }
+
+  void add_face(const TopoDS_Face& face) {
+    TopLoc_Location where;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, where);
+    add_surface(surface, where.Transformation());
+  }
+
+  void add_curve(const Handle(Geom_Curve) & curve, const gp_Trsf& to_model) {
+    if (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve))
+      return add_curve(trimmed->BasisCurve(), to_model);
+    if (const auto spline = Handle(Geom_BSplineCurve)::DownCast(curve))
+      for (int i = 1; i <= spline->NbPoles(); ++i) add(spline->Pole(i).Transformed(to_model), spline->Weight(i));
+    if (const auto bezier = Handle(Geom_BezierCurve)::DownCast(curve))
+      for (int i = 1; i <= bezier->NbPoles(); ++i) add(bezier->Pole(i).Transformed(to_model), bezier->Weight(i));
+  }
+
+  template <class Spline>
+  void add_poles(const Spline& spline, const gp_Trsf& to_model) {
+    for (int i = 1; i <= spline.NbUPoles(); ++i)
+      for (int j = 1; j <= spline.NbVPoles(); ++j) add(spline.Pole(i, j).Transformed(to_model), spline.Weight(i, j));
+  }
+
+  void add_surface(const Handle(Geom_Surface) & surface, const gp_Trsf& to_model) {
+    if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))
+      return add_surface(trimmed->BasisSurface(), to_model);
+    if (const auto offset = Handle(Geom_OffsetSurface)::DownCast(surface))
+      return add_surface(offset->BasisSurface(), to_model);
+    if (const auto swept = Handle(Geom_SweptSurface)::DownCast(surface)) add_curve(swept->BasisCurve(), to_model);
+    if (const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface)) add_poles(*spline, to_model);
+    if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(surface)) add_poles(*bezier, to_model);
+  }
+
+  const std::string& path_;
+  const char* kind_ = "";
+  int number_ = 1;
+  std::vector<ControlPoint> points_;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::array<double, 3> middle_of(const std::vector<ControlPoint>& points) {
+  std::array<double, 3> middle{};
+  std::vector<double> coordinate(points.size());
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::transform(points.begin(), points.end(), coordinate.begin(), [d](const ControlPoint& p) { return p.xyz[d]; });
+    middle[d] = median(coordinate);
+  }
+  return middle;
+}
+
+}  // namespace
+
+void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) {
+  PointCollector collector(path);
+  collector.add_shape(shape);
+  const std::vector<ControlPoint>& points = collector.points();
+  if (points.empty()) return;
+  const std::array<double, 3> middle = middle_of(points);
+  std::vector<double> distance;
+  for (const ControlPoint& p : points)
+    distance.push_back(std::hypot(p.xyz[0] - middle[0], p.xyz[1] - middle[1], p.xyz[2] - middle[2]));
+  const auto farthest = std::max_element(distance.begin(), distance.end());
+  const double usual = median(distance);
+  if (usual == 0 || *farthest <= kFarthestPoint * usual) return;
+  const ControlPoint& p = points[static_cast<std::size_t>(farthest - distance.begin())];
+  throw Error(ExitCode::kGeometry,
+              fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}), {:.1g} times as far away as half of the "
+                          "model's points ({:.3g}); the file is damaged, or that part is to be left out",
+                          path, p.kind, p.number, p.xyz[0], p.xyz[1], p.xyz[2], *farthest / usual, usual));
+}
+
+}  // namespace st::occt

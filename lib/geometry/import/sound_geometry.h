@@ -1,0 +1,18 @@
+// Files that were damaged slightly are read without complaint: control points that are no numbers, or light years away.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <string>
+
+namespace st::occt {
+
+/// Control points may be this many times as far from the middle of the model as most of its points are. A far field
+/// of a thousand bodies' lengths around details of a thousandth is just within it.
+inline constexpr double kFarthestPoint = 1e6;
+
+/// Throws Error(kGeometry) naming the face or edge and the point when a vertex, a control point or a weight of a
+/// spline of `shape` is not finite, or farther away than kFarthestPoint: no stage behind could end on it. Linear in
+/// the number of points.
+void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path);
+
+}  // namespace st::occt

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Faults from outside: kills at random moments, full disks, odd surroundings. Afterwards the same hash, nothing left.
+
+usage: tests/fuzz/faults.py BIN_DIR [--kills N] [--disks N] [--seed N] [--model NAME]
+
+Kills: SIGKILL, SIGTERM or SIGINT to the tool, its process group or one of two ranks, at a random moment of a stage.
+The output is absent or whole, the code is that of the signal, a killed rank is named, and the repeated run gives the
+same hash and leaves no temporary. Disks: a tmpfs of a few kB; the code is 6, one message names the output, nothing
+is left, and with more space the hash is the same. Needs root (skipped without). Surroundings: German locale, empty
+environment, no HOME, wrong TMPDIR, stack of 1 MB, two runs into one output. Exit 1 when a case fails.
+"""
+import argparse
+import collections
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT]
+PARALLEL = {"st-raster", "st-mesh", "st-remesh"}
+
+
+class Stages:
+    """Each stage on good inputs, its hash and how long it takes."""
+
+    def __init__(self, bin_dir, model, folder):
+        self.bin, self.good, self.hash, self.seconds = bin_dir, folder, {}, {}
+        g = {n: folder / f"{n}.hdf" for n in ("geometry", "raster", "sizing", "patches", "mesh")}
+        self.inputs = {"st-import": [model], "st-raster": [g["geometry"]], "st-prolong": [g["raster"]],
+                       "st-mesh": [g["geometry"], g["sizing"]], "st-merge": [g["patches"]],
+                       "st-remesh": [g["mesh"], g["geometry"], g["sizing"], "--too-long", "1.05"]}
+        for tool, output in zip(self.inputs, [*g.values(), folder / "re.hdf"]):
+            start = time.monotonic()
+            self.run(tool, output, check=True)
+            self.seconds[tool] = time.monotonic() - start
+            self.hash[tool] = self.hash_of(output)
+
+    def command(self, tool, output, ranks=1):
+        return [str(self.bin / tool), *map(str, self.inputs[tool]), "-o", str(output), "-q",
+                *(["--np", str(ranks)] if ranks > 1 else [])]
+
+    def run(self, tool, output, **keywords):
+        return subprocess.run(self.command(tool, output), capture_output=True, text=True, **keywords)
+
+    def hash_of(self, path):
+        done = subprocess.run([self.bin / "st-info", path, "--hash"], capture_output=True, text=True)
+        return done.stdout.strip() if done.returncode == 0 else f"unreadable: {done.stderr}"
+
+    def wrong_after_repeat(self, tool, output):
+        """A run that nothing disturbs: what is wrong with its output or its folder."""
+        for left in output.parent.glob(".*.tmp.*"):
+            os.utime(left, (0, 0))  # younger ones might be of another machine and stay for a minute
+        done = self.run(tool, output)
+        if done.returncode != 0:
+            return f"repeated: exit {done.returncode}: {done.stderr}"
+        if self.hash_of(output) != self.hash[tool]:
+            return f"repeated: another hash {self.hash_of(output)}"
+        left = sorted(p.name for p in output.parent.iterdir() if p != output)
+        return f"left: {left}" if left else ""
+
+
+def children(pid):
+    for task in Path("/proc").glob(f"{pid}/task/*/children"):
+        for child in map(int, task.read_text().split()):
+            yield child
+            yield from children(child)
+
+
+def ranks_of(process, tool):
+    """The ranks that run below the tool and its mpirun."""
+    found = []
+    for child in children(process.pid):
+        try:
+            name = Path(f"/proc/{child}/comm").read_text().strip()
+        except OSError:
+            continue
+        if name == tool[:15]:
+            found.append(child)
+    return found
+
+
+def kill(stages, rng, folder):
+    """(what was done, what is wrong or "")."""
+    tool, sent, output = rng.choice(list(stages.inputs)), rng.choice(SIGNALS), folder / "x.hdf"
+    target = rng.choice(["tool", "group", "rank"] if tool in PARALLEL else ["tool", "group"])
+    ranks = 2 if target == "rank" or (tool in PARALLEL and rng.random() < 0.3) else 1
+    process = subprocess.Popen(stages.command(tool, output, ranks), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True, start_new_session=True)
+    time.sleep(rng.random() * (stages.seconds[tool] + 0.3 * (ranks - 1)))
+    of_ranks = ranks_of(process, tool) if target == "rank" else []
+    try:
+        if target == "group":
+            os.killpg(process.pid, sent)
+        else:
+            os.kill(rng.choice(of_ranks) if of_ranks else process.pid, sent)
+    except ProcessLookupError:
+        pass
+    try:
+        err = process.communicate(timeout=60)[1]
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        return f"{tool} {target}", "does not end"
+    code, what = process.returncode, f"{tool} {target} {sent.name}"
+    allowed = {0, -sent, 128 + sent}
+    if code not in allowed:
+        return what, f"exit {code}: {err}"
+    if of_ranks and code == 128 + signal.SIGKILL and sent == signal.SIGKILL and "signal 9" not in err:
+        return what, f"the killed rank is not named: {err!r}"
+    if output.exists() and stages.hash_of(output) != stages.hash[tool]:
+        return what, "half an output"
+    if code == 0 and not output.exists():
+        return what, "success without an output"
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline and any(tool in (p / "comm").read_text() and str(output) in
+                                              (p / "cmdline").read_text() for p in processes()):
+        time.sleep(0.1)
+    return what, stages.wrong_after_repeat(tool, output)
+
+
+def processes():
+    for p in Path("/proc").iterdir():
+        try:
+            if p.name.isdigit() and (p / "comm").read_text() and (p / "cmdline").read_text():
+                yield p
+        except OSError:
+            pass
+
+
+def full_disk(stages, rng, folder):
+    tool = rng.choice(list(stages.inputs))
+    sizes = {"st-import": "geometry", "st-raster": "raster", "st-prolong": "sizing", "st-mesh": "patches",
+             "st-merge": "mesh", "st-remesh": "re"}
+    room = max(4, rng.randrange((stages.good / f"{sizes[tool]}.hdf").stat().st_size // 1024) // 4 * 4)
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={room}k", "tmpfs", folder]).returncode != 0:
+        return "skipped", ""
+    what, output = f"{tool} {room} kB", folder / "x.hdf"
+    try:
+        done = stages.run(tool, output)
+        lines = done.stderr.splitlines()
+        left = [p.name for p in folder.iterdir()]
+        if done.returncode != 6 or len(lines) != 1 or "x.hdf" not in lines[0] or left:
+            return what, f"exit {done.returncode}, left {left}: {done.stderr}"
+        subprocess.run(["mount", "-o", "remount,size=16m", folder], check=True)
+        return what, stages.wrong_after_repeat(tool, output)
+    finally:
+        subprocess.run(["umount", folder], check=True)
+
+
+def surroundings(stages, folder):
+    """(what, what is wrong) of each."""
+    def small_stack():
+        resource.setrlimit(resource.RLIMIT_STACK, (2**20, 2**20))
+
+    env = dict(os.environ)
+    odd = {"German locale": {"env": env | {"LC_ALL": "de_DE.UTF-8"}}, "empty environment": {"env": {}},
+           "no HOME": {"env": {k: v for k, v in env.items() if k != "HOME"}},
+           "wrong TMPDIR": {"env": env | {"TMPDIR": "/does/not/exist"}}, "stack of 1 MB": {"preexec_fn": small_stack}}
+    for what, keywords in odd.items():
+        for tool in stages.inputs:
+            done = stages.run(tool, folder / "x.hdf", **keywords)
+            same = done.returncode == 0 and stages.hash_of(folder / "x.hdf") == stages.hash[tool]
+            yield f"{tool}, {what}", "" if same else f"exit {done.returncode}: {done.stderr}"
+            (folder / "x.hdf").unlink(missing_ok=True)
+    for tool in stages.inputs:
+        both = [subprocess.Popen(stages.command(tool, folder / "x.hdf"), stderr=subprocess.PIPE) for _ in range(2)]
+        codes = [p.communicate() and p.returncode for p in both]
+        same = codes == [0, 0] and [p.name for p in folder.iterdir()] == ["x.hdf"]
+        yield f"{tool}, two at once", "" if same else f"exit {codes}, {list(folder.iterdir())}"
+        (folder / "x.hdf").unlink(missing_ok=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bin_dir", type=Path)
+    parser.add_argument("--kills", type=int, default=300)
+    parser.add_argument("--disks", type=int, default=50)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--model", default="dome")
+    args = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in background jobs of a shell
+    model = next(Path(os.environ.get("ST_MODELS") or args.bin_dir.parent / "test_models").glob(args.model + ".*"))
+    counts, failed = collections.Counter(), 0
+    with tempfile.TemporaryDirectory() as top:
+        good = Path(top) / "good"
+        good.mkdir()
+        stages, rng = Stages(args.bin_dir, model, good), random.Random(args.seed)
+
+        def cases():
+            fresh = lambda: Path(tempfile.mkdtemp(dir=top))  # noqa: E731
+            for _ in range(args.kills):
+                yield "kills", *kill(stages, rng, fresh())
+            for _ in range(args.disks if os.geteuid() == 0 else 0):
+                yield "full disks", *full_disk(stages, rng, fresh())
+            for what, wrong in surroundings(stages, fresh()):
+                yield "surroundings", what, wrong
+
+        for kind, what, wrong in cases():
+            counts[kind] += 1
+            if wrong:
+                failed += 1
+                print(f"FAILED {kind}: {what}: {wrong}", flush=True)
+    print(", ".join(f"{n} {kind}" for kind, n in counts.items()) + f", {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,41 @@
+#include "geometry/import/sound_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS_Face.hxx>
+#include <limits>
+
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+/// A patch of 3 x 3 control points, whose middle one is lifted to `z`.
+TopoDS_Shape patch(double z) {
+  TColgp_Array2OfPnt poles(1, 3, 1, 3);
+  for (int i = 1; i <= 3; ++i)
+    for (int j = 1; j <= 3; ++j) poles(i, j) = gp_Pnt(i, j, 0);
+  Handle(Geom_BezierSurface) surface = new Geom_BezierSurface(poles);
+  const TopoDS_Shape face(BRepBuilderAPI_MakeFace(surface, 1e-7).Face());
+  surface->SetPole(2, 2, gp_Pnt(2, 2, z));
+  return face;
+}
+
+TEST(SoundGeometry, takes_points_that_are_far_away_but_not_absurd) {
+  EXPECT_NO_THROW(occt::require_sound_geometry(patch(1), "a.step"));
+  EXPECT_NO_THROW(occt::require_sound_geometry(patch(5e5), "a.step"));
+}
+
+TEST(SoundGeometry, refuses_points_that_are_not_finite_or_absurdly_far) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_ERROR(occt::require_sound_geometry(patch(-kInfinity), "a.step"), kGeometry, "a.step: face 1 has a point");
+  EXPECT_ERROR(occt::require_sound_geometry(patch(std::numeric_limits<double>::quiet_NaN()), "a.step"), kGeometry,
+               "not finite");
+  EXPECT_ERROR(occt::require_sound_geometry(patch(9.2e18), "a.step"), kGeometry, "times as far away");
+}
+
+}  // namespace
+}  // namespace st
