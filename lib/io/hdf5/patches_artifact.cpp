@@ -72,7 +72,7 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
     for (const NodeId n : t.n)
       if (n < 0 || n >= n_nodes) r.fail("/st/triangle/nodes", label + " has no node " + std::to_string(n));
   for (std::int32_t i = 0; i < p.n_boundary; ++i) {
-    const std::int32_t entity = p.boundary_entity[i], index = p.boundary_index[i];
+    const std::int64_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     if (p.boundary_dim[i] == 0) {
       if (entity < 0 || entity >= static_cast<std::int64_t>(a.vertex_xyz.size()))
         r.fail("/st/boundary/entity", label + ": no vertex " + std::to_string(entity + 1));
