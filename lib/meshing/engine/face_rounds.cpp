@@ -9,6 +9,7 @@
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
+#include "meshing/face/fold_repair.h"
 #include "meshing/topology/curve_discretiser.h"
 #include "meshing/topology/small_features.h"
 
@@ -202,8 +203,11 @@ FaceMesh FaceRounds::mesh_in(const Surface& surface, FaceId f, const FaceBoundar
   FaceMeshOptions options;
   options.enhance_rounds = options_.enhance_rounds;
   const std::vector<Refinement> near = refinements_.near(tables_.face_box[f]);
-  if (near.empty()) return mesh_face(surface, boundary, field_, options);  // spares one call for each length
-  return mesh_face(surface, boundary, RefinedField(field_, near), options);
+  const RefinedField refined(field_, near);
+  const SizeField& field = near.empty() ? field_ : refined;  // spares one call for each length
+  FaceMesh mesh = mesh_face(surface, boundary, field, options);
+  repair_folds(surface, boundary, field, options, mesh);
+  return mesh;
 }
 
 Bytes FaceRounds::compute_face(FaceId f) const {

@@ -12,14 +12,13 @@
 namespace st {
 namespace {
 
-constexpr double kSnap = 1e-3;        // of the length: nearer nodes of one id are one (docs/design/kernel.md)
-constexpr double kSnapPlane = 0.05;   // likewise in the scaled plane, where the surface is singular and all steps are
-                                      // short
-constexpr double kSmallStep = 2e-3;   // of the range of (u,v): far less than the steps between the nodes of a pole
-constexpr double kSingular = 0.02;    // of its mean: a derivative shorter than this makes no reliable normal
-constexpr double kFoldCosine = -0.8;  // between the normals of neighbours: folded onto each other
-constexpr int kProbe = 6;             // grid of the scale of the plane
-constexpr int kAreaProbe = 10;        // grid of the expected number of nodes
+constexpr double kSnap = 1e-3;       // of the length: nearer nodes of one id are one (docs/design/kernel.md)
+constexpr double kSnapPlane = 0.05;  // likewise in the scaled plane, where the surface is singular and all steps are
+                                     // short
+constexpr double kSmallStep = 2e-3;  // of the range of (u,v): far less than the steps between the nodes of a pole
+constexpr double kSingular = 0.02;   // of its mean: a derivative shorter than this makes no reliable normal
+constexpr int kProbe = 6;            // grid of the scale of the plane
+constexpr int kAreaProbe = 10;       // grid of the expected number of nodes
 constexpr double kMaxNodesOfFace = kMaxTriangles / 2.0;  // two triangles to a node
 constexpr double kRunaway = 30;                          // times the expected number of nodes
 
@@ -281,7 +280,7 @@ class FaceMesher {
       for (int k = 0; k < 3; ++k) {
         const std::int32_t o = triangles[i].n[k];
         if (o <= static_cast<std::int32_t>(i) || (triangles[i].constrained >> k & 1) ||
-            dot(normal[i], normal[o]) > kFoldCosine)
+            dot(normal[i], normal[o]) > kFoldedCosine)
           continue;
         report_fold(r, triangles[i]);
       }

@@ -12,6 +12,9 @@
 
 namespace st {
 
+/// Neighbours the cosine between whose normals is less are folded onto each other.
+inline constexpr double kFoldedCosine = -0.8;
+
 /// The loops of a face as nodes in (u,v) and segments between them.
 struct FaceBoundary {
   std::vector<FaceNode> nodes;

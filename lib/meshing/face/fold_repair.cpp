@@ -1,0 +1,370 @@
+#include "meshing/face/fold_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/eigen.h"
+#include "mesh/adjacency.h"
+
+namespace st {
+namespace {
+
+constexpr double kLeastCosine = 0;                // between a normal and the way from the axis
+constexpr std::array kCoarser = {1.0, 2.0, 4.0};  // times the requested lengths: fewer nodes may fold less
+constexpr std::array kRings = {4, 3, 2, 1};       // about the folded triangles: as many as one plane allows
+constexpr std::size_t kMostRefined = 64;          // places to refine that a face tells of
+constexpr int kSteps = 40;                        // of Newton's method
+constexpr double kFound = 1e-9;                   // of the extent of the place: distance from the foot looked for
+
+/// A line inside the body that the surface of a place can be seen from all around: lengths along it, and angles about
+/// it.
+struct Axis {
+  Vec3 origin, along, up;  ///< up: angle 0, across `along`
+  double radius = 1;       ///< model unit; length of an angle of 1
+  double sign = 1;         ///< -1: the surface's normals point to the axis
+
+  Vec3 across(Vec3 x) const { return (x - origin) - dot(x - origin, along) * along; }
+  Vec2 place_of(Vec3 x) const {
+    const Vec3 r = across(x);
+    return {dot(x - origin, along), sign * radius * std::atan2(dot(r, cross(up, along)), dot(r, up))};
+  }
+  /// Change of the angle, as a length, per step at x.
+  Vec3 turning(Vec3 x) const {
+    const Vec3 r = across(x);
+    return (sign * radius / norm2(r)) * cross(r, along);
+  }
+};
+
+/// A place of an axis and its (u,v).
+struct Seed {
+  Vec2 st, uv;
+};
+
+/// A part of a surface by its places about an axis.
+class SeenSurface final : public Surface {
+ public:
+  SeenSurface(const Surface& surface, const Axis& axis) : surface_(surface), axis_(axis) {
+    u_min_ = v_min_ = 1e300;
+    u_max_ = v_max_ = -1e300;
+  }
+
+  void add(Vec3 x, Vec2 uv) {
+    const Vec2 st = axis_.place_of(x);
+    seeds_.push_back({st, uv});
+    u_min_ = std::min(u_min_, st.x), u_max_ = std::max(u_max_, st.x);
+    v_min_ = std::min(v_min_, st.y), v_max_ = std::max(v_max_, st.y);
+  }
+
+  /// (u,v) of the point at a place; nullopt: not found.
+  std::optional<Vec2> foot(Vec2 st) const {
+    const auto nearest = std::min_element(
+        seeds_.begin(), seeds_.end(), [&](const Seed& a, const Seed& b) { return norm(a.st - st) < norm(b.st - st); });
+    Vec2 uv = nearest->uv;
+    SurfacePoint p = surface_.evaluate(uv);
+    Vec2 miss = st - axis_.place_of(p.x);
+    const double enough = kFound * std::hypot(u_max_ - u_min_, v_max_ - v_min_);
+    for (int step = 0; step < kSteps && norm(miss) > enough; ++step) {
+      const auto way = solve(change_of(p), to_eigen(miss), 0);
+      if (!way) return std::nullopt;
+      double part = 1;
+      for (; part > 1e-3; part *= 0.5) {
+        const Vec2 next = within(uv + part * to_vec2(*way));
+        const SurfacePoint there = surface_.evaluate(next);
+        const Vec2 left = st - axis_.place_of(there.x);
+        if (!(norm(left) < norm(miss))) continue;
+        uv = next, p = there, miss = left;
+        break;
+      }
+      if (part <= 1e-3) return std::nullopt;
+    }
+    if (norm(miss) > enough) return std::nullopt;
+    return uv;
+  }
+
+  Vec3 point(Vec2 st) const override { return evaluate(st).x; }
+  /// A cylinder about the axis where there is no point.
+  SurfacePoint evaluate(Vec2 st) const override {
+    if (const auto uv = foot(st)) {
+      const SurfacePoint p = surface_.evaluate(*uv);
+      const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
+      return {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv};
+    }
+    const double angle = axis_.sign * st.y / axis_.radius;
+    const Vec3 aside = cross(axis_.up, axis_.along), out = std::cos(angle) * axis_.up + std::sin(angle) * aside;
+    return {axis_.origin + st.x * axis_.along + axis_.radius * out, axis_.along, axis_.sign * cross(out, axis_.along)};
+  }
+  SurfacePoint2 evaluate2(Vec2 st) const override {
+    const SurfacePoint p = evaluate(st);
+    return {p.x, p.du, p.dv, {}, {}, {}};
+  }
+
+ private:
+  /// Of (s,t) per (u,v).
+  Eigen::Matrix2d change_of(const SurfacePoint& p) const {
+    const Vec3 turning = axis_.turning(p.x);
+    Eigen::Matrix2d m;
+    m << dot(p.du, axis_.along), dot(p.dv, axis_.along), dot(p.du, turning), dot(p.dv, turning);
+    return m;
+  }
+  Vec2 within(Vec2 uv) const {
+    return {std::clamp(uv.x, surface_.u_min(), surface_.u_max()), std::clamp(uv.y, surface_.v_min(), surface_.v_max())};
+  }
+
+  const Surface& surface_;
+  const Axis axis_;
+  std::vector<Seed> seeds_;
+};
+
+/// The axis that points with these normals are seen from best; nullopt: none sees them all.
+std::optional<Axis> find_axis(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Vec3 mean, middle;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += to_eigen(normals[i]) * to_eigen(normals[i]).transpose();
+    mean = mean + normals[i];
+    middle = middle + points[i] / static_cast<double>(points.size());
+  }
+  Axis axis;
+  axis.along = principal_axes(sum).axis[0];
+  axis.up = normalized(mean - dot(mean, axis.along) * axis.along);
+  const Vec3 aside = cross(axis.up, axis.along);
+  double low = 0, high = 0, extent = 0;  // the normals' angles; extent across
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double angle = std::atan2(dot(normals[i], aside), dot(normals[i], axis.up));
+    low = std::min(low, angle), high = std::max(high, angle);
+    extent = std::max(extent, norm(points[i] - middle));
+  }
+  const double turn = 0.5 * (low + high);
+  axis.up = std::cos(turn) * axis.up + std::sin(turn) * aside;
+  double best = kLeastCosine;
+  std::optional<Axis> found;
+  const Vec3 up = axis.up;
+  for (const double sign : {1.0, -1.0})
+    for (const double depth : {0.3, 0.6, 1.0, 2.0, 5.0, 20.0}) {
+      axis.sign = sign;
+      axis.up = sign * up;
+      axis.radius = depth * extent;
+      axis.origin = middle - axis.radius * axis.up;
+      double least = 1;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        least = std::min(least, sign * dot(normalized(axis.across(points[i])), normals[i]));
+      if (least > best) best = least, found = axis;
+    }
+  return found;
+}
+
+/// Longer lengths everywhere.
+class ScaledField final : public SizeField {
+ public:
+  ScaledField(const SizeField& field, double scale) : field_(field), scale_(scale) {}
+  double size(Vec3 x, int& hint) const override { return scale_ * field_.size(x, hint); }
+  double min_size() const override { return scale_ * field_.min_size(); }
+  double slope() const override { return scale_ * field_.slope(); }
+
+ private:
+  const SizeField& field_;
+  double scale_;
+};
+
+/// Triangles that hang together, and the loop around them.
+struct Place {
+  std::vector<std::size_t> triangles;
+  int n_folds = 0;
+  std::vector<std::int32_t> loop;  ///< corners, the place on the left; empty: not one loop
+};
+
+class FoldRepair {
+ public:
+  FoldRepair(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
+             const FaceMeshOptions& options, const FaceMesh& mesh)
+      : surface_(surface), field_(field), options_(options), nodes_(boundary.nodes), first_inner_(nodes_.size()) {
+    nodes_.insert(nodes_.end(), mesh.inner.begin(), mesh.inner.end());
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+      triangles_.push_back({{mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]}});
+    add_normals();
+  }
+
+  void run() {
+    for (const int rings : kRings) {
+      const std::vector<std::size_t> folds = find_folds();
+      if (folds.empty()) return;
+      std::vector<Triangle> kept;
+      std::vector<std::uint8_t> is_gone(triangles_.size(), 0);
+      std::vector<Triangle> added;
+      for (const Place& place : places_about(folds, rings))
+        if (mesh_again(place, added))
+          for (const std::size_t t : place.triangles) is_gone[t] = 1;
+      for (std::size_t t = 0; t < triangles_.size(); ++t)
+        if (!is_gone[t]) kept.push_back(triangles_[t]);
+      kept.insert(kept.end(), added.begin(), added.end());
+      triangles_ = std::move(kept);
+      add_normals();
+    }
+  }
+
+  /// A triangle for each that is turned against the surface, and for each pair that is folded onto each other.
+  std::vector<std::size_t> find_folds() const {
+    std::vector<std::size_t> folds;
+    std::vector<Vec3> normal;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const NodeId* n = triangles_[t].n;
+      normal.push_back(normalized(cross(nodes_[n[1]].x - nodes_[n[0]].x, nodes_[n[2]].x - nodes_[n[0]].x)));
+      if (dot(normal[t], normal_[n[0]] + normal_[n[1]] + normal_[n[2]]) < 0) folds.push_back(t);
+    }
+    EdgeTable(triangles_, static_cast<std::int64_t>(nodes_.size()))
+        .for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+          if (sides.size() != 2 || dot(normal[sides[0] / 3], normal[sides[1] / 3]) > kFoldedCosine) return;
+          folds.push_back(static_cast<std::size_t>(sides[0] / 3));
+        });
+    return folds;
+  }
+
+  void store(const std::vector<std::size_t>& folds, FaceMesh& mesh) const {
+    std::vector<std::int32_t> number(nodes_.size(), kNone);
+    for (std::size_t i = 0; i < first_inner_; ++i) number[i] = static_cast<std::int32_t>(i);
+    for (const Triangle& t : triangles_)
+      for (const NodeId n : t.n) number[n] = n;
+    mesh.inner.clear();
+    mesh.corners.clear();
+    for (std::size_t i = first_inner_; i < nodes_.size(); ++i) {
+      if (number[i] == kNone) continue;
+      number[i] = static_cast<std::int32_t>(first_inner_ + mesh.inner.size());
+      mesh.inner.push_back(nodes_[i]);
+    }
+    for (const Triangle& t : triangles_)
+      for (const NodeId n : t.n) mesh.corners.push_back(number[n]);
+    mesh.n_folds = static_cast<int>(folds.size());
+    mesh.refinement.clear();
+    for (std::size_t i = 0; i < std::min(folds.size(), kMostRefined); ++i) {
+      const NodeId* n = triangles_[folds[i]].n;
+      const Vec3 a = nodes_[n[0]].x, b = nodes_[n[1]].x, c = nodes_[n[2]].x;
+      mesh.refinement.push_back({(a + b + c) / 3, 0.5 * std::max({distance(a, b), distance(b, c), distance(c, a)})});
+    }
+  }
+
+ private:
+  /// Of the surface at the nodes that have none yet.
+  void add_normals() {
+    for (std::size_t i = normal_.size(); i < nodes_.size(); ++i)
+      normal_.push_back(surface_normal(surface_, nodes_[i].uv));
+  }
+
+  /// Some rings of triangles about the folds, those that share a node in one place.
+  std::vector<Place> places_about(const std::vector<std::size_t>& folds, int rings) const {
+    std::vector<std::uint8_t> is_in(triangles_.size(), 0), is_near(nodes_.size(), 0);
+    for (const std::size_t t : folds) is_in[t] = 1;
+    for (int ring = 0; ring < rings; ++ring) {
+      for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (int k = 0; is_in[t] && k < 3; ++k) is_near[triangles_[t].n[k]] = 1;
+      for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (int k = 0; k < 3; ++k) is_in[t] |= is_near[triangles_[t].n[k]];
+    }
+    DisjointSets sets(static_cast<std::int64_t>(nodes_.size()));
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int k = 1; is_in[t] && k < 3; ++k) sets.join(triangles_[t].n[0], triangles_[t].n[k]);
+    std::map<std::int32_t, Place> by_set;
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      if (is_in[t]) by_set[sets.find(triangles_[t].n[0])].triangles.push_back(t);
+    for (const std::size_t t : folds) ++by_set[sets.find(triangles_[t].n[0])].n_folds;
+    std::vector<Place> result;
+    for (auto& [set, place] : by_set) {
+      place.loop = loop_around(place.triangles);
+      result.push_back(std::move(place));
+    }
+    return result;
+  }
+
+  /// Empty where the triangles are no disc.
+  std::vector<std::int32_t> loop_around(const std::vector<std::size_t>& place) const {
+    std::map<std::pair<NodeId, NodeId>, int> sides;
+    for (const std::size_t t : place)
+      for (int k = 0; k < 3; ++k) ++sides[{triangles_[t].n[k], triangles_[t].n[(k + 1) % 3]}];
+    std::map<NodeId, NodeId> next;
+    for (const auto& [side, count] : sides) {
+      if (sides.contains({side.second, side.first})) continue;
+      if (count > 1 || !next.emplace(side).second) return {};
+    }
+    std::vector<std::int32_t> loop;
+    if (next.empty()) return loop;
+    for (NodeId n = next.begin()->first; loop.empty() || n != loop.front(); n = next.at(n)) {
+      loop.push_back(n);
+      if (!next.contains(next.at(n)) || loop.size() > next.size()) return {};
+    }
+    return loop.size() == next.size() ? loop : std::vector<std::int32_t>();
+  }
+
+  /// Appends the new triangles, and their nodes to all nodes. False: nothing better was found, nothing has changed.
+  bool mesh_again(const Place& place, std::vector<Triangle>& added) {
+    if (place.loop.empty()) return false;
+    std::vector<NodeId> nodes;
+    for (const std::size_t t : place.triangles) nodes.insert(nodes.end(), triangles_[t].n, triangles_[t].n + 3);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<Vec3> points, normals;
+    for (const NodeId n : nodes) {
+      if (nodes_[n].is_pole) return false;
+      points.push_back(nodes_[n].x);
+      normals.push_back(normal_[n]);
+    }
+    const auto axis = find_axis(points, normals);
+    if (!axis) return false;
+    SeenSurface seen(surface_, *axis);
+    for (const NodeId n : nodes) seen.add(nodes_[n].x, nodes_[n].uv);
+    FaceBoundary rim;
+    for (std::size_t i = 0; i < place.loop.size(); ++i) {
+      FaceNode n = nodes_[place.loop[i]];
+      n.uv = axis->place_of(n.x);
+      n.id = static_cast<std::int32_t>(i);
+      rim.nodes.push_back(n);
+      rim.segments.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>((i + 1) % place.loop.size())});
+    }
+    FaceMesh fresh;
+    fresh.n_folds = place.n_folds;
+    for (const double scale : kCoarser) {
+      FaceMesh trial = mesh_face(seen, rim, ScaledField(field_, scale), options_);
+      if (trial.cause == FailureCause::kNone && trial.n_folds < fresh.n_folds && find_feet(seen, trial)) fresh = trial;
+      if (fresh.n_folds == 0) break;
+    }
+    if (fresh.n_folds == place.n_folds) return false;
+    const auto first = static_cast<std::int32_t>(nodes_.size()), n_rim = static_cast<std::int32_t>(rim.nodes.size());
+    nodes_.insert(nodes_.end(), fresh.inner.begin(), fresh.inner.end());
+    const auto corner = [&](std::int32_t c) { return c < n_rim ? place.loop[c] : first + c - n_rim; };
+    for (std::size_t i = 0; i < fresh.corners.size(); i += 3)
+      added.push_back({{corner(fresh.corners[i]), corner(fresh.corners[i + 1]), corner(fresh.corners[i + 2])}});
+    return true;
+  }
+
+  static bool find_feet(const SeenSurface& seen, FaceMesh& mesh) {
+    for (FaceNode& n : mesh.inner) {
+      const auto uv = seen.foot(n.uv);
+      if (!uv) return false;
+      n.uv = *uv;
+    }
+    return true;
+  }
+
+  const Surface& surface_;
+  const SizeField& field_;
+  const FaceMeshOptions& options_;
+  std::vector<FaceNode> nodes_;  // of the boundary, then inside
+  const std::size_t first_inner_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3> normal_;
+};
+
+}  // namespace
+
+void repair_folds(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
+                  const FaceMeshOptions& options, FaceMesh& mesh) {
+  if (mesh.n_folds == 0 || mesh.cause != FailureCause::kNone) return;
+  FoldRepair repair(surface, boundary, field, options, mesh);
+  repair.run();
+  const std::vector<std::size_t> folds = repair.find_folds();
+  if (static_cast<int>(folds.size()) < mesh.n_folds) repair.store(folds, mesh);
+}
+
+}  // namespace st
