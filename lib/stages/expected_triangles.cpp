@@ -31,8 +31,9 @@ void require_countable_mesh(const ModelTables& tables, std::span<const double> f
   const auto heaviest = static_cast<FaceId>(std::max_element(weight.begin(), weight.end()) - weight.begin());
   const double n_heaviest = kTrianglesPerWeight * weight[heaviest];
   throw Error(ExitCode::kUsage, fmt::format("{}: these sizes need about {:.3g} triangles ({:.3g} of them on {}), but a "
-                                            "mesh can have at most {:.0f} here; {}",
+                                            "mesh can have at most {:.0f}{}; {}",
                                             sizing, n, n_heaviest, tables.face_label(heaviest), limit,
+                                            limit < static_cast<double>(kMaxTriangles) ? " in the memory here" : "",
                                             n_heaviest > limit ? "use larger lengths, or a larger --scale of st-prolong"
                                                                : "use larger lengths, or mesh parts with --faces"));
 }
