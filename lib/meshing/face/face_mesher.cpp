@@ -205,7 +205,7 @@ class FaceMesher {
     std::vector<NodePair> uses, loop_uses;  // of edges with a boundary node
     const auto ordered = [](std::int64_t a, std::int64_t b) { return a < b ? std::pair{a, b} : std::pair{b, a}; };
     const auto refine = [&](Vec3 x, double length) {
-      if (r.refinement.size() < 64) r.refinement.push_back({x, length});
+      if (r.refinement.size() < kMostRefined) r.refinement.push_back({x, length});
     };
     const std::int32_t n_boundary = static_cast<std::int32_t>(boundary_.nodes.size());
     for (std::size_t i = 0; i < r.corners.size(); i += 3) {
@@ -290,7 +290,7 @@ class FaceMesher {
     const MeshNode &a = work_.mesh.nodes[t.v[0]], &b = work_.mesh.nodes[t.v[1]], &c = work_.mesh.nodes[t.v[2]];
     ++r.n_folds;
     const double size = std::sqrt(std::max({norm2(b.x - a.x), norm2(c.x - a.x), norm2(c.x - b.x)}));
-    if (r.refinement.size() < 64) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});
+    if (r.refinement.size() < kMostRefined) r.refinement.push_back({(a.x + b.x + c.x) / 3, 0.5 * size});
   }
 
   const Surface& surface_;

@@ -1,6 +1,7 @@
 // Triangulates one face: a pure function of (surface, boundary nodes, size field).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -14,6 +15,9 @@ namespace st {
 
 /// Neighbours the cosine between whose normals is less are folded onto each other.
 inline constexpr double kFoldedCosine = -0.8;
+
+/// Places to refine that a face tells of, at most.
+inline constexpr std::size_t kMostRefined = 64;
 
 /// The loops of a face as nodes in (u,v) and segments between them.
 struct FaceBoundary {

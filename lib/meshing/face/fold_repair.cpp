@@ -16,7 +16,6 @@ namespace {
 constexpr double kLeastCosine = 0;                // between a normal and the way from the axis
 constexpr std::array kCoarser = {1.0, 2.0, 4.0};  // times the requested lengths: fewer nodes may fold less
 constexpr std::array kRings = {4, 3, 2, 1};       // about the folded triangles: as many as one plane allows
-constexpr std::size_t kMostRefined = 64;          // places to refine that a face tells of
 constexpr int kSteps = 40;                        // of Newton's method
 constexpr double kFound = 1e-9;                   // of the extent of the place: distance from the foot looked for
 
