@@ -1,12 +1,27 @@
 #include "features/concave_edges.h"
 
 #include <array>
+#include <optional>
 
 namespace st {
 namespace {
 
 constexpr int kPlaces = 5;                // along each edge
 constexpr double kConcave = radians(30);  // beyond flat: where a body stands on another one
+
+struct EdgePlaces {
+  std::array<double, kPlaces> t;
+  std::array<Vec3, kPlaces> tangent;  // unit
+};
+
+EdgePlaces places_on(const Curve& curve) {
+  EdgePlaces places;
+  for (int i = 0; i < kPlaces; ++i) {
+    places.t[i] = curve.t_min() + (curve.t_max() - curve.t_min()) * (i + 0.5) / kPlaces;
+    places.tangent[i] = normalized(curve.evaluate(places.t[i]).d1);
+  }
+  return places;
+}
 
 /// One side of an edge at its places.
 struct EdgeSide {
@@ -25,18 +40,18 @@ std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles
   const ModelTables& t = model.tables();
   const bool is_turned = is_material_ahead(t, roles);
   std::vector<std::vector<EdgeSide>> sides(static_cast<std::size_t>(t.n_edges()));
+  std::vector<std::optional<EdgePlaces>> places(sides.size());
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     if (roles.role[f] != FaceRole::kWall) continue;
     const auto surface = model.surface(f);
     for (const CoedgeId c : t.coedges(f)) {
       const EdgeId e = t.coedge_edge[c];
       if (t.edge_is_degenerate[e]) continue;
-      const auto curve = model.curve(e);
+      if (!places[e]) places[e] = places_on(*model.curve(e));
       const auto pcurve = model.pcurve(f, c);
       EdgeSide side;
       for (int i = 0; i < kPlaces; ++i) {
-        const double at = curve->t_min() + (curve->t_max() - curve->t_min()) * (i + 0.5) / kPlaces;
-        const Vec3 n = surface_normal(*surface, pcurve->point(at)), tangent = normalized(curve->evaluate(at).d1);
+        const Vec3 n = surface_normal(*surface, pcurve->point(places[e]->t[i])), tangent = places[e]->tangent[i];
         side.normal[i] = (t.face_is_reversed[f] != 0) != is_turned ? -n : n;
         side.inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
       }

@@ -43,7 +43,8 @@ struct Station {
 
 class WingEdgeFinder {
  public:
-  WingEdgeFinder(const Model& model, const FaceRoles& roles) : model_(model), t_(model.tables()), roles_(roles) {
+  WingEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const Strip> strips)
+      : model_(model), t_(model.tables()), roles_(roles), strips_(strips) {
     is_turned_ = is_material_ahead(t_, roles);
     uses_.resize(static_cast<std::size_t>(t_.n_edges()));
     for (FaceId f = 0; f < t_.n_faces(); ++f)
@@ -61,7 +62,7 @@ class WingEdgeFinder {
  private:
   std::vector<WingEdge> find() {
     std::vector<std::optional<WingEdge>> found(uses_.size());
-    for (const Strip& strip : find_strips(model_)) try_blunt(strip, found);
+    for (const Strip& strip : strips_) try_blunt(strip, found);
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (!found[e] && is_candidate(e)) found[e] = classify(e);
     drop_short_chains(found);
@@ -298,6 +299,7 @@ class WingEdgeFinder {
   const Model& model_;
   const ModelTables& t_;
   const FaceRoles& roles_;
+  std::span<const Strip> strips_;
   bool is_turned_ = false;  // normals point into the material
   std::vector<std::vector<Use>> uses_;
 };
@@ -315,8 +317,8 @@ const char* name_of(WingEdgeKind kind) {
   }
 }
 
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles) {
-  return WingEdgeFinder(model, roles).run();
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips) {
+  return WingEdgeFinder(model, roles, strips).run();
 }
 
 }  // namespace st

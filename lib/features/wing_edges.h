@@ -1,10 +1,12 @@
 // Edges that look like trailing and leading edges of wings, blades and nacelle lips.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "features/face_roles.h"
+#include "features/strip.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -35,7 +37,8 @@ struct WingEdge {
 /// altogether. A sharp leading edge cannot be told from a trailing edge and counts as one. Material is where the
 /// normals point away from, except in a model with a far field, where it is outside of the domain. Where a plane of
 /// symmetry cuts a fin in two, the other half counts as if it were there; other edges of symmetry planes and those of
-/// far fields are left out. Local. Cost: some hundred evaluations per edge of a nose.
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles);
+/// far fields are left out. `strips`: those of the model, by find_strips(). Local. Cost: some hundred evaluations per
+/// edge of a nose.
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips);
 
 }  // namespace st

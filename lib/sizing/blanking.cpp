@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "base/limits.h"
@@ -420,19 +421,34 @@ class Blanker {
     if (result_.colour[from] == CellColour::kBlanked) return false;
     if (!is_cut(from) && !is_cut(to)) return true;
     if (from_part == 0 && to_part == 0 && is_one_side(from, to)) return true;
-    return from < to ? sees(from, from_part, to, to_part) : sees(to, to_part, from, from_part);  // the same both ways
+    return from < to ? is_open_way(from, from_part, to, to_part) : is_open_way(to, to_part, from, from_part);
+  }
+
+  /// sees(), which is the same both ways: found for one row, kept until the other asks.
+  bool is_open_way(std::int32_t a, int part_a, std::int32_t b, int part_b) {
+    const auto key = static_cast<std::uint64_t>(2 * static_cast<std::int64_t>(a) + part_a) << 32 |
+                     static_cast<std::uint64_t>(2 * static_cast<std::int64_t>(b) + part_b);
+    const auto [it, is_new] = ways_.try_emplace(key, false);
+    if (is_new) return it->second = sees(a, part_a, b, part_b);
+    const bool is_open = it->second;
+    ways_.erase(it);
+    return is_open;
   }
 
   /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and
   /// once more.
   bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) {
     const Cube cube_a = cube(a), cube_b = cube(b);
-    const Vec3 from_a = nearest_point(a, part_a, cube_b.center), to_b = nearest_point(b, part_b, from_a);
+    const auto near_a = [&](Vec3 x, const Vec3* without = nullptr) {
+      return nearest_point(a, part_a, cube_a, x, without);
+    };
+    const auto near_b = [&](Vec3 x) { return nearest_point(b, part_b, cube_b, x, nullptr); };
+    const Vec3 from_a = near_a(cube_b.center), to_b = near_b(from_a);
     if (is_way(a, from_a, b, to_b, cube_a, cube_b)) return true;
-    const Vec3 from_b = nearest_point(b, part_b, cube_a.center), to_a = nearest_point(a, part_a, from_b);
+    const Vec3 from_b = near_b(cube_a.center), to_a = near_a(from_b);
     if (!(from_b == to_b && to_a == from_a) && is_way(a, to_a, b, from_b, cube_a, cube_b)) return true;
-    const Vec3 second = nearest_point(a, part_a, cube_b.center, &from_a);
-    return is_way(a, second, b, nearest_point(b, part_b, second), cube_a, cube_b);
+    const Vec3 second = near_a(cube_b.center, &from_a);
+    return is_way(a, second, b, near_b(second), cube_a, cube_b);
   }
 
   /// Through a point that both cells have, so that each leg stays in its cell.
@@ -442,8 +458,7 @@ class Blanker {
   }
 
   /// Of the samples of a part, but `without`, the one nearest to x; in an uncut cell any point.
-  Vec3 nearest_point(std::int32_t leaf, int part, Vec3 x, const Vec3* without = nullptr) {
-    const Cube own = cube(leaf);
+  Vec3 nearest_point(std::int32_t leaf, int part, const Cube& own, Vec3 x, const Vec3* without) {
     if (!is_cut(leaf)) return own.nearest(x);
     const CellParts& parts = this->parts(cut_index_[leaf]);
     if (parts.spare_part == part) return parts.spare;
@@ -474,6 +489,7 @@ class Blanker {
   std::vector<Vec3> sheet_;              // [n_cut] unit, into the flow, where the cell meets one sheet; else zero
   std::vector<CellParts> parts_;         // [n_cut]
   std::vector<Piece> pieces_;            // of the cell at hand
+  std::unordered_map<std::uint64_t, bool> ways_;  // by two cells and their parts
   Blanking result_;
 };
 

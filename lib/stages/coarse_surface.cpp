@@ -48,7 +48,8 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   data.slope = kSlope;
   data.scale = kCoarser;
   const OctreeField field(data, nullptr);
-  const MeshOptions options;
+  MeshOptions options;
+  options.enhance_rounds = 0;  // it only tells where the solid is
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};

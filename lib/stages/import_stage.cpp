@@ -97,7 +97,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
 nlohmann::json list_wing_edges(const ImportResult& r) {
   const Model model(r.tables, r.brep);
   const ModelTables& t = model.tables();
-  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(t));
+  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(t), find_strips(model));
   nlohmann::json list = nlohmann::json::array();
   for (const WingEdge& w : edges)
     list.push_back({{"edge", w.edge + 1},

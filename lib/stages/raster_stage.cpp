@@ -160,11 +160,10 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
 }
 
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
-void sample_wings(const RasterStageOptions& o, const Model& model, double diagonal, double max_length,
-                  ModelLimits& limits, Wings& wings) {
+void sample_wings(const RasterStageOptions& o, const Model& model, std::span<const Strip> strips, double diagonal,
+                  double max_length, ModelLimits& limits, Wings& wings) {
   const std::optional<LengthSpec> size = edge_size(o);
   if (!size || wings.aircraft.wings.empty()) return;
-  const std::vector<Strip> strips = find_strips(model);
   std::vector<std::uint8_t> is_left_out = limits.edge_is_ruled;
   for (std::size_t e = 0; e < is_left_out.size(); ++e) is_left_out[e] |= !limits.edge[e];
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
@@ -176,13 +175,18 @@ void sample_wings(const RasterStageOptions& o, const Model& model, double diagon
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
 }
 
+/// Loops of the faces that this rank sampled: they are asked for twice.
+using FaceLoops = std::vector<std::optional<LoopPolygons>>;
+
 /// The work cut into tasks: first batches of edges, then one task per face.
 class RasterTasks {
  public:
-  RasterTasks(const Model& model, const ModelLimits& limits)
+  /// Keeps the loops that it traces in `loops` ([n_faces]).
+  RasterTasks(const Model& model, const ModelLimits& limits, std::span<const Strip> strips, FaceLoops& loops)
       : model_(model),
         limits_(limits),
-        strips_(find_strips(model)),
+        strips_(strips),
+        loops_(loops),
         vertex_edge_(first_edges(model.tables())),
         n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
 
@@ -269,8 +273,9 @@ class RasterTasks {
     const std::size_t n_before = boxes.size();
     std::optional<ChordLimit> chord;
     if (limits_.face_wing[f] != kNone) chord.emplace(limits_.chords, limits_.face_wing[f], *limits->chord_cells);
-    raster_face(*model_.surface(f), loop_polygons(model_, f, limits_), *limits, pack_cause(CauseKind::kFace, f), boxes,
-                limits_.wants_gaps ? &patches : nullptr, chord ? &*chord : nullptr);
+    raster_face(*model_.surface(f), loops_[f].emplace(loop_polygons(model_, f, limits_)), *limits,
+                pack_cause(CauseKind::kFace, f), boxes, limits_.wants_gaps ? &patches : nullptr,
+                chord ? &*chord : nullptr);
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     if (is_reversed != limits_.is_material_ahead)
@@ -285,7 +290,8 @@ class RasterTasks {
 
   const Model& model_;
   const ModelLimits& limits_;
-  std::vector<Strip> strips_;
+  std::span<const Strip> strips_;
+  FaceLoops& loops_;
   std::vector<EdgeId> vertex_edge_;  // first edge at each vertex
   std::int32_t n_batches_;
 };
@@ -413,7 +419,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 }
 
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
-FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits,
+FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
                        const Communicator& comm) {
   const ModelTables& t = model.tables();
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
@@ -422,7 +428,8 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
       [&](std::int32_t f) {
         Packer packer;
         try {
-          packer.add(locate_face(*model.surface(f), loop_polygons(model, f, limits), shape.view(), t.face_area[f]));
+          packer.add(locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits),
+                                 shape.view(), t.face_area[f]));
         } catch (const std::exception&) {  // reported when it was sampled
           packer.add(std::vector<CellArea>());
         }
@@ -510,13 +517,13 @@ struct AskedLimits {
 
 /// On rank 0: finds lifting surfaces, samples them, and sets the limits of all else.
 ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const FaceRoles& roles,
-                        const AskedLimits& asked, Wings& wings) {
-  wings.edges = find_wing_edges(model, roles);
+                        std::span<const Strip> strips, const AskedLimits& asked, Wings& wings) {
+  wings.edges = find_wing_edges(model, roles, strips);
   wings.aircraft.wings = find_lifting_surfaces(model, roles, wings.edges);
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
-  sample_wings(o, model, roles.reference_diagonal, asked.wall.max_length, limits, wings);
+  sample_wings(o, model, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);
   return limits;
 }
 
@@ -573,67 +580,109 @@ void share_limits(const Communicator& comm, ModelLimits& l) {
         l.wants_gaps, l.is_material_ahead, l.far_length, l.max_aspect);
 }
 
+/// The stage, step by step.
+class RasterRun {
+ public:
+  RasterRun(const RasterStageOptions& o, const Communicator& comm)
+      : o_(o),
+        comm_(comm),
+        geometry_(read_geometry(o.geometry)),
+        roles_(face_roles(geometry_.tables)),
+        wall_(resolve_limits(o, geometry_.tables, roles_.reference_diagonal)),
+        rules_(option_rules(o)),  // those of the file come later, and win
+        model_(stored_model(geometry_, o.geometry)),
+        strips_(find_strips(model_)) {
+    if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
+    const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
+    rules_.insert(rules_.end(), sizes.rules.begin(), sizes.rules.end());
+    sizes_hash_ = sizes.hash;
+  }
+
+  StageSummary run() {
+    set_limits();
+    times_.end("opening");
+    sample();
+    artifact_.faces = locate_faces(model_, artifact_.octree.shape, limits_, loops_, comm_);
+    times_.end("faces");
+    artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
+                         o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
+    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, comm_);
+    times_.end("surface");
+    times_.gather(comm_);
+    if (!comm_.is_root()) return {};
+    warn_of_depth(counts_.depth);
+    write();
+    times_.end("writing");
+    return report();
+  }
+
+ private:
+  void set_limits() {
+    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
+    share_limits(comm_, limits_);
+    require_places(o_, limits_);
+    budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
+    require_cells(least_cells(model_.tables(), limits_), budget_.max_cells);
+    limit_samples(budget_.max_samples, limits_);
+  }
+
+  void sample() {
+    loops_.resize(static_cast<std::size_t>(model_.tables().n_faces()));
+    Samples samples = sample_model(RasterTasks(model_, limits_, strips_, loops_), budget_.max_samples, comm_);
+    times_.end("sampling");
+    if (comm_.is_root()) counts_ = report_samples(samples);
+    counts_.n_boxes += wings_.boxes.size();
+    std::vector<RasterBox>& boxes = samples.own_boxes;
+    boxes.insert(boxes.end(), wings_.boxes.begin(), wings_.boxes.end());
+    if (limits_.wants_gaps) counts_.n_gap_boxes = sample_gaps(samples, o_.cell_per_length, budget_.max_samples, comm_);
+    times_.end("gaps");
+    const Box3 box = model_.tables().box();
+    artifact_.octree = build_common_octree(box, boxes, budget_.max_cells, comm_);
+    counts_.depth = gather_depth_limit(find_depth_limit(box, boxes), comm_);
+    if (o_.cell_per_length > kStoredByCellUpTo) artifact_.samples = gather_samples(boxes, comm_);
+    times_.end("octree");
+  }
+
+  void write() {
+    artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
+    artifact_.names = {model_.tables().edge_name, model_.tables().labels.face_name, {}};
+    artifact_.labels = model_.tables().labels;
+    fill_header(o_, geometry_.header, wall_, sizes_hash_, artifact_.header);
+    artifact_.header.content_hash = write_raster(o_.output, artifact_);
+  }
+
+  StageSummary report() const {
+    report_wings(o_, wings_);
+    const std::vector<GroupSizes> groups = sampled_groups(artifact_);
+    for (const std::string& line : sampled_lines(groups, artifact_.names, kMostGroups)) log_report(line);
+    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
+  }
+
+  const RasterStageOptions& o_;
+  const Communicator& comm_;
+  PhaseTimes times_;
+  GeometryArtifact geometry_;  // without the model
+  const FaceRoles roles_;
+  const SamplingLimits wall_;
+  std::vector<SizeRule> rules_;
+  std::string sizes_hash_;
+  const Model model_;
+  const std::vector<Strip> strips_;
+  Wings wings_;  // rank 0 only
+  ModelLimits limits_;
+  CellBudget budget_;
+  FaceLoops loops_;
+  SampleCounts counts_;
+  RasterArtifact artifact_;
+};
+
 }  // namespace
 
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
-  PhaseTimes times;
   keep_freed_memory();
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
-  GeometryArtifact geometry = read_geometry(o.geometry);
-  const FaceRoles roles = face_roles(geometry.tables);
-  if (!roles.guessed.empty()) log_warning(describe_guess(geometry.tables, roles));
-  const SamplingLimits wall = resolve_limits(o, geometry.tables, roles.reference_diagonal);
-  const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
-  std::vector<SizeRule> rules = option_rules(o);  // those of the file come later, and win
-  rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
-  const ArtifactHeader geometry_header = geometry.header;
-  const Model model = stored_model(geometry, o.geometry);
-  Wings wings;
-  ModelLimits limits;
-  if (comm.is_root()) limits = find_limits(o, model, roles, {wall, rules}, wings);
-  share_limits(comm, limits);
-  require_places(o, limits);
-  const CellBudget budget = make_cell_budget(o.max_cells, limits, comm);
-  require_cells(least_cells(model.tables(), limits), budget.max_cells);
-  limit_samples(budget.max_samples, limits);
-  times.end("opening");
-
-  RasterArtifact artifact;
-  SampleCounts counts;
-  {
-    Samples samples = sample_model(RasterTasks(model, limits), budget.max_samples, comm);
-    times.end("sampling");
-    if (comm.is_root()) counts = report_samples(samples);
-    counts.n_boxes += wings.boxes.size();
-    samples.own_boxes.insert(samples.own_boxes.end(), wings.boxes.begin(), wings.boxes.end());
-    if (limits.wants_gaps) counts.n_gap_boxes = sample_gaps(samples, o.cell_per_length, budget.max_samples, comm);
-    times.end("gaps");
-    artifact.octree = build_common_octree(model.tables().box(), samples.own_boxes, budget.max_cells, comm);
-    counts.depth = gather_depth_limit(find_depth_limit(model.tables().box(), samples.own_boxes), comm);
-    if (o.cell_per_length > kStoredByCellUpTo) artifact.samples = gather_samples(samples.own_boxes, comm);
-    times.end("octree");
-  }
-  artifact.faces = locate_faces(model, artifact.octree.shape, limits, comm);
-  times.end("faces");
-  artifact.numbers = {limits.min_length, wall.max_length,          limits.far_length, o.alpha_deg,
-                      o.cell_per_length, roles.reference_diagonal, limits.max_aspect};
-  if (!o.no_surface) artifact.surface = make_coarse_surface(model, roles, artifact, comm);
-  times.end("surface");
-  times.gather(comm);
-  if (!comm.is_root()) return {};
-
-  warn_of_depth(counts.depth);
-  artifact.n_not_sampled = static_cast<std::int64_t>(counts.n_failures);
-  artifact.names = {model.tables().edge_name, model.tables().labels.face_name, {}};
-  artifact.labels = model.tables().labels;
-  fill_header(o, geometry_header, wall, sizes.hash, artifact.header);
-  artifact.header.content_hash = write_raster(o.output, artifact);
-  times.end("writing");
-  report_wings(o, wings);
-  const std::vector<GroupSizes> groups = sampled_groups(artifact);
-  for (const std::string& line : sampled_lines(groups, artifact.names, kMostGroups)) log_report(line);
-  return summarize(o, artifact, counts, rules.size(), wings, groups, times);
+  return RasterRun(o, comm).run();
 }
 
 }  // namespace st

@@ -3,6 +3,7 @@
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
@@ -67,7 +68,11 @@ Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wante
     for (std::size_t f = 0; f < is_wanted.size(); ++f)
       if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    BRepMesh_IncrementalMesh(copy.Shape(), limits.deflection, false, limits.angle, false);
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = limits.deflection;
+    parameters.Angle = limits.angle;
+    parameters.ControlSurfaceDeflection = false;  // nodes between knots are enough, and come at half the cost
+    BRepMesh_IncrementalMesh(copy.Shape(), parameters);
     for (std::size_t f = 0; f < is_wanted.size(); ++f)
       if (is_wanted[f])
         add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(static_cast<int>(f) + 1))), static_cast<FaceId>(f), facets);

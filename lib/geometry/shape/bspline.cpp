@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/assert.h"
 
@@ -18,10 +19,12 @@ constexpr double kNoPiece = 1e-12;    // of the bounds: shorter pieces at their 
 // Cox-de Boor recursion carried out on polynomials.
 void basis_polynomials(const std::vector<double>& knots, int k, int degree, double middle, double half, double* out) {
   const int order = degree + 1;
-  std::vector<double> level(order * order, 0.0), next(order * order, 0.0);
+  double both[2][kMaxOrder * kMaxOrder];
+  double *level = both[0], *next = both[1];
+  std::fill_n(level, order * order, 0.0);
   level[0] = 1.0;  // degree 0: the span's own function
   for (int p = 1; p <= degree; ++p) {
-    std::fill(next.begin(), next.end(), 0.0);
+    std::fill_n(next, order * order, 0.0);
     for (int j = 0; j < p; ++j) {  // function index k-(p-1)+j of degree p-1
       const int i = k - (p - 1) + j;
       const double width = knots[i + p] - knots[i];
@@ -35,9 +38,9 @@ void basis_polynomials(const std::vector<double>& knots, int k, int degree, doub
         next[j * order + c + 1] -= b;
       }
     }
-    level.swap(next);
+    std::swap(level, next);
   }
-  std::copy(level.begin(), level.end(), out);
+  std::copy_n(level, order * order, out);
 }
 
 }  // namespace
@@ -69,9 +72,10 @@ KnotSpans::KnotSpans(int degree, const std::vector<double>& flat_knots, double p
   }
   const int n_buckets = kBucketsPerSpan * n_spans();
   buckets_per_t_ = n_buckets / (hi_ - lo_);
+  bucket_span_.resize(n_buckets);
   for (int b = 0, k = 0; b < n_buckets; ++b) {
-    while (k + 1 < n_spans() && lo_ + b / buckets_per_t_ >= spans_[k + 1].start) ++k;
-    bucket_span_.push_back(k);
+    while (k + 1 < n_spans() && b >= (spans_[k + 1].start - lo_) * buckets_per_t_) ++k;
+    bucket_span_[b] = k;
   }
 }
 

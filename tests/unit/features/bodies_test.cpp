@@ -10,7 +10,8 @@ namespace {
 
 Bodies bodies_of(const Model& model) {
   const FaceRoles roles = face_roles(model.tables());
-  return find_bodies(model, roles, find_lifting_surfaces(model, roles, find_wing_edges(model, roles)));
+  return find_bodies(model, roles,
+                     find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))));
 }
 
 /// The body of the first face whose box lies within x and z of these bounds.

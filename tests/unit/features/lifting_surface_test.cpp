@@ -12,7 +12,7 @@ namespace st {
 namespace {
 
 std::vector<LiftingSurface> wings_of(const Model& model, const FaceRoles& roles) {
-  return find_lifting_surfaces(model, roles, find_wing_edges(model, roles));
+  return find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
 }
 
 std::vector<LiftingSurface> wings_of(const std::string& shape) {

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<WingEdge> found(const std::string& shape) {
   const Model model = test::make_model(shape);
-  return find_wing_edges(model, face_roles(model.tables()));
+  return find_wing_edges(model, face_roles(model.tables()), find_strips(model));
 }
 
 std::ptrdiff_t count(const std::vector<WingEdge>& edges, WingEdgeKind kind) {
@@ -56,10 +56,11 @@ TEST(WingEdges, are_nose_and_both_corners_of_a_blunt_wing) {
 TEST(WingEdges, of_a_domain_lie_on_the_other_side_of_its_normals) {
   const Model model = test::make_model("wing_in_box");
   FaceRoles roles = face_roles(model.tables());
-  EXPECT_EQ(count(find_wing_edges(model, roles), WingEdgeKind::kSharpTrailing), 0) << "a notch in a solid";
+  EXPECT_EQ(count(find_wing_edges(model, roles, find_strips(model)), WingEdgeKind::kSharpTrailing), 0)
+      << "a notch in a solid";
   for (FaceId f = 0; f < model.tables().n_faces(); ++f)
     if (model.tables().face_box[f].diagonal() > 50) roles.role[f] = FaceRole::kFarfield;
-  const std::vector<WingEdge> edges = find_wing_edges(model, roles);
+  const std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
   EXPECT_EQ(count(edges, WingEdgeKind::kSharpTrailing), 1);
   EXPECT_EQ(count(edges, WingEdgeKind::kLeading), 1);
 }
@@ -71,7 +72,7 @@ TEST(WingEdges, are_not_found_on_plain_bodies) {
 
 TEST(WingEdges, select_edges_in_rules) {
   const Model model = test::make_model("sharp_wing");
-  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(model.tables()));
+  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(model.tables()), find_strips(model));
   SizeRule rule;
   rule.where = "rule";
   ASSERT_TRUE(add_detected("trailing", rule));

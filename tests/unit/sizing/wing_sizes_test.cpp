@@ -25,7 +25,7 @@ struct Sampled {
 Sampled sample(const std::string& shape, const WingSizes& sizes, std::vector<EdgeId> left_out = {}) {
   const Model model = test::make_model(shape);
   const FaceRoles roles = face_roles(model.tables());
-  const std::vector<WingEdge> edges = find_wing_edges(model, roles);
+  const std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
   std::vector<std::uint8_t> is_left_out(static_cast<std::size_t>(model.tables().n_edges()), 0);
   for (const WingEdge& w : edges)
     if (std::find(left_out.begin(), left_out.end(), static_cast<EdgeId>(w.kind)) != left_out.end())
@@ -69,7 +69,8 @@ TEST(WingSizes, run_along_the_nose_of_half_a_wing) {
       if (model.tables().face_box[f].hi.y < 1e-6) roles.role[f] = FaceRole::kSymmetry;
     const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
     std::vector<RasterBox> boxes;
-    for (const LiftingSurface& wing : find_lifting_surfaces(model, roles, find_wing_edges(model, roles)))
+    for (const LiftingSurface& wing :
+         find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))))
       raster_wing(model, wing, share_of_chord("0.5%chord"), find_strips(model), none, boxes);
     const auto n_nose = std::count_if(boxes.begin(), boxes.end(), [](const RasterBox& b) { return b.center.x < 0.1; });
     EXPECT_GT(n_nose, 500) << shape;
@@ -115,7 +116,8 @@ TEST(WingSizes, take_other_lengths_and_a_floor) {
 TEST(WingSizes, tell_where_a_floor_makes_them_larger) {
   const Model model = test::make_model("sharp_wing");
   const FaceRoles roles = face_roles(model.tables());
-  const std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, find_wing_edges(model, roles));
+  const std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
   ASSERT_EQ(wings.size(), 1u);
   WingSizes sizes = share_of_chord("0.1%chord");
   EXPECT_FALSE(most_raised(wings[0], sizes));
