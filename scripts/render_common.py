@@ -75,6 +75,22 @@ def window_of(renderer, size):
     return window
 
 
+def axes(direction):
+    """Unit vectors to the right, up and towards the viewer."""
+    out = numpy.array(direction) / numpy.linalg.norm(direction)
+    right = numpy.cross((0, 0, 1), out)
+    right /= numpy.linalg.norm(right)
+    return right, numpy.cross(out, right), out
+
+
+def fit(points, direction, size):
+    """Focus and half height of the picture (width, height) that shows all points."""
+    frame = axes(direction)
+    low, high = zip(*((float((points @ axis).min()), float((points @ axis).max())) for axis in frame))
+    focus = sum(0.5 * (a + b) * axis for a, b, axis in zip(low, high, frame))
+    return focus, 0.52 * max(high[1] - low[1], (high[0] - low[0]) * size[1] / size[0])
+
+
 def look(renderer, focus, direction, half_height):
     """Parallel projection onto `focus`, seen from `direction`, showing `half_height` above and below it."""
     direction = numpy.array(direction, float) / numpy.linalg.norm(direction)

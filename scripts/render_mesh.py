@@ -105,26 +105,10 @@ def scene(mesh, selected, edge_width):
     return renderer
 
 
-def axes(direction):
-    """Unit vectors to the right, up and towards the viewer."""
-    out = numpy.array(direction) / numpy.linalg.norm(direction)
-    right = numpy.cross((0, 0, 1), out)
-    right /= numpy.linalg.norm(right)
-    return right, numpy.cross(out, right), out
-
-
-def fit(points, direction):
-    """Focus and half height of the picture that shows all points."""
-    frame = axes(direction)
-    low, high = zip(*((float((points @ axis).min()), float((points @ axis).max())) for axis in frame))
-    focus = sum(0.5 * (a + b) * axis for a, b, axis in zip(low, high, frame))
-    return focus, 0.52 * max(high[1] - low[1], (high[0] - low[0]) * SIZE[1] / SIZE[0])
-
-
 def in_picture(mesh, focus, direction, half_height):
     """Per triangle: may it be seen in the picture? Spares the software renderer the rest of a large mesh."""
     result = numpy.ones(len(mesh.triangles), bool)
-    for axis, reach in zip(axes(direction)[:2], (half_height * SIZE[0] / SIZE[1], half_height)):
+    for axis, reach in zip(common.axes(direction)[:2], (half_height * SIZE[0] / SIZE[1], half_height)):
         corners = (mesh.points @ axis - numpy.dot(focus, axis))[mesh.triangles]
         result &= (corners.min(axis=1) < reach) & (corners.max(axis=1) > -reach)
     return result
@@ -137,7 +121,7 @@ def views(mesh):
         sys.exit("render: error: the mesh has far field and symmetry only")
     size = float(numpy.linalg.norm(everything[1] - everything[0]))
     direction = (-0.55, 0.75, 0.45)
-    focus, half_height = fit(mesh.points[mesh.triangles[walls].ravel()], direction)
+    focus, half_height = common.fit(mesh.points[mesh.triangles[walls].ravel()], direction, SIZE)
     result = {"mesh_whole": (focus, direction, half_height, walls, 0.5)}
 
     def close_up(name, group, where, direction, half_height, edge_width=1.0, selected=walls):

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Runs the blocks of commands (```sh) of a page, one after the other, in one new folder.
+
+usage: run_page.py PAGE [--long] [--keep FOLDER]     --long: also the blocks that take minutes
+       run_page.py --self-test                       plants failures in pages and expects to find them
+environment: ST_BIN, the tools; ST_MODELS, the test models; ST_CORPUS, real CAD files
+
+Comments before a block say what it needs; readers of the page do not see them:
+  <!-- run: needs gmsh corpus -->       left out, with a loud line, where a program or the corpus is missing
+  <!-- run: long -->                    left out without --long
+  <!-- run: fails 4 -->                 must end with this exit code, the page shows a failure
+  <!-- run: never, reason -->           not run
+  <!-- model: wing.step = box.step -->  a file that the page only names: taken from the test models or the corpus
+A block ```toml or ```text below <!-- file: NAME --> is written to that file.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import NamedTuple
+
+SOURCE = Path(__file__).resolve().parents[2]
+PIECE = re.compile(r"^<!-- (run|model|file): (.*?) -->$|^```(\w+)\n(.*?)^```$", re.M | re.S)
+SECONDS = 600  # for one block
+
+
+class Block(NamedTuple):
+    line: int
+    text: str
+    notes: str  # what the comment says, empty: run it
+
+
+def pieces(text):
+    """(kind, line, content): model, file and block, in their order."""
+    notes, name = "", None
+    for match in PIECE.finditer(text):
+        kind, content, language, body = match.groups()
+        line = text.count("\n", 0, match.start()) + 1
+        if kind == "run":
+            notes = content
+        elif kind == "model":
+            yield "model", line, [part.strip() for part in content.split("=")]
+        elif kind == "file":
+            name = content
+        elif name:
+            yield "file", line, (name, body)
+            name = None
+        elif language == "sh":
+            yield "block", line, Block(line, body, notes)
+            notes = ""
+
+
+def missing(notes, corpus):
+    """What the block needs and is not here."""
+    match = re.search(r"needs ([\w -]+)", notes)
+    needed = match.group(1).split() if match else []
+    return [n for n in needed if not (corpus and corpus.is_dir() if n == "corpus" else shutil.which(n))]
+
+
+def find_model(name, folders):
+    for folder in folders:
+        if folder and (folder / name).is_file():
+            return folder / name
+    return None
+
+
+def run_block(block, folder, environment):
+    """None, or what went wrong."""
+    done = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", block.text], cwd=folder, env=environment, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS)
+    expected = re.search(r"fails (\d+)", block.notes)
+    wanted = int(expected.group(1)) if expected else 0
+    if done.returncode == wanted:
+        return None
+    return f"exit code {done.returncode}, not {wanted}\n{block.text}{done.stdout[-3000:]}"
+
+
+def run_page(page, folder, long=False):
+    """Runs all blocks; ends at the first that fails. Returns (blocks run, left out, failure or None)."""
+    corpus = Path(os.environ["ST_CORPUS"]) if os.environ.get("ST_CORPUS") else None
+    models = Path(os.environ["ST_MODELS"]) if os.environ.get("ST_MODELS") else None
+    environment = {**os.environ, "PATH": f"{os.environ.get('ST_BIN', '')}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
+    for name in ("examples", "scripts"):
+        (folder / name).symlink_to(SOURCE / name)
+    n_run = n_left = 0
+    for kind, line, content in pieces(page.read_text(encoding="utf-8")):
+        where = f"{page.name}:{line}"
+        if kind == "file":
+            (folder / content[0]).write_text(content[1], encoding="utf-8")
+        elif kind == "model":
+            source = find_model(content[1], [models, corpus])
+            if source:
+                (folder / content[0]).unlink(missing_ok=True)
+                (folder / content[0]).symlink_to(source)
+        elif "never" in content.notes or ("long" in content.notes and not long):
+            print(f"{where}: left out: {content.notes}")
+            n_left += 1
+        elif lacking := missing(content.notes, corpus):
+            print(f"SKIPPED: {where}: not here: {', '.join(lacking)}; these commands were not run:\n{content.text}")
+            n_left += 1
+        else:
+            failure = run_block(content, folder, environment)
+            n_run += 1
+            if failure:
+                return n_run, n_left, f"{where}: {failure}"
+            print(f"{where}: ok", flush=True)
+    return n_run, n_left, None
+
+
+PLANTS = {  # a page: what its failure must contain; None: it passes
+    "```sh\ntrue\nfalse\necho here\n```\n": "planted.md:1: exit code 1",
+    "text\n\n```sh\nno_such_tool model.step\n```\n": "planted.md:3: exit code 127",
+    "```sh\nfalse | cat\n```\n": "exit code 1",
+    "<!-- run: fails 4 -->\n```sh\ntrue\n```\n": "exit code 0, not 4",
+    "<!-- run: fails 4 -->\n```sh\nexit 4\n```\n": None,
+    "<!-- run: never, needs root -->\n```sh\nfalse\n```\n": None,
+    "<!-- run: needs no_such_program -->\n```sh\nfalse\n```\n": None,
+    "<!-- run: long -->\n```sh\nfalse\n```\n": None,
+    "<!-- file: a.toml -->\n```toml\nx = 1\n```\n\n```sh\ngrep -q 'x = 2' a.toml\n```\n": "exit code 1",
+    "```sh\ntouch a\n```\n\n```sh\ntest -f a\ntest -d examples/openfoam\n```\n": None,
+}
+
+
+def self_test():
+    wrong = []
+    for text, expected in PLANTS.items():
+        with tempfile.TemporaryDirectory() as name:
+            page = Path(name) / "planted.md"
+            page.write_text(text, encoding="utf-8")
+            (Path(name) / "run").mkdir()
+            _, _, failure = run_page(page, Path(name) / "run")
+            if (failure is None) != (expected is None) or (expected and expected not in failure):
+                wrong.append(f"self test: expected {expected}, got {failure} of\n{text}")
+    return wrong
+
+
+def main():
+    if "--self-test" in sys.argv:
+        wrong = self_test()
+        print("\n".join(wrong) or "all planted failures found")
+        return 1 if wrong else 0
+    page = Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory(prefix="st_page_") as name:
+        folder = Path(sys.argv[sys.argv.index("--keep") + 1]) if "--keep" in sys.argv else Path(name)
+        folder.mkdir(exist_ok=True, parents=True)
+        n_run, n_left, failure = run_page(page, folder, "--long" in sys.argv)
+    if failure:
+        print(failure, file=sys.stderr)
+        return 1
+    print(f"{page.name}: {n_run} blocks run, {n_left} left out")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
