@@ -8,7 +8,7 @@ environment: ST_BIN, the tools; ST_MODELS, the test models; ST_CORPUS, real CAD 
 Comments before a block say what it needs; readers of the page do not see them:
   <!-- run: needs gmsh corpus -->       left out, with a loud line, where a program or the corpus is missing
   <!-- run: long -->                    left out without --long
-  <!-- run: fails 4 -->                 must end with this exit code, the page shows a failure
+  <!-- run: fails 4, says NO FACE -->   must end with this exit code, and print this text
   <!-- run: never, reason -->           not run
   <!-- model: wing.step = box.step -->  a file that the page only names: taken from the test models or the corpus
 A block ```toml or ```text below <!-- file: NAME --> is written to that file.
@@ -55,7 +55,7 @@ def pieces(text):
 
 def missing(notes, corpus):
     """What the block needs and is not here."""
-    match = re.search(r"needs ([\w -]+)", notes)
+    match = re.match(r"needs ([\w -]+)", notes)
     needed = match.group(1).split() if match else []
     return [n for n in needed if not (corpus and corpus.is_dir() if n == "corpus" else shutil.which(n))]
 
@@ -73,9 +73,12 @@ def run_block(block, folder, environment):
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS)
     expected = re.search(r"fails (\d+)", block.notes)
     wanted = int(expected.group(1)) if expected else 0
-    if done.returncode == wanted:
-        return None
-    return f"exit code {done.returncode}, not {wanted}\n{block.text}{done.stdout[-3000:]}"
+    said = re.search(r"says (.+)$", block.notes)
+    if done.returncode != wanted:
+        return f"exit code {done.returncode}, not {wanted}\n{block.text}{done.stdout[-3000:]}"
+    if said and said.group(1) not in done.stdout:
+        return f"does not say '{said.group(1)}'\n{block.text}{done.stdout[-3000:]}"
+    return None
 
 
 def run_page(page, folder, long=False):
@@ -116,6 +119,8 @@ PLANTS = {  # a page: what its failure must contain; None: it passes
     "```sh\nfalse | cat\n```\n": "exit code 1",
     "<!-- run: fails 4 -->\n```sh\ntrue\n```\n": "exit code 0, not 4",
     "<!-- run: fails 4 -->\n```sh\nexit 4\n```\n": None,
+    "<!-- run: says 2 faces -->\n```sh\necho 3 faces\n```\n": "does not say '2 faces'",
+    "<!-- run: fails 4, says 2 faces -->\n```sh\necho 2 faces\nexit 4\n```\n": None,
     "<!-- run: never, needs root -->\n```sh\nfalse\n```\n": None,
     "<!-- run: needs no_such_program -->\n```sh\nfalse\n```\n": None,
     "<!-- run: long -->\n```sh\nfalse\n```\n": None,
