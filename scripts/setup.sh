@@ -1,6 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages that are missing; does nothing, and needs neither root nor network, when none is.
-# usage: scripts/setup.sh [build|check] [--list]      build: to build and run; check: also to run all tests
+# usage: scripts/setup.sh [build|check|site] [--list]   build: to build and run; check: also to run all tests;
+#                                                     site: the pages as a site only
 set -eu -o pipefail
 
 build_packages=(
@@ -19,17 +20,21 @@ check_packages=(
   iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh
   xvfb xauth   # pictures without a screen: scripts/render_images.sh
 )
+site_packages=(mkdocs python3)
 
 role=build list=
 for argument in "$@"; do
   case $argument in
-    build | check) role=$argument ;;
+    build | check | site) role=$argument ;;
     --list) list=1 ;;
-    *) echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check] [--list]" >&2; exit 2 ;;
+    *) echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check|site] [--list]" >&2; exit 2 ;;
   esac
 done
-wanted=("${build_packages[@]}")
-[ "$role" = build ] || wanted+=("${check_packages[@]}")
+case $role in
+  build) wanted=("${build_packages[@]}") ;;
+  check) wanted=("${build_packages[@]}" "${check_packages[@]}" "${site_packages[@]}") ;;
+  site) wanted=("${site_packages[@]}") ;;
+esac
 if [ -n "$list" ]; then
   printf '%s\n' "${wanted[@]}"
   exit 0

@@ -53,7 +53,8 @@ def page_violations(root):
 
 
 def link_violations(root):
-    for page in [root / "README.md", root / "CONTRIBUTING.md", *(root / "docs").rglob("*.md")]:
+    folders = (root / "docs", root / "examples")
+    for page in [root / "README.md", root / "CONTRIBUTING.md", *(p for f in folders for p in f.rglob("*.md"))]:
         where = page.relative_to(root)
         for target, anchor in LINK.findall(text_of(page)):
             to = page if not target else page.parent / target
@@ -91,6 +92,7 @@ def violations(root):
 PLANTS = {
     "a page that is not there": ("lib/base/planted.h", "// see NOWHERE.md\n", "names NOWHERE.md"),
     "a link to nothing": ("docs/planted.md", "[there](nothing.txt)\n", "links to nothing.txt"),
+    "a link of an example": ("examples/planted.md", "[there](nothing.txt)\n", "links to nothing.txt"),
     "a link to no heading": ("docs/planted.md", "[there](meshing.md#no-such-heading)\n", "links to #no-such-heading"),
     "another value": ("docs/design/planted.md", "`kFinishedRadius = 0.7`\n", "the code has 0.68"),
     "a constant that is gone": ("docs/design/planted.md", "`kNoSuchThing = 0.7`\n", "no such constant"),
