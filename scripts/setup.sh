@@ -27,7 +27,10 @@ for argument in "$@"; do
   case $argument in
     build | check | site) role=$argument ;;
     --list) list=1 ;;
-    *) echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check|site] [--list]" >&2; exit 2 ;;
+    *)
+      echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check|site] [--list]" >&2
+      exit 2
+      ;;
   esac
 done
 case $role in

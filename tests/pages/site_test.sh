@@ -6,7 +6,8 @@ source=$1
 command -v mkdocs > /dev/null || { echo "SKIPPED: no mkdocs, the site was not built (scripts/setup.sh site)"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-(cd "$source" && cp -r --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE mkdocs.yml docs examples scripts/site* "$work")
+cd "$source"
+cp -r --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE mkdocs.yml docs examples scripts/site* "$work"
 cd "$work"
 scripts/site.sh "$work/site" | tee said
 [ -s site/docs/guide/to_the_flow.html ] || { echo "FAILED: pages are missing"; exit 1; }
