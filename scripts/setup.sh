@@ -16,7 +16,7 @@ check_packages=(
   libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
   clang-format clang-tidy universal-ctags pyflakes3 shellcheck gcovr  # lints, coverage
   libcgal-dev  # the independent judge of meshes, tests only
-  python3-meshio tetgen  # foreign readers of exports, tests only
+  python3-meshio tetgen gmsh libcgns-dev cgns-convert python3-h5py  # foreign readers of exports, tests only
   iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh
   xvfb xauth   # pictures without a screen: scripts/render_images.sh
 )

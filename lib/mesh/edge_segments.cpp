@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace st {
 namespace {
@@ -105,6 +106,46 @@ void add_segments(SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const Vert
       if (a == kNone || b == kNone || a == b) continue;
       mesh.segment_nodes.insert(mesh.segment_nodes.end(), {a, b});
       mesh.segment_edge.push_back(e);
+    }
+  }
+}
+
+void add_all_segments(SurfaceMesh& mesh, std::span<const VertexId> edge_vertices) {
+  const auto is_on_edge = [&](NodeId n) {
+    return mesh.node_entity_dim[n] < static_cast<std::uint8_t>(EntityDim::kFace);
+  };
+  std::vector<std::pair<NodeId, NodeId>> sides;
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = t.n[k], b = t.n[(k + 1) % 3];
+      if (is_on_edge(a) && is_on_edge(b)) sides.push_back(std::minmax(a, b));
+    }
+  std::sort(sides.begin(), sides.end());
+  const std::size_t n_edges = edge_vertices.size() / 2;
+  std::vector<NodeId> vertex_node;
+  std::vector<std::vector<NodeId>> chain(n_edges);
+  for (std::size_t n = 0; n < mesh.node_entity.size(); ++n) {
+    const auto entity = static_cast<std::size_t>(mesh.node_entity[n]);
+    if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex)) {
+      vertex_node.resize(std::max(vertex_node.size(), entity + 1), kNone);
+      vertex_node[entity] = static_cast<NodeId>(n);
+    } else if (is_on_edge(static_cast<NodeId>(n)) && entity < n_edges) {
+      chain[entity].push_back(static_cast<NodeId>(n));
+    }
+  }
+  const auto node_of = [&](VertexId v) {
+    return static_cast<std::size_t>(v) < vertex_node.size() ? vertex_node[v] : kNone;
+  };
+  mesh.segment_nodes.clear();
+  mesh.segment_edge.clear();
+  for (std::size_t e = 0; e < n_edges; ++e) {
+    chain[e].insert(chain[e].begin(), node_of(edge_vertices[2 * e]));
+    chain[e].push_back(node_of(edge_vertices[2 * e + 1]));
+    for (std::size_t i = 1; i < chain[e].size(); ++i) {
+      const NodeId a = chain[e][i - 1], b = chain[e][i];
+      if (!std::binary_search(sides.begin(), sides.end(), std::pair<NodeId, NodeId>(std::minmax(a, b)))) continue;
+      mesh.segment_nodes.insert(mesh.segment_nodes.end(), {a, b});
+      mesh.segment_edge.push_back(static_cast<EdgeId>(e));
     }
   }
 }

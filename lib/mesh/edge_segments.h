@@ -16,6 +16,10 @@ namespace st {
 /// a node, or of faces without triangles, have none. Local.
 void add_segments(SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const VertexId> edge_vertices);
 
+/// The same for all edges, from the mesh alone: node after node of each edge where a side of a triangle joins them. A
+/// closed strip's closed edge has none. Linear time but for a logarithm.
+void add_all_segments(SurfaceMesh& mesh, std::span<const VertexId> edge_vertices);
+
 /// A table's groups of edges or of vertices as numbers of nodes.
 struct NodeGroups {
   std::string name;                     ///< of the array: "edge_group", "edge_group_bc", "vertex_group" ...

@@ -2,28 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "base/length.h"
-#include "base/log.h"
 #include "base/text.h"
-#include "geometry/flite/flite_writer.h"
-#include "io/export/export.h"
-#include "io/export/octree_export.h"
-#include "io/file/temporary_file.h"
-#include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
-#include "io/hdf5/failure_artifact.h"
 #include "io/hdf5/inspect.h"
-#include "io/hdf5/sizing_artifact.h"
-#include "stages/mesh_export.h"
-#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -149,91 +135,6 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
   return text;
 }
 
-StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
-  StageSummary summary;
-  summary.line = fmt::format("{}: {} exported, {:.2f} s", output, artifact, timer.seconds());
-  summary.json =
-      dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
-  return summary;
-}
-
-void export_mesh_artifact(const ExportStageOptions& o) {
-  const bool is_sol = o.output.ends_with(".sol");
-  if (is_sol != !o.sizing.empty())
-    throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds what a sizing asks for; give --sizing sizing.hdf"
-                                         : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
-  if (!is_sol) require_export_suffix(o.output, o.quads);
-  require_writable(o.output);
-  const MeshArtifact artifact = read_mesh(o.artifact);
-  if (!is_sol)
-    return export_and_warn(o.output, artifact.mesh,
-                           o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh));
-  ArtifactHeader sizing;
-  const std::unique_ptr<SizeField> field = open_sizing(o.sizing, &sizing);
-  if (sizing.geometry_hash != artifact.header.geometry_hash)
-    throw Error(ExitCode::kMismatch, o.sizing + ": is of another geometry than " + o.artifact);
-  export_sol(o.output, artifact.mesh, *field);
-}
-
-void export_artifact(const ExportStageOptions& o) {
-  const auto& [artifact, output] = std::tie(o.artifact, o.output);
-  const std::string schema = read_header(artifact).schema;
-  if (schema != "mesh" && (o.quads || !o.sizing.empty()))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: --quads and --sizing are for meshes; this is a {} artifact", artifact, schema));
-  if (schema == "mesh") {
-    export_mesh_artifact(o);
-  } else if (schema == "raster" || schema == "sizing") {
-    require_writable(output);
-    export_octree(artifact, output);
-  } else if (schema == "failures") {
-    require_writable(output);
-    export_failures(artifact, output);
-  } else if (schema == "geometry") {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
-  } else {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format(
-            "{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
-            artifact, schema));
-  }
-}
-
-/// A geometry as FLITE surfaces; the summary says how close they are and what was divided.
-StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
-  GeometryArtifact geometry = read_geometry(o.artifact);
-  const double diagonal = geometry.tables.reference_diagonal();
-  const double tolerance =
-      resolve_length(parse_length(o.tolerance, "--tolerance"), {diagonal, geometry.tables.unit_in_m}, "--tolerance");
-  require_writable(o.output);
-  const FliteExport flite = make_flite(stored_model(geometry, o.artifact), tolerance);
-  write_text_file(o.output, flite_text(flite.file));
-  StageSummary summary;
-  const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);
-  summary.line = fmt::format(
-      "{}: {} exported: {} regions of {} faces ({} divided), {} segments, within {:.3g} of the model{}, {:.2f} s",
-      o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
-      flite.deviation, where, timer.seconds());
-  if (flite.deviation > tolerance)
-    log_warning(fmt::format("{}: the tolerance {:.3g} is not reached, the largest distance is {:.3g}{}", o.output,
-                            tolerance, flite.deviation, where));
-  summary.json = dump({{"tool", "st-export"},
-                       {"artifact", o.artifact},
-                       {"output", o.output},
-                       {"faces", flite.n_faces},
-                       {"regions", flite.file.regions.size()},
-                       {"faces_divided", flite.n_divided},
-                       {"segments", flite.file.segments.size()},
-                       {"tolerance", tolerance},
-                       {"deviation", flite.deviation},
-                       {"worst", flite.worst},
-                       {"seconds", timer.seconds()}});
-  return summary;
-}
-
 }  // namespace
 
 StageSummary run_info(const std::string& artifact) {
@@ -262,14 +163,6 @@ StageSummary run_diff(const DiffStageOptions& o) {
                        {"equal", differences.empty()},
                        {"differences", differences}});
   return summary;
-}
-
-StageSummary run_export(const ExportStageOptions& o) {
-  const Timer timer;
-  parse_length(o.tolerance, "--tolerance");
-  if (o.output.ends_with(".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
-  export_artifact(o);
-  return export_summary(o.artifact, o.output, timer);
 }
 
 }  // namespace st

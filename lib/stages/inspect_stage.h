@@ -1,4 +1,4 @@
-// st-info, st-diff, st-export: look at artifacts.
+// st-info, st-diff: look at artifacts.
 #pragma once
 
 #include <string>
@@ -21,14 +21,5 @@ struct DiffStageOptions {
 };
 /// Code kOk when equal within the tolerance, kIncomplete when not (says where first, and how much).
 StageSummary run_diff(const DiffStageOptions& options);
-
-struct ExportStageOptions {
-  std::string artifact, output;
-  std::string tolerance = "0.001%";  ///< length: distance of FLITE curves and surfaces from the model
-  bool quads = false;                ///< of a mesh: rows of stretched triangles as quadrilaterals
-  std::string sizing = {};           ///< of a mesh, for .sol: what its nodes are asked for
-};
-/// Exports a mesh artifact, a raster/sizing artifact's octree, or a geometry (FLITE .dat), by suffix.
-StageSummary run_export(const ExportStageOptions& options);
 
 }  // namespace st

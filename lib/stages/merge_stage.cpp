@@ -119,7 +119,7 @@ void require_complete(const PatchesArtifact& patches, const MergeStageOptions& o
 void require_outputs(const MergeStageOptions& options) {
   require_writable(options.output);
   for (const std::string& path : options.exports) {
-    require_export_suffix(path);
+    require_export_format(path, {});
     require_writable(path);
   }
 }
@@ -174,7 +174,7 @@ StageSummary run_merge(const MergeStageOptions& options) {
   const TopologyReport topology = check_topology(mesh);
   const MeshMeasure measure = measure_mesh(mesh);
   const std::string hash = write_mesh(options.output, artifact);
-  for (const std::string& path : options.exports) export_and_warn(path, mesh, all_triangles(mesh));
+  for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
 
   const double seconds = timer.seconds();
   const nlohmann::json json{{"output", options.output},

@@ -3,11 +3,14 @@
 
 #include <string>
 
-#include "mesh/quad_pairs.h"
+#include "io/export/export.h"
 
 namespace st {
 
-/// export_mesh(), and a warning when the format cannot hold the mesh's groups of edges and vertices. Local.
-void export_and_warn(const std::string& path, const SurfaceMesh& mesh, const QuadPairs& elements);
+/// export_mesh(), and one warning of what the format has no room for. Local.
+void export_and_warn(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
+
+/// Likewise one file for each group that has triangles, named after it. Returns how many.
+std::size_t export_groups(const std::string& path, const SurfaceMesh& mesh, const ExportOptions& options);
 
 }  // namespace st

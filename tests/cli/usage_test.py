@@ -55,7 +55,7 @@ REFUSED = {
         "--max-free-sharp": ["-1", "1.5"],
     },
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
-    "st-export": {"--tolerance": ["0", "-1%", "x"]},
+    "st-export": {"--tolerance": ["0", "-1%", "x"], "--feature-angle": ["0", "181", "x"], "--unit": ["parsec"]},
 }
 
 

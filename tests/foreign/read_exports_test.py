@@ -1,6 +1,8 @@
 """Exports read by programs of others: counts, area and triangles of each group are those of the mesh."""
 import collections
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -8,28 +10,60 @@ import unittest
 from pathlib import Path
 
 try:
+    import h5py
     import meshio
     import numpy
 except ImportError as e:
-    print(f"SKIPPED: {e}; install python3-meshio and run with /usr/bin/python3")
+    print(f"SKIPPED: {e}; install python3-meshio and python3-h5py, and run with /usr/bin/python3")
     sys.exit(77)
 
 BIN, MODELS = Path(os.environ["ST_BIN"]), Path(os.environ["ST_MODELS"])
 WORK = Path(os.environ["ST_WORK"]) / "foreign"
-NUMBERS = {"ugrid": "ugrid:ref", "lb8.ugrid": "ugrid:ref", "b8.ugrid": "ugrid:ref",
-           "bdf": "nastran:ref", "nas": "nastran:ref", "mesh": "medit:ref"}
+READ_CGNS = os.environ.get("ST_READ_CGNS")
+NUMBERS = {"ugrid": "ugrid:ref", "lb8.ugrid": "ugrid:ref", "b8.ugrid": "ugrid:ref", "bdf": "nastran:ref",
+           "nas": "nastran:ref", "mesh": "medit:ref", "meshb": "medit:ref", "ply": "group", "vtu": "group"}
+GMSH_READS = ("msh", "msh2", "binary.msh", "binary.msh2", "mesh", "stl", "ascii.stl", "ply")
+MSH_KINDS = [("msh", ()), ("msh", ("--binary",)), ("msh2", ()), ("msh2", ("--binary",))]
 
 
 def run(tool, *arguments):
-    done = subprocess.run([BIN / tool, *map(str, arguments), "-q"], capture_output=True, text=True)
+    done = subprocess.run([BIN / tool, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done
 
 
-def export(suffix):
-    path = WORK / f"mesh.{suffix}"
-    run("st-export", WORK / "mesh.hdf", "-o", path)
+def export(suffix, *options, mesh="mesh"):
+    path = WORK / f"{mesh}.{suffix}"
+    run("st-export", WORK / f"{mesh}.hdf", "-o", path, "-q", *options)
     return path
+
+
+def through_gmsh(path, *options):
+    """What gmsh makes of a file, by way of its own format. By content, as its suffix is not always gmsh's."""
+    copy, out = path.with_name("gmsh_in." + path.suffix[1:].replace("msh2", "msh")), path.with_name("gmsh_out.msh")
+    shutil.copy(path, copy)
+    out.unlink(missing_ok=True)
+    command = ["gmsh", copy, "-0", "-format", "msh41", *options, "-o", out]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0 and "Error" not in done.stdout, done.stdout
+    return meshio.read(out)
+
+
+def read_cgns(path):
+    """By the CGNS library."""
+    done = subprocess.run([READ_CGNS, path], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def triangles_of(mesh, kind="triangle"):
+    return numpy.concatenate([c.data for c in mesh.cells if c.type == kind])
+
+
+def counts(mesh, key, kind="triangle"):
+    """Elements of each number."""
+    of_kind = [numpy.ravel(d) for c, d in zip(mesh.cells, mesh.cell_data[key]) if c.type == kind]
+    return collections.Counter(numpy.concatenate(of_kind).tolist())
 
 
 def area(points, triangles):
@@ -42,7 +76,7 @@ class Exports(unittest.TestCase):
     def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
         WORK.mkdir(parents=True)
-        run("st-import", MODELS / "assembly.step", "-o", WORK / "geometry.hdf")
+        run("st-import", MODELS / "assembly.step", "-o", WORK / "geometry.hdf", "-q")
         run("st-raster", WORK / "geometry.hdf", "-o", WORK / "raster.hdf")
         run("st-prolong", WORK / "raster.hdf", "-o", WORK / "sizing.hdf")
         run("st-mesh", WORK / "geometry.hdf", WORK / "sizing.hdf", "-o", WORK / "patches.hdf")
@@ -74,6 +108,152 @@ class Exports(unittest.TestCase):
                 mesh = meshio.read(export(suffix))
                 self.check(mesh.points, mesh.cells_dict["triangle"], 1e-6)
                 self.assertEqual(collections.Counter(numpy.concatenate(mesh.cell_data[key]).tolist()), self.groups)
+
+    def test_names_of_groups_come_through_gmshs_own_format(self):
+        for suffix, options in MSH_KINDS:
+            with self.subTest(suffix, options=options):
+                mesh = meshio.read(export(suffix, *options), file_format="gmsh")
+                self.check(mesh.points, triangles_of(mesh))
+                self.assertEqual(counts(mesh, "gmsh:physical"), self.groups)
+                self.assertEqual({n: v[0] for n, v in mesh.field_data.items() if ":" not in n},
+                                 {n: i + 1 for i, n in enumerate(self.names)})
+
+    def test_gmsh_reads_what_it_should(self):
+        if not shutil.which("gmsh"):
+            self.skipTest("SKIPPED: no gmsh; install Debian's package")
+        for suffix in GMSH_READS:
+            with self.subTest(suffix):
+                mesh = through_gmsh(export(suffix))
+                self.check(mesh.points, triangles_of(mesh), 1e-5)
+                if "msh" in suffix:
+                    self.assertEqual(counts(mesh, "gmsh:physical"), self.groups)
+
+    def test_meshio_reads_obj_group_by_group(self):
+        path = export("obj")
+        mesh = meshio.read(path)
+        self.check(mesh.points, triangles_of(mesh))
+        names = [line[2:] for line in path.read_text().split("\n") if line.startswith("g ")]
+        self.assertEqual(names, self.names)
+        self.assertEqual(list(counts(mesh, "obj:group_ids").values()), list(self.groups.values()))
+
+    def test_vtk_reads_each_format_it_has_a_reader_for(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+        from vtkmodules.vtkIOPLY import vtkPLYReader
+        readers = {"stl": vtkSTLReader, "ascii.stl": vtkSTLReader, "obj": vtkOBJReader, "ply": vtkPLYReader,
+                   "binary.ply": vtkPLYReader}
+        for suffix, kind in readers.items():
+            with self.subTest(suffix):
+                reader = kind()
+                reader.SetFileName(str(export(suffix)))
+                reader.Update()
+                out = reader.GetOutput()
+                triangles = vtk_to_numpy(out.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+                self.check(vtk_to_numpy(out.GetPoints().GetData()), triangles, 1e-5)
+
+    def test_a_path_chosen_by_format_is_written_in_it(self):
+        path = export("dat", "--format", "msh2")
+        self.assertEqual(path.read_bytes(), export("msh2").read_bytes())
+
+    def test_units_scale_coordinates(self):
+        mesh = meshio.read(export("off", "--unit", "m"))
+        whole = 1e-6 * area(self.points, self.triangles)
+        self.assertAlmostEqual(area(mesh.points, triangles_of(mesh)), whole, delta=1e-9 * whole)
+
+    @unittest.skipUnless(READ_CGNS, "SKIPPED: no libcgns-dev")
+    def test_the_cgns_library_reads_families_sections_and_the_unit(self):
+        path = export("cgns")
+        found = read_cgns(path)
+        self.assertEqual((found["nodes"], found["elements"]), (len(self.points), len(self.triangles)))
+        self.assertEqual(found["unit"], "Millimeter")
+        self.assertEqual(found["families"], dict.fromkeys(self.names, "BCWall"))
+        self.assertEqual({s["name"]: s["last"] - s["first"] + 1 for s in found["sections"]},
+                         {n: self.groups[i + 1] for i, n in enumerate(self.names)})
+        self.assertEqual({b["family"]: (b["first"], b["last"]) for b in found["boundaries"]},
+                         {s["name"]: (s["first"], s["last"]) for s in found["sections"]})
+        whole = area(self.points, self.triangles)
+        self.assertAlmostEqual(sum(s["area"] for s in found["sections"]), whole, delta=1e-9 * whole)
+        self.assertEqual(path.read_bytes(), export("cgns").read_bytes())  # equal content, equal bytes
+        self.assertEqual(read_cgns(export("cgns", "--unit", "m"))["unit"], "Meter")
+        if shutil.which("cgnscheck"):
+            done = subprocess.run(["cgnscheck", path], capture_output=True, text=True)
+            self.assertEqual([line for line in done.stdout.split("\n") if "WARNING" in line or "ERROR" in line], [])
+
+    def test_vtk_reads_cgns(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
+        reader = vtkCGNSReader()
+        reader.SetFileName(str(export("cgns")))
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0).GetBlock(0)
+        triangles = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        self.check(vtk_to_numpy(grid.GetPoints().GetData()), triangles)
+
+    def test_elements_of_second_order_follow_the_cad(self):
+        chords = area(self.points, self.triangles)
+        nodes = ("triangle6", 6)
+        for suffix, options in [*MSH_KINDS, ("vtu", ()), ("nas", ())]:
+            with self.subTest(suffix, options=options):
+                path = export(suffix, "--quadratic", "--geometry", WORK / "geometry.hdf", *options)
+                mesh = meshio.read(path, file_format="gmsh") if "msh" in suffix else meshio.read(path)
+                elements = triangles_of(mesh, nodes[0])
+                self.assertEqual(elements.shape, (len(self.triangles), nodes[1]))
+                n_sides = len(numpy.unique(numpy.sort(self.sides(), axis=1), axis=0))
+                self.assertEqual(len(mesh.points), len(self.points) + n_sides)
+                quarters = numpy.concatenate([elements[:, k] for k in ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5])])
+                # the exact area of box and pins: chords err by the square of their length, so a quarter is left
+                exact = self.exact_area()
+                self.assertLess(abs(exact - area(mesh.points, quarters)), 0.3 * abs(exact - chords))
+        if READ_CGNS:
+            found = read_cgns(export("cgns", "--quadratic", "--geometry", WORK / "geometry.hdf"))
+            self.assertEqual({s["type"] for s in found["sections"]}, {"TRI_6"})
+
+    def sides(self):
+        return numpy.concatenate([self.triangles[:, [0, 1]], self.triangles[:, [1, 2]], self.triangles[:, [2, 0]]])
+
+    @staticmethod
+    def exact_area():
+        with h5py.File(WORK / "geometry.hdf") as file:
+            return float(file["/st/face/area"][...].sum())
+
+    def test_parameters_and_lines_of_all_edges_come_with_the_geometry(self):
+        if not shutil.which("gmsh"):
+            self.skipTest("SKIPPED: no gmsh; install Debian's package")
+        path = export("msh", "--parametric", "--geometry", WORK / "geometry.hdf")
+        mesh = through_gmsh(path, "-save_all", "-format", "msh22")
+        self.check(mesh.points, triangles_of(mesh))
+        lines = triangles_of(mesh, "line")
+        ends = {tuple(sorted(pair)) for pair in lines.tolist()}
+        self.assertEqual(len(ends), len(lines))
+        self.assertGreater(len(lines), 300)
+        corners = triangles_of(mesh)
+        sides = numpy.concatenate([corners[:, k] for k in ([0, 1], [1, 2], [2, 0])])
+        self.assertLessEqual(ends, {tuple(sorted(s)) for s in sides.tolist()})
+        medit = meshio.read(export("meshb", "--parametric", "--geometry", WORK / "geometry.hdf"))
+        self.assertEqual(len(triangles_of(medit, "line")), len(lines))
+        self.check(medit.points, triangles_of(medit))
+
+    def test_split_groups_makes_a_file_for_each(self):
+        run("st-export", WORK / "mesh.hdf", "-o", WORK / "part.stl", "--split-groups", "-q")
+        sizes = [len(triangles_of(meshio.read(WORK / f"part_{name}.stl"))) for name in self.names]
+        self.assertEqual(sizes, [self.groups[i + 1] for i in range(len(self.names))])
+
+    def test_losses_are_said_on_one_line(self):
+        said = {"off": "groups (3), parts (3)", "meshb": "names of groups (3), parts (3)", "msh": None,
+                "su2": "parts (3)"}
+        for suffix, lost in said.items():
+            path = WORK / f"mesh.{suffix}"
+            done = run("st-export", WORK / "mesh.hdf", "-o", path)
+            self.assertEqual(done.stderr, f"warning: {path}: this format has no room for {lost}\n" if lost else "")
+
+    def test_feature_lines_are_written_as_openfoam_reads_them(self):
+        text = export("eMesh").read_text()
+        self.assertIn("class featureEdgeMesh;", text)
+        lists = re.findall(r"\n(\d+)\n\(\n(.*?)\n\)\n", text, re.S)
+        self.assertEqual([int(n) for n, _ in lists], [len(rows.split("\n")) for _, rows in lists])
+        points, edges = ([row.strip("()").split() for row in rows.split("\n")] for _, rows in lists)
+        self.assertEqual(set(numpy.ravel(edges).astype(int)), set(range(len(points))))
+        self.assertLess(export("eMesh", "--feature-angle", 179).read_text().count("\n"), text.count("\n"))
 
     def test_off_is_read_as_it_was_written(self):
         mesh = meshio.read(export("off"))
@@ -120,15 +300,76 @@ class Exports(unittest.TestCase):
                 halves = numpy.concatenate([triangles, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
                 self.assertAlmostEqual(area(mesh.points, halves), whole, delta=1e-3 * whole)
 
-    def test_tetgen_takes_both_of_its_formats(self):
+    def test_tetgen_takes_its_formats_and_others(self):
         if not shutil.which("tetgen"):
             self.skipTest("SKIPPED: no tetgen; install Debian's package")
-        for suffix in ("smesh", "poly"):
+        for suffix in ("smesh", "poly", "ply", "off", "mesh"):
             with self.subTest(suffix):
+                for old in WORK.glob("mesh.1.*"):
+                    old.unlink()
                 done = subprocess.run(["tetgen", "-pYF", export(suffix)], capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 head = (WORK / "mesh.1.ele").read_text().split("\n")[0]
                 self.assertGreater(int(head.split()[0]), len(self.triangles))
+
+
+class ManyGroups(unittest.TestCase):
+    """500 groups, with blanks, quotes, umlauts, other scripts, and names longer than CGNS has room for."""
+    N = 500
+
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        subprocess.run([os.environ["ST_WRITE_MANY_GROUPS"], WORK / "many.hdf"], check=True)
+        cls.kinds = ["Flügel unten ", "wing root, 'left' ", "翼 ", "a/b ",
+                     "a very long name of a group that differs late "]
+        cls.names = [cls.kinds[i % 5] + str(i) for i in range(cls.N)]
+        cls.numbers = {n: i + 1 for i, n in enumerate(cls.names)}
+        cls.each = collections.Counter({i + 1: 2 for i in range(cls.N)})
+
+    def test_msh_has_every_name(self):
+        for suffix, options in MSH_KINDS:
+            with self.subTest(suffix, options=options):
+                mesh = meshio.read(export(suffix, *options, mesh="many"), file_format="gmsh")
+                self.assertEqual({n: v[0] for n, v in mesh.field_data.items()}, self.numbers)
+                self.assertEqual(counts(mesh, "gmsh:physical"), self.each)
+
+    def test_gmsh_keeps_every_name(self):
+        if not shutil.which("gmsh"):
+            self.skipTest("SKIPPED: no gmsh; install Debian's package")
+        mesh = through_gmsh(export("msh", mesh="many"))
+        self.assertEqual({n: v[0] for n, v in mesh.field_data.items()}, self.numbers)
+        self.assertEqual(counts(mesh, "gmsh:physical"), self.each)
+
+    @unittest.skipUnless(READ_CGNS, "SKIPPED: no libcgns-dev")
+    def test_cgns_has_a_family_for_each(self):
+        found = read_cgns(export("cgns", mesh="many"))
+        families = [b["family"] for b in found["boundaries"]]
+        self.assertEqual(len(set(families)), self.N)
+        self.assertEqual(set(found["families"]), set(families))
+        for name, family in zip(self.names, families):
+            self.assertLessEqual(len(family.encode()), 32)
+            if len(name) < 30:
+                self.assertEqual(family, name.replace("/", "_"))
+        ranges = [(b["first"], b["last"]) for b in found["boundaries"]]
+        self.assertEqual(ranges, [(2 * i + 1, 2 * i + 2) for i in range(self.N)])
+
+    def test_vtu_has_every_name(self):
+        mesh = meshio.read(export("vtu", mesh="many"))
+        self.assertEqual({n.removeprefix("group:"): int(v[0]) for n, v in mesh.field_data.items()}, self.numbers)
+        self.assertEqual(counts(mesh, "group"), self.each)
+
+    def test_formats_of_words_have_a_word_for_each(self):
+        words = [n.replace(" ", "_").replace("/", "_") for n in self.names]
+        self.assertEqual(re.findall("^MARKER_TAG= (.*)$", export("su2", mesh="many").read_text(), re.M), words)
+        self.assertEqual(re.findall("^g (.*)$", export("obj", mesh="many").read_text(), re.M), words)
+        solids = re.findall("^solid (.*)$", export("ascii.stl", mesh="many").read_text(), re.M)
+        self.assertEqual(solids, [n.replace(" ", "_") for n in self.names])
+        export("b8.ugrid", mesh="many")
+        self.assertEqual([line.split()[2] for line in (WORK / "many.mapbc").read_text().split("\n")[1:-1]], words)
+        for suffix in ("b8.ugrid", "lb8.ugrid", "ugrid", "nas", "mesh", "meshb", "ply"):
+            with self.subTest(suffix):
+                self.assertEqual(counts(meshio.read(export(suffix, mesh="many")), NUMBERS[suffix]), self.each)
 
 
 if __name__ == "__main__":

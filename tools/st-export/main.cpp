@@ -1,17 +1,27 @@
 // st-export: artifacts in other programs' formats.
 #include "common/tool_main.h"
-#include "stages/inspect_stage.h"
+#include "stages/export_stage.h"
 
 int main(int argc, char** argv) {
   st::ExportStageOptions o;
   st::ToolMain tool(
       "st-export",
-      "Converts a mesh (.stl .vtu .obj .ply .msh .ugrid .su2 .bdf .mesh .off .smesh .poly .fro .sol), sizes "
-      "(.vtu .pos .bac) or a geometry (FLITE .dat).");
+      "Converts a mesh (.cgns .su2 .ugrid .msh .msh2 .mesh .meshb .bdf .stl .obj .ply .vtu .off .smesh .poly .fro "
+      ".eMesh .sol), sizes (.vtu .pos .bac) or a geometry (FLITE .dat).");
   tool.input("artifact", o.artifact, "mesh, raster, sizing, failures or geometry artifact");
   tool.output(o.output, "file to write; its suffix selects the format");
-  tool.flag("--quads", o.quads, "write rows of stretched triangles as quadrilaterals (.vtu .msh .ugrid .su2 .mesh)");
+  tool.text("--format", o.format, "SUFFIX", "format of a mesh, whatever the suffix of the file: msh2, ascii.stl ...");
+  tool.flag("--ascii", o.ascii, "the text form of a format that has both (.stl .ply .msh .msh2 .ugrid .mesh)");
+  tool.flag("--binary", o.binary, "its binary form");
+  tool.unit("--unit", o.unit, "unit of the coordinates of a mesh (default: the model's)");
+  tool.flag("--quads", o.quads, "write rows of stretched triangles as quadrilaterals");
+  tool.flag("--quadratic", o.quadratic, "elements of second order, their nodes on the CAD; needs --geometry");
+  tool.flag("--parametric", o.parametric,
+            "with t of nodes on edges, (u,v) on faces; with --geometry lines, too (.msh .mesh .meshb)");
+  tool.flag("--split-groups", o.split_groups, "one file for each group: NAME_GROUP.stl");
+  tool.optional_input("--geometry", o.geometry, "the geometry of the mesh, for --quadratic and --parametric");
   tool.optional_input("--sizing", o.sizing, "sizing artifact, for .sol: the size asked for at each node of a mesh");
+  tool.number(o.kFeatureAngle, o.feature_angle_deg);
   tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");
   return tool.run(argc, argv, [&] { return st::run_export(o); });
 }

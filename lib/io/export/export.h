@@ -1,28 +1,54 @@
 // Meshes for other programs.
 #pragma once
 
-#include <cstddef>
 #include <string>
+#include <vector>
 
+#include "mesh/mid_nodes.h"
 #include "mesh/quad_pairs.h"
 #include "mesh/surface_mesh.h"
 #include "sizing/size_field.h"
 
 namespace st {
 
-/// Throws Error(kUsage) unless the suffix is one that export_mesh knows, and of a format with quadrilaterals where
-/// these are wanted.
-void require_export_suffix(const std::string& path, bool wants_quads = false);
+/// Text or binary, where a format has both.
+enum class Encoding { kOfFormat, kText, kBinary };
 
-/// Exports by suffix: .stl (binary, one solid), .ascii.stl (one solid per group), .vtu, .obj, .ply, .msh (Gmsh 4.1),
-/// .fro, .ugrid, .lb8.ugrid and .b8.ugrid (with .mapbc beside), .su2, .bdf, .nas, .mesh, .off, .smesh, .poly. Names of
-/// faces, groups and parts go into all that can hold them (docs/st-export.md). Returns how many groups of edges and
-/// vertices the format cannot hold. Throws Error(kUsage) for an unknown suffix, Error(kOutput).
-std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh);
+/// What is written how.
+struct ExportOptions {
+  std::string format;  ///< a suffix without its first dot ("msh2"); empty: the suffix of the file
+  Encoding encoding = Encoding::kOfFormat;
+  bool has_quads = false;        ///< quadrilaterals are wanted
+  bool has_mid_nodes = false;    ///< elements of second order are wanted
+  bool has_parameters = false;   ///< t on edges and (u,v) on faces are wanted
+  double feature_angle_deg = 0;  ///< .eMesh: sides between faces that turn by at least this are features
+  std::string unit;              ///< of the coordinates: "mm" ...; empty: unknown
+};
 
-/// Likewise with pairs of triangles as quadrilaterals: .vtu, .msh, .ugrid (all three), .su2, .mesh. Elements are in the
-/// order triangles, quadrilaterals (.msh: by face).
-std::size_t export_mesh(const std::string& path, const SurfaceMesh& mesh, const QuadPairs& elements);
+/// A mesh as elements.
+struct ExportMesh {
+  const SurfaceMesh& mesh;
+  const QuadPairs& elements;
+  const MidNodes& mid_nodes;  ///< empty: straight elements; else of every side of every element
+};
+
+/// Throws Error(kUsage) unless a format is known that has all that is wanted: encoding, quadrilaterals, second order.
+void require_export_format(const std::string& path, const ExportOptions& options);
+
+/// Exports by suffix: .stl, .ascii.stl (one solid per group), .vtu, .obj, .ply, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2),
+/// .fro, .ugrid, .lb8.ugrid and .b8.ugrid (with .mapbc beside), .su2, .bdf, .nas, .mesh, .meshb, .off, .smesh, .poly,
+/// .cgns, .eMesh. Names of faces, groups and parts go into all that can hold them (docs/st-export.md). Elements are in
+/// the order triangles, quadrilaterals (.msh, .cgns, .obj: in blocks). Returns what the format has no room for, for a
+/// message: "names of groups (3)"; empty when nothing is lost. Throws Error(kUsage) as above, Error(kOutput).
+std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
+std::vector<std::string> export_mesh(const std::string& path, const SurfaceMesh& mesh);
+
+/// The path of one group's file: "wing.ascii.stl" and "TAIL" give "wing_TAIL.ascii.stl".
+std::string path_of_group(const std::string& path, const std::string& word);
+
+/// Names of all groups as words that no other group has: "a b" and "a_b" become "a_b" and "a_b_2". Bytes that a file
+/// name or a CGNS node cannot have ('/') become '_', too.
+std::vector<std::string> group_words(const SurfaceMesh& mesh);
 
 /// The requested size at each node as Medit's .sol: a length, or the metric where `field` is stretched. Throws
 /// Error(kOutput).

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/export/export.h"
 #include "io/file/temporary_file.h"
-#include "mesh/quad_pairs.h"
-#include "mesh/surface_mesh.h"
 
 namespace st {
 
@@ -84,29 +83,63 @@ class TextBuffer {
   std::string text_;
 };
 
-Vec3 triangle_normal(const SurfaceMesh& mesh, const Triangle& triangle);
-
 /// The name with control characters, and blanks when `is_word`, made '_', double quotes made single ones.
 std::string clean_name(std::string name, bool is_word);
 
-void export_stl(Output& out, const SurfaceMesh& mesh);
-void export_ascii_stl(Output& out, const SurfaceMesh& mesh);
-void export_obj(Output& out, const SurfaceMesh& mesh);
-void export_ply(Output& out, const SurfaceMesh& mesh);
-void export_fro(Output& out, const SurfaceMesh& mesh);
-void export_mapbc(Output& out, const SurfaceMesh& mesh);
-void export_nastran(Output& out, const SurfaceMesh& mesh);
-void export_off(Output& out, const SurfaceMesh& mesh);
-void export_smesh(Output& out, const SurfaceMesh& mesh);
-void export_poly(Output& out, const SurfaceMesh& mesh);
+/// Group of each triangle as a number from 1.
+inline std::int64_t group_number(const SurfaceMesh& mesh, std::size_t triangle) {
+  return std::int64_t{mesh.triangle_group[triangle]} + 1;
+}
 
-// With quadrilaterals.
-void export_vtu(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_msh(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_lb8_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_b8_ugrid(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_su2(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
-void export_medit(Output& out, const SurfaceMesh& mesh, const QuadPairs& elements);
+/// What a format's function gets: the mesh as elements, and the options.
+struct ExportTask {
+  const SurfaceMesh& mesh;
+  const QuadPairs& elements;
+  const MidNodes& mid_nodes;
+  const ExportOptions& options;
+
+  std::int64_t n_nodes() const { return mesh.n_nodes() + mid_nodes.size(); }
+  std::int64_t n_triangles() const { return static_cast<std::int64_t>(elements.triangles.size()); }
+  std::int64_t n_quads() const { return static_cast<std::int64_t>(elements.quads.size()); }
+  std::int64_t n_elements() const { return n_triangles() + n_quads(); }
+  /// The triangle that element `i` is, or the lower of the two that it is made of.
+  TriangleId triangle_of(std::int64_t i) const {
+    return i < n_triangles() ? elements.triangles[i] : elements.quads[i - n_triangles()].triangle;
+  }
+  std::size_t group_of(std::int64_t i) const { return static_cast<std::size_t>(mesh.triangle_group[triangle_of(i)]); }
+  Vec3 xyz(std::int64_t node) const {
+    return node < mesh.n_nodes() ? mesh.node_xyz[node] : mid_nodes.xyz[node - mesh.n_nodes()];
+  }
+  /// Corners of element `i`, then the nodes on its sides from the first on, where there are such. From 0.
+  std::vector<std::int64_t> nodes_of(std::int64_t i) const;
+};
+
+/// Elements of each group, in their order.
+std::vector<std::vector<std::int64_t>> elements_by_group(const ExportTask& task);
+
+void export_stl(Output& out, const ExportTask& task);
+void export_ascii_stl(Output& out, const ExportTask& task);
+void export_obj(Output& out, const ExportTask& task);
+void export_ply(Output& out, const ExportTask& task);
+void export_binary_ply(Output& out, const ExportTask& task);
+void export_fro(Output& out, const ExportTask& task);
+void export_mapbc(Output& out, const ExportTask& task);
+void export_nastran(Output& out, const ExportTask& task);
+void export_off(Output& out, const ExportTask& task);
+void export_smesh(Output& out, const ExportTask& task);
+void export_poly(Output& out, const ExportTask& task);
+void export_vtu(Output& out, const ExportTask& task);
+void export_msh(Output& out, const ExportTask& task);
+void export_binary_msh(Output& out, const ExportTask& task);
+void export_msh2(Output& out, const ExportTask& task);
+void export_binary_msh2(Output& out, const ExportTask& task);
+void export_ugrid(Output& out, const ExportTask& task);
+void export_lb8_ugrid(Output& out, const ExportTask& task);
+void export_b8_ugrid(Output& out, const ExportTask& task);
+void export_su2(Output& out, const ExportTask& task);
+void export_medit(Output& out, const ExportTask& task);
+void export_binary_medit(Output& out, const ExportTask& task);
+void export_cgns(Output& out, const ExportTask& task);
+void export_emesh(Output& out, const ExportTask& task);
 
 }  // namespace st

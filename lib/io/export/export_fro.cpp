@@ -5,7 +5,8 @@
 
 namespace st {
 
-void export_fro(Output& out, const SurfaceMesh& m) {
+void export_fro(Output& out, const ExportTask& task) {
+  const SurfaceMesh& m = task.mesh;
   TextBuffer text(out);
   const FaceId last = m.triangle_face.empty() ? -1 : *std::max_element(m.triangle_face.begin(), m.triangle_face.end());
   const std::int64_t n_faces = std::max<std::int64_t>(static_cast<std::int64_t>(m.labels.face_name.size()), last + 1);

@@ -1,9 +1,8 @@
-// Meshes for flow solvers and volume meshers, with a number for each group: UGRID, SU2, NASTRAN, Medit, OFF, TetGen.
+// Meshes for flow solvers and volume meshers, with a number for each group: UGRID, SU2, NASTRAN, OFF, TetGen.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <set>
 
 #include "base/face_labels.h"
 #include "io/export/export.h"
@@ -11,24 +10,6 @@
 
 namespace st {
 namespace {
-
-/// Group of each triangle as a number from 1.
-std::int64_t tag(const SurfaceMesh& m, std::size_t triangle) { return std::int64_t{m.triangle_group[triangle]} + 1; }
-
-/// Names of all groups as words that no other group has: "a b" and "a_b" become "a_b" and "a_b_2".
-std::vector<std::string> group_words(const SurfaceMesh& m) {
-  std::set<std::string> used;
-  std::vector<std::string> words;
-  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g) {
-    std::string word = clean_name(m.labels.group_name[g], true);
-    if (word.empty()) word = "group";
-    std::string free = word;
-    for (int k = 2; used.contains(free); ++k) (free = word).append("_").append(std::to_string(k));
-    used.insert(free);
-    words.push_back(free);
-  }
-  return words;
-}
 
 void write_nodes(TextBuffer& text, const SurfaceMesh& m, std::string_view begin, std::string_view end) {
   for (const Vec3& p : m.node_xyz) text << begin << p.x << " " << p.y << " " << p.z << end;
@@ -68,28 +49,23 @@ void put(Output& out, T value, bool is_big_endian) {
   out.bytes(bytes.data(), bytes.size());
 }
 
-std::int64_t n_of(const auto& items) { return static_cast<std::int64_t>(items.size()); }
-
-void write_binary_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements, bool is_big_endian) {
+void write_binary_ugrid(Output& out, const ExportTask& task, bool is_big_endian) {
   const auto integer = [&](std::int64_t v) { put(out, static_cast<std::int32_t>(v), is_big_endian); };
-  integer(m.n_nodes());
-  integer(n_of(elements.triangles));
-  integer(n_of(elements.quads));
+  integer(task.n_nodes());
+  integer(task.n_triangles());
+  integer(task.n_quads());
   for (int i = 0; i < 4; ++i) integer(0);
-  for (const Vec3& p : m.node_xyz)
+  for (const Vec3& p : task.mesh.node_xyz)
     for (const double x : {p.x, p.y, p.z}) put(out, x, is_big_endian);
-  for (const TriangleId t : elements.triangles)
-    for (const NodeId n : m.triangles[t].n) integer(std::int64_t{n} + 1);
-  for (const Quadrilateral& q : elements.quads)
-    for (const NodeId n : q.n) integer(std::int64_t{n} + 1);
-  for (const TriangleId t : elements.triangles) integer(tag(m, t));
-  for (const Quadrilateral& q : elements.quads) integer(tag(m, q.triangle));
+  for (std::int64_t i = 0; i < task.n_elements(); ++i)
+    for (const std::int64_t n : task.nodes_of(i)) integer(n + 1);
+  for (std::int64_t i = 0; i < task.n_elements(); ++i) integer(group_number(task.mesh, task.triangle_of(i)));
 }
 
 /// Numbers of an element's nodes from `first` on, with blanks between them.
-TextBuffer& write_corners(TextBuffer& text, const auto& nodes, std::int64_t first) {
+TextBuffer& write_corners(TextBuffer& text, const ExportTask& task, std::int64_t element, std::int64_t first) {
   const char* before = "";
-  for (const NodeId n : nodes) {
+  for (const std::int64_t n : task.nodes_of(element)) {
     text << before << n + first;
     before = " ";
   }
@@ -99,26 +75,21 @@ TextBuffer& write_corners(TextBuffer& text, const auto& nodes, std::int64_t firs
 }  // namespace
 
 /// AFLR3's UGRID: counts, nodes, triangles, quadrilaterals, then the group of each.
-void export_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+void export_ugrid(Output& out, const ExportTask& task) {
   TextBuffer text(out);
-  text << m.n_nodes() << " " << n_of(elements.triangles) << " " << n_of(elements.quads) << " 0 0 0 0\n";
-  write_nodes(text, m, "", "\n");
-  for (const TriangleId t : elements.triangles) write_corners(text, m.triangles[t].n, 1) << "\n";
-  for (const Quadrilateral& q : elements.quads) write_corners(text, q.n, 1) << "\n";
-  for (const TriangleId t : elements.triangles) text << tag(m, t) << "\n";
-  for (const Quadrilateral& q : elements.quads) text << tag(m, q.triangle) << "\n";
+  text << task.n_nodes() << " " << task.n_triangles() << " " << task.n_quads() << " 0 0 0 0\n";
+  write_nodes(text, task.mesh, "", "\n");
+  for (std::int64_t i = 0; i < task.n_elements(); ++i) write_corners(text, task, i, 1) << "\n";
+  for (std::int64_t i = 0; i < task.n_elements(); ++i) text << group_number(task.mesh, task.triangle_of(i)) << "\n";
   text.flush();
 }
 
-void export_lb8_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
-  write_binary_ugrid(out, m, elements, false);
-}
-void export_b8_ugrid(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
-  write_binary_ugrid(out, m, elements, true);
-}
+void export_lb8_ugrid(Output& out, const ExportTask& task) { write_binary_ugrid(out, task, false); }
+void export_b8_ugrid(Output& out, const ExportTask& task) { write_binary_ugrid(out, task, true); }
 
 /// FUN3D's list of boundaries that stands beside a UGRID file: number, boundary condition, name.
-void export_mapbc(Output& out, const SurfaceMesh& m) {
+void export_mapbc(Output& out, const ExportTask& task) {
+  const SurfaceMesh& m = task.mesh;
   TextBuffer text(out);
   const std::vector<std::string> words = group_words(m);
   text << static_cast<std::int64_t>(words.size()) << "\n";
@@ -129,23 +100,18 @@ void export_mapbc(Output& out, const SurfaceMesh& m) {
 }
 
 /// SU2: the elements, and again as boundary elements in the marker of their group.
-void export_su2(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+void export_su2(Output& out, const ExportTask& task) {
   TextBuffer text(out);
-  const std::int64_t n_triangles = n_of(elements.triangles), n_elements = n_triangles + n_of(elements.quads);
   const auto element = [&](std::int64_t i) -> TextBuffer& {  // VTK's numbers of the two kinds
-    return i < n_triangles ? write_corners(text << "5 ", m.triangles[elements.triangles[i]].n, 0)
-                           : write_corners(text << "9 ", elements.quads[i - n_triangles].n, 0);
+    return write_corners(text << (i < task.n_triangles() ? "5 " : "9 "), task, i, 0);
   };
-  text << "NDIME= 3\nNELEM= " << n_elements << "\n";
-  for (std::int64_t i = 0; i < n_elements; ++i) element(i) << " " << i << "\n";
-  text << "NPOIN= " << m.n_nodes() << "\n";
+  text << "NDIME= 3\nNELEM= " << task.n_elements() << "\n";
+  for (std::int64_t i = 0; i < task.n_elements(); ++i) element(i) << " " << i << "\n";
+  text << "NPOIN= " << task.n_nodes() << "\n";
   std::int64_t number = 0;
-  for (const Vec3& p : m.node_xyz) text << p.x << " " << p.y << " " << p.z << " " << number++ << "\n";
-  const std::vector<std::string> words = group_words(m);
-  std::vector<std::vector<std::int64_t>> of_group(words.size());
-  for (std::int64_t i = 0; i < n_elements; ++i)
-    of_group[m.triangle_group[i < n_triangles ? elements.triangles[i] : elements.quads[i - n_triangles].triangle]]
-        .push_back(i);
+  for (const Vec3& p : task.mesh.node_xyz) text << p.x << " " << p.y << " " << p.z << " " << number++ << "\n";
+  const std::vector<std::string> words = group_words(task.mesh);
+  const std::vector<std::vector<std::int64_t>> of_group = elements_by_group(task);
   text << "NMARK= " << static_cast<std::int64_t>(words.size()) << "\n";
   for (std::size_t g = 0; g < words.size(); ++g) {
     text << "MARKER_TAG= " << words[g] << "\nMARKER_ELEMS= " << static_cast<std::int64_t>(of_group[g].size()) << "\n";
@@ -154,61 +120,56 @@ void export_su2(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
   text.flush();
 }
 
-/// NASTRAN bulk data: GRID* in fields of 16 columns, CTRIA3 in fields of 8 with a property per group, its name as a
-/// comment. Throws Error(kOutput) for numbers of more than 8 digits.
-void export_nastran(Output& out, const SurfaceMesh& m) {
-  if (std::max(m.n_nodes(), m.n_triangles()) > 99'999'999)
-    throw Error(ExitCode::kOutput,
-                "NASTRAN has no room for more than 99,999,999 nodes or triangles; use another format");
-  TextBuffer text(out);
-  const auto wide = [](double value) {  // 16 columns, and a point: a real number has one
-    char field[32];
-    for (int digits = 16; digits > 0; --digits) {
-      std::snprintf(field, sizeof field, "%.*G", digits, value);
-      std::string shown = field;
-      if (shown.find('.') == std::string::npos) {
-        const std::size_t e = shown.find('E');
-        shown.insert(e == std::string::npos ? shown.size() : e, 1, '.');
-      }
-      if (shown.size() <= 16) return padded(std::move(shown), 16);
+namespace {
+
+/// A real number in a field of 16 columns, with a point: NASTRAN tells it from an integer by that.
+std::string nastran_real(double value) {
+  char field[32];
+  for (int digits = 16; digits > 0; --digits) {
+    std::snprintf(field, sizeof field, "%.*G", digits, value);
+    std::string shown = field;
+    if (shown.find('.') == std::string::npos) {
+      const std::size_t e = shown.find('E');
+      shown.insert(e == std::string::npos ? shown.size() : e, 1, '.');
     }
-    return std::string(16, ' ');
-  };
-  const auto column = [](std::int64_t value, std::size_t width) { return padded(std::to_string(value), width); };
-  text << "$ surface mesh\n";
-  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
-    text << "$ property " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(m.labels.group_name[g], false)
-         << "\n";
-  text << "BEGIN BULK\n";
-  for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
-    text << "PSHELL  " << column(static_cast<std::int64_t>(g + 1), 8) << "\n";
-  for (std::size_t i = 0; i < m.node_xyz.size(); ++i) {
-    const Vec3& p = m.node_xyz[i];
-    text << "GRID*   " << column(static_cast<std::int64_t>(i + 1), 16) << std::string(16, ' ') << wide(p.x) << wide(p.y)
-         << "\n*       " << wide(p.z) << "\n";
+    if (shown.size() <= 16) return padded(std::move(shown), 16);
   }
-  for (std::size_t i = 0; i < m.triangles.size(); ++i) {
-    const auto& n = m.triangles[i].n;
-    text << "CTRIA3  ";
-    for (const std::int64_t value : {static_cast<std::int64_t>(i + 1), tag(m, i), n[0] + std::int64_t{1},
-                                     n[1] + std::int64_t{1}, n[2] + std::int64_t{1}})
-      text << column(value, 8);
-    text << "\n";
-  }
-  text << "ENDDATA\n";
-  text.flush();
+  return std::string(16, ' ');
 }
 
-/// INRIA's Medit, text: the group of each element is its reference.
-void export_medit(Output& out, const SurfaceMesh& m, const QuadPairs& elements) {
+/// CTRIA3, CQUAD4, CTRIA6 or CQUAD8: number, property, nodes; eight fields of 8 columns to a line.
+void write_nastran_element(TextBuffer& text, const ExportTask& task, std::int64_t i) {
+  const bool is_curved = !task.mid_nodes.empty();
+  text << (i < task.n_triangles() ? is_curved ? "CTRIA6  " : "CTRIA3  " : is_curved ? "CQUAD8  " : "CQUAD4  ");
+  std::vector<std::int64_t> fields = {i + 1, group_number(task.mesh, task.triangle_of(i))};
+  for (const std::int64_t n : task.nodes_of(i)) fields.push_back(n + 1);
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    text << (k == 8 ? "\n        " : "") << padded(std::to_string(fields[k]), 8);
+  text << "\n";
+}
+
+}  // namespace
+
+/// NASTRAN bulk data: GRID* in fields of 16 columns, elements in fields of 8 with a property per group, its name as a
+/// comment. Throws Error(kOutput) for numbers of more than 8 digits.
+void export_nastran(Output& out, const ExportTask& task) {
+  if (std::max(task.n_nodes(), task.n_elements()) > 99'999'999)
+    throw Error(ExitCode::kOutput,
+                "NASTRAN has no room for more than 99,999,999 nodes or elements; use another format");
+  const std::vector<std::string>& names = task.mesh.labels.group_name;
   TextBuffer text(out);
-  text << "MeshVersionFormatted 2\nDimension\n3\nVertices\n" << m.n_nodes() << "\n";
-  write_nodes(text, m, "", " 0\n");
-  text << "Triangles\n" << n_of(elements.triangles) << "\n";
-  for (const TriangleId t : elements.triangles) write_corners(text, m.triangles[t].n, 1) << " " << tag(m, t) << "\n";
-  if (!elements.quads.empty()) text << "Quadrilaterals\n" << n_of(elements.quads) << "\n";
-  for (const Quadrilateral& q : elements.quads) write_corners(text, q.n, 1) << " " << tag(m, q.triangle) << "\n";
-  text << "End\n";
+  text << "$ surface mesh\n";
+  for (std::size_t g = 0; g < names.size(); ++g)
+    text << "$ property " << static_cast<std::int64_t>(g + 1) << ": " << clean_name(names[g], false) << "\n";
+  text << "BEGIN BULK\n";
+  for (std::size_t g = 0; g < names.size(); ++g) text << "PSHELL  " << padded(std::to_string(g + 1), 8) << "\n";
+  for (std::int64_t n = 0; n < task.n_nodes(); ++n) {
+    const Vec3 p = task.xyz(n);
+    text << "GRID*   " << padded(std::to_string(n + 1), 16) << std::string(16, ' ') << nastran_real(p.x)
+         << nastran_real(p.y) << "\n*       " << nastran_real(p.z) << "\n";
+  }
+  for (std::int64_t i = 0; i < task.n_elements(); ++i) write_nastran_element(text, task, i);
+  text << "ENDDATA\n";
   text.flush();
 }
 
@@ -236,7 +197,8 @@ void export_sol(const std::string& path, const SurfaceMesh& m, const SizeField& 
 }
 
 /// Geomview's OFF: nodes and triangles alone.
-void export_off(Output& out, const SurfaceMesh& m) {
+void export_off(Output& out, const ExportTask& task) {
+  const SurfaceMesh& m = task.mesh;
   TextBuffer text(out);
   text << "OFF\n" << m.n_nodes() << " " << m.n_triangles() << " 0\n";
   write_nodes(text, m, "", "\n");
@@ -261,16 +223,16 @@ static void write_tetgen(Output& out, const SurfaceMesh& m, std::string_view fac
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {
     const auto& n = m.triangles[i].n;
     const bool has_header = !facet.empty();  // .poly: "1 polygon, 0 holes, marker" on a line of its own
-    if (has_header) text << facet << tag(m, i) << "\n";
+    if (has_header) text << facet << group_number(m, i) << "\n";
     text << "3 " << std::int64_t{n[0] + 1} << " " << std::int64_t{n[1] + 1} << " " << std::int64_t{n[2] + 1};
-    if (!has_header) text << " " << tag(m, i);
+    if (!has_header) text << " " << group_number(m, i);
     text << "\n";
   }
   text << "0\n0\n";
   text.flush();
 }
 
-void export_smesh(Output& out, const SurfaceMesh& m) { write_tetgen(out, m, ""); }
-void export_poly(Output& out, const SurfaceMesh& m) { write_tetgen(out, m, "1 0 "); }
+void export_smesh(Output& out, const ExportTask& task) { write_tetgen(out, task.mesh, ""); }
+void export_poly(Output& out, const ExportTask& task) { write_tetgen(out, task.mesh, "1 0 "); }
 
 }  // namespace st

@@ -58,7 +58,7 @@ TEST(ExportSolvers, quadrilaterals_follow_the_triangles) {
   const QuadPairs pairs{{2}, {{{0, 1, 3, 2}, 0}}};
   TemporaryDirectory dir;
   const auto text_of = [&](const std::string& name) {
-    export_mesh(dir / name, m, pairs);
+    export_mesh(dir / name, {m, pairs, {}}, {});
     return read_bytes(dir / name);
   };
   EXPECT_TRUE(text_of("m.ugrid").starts_with("5 1 1 0 0 0 0\n"));
@@ -69,7 +69,7 @@ TEST(ExportSolvers, quadrilaterals_follow_the_triangles) {
   EXPECT_NE(text_of("m.mesh").find("Triangles\n1\n1 2 5 3\nQuadrilaterals\n1\n1 2 4 3 1\nEnd"), std::string::npos);
   EXPECT_NE(text_of("m.msh").find("2 1 3 1\n1 1 2 4 3\n2 3 2 1\n2 1 2 5\n"), std::string::npos);
   for (const char* name : {"m.stl", "m.off", "m.poly"})
-    EXPECT_ERROR(export_mesh(dir / name, m, pairs), kUsage, "triangles only");
+    EXPECT_ERROR(export_mesh(dir / name, {m, pairs, {}}, {}), kUsage, "triangles only");
 }
 
 /// Stretched along a direction where x > 0.5.

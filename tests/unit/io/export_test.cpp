@@ -12,21 +12,22 @@ namespace {
 
 TEST(Export, knows_formats_by_suffix_whatever_its_case) {
   TemporaryDirectory dir;
-  for (const char* name : {"m.stl", "m.VTU", "m.Obj", "m.ply", "m.msh", "m.fro", "m.ASCII.stl"}) {
-    EXPECT_NO_THROW(require_export_suffix(dir / name));
+  for (const char* name :
+       {"m.stl", "m.VTU", "m.Obj", "m.ply", "m.msh", "m.fro", "m.ASCII.stl", "m.Cgns", "m.eMesh", "m.meshb"}) {
+    EXPECT_NO_THROW(require_export_format(dir / name, {}));
     export_mesh(dir / name, sample_mesh().mesh);
     EXPECT_GT(read_bytes(dir / name).size(), 80u) << name;
   }
-  EXPECT_EQ(dir.files().size(), 7u);
+  EXPECT_EQ(dir.files().size(), 10u);
 }
 
 TEST(Export, refuses_unknown_suffixes_before_writing) {
   TemporaryDirectory dir;
   for (const char* name : {"m.xyz", "m", "m.", "m.stl.gz"}) {
-    EXPECT_ERROR(require_export_suffix(dir / name), kUsage, "use one of .ascii.stl, .stl, .vtu");
+    EXPECT_ERROR(require_export_format(dir / name, {}), kUsage, "use one of .ascii.stl, .stl, .vtu");
     EXPECT_ERROR(export_mesh(dir / name, sample_mesh().mesh), kUsage, name);
   }
-  EXPECT_ERROR(require_export_suffix("folder.stl/m"), kUsage, "unknown suffix ''");
+  EXPECT_ERROR(require_export_format("folder.stl/m", {}), kUsage, "unknown suffix ''");
   EXPECT_TRUE(dir.files().empty());
 }
 
@@ -39,61 +40,12 @@ TEST(Export, leaves_nothing_when_it_cannot_write) {
 
 TEST(Export, writes_equal_meshes_as_equal_bytes) {
   TemporaryDirectory dir;
-  for (const char* suffix : {".stl", ".ascii.stl", ".vtu", ".obj", ".ply", ".msh", ".fro"}) {
+  for (const char* suffix :
+       {".stl", ".ascii.stl", ".vtu", ".obj", ".ply", ".msh", ".fro", ".cgns", ".meshb", ".binary.msh"}) {
     export_mesh(dir / "a" + suffix, sample_mesh().mesh);
     export_mesh(dir / "b" + suffix, sample_mesh().mesh);
     EXPECT_EQ(read_bytes(dir / "a" + suffix), read_bytes(dir / "b" + suffix)) << suffix;
   }
-}
-
-TEST(Export, writes_stl_with_unit_normals_to_the_side_from_which_corners_run_counterclockwise) {
-  TemporaryDirectory dir;
-  const SurfaceMesh m = sample_mesh().mesh;
-  export_mesh(dir / "m.stl", m);
-  const std::string bytes = read_bytes(dir / "m.stl");
-  ASSERT_EQ(bytes.size(), 84 + 50 * m.triangles.size());
-  EXPECT_NE(bytes.substr(0, 5), "solid");  // that would announce the text format
-  float normal[3];
-  std::memcpy(normal, bytes.data() + 84, sizeof normal);
-  EXPECT_EQ(normal[0], 0);
-  EXPECT_EQ(normal[1], 0);
-  EXPECT_EQ(normal[2], -1);
-}
-
-TEST(Export, writes_obj_coordinates_that_read_back_exactly) {
-  TemporaryDirectory dir;
-  SurfaceMesh m = sample_mesh().mesh;
-  m.node_xyz[1] = {1.0 / 3, -1e-300, 12345678.87654321};
-  export_mesh(dir / "m.obj", m);
-  std::istringstream text(read_bytes(dir / "m.obj"));
-  std::size_t n = 0;
-  for (std::string line; std::getline(text, line);) {
-    if (line.rfind("v ", 0) != 0) continue;
-    Vec3 p;
-    ASSERT_EQ(std::sscanf(line.c_str(), "v %lf %lf %lf", &p.x, &p.y, &p.z), 3);
-    EXPECT_TRUE(p == m.node_xyz[n++]);
-  }
-  EXPECT_EQ(n, m.node_xyz.size());
-}
-
-TEST(Export, writes_a_solid_for_each_group_into_ascii_stl) {
-  TemporaryDirectory dir;
-  MeshArtifact sample = sample_mesh();
-  sample.mesh.labels.group_name[1] = "wing \t\"left\"";
-  sample.mesh.triangle_group = {0, 1, 0, 1};
-  export_mesh(dir / "m.ascii.stl", sample.mesh);
-  const std::string text = read_bytes(dir / "m.ascii.stl");
-  const std::size_t second = text.find("solid wing__'left'\n");
-  ASSERT_NE(second, std::string::npos) << text;
-  EXPECT_EQ(text.find("solid body\n"), 0u);
-  const auto count = [](std::string_view in, std::string_view what) {
-    int n = 0;
-    for (std::size_t at = in.find(what); at != std::string_view::npos; at = in.find(what, at + 1)) ++n;
-    return n;
-  };
-  EXPECT_EQ(count(std::string_view(text).substr(0, second), "facet normal"), 2);
-  EXPECT_EQ(count(text, "facet normal"), 4);
-  EXPECT_EQ(count(text, "vertex 0.1 0.2 1\n"), 3);
 }
 
 TEST(Export, writes_every_division_of_the_faces_as_physical_surfaces_of_msh) {
@@ -121,24 +73,85 @@ TEST(Export, writes_the_cad_face_of_each_triangle_into_fro) {
 TEST(Export, writes_edges_and_vertices_in_groups_as_lines_and_points_of_msh_and_obj) {
   TemporaryDirectory dir;
   const SurfaceMesh m = sample_mesh().mesh;
-  EXPECT_EQ(export_mesh(dir / "m.msh", m), 0u);
+  EXPECT_TRUE(export_mesh(dir / "m.msh", m).empty());
   const std::string msh = read_bytes(dir / "m.msh");
   EXPECT_NE(msh.find("\n1 2 1 2\n5 1 3\n6 3 2\n1 4 1 1\n7 2 1\n0 2 15 1\n8 2\n$EndElements"), std::string::npos) << msh;
   EXPECT_NE(msh.find("\n2 0 0 0 1 1 0 1 8 0\n"), std::string::npos)
       << "edge 2 with the box of its segments is in \"te\": " << msh;
   EXPECT_NE(msh.find("\n2 1 0 0 1 10\n"), std::string::npos) << "vertex 2 is in \"tip\": " << msh;
-  EXPECT_EQ(export_mesh(dir / "m.obj", m), 0u);
+  EXPECT_EQ(export_mesh(dir / "m.obj", m).size(), 2u) << "parts and a further table";
   const std::string obj = read_bytes(dir / "m.obj");
   EXPECT_NE(obj.find("g edge_group_1_te\nl 1 3\nl 3 2\nl 2 1\ng edge_group_2_table:root\ng vertex_group_1_tip\np 2\n"),
             std::string::npos)
       << obj;
 }
 
-TEST(Export, says_how_many_groups_of_edges_and_vertices_a_format_cannot_hold) {
+TEST(Export, says_what_a_format_has_no_room_for) {
   TemporaryDirectory dir;
   const SurfaceMesh m = sample_mesh().mesh;
-  for (const char* name : {"m.stl", "m.ascii.stl", "m.fro"}) EXPECT_EQ(export_mesh(dir / name, m), 3u) << name;
-  for (const char* name : {"m.vtu", "m.ply"}) EXPECT_EQ(export_mesh(dir / name, m), 0u) << name;
+  using Losses = std::vector<std::string>;
+  const Losses all = {"groups (2)", "parts (2)", "further tables of groups (1)", "groups of edges and vertices (3)"};
+  for (const char* name : {"m.stl", "m.fro", "m.off"}) EXPECT_EQ(export_mesh(dir / name, m), all) << name;
+  for (const char* name : {"m.vtu", "m.ply", "m.msh"}) EXPECT_EQ(export_mesh(dir / name, m), Losses()) << name;
+  EXPECT_EQ(export_mesh(dir / "m.meshb", m)[0], "names of groups (2)");
+  EXPECT_EQ(export_mesh(dir / "m.ascii.stl", m), Losses(all.begin() + 1, all.end()));
+  SurfaceMesh plain = m;
+  plain.labels = {};
+  plain.labels.group_name = {"default"};
+  plain.triangle_group = {0, 0, 0, 0};
+  EXPECT_EQ(export_mesh(dir / "m.off", plain), Losses()) << "the one group that nobody named is no loss";
+}
+
+TEST(Export, chooses_the_form_that_is_wanted_where_a_format_has_both) {
+  TemporaryDirectory dir;
+  const SurfaceMesh m = sample_mesh().mesh;
+  const auto bytes_of = [&](const std::string& name, Encoding encoding, const std::string& format = "") {
+    ExportOptions options;
+    options.encoding = encoding;
+    options.format = format;
+    export_mesh(dir / name, {m, all_triangles(m), {}}, options);
+    return read_bytes(dir / name);
+  };
+  for (const auto& [text, binary] : {std::pair("m.ascii.stl", "m.stl"),
+                                     {"m.ply", "m.binary.ply"},
+                                     {"m.mesh", "m.meshb"},
+                                     {"m.msh", "m.binary.msh"},
+                                     {"m.ugrid", "m.lb8.ugrid"}}) {
+    EXPECT_EQ(bytes_of(text, Encoding::kBinary), bytes_of(binary, Encoding::kOfFormat)) << text;
+    EXPECT_EQ(bytes_of(binary, Encoding::kText), bytes_of(text, Encoding::kOfFormat)) << binary;
+  }
+  EXPECT_EQ(bytes_of("m.any", Encoding::kBinary, "msh2"), bytes_of("m.binary.msh2", Encoding::kOfFormat));
+  EXPECT_ERROR(bytes_of("m.off", Encoding::kBinary), kUsage, "has no binary form");
+  EXPECT_ERROR(bytes_of("m.cgns", Encoding::kText), kUsage, "has no text form");
+  EXPECT_ERROR(bytes_of("m.off", Encoding::kOfFormat, "xyz"), kUsage, "--format: unknown format 'xyz'");
+}
+
+TEST(Export, names_files_of_groups_before_the_whole_suffix) {
+  EXPECT_EQ(path_of_group("a.b/wing.stl", "TAIL"), "a.b/wing_TAIL.stl");
+  EXPECT_EQ(path_of_group("wing.ascii.stl", "T"), "wing_T.ascii.stl");
+  EXPECT_EQ(path_of_group("a.b/wing", "T"), "a.b/wing_T");
+}
+
+TEST(Export, refuses_curved_elements_and_parameters_where_there_is_no_room) {
+  ExportOptions curved, parametric;
+  curved.has_mid_nodes = true;
+  parametric.has_parameters = true;
+  EXPECT_ERROR(require_export_format("m.stl", curved), kUsage, "for --quadratic use one of .vtu");
+  EXPECT_ERROR(require_export_format("m.stl", parametric), kUsage, "for --parametric use one of .binary.msh, .msh");
+  for (const char* name : {"m.cgns", "m.msh", "m.msh2", "m.vtu", "m.nas"})
+    EXPECT_NO_THROW(require_export_format(name, curved));
+}
+
+TEST(Export, writes_parameters_of_nodes_on_edges_and_faces_into_msh) {
+  TemporaryDirectory dir;
+  const SurfaceMesh m = sample_mesh().mesh;
+  ExportOptions options;
+  options.has_parameters = true;
+  export_mesh(dir / "m.msh", {m, all_triangles(m), {}}, options);
+  const std::string text = read_bytes(dir / "m.msh");
+  EXPECT_NE(text.find("\n1 5 1 1\n3\n0 1 0 0.7\n"), std::string::npos) << "edge 5: t = 0.7: " << text;
+  EXPECT_NE(text.find("\n2 4 1 1\n4\n0.1 0.2 1 0.5 -0.5\n"), std::string::npos) << "face 4, first corner: " << text;
+  EXPECT_NE(text.find("\n0 1 0 1\n1\n0 0 0\n"), std::string::npos) << "vertices have none: " << text;
 }
 
 }  // namespace

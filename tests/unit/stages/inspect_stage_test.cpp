@@ -79,25 +79,5 @@ TEST(DiffStage, is_ok_for_equal_and_incomplete_for_different_artifacts) {
   EXPECT_EQ(Json::parse(different.json)["differences"].size(), 1u);
 }
 
-TEST(ExportStage, exports_meshes_and_refuses_what_has_no_export) {
-  TemporaryDirectory dir;
-  write_mesh(dir / "m.hdf", sample_mesh());
-  write_patches(dir / "p.hdf", sample_patches());
-  EXPECT_EQ(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl"}).code, ExitCode::kOk);
-  EXPECT_EQ(read_bytes(dir / "m.stl").size(), 84u + 4 * 50);
-  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.xyz"}), kUsage, "unknown suffix");
-  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "none/m.stl"}), kOutput, "create it first");
-  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.stl"}), kInput,
-               "is a patches artifact, which has no export");
-  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl", .quads = true}), kUsage,
-               "triangles only");
-  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.sol"}), kUsage, "give --sizing");
-  EXPECT_ERROR(run_export({.artifact = dir / "m.hdf", .output = dir / "m.stl", .sizing = dir / "s.hdf"}), kUsage,
-               "for .sol only");
-  EXPECT_ERROR(run_export({.artifact = dir / "p.hdf", .output = dir / "p.vtu", .quads = true}), kUsage,
-               "are for meshes");
-  EXPECT_EQ(dir.files().size(), 3u);
-}
-
 }  // namespace
 }  // namespace st

@@ -1,0 +1,55 @@
+#include "mesh/group_mesh.h"
+
+namespace st {
+namespace {
+
+template <class T>
+void keep(const std::vector<T>& from, std::span<const NodeId> kept, std::vector<T>& to) {
+  if (from.empty()) return;
+  to.reserve(kept.size());
+  for (const NodeId n : kept) to.push_back(from[n]);
+}
+
+}  // namespace
+
+std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh) {
+  std::vector<std::vector<TriangleId>> of_group(mesh.labels.group_name.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    of_group[mesh.triangle_group[t]].push_back(static_cast<TriangleId>(t));
+  return of_group;
+}
+
+SurfaceMesh mesh_of_triangles(const SurfaceMesh& mesh, std::span<const TriangleId> triangles) {
+  std::vector<NodeId> old_to_new(mesh.node_xyz.size(), kNone), kept;
+  for (const TriangleId t : triangles)
+    for (const NodeId n : mesh.triangles[t].n) old_to_new[n] = 0;
+  for (std::size_t n = 0; n < old_to_new.size(); ++n) {
+    if (old_to_new[n] == kNone) continue;
+    old_to_new[n] = static_cast<NodeId>(kept.size());
+    kept.push_back(static_cast<NodeId>(n));
+  }
+  SurfaceMesh part;
+  keep(mesh.node_xyz, kept, part.node_xyz);
+  keep(mesh.node_entity_dim, kept, part.node_entity_dim);
+  keep(mesh.node_entity, kept, part.node_entity);
+  keep(mesh.node_t, kept, part.node_t);
+  keep(mesh.node_size, kept, part.node_size);
+  for (const TriangleId t : triangles) {
+    const auto& n = mesh.triangles[t].n;
+    part.triangles.push_back({{old_to_new[n[0]], old_to_new[n[1]], old_to_new[n[2]]}});
+    for (std::size_t k = 0; k < 3; ++k) part.corner_uv.push_back(mesh.corner_uv[3 * static_cast<std::size_t>(t) + k]);
+  }
+  keep(mesh.triangle_face, triangles, part.triangle_face);
+  keep(mesh.triangle_group, triangles, part.triangle_group);
+  for (std::size_t i = 0; i < mesh.segment_edge.size(); ++i) {
+    const NodeId a = old_to_new[mesh.segment_nodes[2 * i]], b = old_to_new[mesh.segment_nodes[2 * i + 1]];
+    if (a == kNone || b == kNone) continue;
+    part.segment_nodes.insert(part.segment_nodes.end(), {a, b});
+    part.segment_edge.push_back(mesh.segment_edge[i]);
+  }
+  part.labels = mesh.labels;
+  part.merged = mesh.merged;
+  return part;
+}
+
+}  // namespace st

@@ -1,0 +1,18 @@
+// Parts of a mesh as meshes of their own.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+
+namespace st {
+
+/// Triangles of each main group, ascending.
+std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh);
+
+/// Some triangles (ascending, each once) with the nodes that they use, both in their order, and the segments between
+/// these. Labels keep all they have, so that numbers of faces and groups stay. Linear time.
+SurfaceMesh mesh_of_triangles(const SurfaceMesh& mesh, std::span<const TriangleId> triangles);
+
+}  // namespace st

@@ -1,0 +1,216 @@
+#include "stages/export_stage.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/length.h"
+#include "base/log.h"
+#include "geometry/flite/flite_writer.h"
+#include "io/export/export.h"
+#include "io/export/octree_export.h"
+#include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
+#include "io/hdf5/artifact.h"
+#include "io/hdf5/failure_artifact.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "mesh/edge_segments.h"
+#include "meshing/associate/curved_sides.h"
+#include "stages/mesh_export.h"
+#include "stages/stored_model.h"
+
+namespace st {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Names in artifacts are any bytes; JSON wants UTF-8.
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
+  StageSummary summary;
+  summary.line = fmt::format("{}: {} exported, {:.2f} s", output, artifact, timer.seconds());
+  summary.json =
+      dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
+  return summary;
+}
+
+/// What of the options says how a mesh is written. Throws Error(kUsage) where they contradict each other.
+ExportOptions mesh_options(const ExportStageOptions& o) {
+  const auto require = [&](bool is_right, const std::string& what) {
+    if (!is_right) throw Error(ExitCode::kUsage, what);
+  };
+  require(!o.ascii || !o.binary, "--ascii and --binary exclude each other; give one of them");
+  require(!o.quadratic || !o.geometry.empty(), "--quadratic puts nodes on the CAD; give --geometry geometry.hdf");
+  require(o.quadratic || o.parametric || o.geometry.empty(),
+          "--geometry is for --quadratic and --parametric; give one of them, or leave it out");
+  require(!o.quadratic || !o.split_groups, "--quadratic and --split-groups exclude each other; give one of them");
+  o.kFeatureAngle.require(o.feature_angle_deg);
+  ExportOptions options;
+  options.format = o.format;
+  options.encoding = o.ascii ? Encoding::kText : o.binary ? Encoding::kBinary : Encoding::kOfFormat;
+  options.has_quads = o.quads;
+  options.has_mid_nodes = o.quadratic;
+  options.has_parameters = o.parametric;
+  options.feature_angle_deg = o.feature_angle_deg;
+  return options;
+}
+
+/// Coordinates and sizes in the unit that is wanted; parameters stay those of the CAD. Returns the unit.
+std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, MidNodes& mid_nodes) {
+  if (o.unit.empty()) return artifact.header.unit;
+  const std::optional<double> wanted = unit_in_metres(o.unit);
+  if (!wanted) throw Error(ExitCode::kUsage, "--unit: '" + o.unit + "' is no unit of length; use m, mm, cm, in or ft");
+  if (!artifact.header.unit_in_m)
+    throw Error(ExitCode::kUsage, o.artifact +
+                                      ": the model has no unit, so --unit has nothing to start from; give "
+                                      "st-import --unit");
+  const double factor = *artifact.header.unit_in_m / *wanted;
+  for (Vec3& x : artifact.mesh.node_xyz) x = factor * x;
+  for (Vec3& x : mid_nodes.xyz) x = factor * x;
+  for (double& size : artifact.mesh.node_size) size *= factor;
+  return o.unit;
+}
+
+/// Nodes on the sides where these are wanted, and with parameters lines of all CAD edges.
+MidNodes use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshArtifact& artifact) {
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  require_same_geometry(o.artifact, artifact.header, o.geometry, geometry.header);
+  const std::vector<NodeId> nodes_in_groups = artifact.mesh.segment_nodes;
+  const std::vector<EdgeId> edges_in_groups = artifact.mesh.segment_edge;
+  add_all_segments(artifact.mesh, geometry.tables.edge_vertices);
+  MidNodes mid_nodes;
+  if (o.quadratic) {
+    std::int64_t n_straight = 0;
+    mid_nodes = make_mid_nodes(artifact.mesh, elements, stored_model(geometry, o.geometry), n_straight);
+    if (n_straight > 0)
+      log_warning(fmt::format("{}: {} of {} sides stay straight, where the CAD is too far from them", o.output,
+                              n_straight, mid_nodes.size()));
+  }
+  if (!o.parametric) {
+    artifact.mesh.segment_nodes = nodes_in_groups;
+    artifact.mesh.segment_edge = edges_in_groups;
+  }
+  return mid_nodes;
+}
+
+void export_sol_artifact(const ExportStageOptions& o) {
+  if (!o.unit.empty()) throw Error(ExitCode::kUsage, "--unit is not for .sol; export the mesh in the model unit, too");
+  require_writable(o.output);
+  const MeshArtifact artifact = read_mesh(o.artifact);
+  ArtifactHeader sizing;
+  const std::unique_ptr<SizeField> field = open_sizing(o.sizing, &sizing);
+  if (sizing.geometry_hash != artifact.header.geometry_hash)
+    throw Error(ExitCode::kMismatch, o.sizing + ": is of another geometry than " + o.artifact);
+  export_sol(o.output, artifact.mesh, *field);
+}
+
+void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
+  const bool is_sol = o.output.ends_with(".sol");
+  if (is_sol != !o.sizing.empty())
+    throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds what a sizing asks for; give --sizing sizing.hdf"
+                                         : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
+  if (is_sol) return export_sol_artifact(o);
+  require_export_format(o.output, options);
+  require_writable(o.output);
+  MeshArtifact artifact = read_mesh(o.artifact);
+  const QuadPairs elements = o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh);
+  MidNodes mid_nodes;
+  if (!o.geometry.empty()) mid_nodes = use_geometry(o, elements, artifact);
+  options.unit = change_unit(o, artifact, mid_nodes);
+  if (o.split_groups)
+    export_groups(o.output, artifact.mesh, options);
+  else
+    export_and_warn(o.output, {artifact.mesh, elements, mid_nodes}, options);
+}
+
+/// Throws Error(kUsage) for an option that only meshes have.
+void refuse_mesh_options(const ExportStageOptions& o, const std::string& schema) {
+  const std::pair<bool, const char*> given[] = {{!o.format.empty(), "--format"},
+                                                {o.ascii, "--ascii"},
+                                                {o.binary, "--binary"},
+                                                {!o.unit.empty(), "--unit"},
+                                                {o.quads, "--quads"},
+                                                {o.quadratic, "--quadratic"},
+                                                {o.parametric, "--parametric"},
+                                                {o.split_groups, "--split-groups"},
+                                                {!o.geometry.empty(), "--geometry"},
+                                                {!o.sizing.empty(), "--sizing"}};
+  for (const auto& [is_given, flag] : given)
+    if (is_given)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{}: {} is for meshes; this is a {} artifact", o.artifact, flag, schema));
+}
+
+void export_artifact(const ExportStageOptions& o) {
+  const auto& [artifact, output] = std::tie(o.artifact, o.output);
+  const std::string schema = read_header(artifact).schema;
+  if (schema != "mesh") refuse_mesh_options(o, schema);
+  if (schema == "mesh") {
+    export_mesh_artifact(o, mesh_options(o));
+  } else if (schema == "raster" || schema == "sizing") {
+    require_writable(output);
+    export_octree(artifact, output);
+  } else if (schema == "failures") {
+    require_writable(output);
+    export_failures(artifact, output);
+  } else if (schema == "geometry") {
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
+  } else {
+    throw Error(
+        ExitCode::kInput,
+        fmt::format(
+            "{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
+            artifact, schema));
+  }
+}
+
+/// A geometry as FLITE surfaces; the summary says how close they are and what was divided.
+StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
+  GeometryArtifact geometry = read_geometry(o.artifact);
+  const double diagonal = geometry.tables.reference_diagonal();
+  const double tolerance =
+      resolve_length(parse_length(o.tolerance, "--tolerance"), {diagonal, geometry.tables.unit_in_m}, "--tolerance");
+  require_writable(o.output);
+  const FliteExport flite = make_flite(stored_model(geometry, o.artifact), tolerance);
+  write_text_file(o.output, flite_text(flite.file));
+  StageSummary summary;
+  const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);
+  summary.line = fmt::format(
+      "{}: {} exported: {} regions of {} faces ({} divided), {} segments, within {:.3g} of the model{}, {:.2f} s",
+      o.output, o.artifact, flite.file.regions.size(), flite.n_faces, flite.n_divided, flite.file.segments.size(),
+      flite.deviation, where, timer.seconds());
+  if (flite.deviation > tolerance)
+    log_warning(fmt::format("{}: the tolerance {:.3g} is not reached, the largest distance is {:.3g}{}", o.output,
+                            tolerance, flite.deviation, where));
+  summary.json = dump({{"tool", "st-export"},
+                       {"artifact", o.artifact},
+                       {"output", o.output},
+                       {"faces", flite.n_faces},
+                       {"regions", flite.file.regions.size()},
+                       {"faces_divided", flite.n_divided},
+                       {"segments", flite.file.segments.size()},
+                       {"tolerance", tolerance},
+                       {"deviation", flite.deviation},
+                       {"worst", flite.worst},
+                       {"seconds", timer.seconds()}});
+  return summary;
+}
+
+}  // namespace
+
+StageSummary run_export(const ExportStageOptions& o) {
+  const Timer timer;
+  parse_length(o.tolerance, "--tolerance");
+  if (o.output.ends_with(".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
+  export_artifact(o);
+  return export_summary(o.artifact, o.output, timer);
+}
+
+}  // namespace st

@@ -1,0 +1,30 @@
+// That the CGNS library reads such files is tested in tests/foreign.
+#include "io/hdf5/cgns_tree.h"
+
+#include <gtest/gtest.h>
+
+namespace st {
+namespace {
+
+std::string small_tree(double value) {
+  CgnsTree tree;
+  const CgnsTree::Node base = tree.add_integers(tree.root(), "Base", "CGNSBase_t", {2, 3});
+  tree.add_text(base, "Flügel", "Descriptor_t", "text");
+  tree.add_reals(tree.add(base, "Grid", "GridCoordinates_t"), "X", "DataArray_t", {value, 2});
+  return tree.bytes();
+}
+
+TEST(CgnsTree, is_an_hdf5_file_of_equal_bytes_for_equal_nodes) {
+  EXPECT_EQ(small_tree(1).substr(1, 3), "HDF");
+  EXPECT_EQ(small_tree(1), small_tree(1));
+  EXPECT_NE(small_tree(1), small_tree(3));
+}
+
+TEST(CgnsTree, refuses_two_siblings_of_one_name) {
+  CgnsTree tree;
+  tree.add(tree.root(), "Base", "CGNSBase_t");
+  EXPECT_ANY_THROW(tree.add(tree.root(), "Base", "CGNSBase_t"));
+}
+
+}  // namespace
+}  // namespace st

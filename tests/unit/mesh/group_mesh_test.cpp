@@ -1,0 +1,35 @@
+#include "mesh/group_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/io/sample_artifacts.h"
+
+namespace st {
+namespace {
+
+TEST(GroupMesh, sorts_triangles_by_their_group) {
+  const auto of_group = triangles_by_group(sample_mesh().mesh);
+  EXPECT_EQ(of_group, (std::vector<std::vector<TriangleId>>{{0, 1}, {2, 3}}));
+}
+
+TEST(GroupMesh, has_the_nodes_of_its_triangles_in_their_order_and_the_segments_between_them) {
+  SurfaceMesh m = sample_mesh().mesh;
+  m.triangles.pop_back();
+  const std::vector<TriangleId> wanted = {1, 2};
+  const SurfaceMesh all = mesh_of_triangles(m, wanted);
+  EXPECT_EQ(all.n_nodes(), 4);
+  const std::vector<TriangleId> one = {1};  // nodes 0, 1, 3
+  const SurfaceMesh part = mesh_of_triangles(m, one);
+  ASSERT_EQ(part.n_nodes(), 3);
+  EXPECT_TRUE(part.node_xyz[2] == m.node_xyz[3]);
+  EXPECT_EQ(part.node_entity, (std::vector<std::int32_t>{0, 1, 3}));
+  EXPECT_EQ(part.triangles[0].n[2], 2);
+  EXPECT_EQ(part.triangle_face, (std::vector<FaceId>{1}));
+  EXPECT_TRUE(part.corner_uv[0] == m.corner_uv[3]);
+  EXPECT_EQ(part.segment_nodes, (std::vector<NodeId>{1, 0}));
+  EXPECT_EQ(part.segment_edge, (std::vector<EdgeId>{3}));
+  EXPECT_EQ(part.labels, m.labels);
+}
+
+}  // namespace
+}  // namespace st
