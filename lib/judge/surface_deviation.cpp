@@ -77,4 +77,17 @@ SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) 
   return deviation;
 }
 
+std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& mesh) {
+  std::vector<float> deviations;
+  deviations.reserve(mesh.triangles.size());
+  std::unique_ptr<Surface> surface;
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    if (t == 0 || mesh.triangle_face[t] != mesh.triangle_face[t - 1]) surface = model.surface(mesh.triangle_face[t]);
+    DeviationStats one;
+    add_triangle(*surface, mesh, t, 1, one);
+    deviations.push_back(static_cast<float>(one.max_distance));
+  }
+  return deviations;
+}
+
 }  // namespace st

@@ -40,4 +40,7 @@ struct SurfaceDeviation {
 /// Precondition: `mesh` was made on `model`. Local; some 2 microseconds per triangle.
 SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh);
 
+/// The distance of each triangle's midpoint, found likewise. [n_triangles] model unit.
+std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& mesh);
+
 }  // namespace st

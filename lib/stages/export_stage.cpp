@@ -11,6 +11,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "geometry/flite/flite_writer.h"
+#include "io/export/cell_view.h"
 #include "io/export/export.h"
 #include "io/export/octree_export.h"
 #include "io/file/temporary_file.h"
@@ -18,8 +19,10 @@
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/failure_artifact.h"
 #include "io/hdf5/sizing_artifact.h"
+#include "judge/surface_deviation.h"
 #include "mesh/edge_segments.h"
 #include "meshing/associate/curved_sides.h"
+#include "stages/cad_view.h"
 #include "stages/mesh_export.h"
 #include "stages/stored_model.h"
 
@@ -39,6 +42,9 @@ StageSummary export_summary(const std::string& artifact, const std::string& outp
   return summary;
 }
 
+/// Formats that show values of triangles.
+bool shows_values(const std::string& path) { return path.ends_with(".vtu") || path.ends_with(".vtm"); }
+
 /// What of the options says how a mesh is written. Throws Error(kUsage) where they contradict each other.
 ExportOptions mesh_options(const ExportStageOptions& o) {
   const auto require = [&](bool is_right, const std::string& what) {
@@ -46,9 +52,10 @@ ExportOptions mesh_options(const ExportStageOptions& o) {
   };
   require(!o.ascii || !o.binary, "--ascii and --binary exclude each other; give one of them");
   require(!o.quadratic || !o.geometry.empty(), "--quadratic puts nodes on the CAD; give --geometry geometry.hdf");
-  require(o.quadratic || o.parametric || o.geometry.empty(),
-          "--geometry is for --quadratic and --parametric; give one of them, or leave it out");
-  require(!o.quadratic || !o.split_groups, "--quadratic and --split-groups exclude each other; give one of them");
+  require(o.quadratic || o.parametric || shows_values(o.output) || o.geometry.empty(),
+          "--geometry is for --quadratic, --parametric, .vtu and .vtm; leave it out");
+  require(!o.quadratic || !(o.split_groups || o.output.ends_with(".vtm")),
+          "--quadratic needs all groups in one file; leave out --split-groups, or give -o mesh.vtu");
   o.kFeatureAngle.require(o.feature_angle_deg);
   ExportOptions options;
   options.format = o.format;
@@ -60,8 +67,14 @@ ExportOptions mesh_options(const ExportStageOptions& o) {
   return options;
 }
 
+/// What a mesh has beside itself.
+struct Additions {
+  MidNodes mid_nodes;
+  std::vector<TriangleValues> values;
+};
+
 /// Coordinates and sizes in the unit that is wanted; parameters stay those of the CAD. Returns the unit.
-std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, MidNodes& mid_nodes) {
+std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, Additions& added) {
   if (o.unit.empty()) return artifact.header.unit;
   const std::optional<double> wanted = unit_in_metres(o.unit);
   if (!wanted) throw Error(ExitCode::kUsage, "--unit: '" + o.unit + "' is no unit of length; use m, mm, cm, in or ft");
@@ -71,31 +84,35 @@ std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, Mid
                                       "st-import --unit");
   const double factor = *artifact.header.unit_in_m / *wanted;
   for (Vec3& x : artifact.mesh.node_xyz) x = factor * x;
-  for (Vec3& x : mid_nodes.xyz) x = factor * x;
+  for (Vec3& x : added.mid_nodes.xyz) x = factor * x;
+  for (TriangleValues& v : added.values)
+    if (v.name == "deviation")
+      for (float& value : v.of_triangle) value *= static_cast<float>(factor);
   for (double& size : artifact.mesh.node_size) size *= factor;
   return o.unit;
 }
 
-/// Nodes on the sides where these are wanted, and with parameters lines of all CAD edges.
-MidNodes use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshArtifact& artifact) {
+/// Nodes on the sides where these are wanted, with parameters lines of all CAD edges, distances from the CAD where they
+/// can be shown.
+void use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshArtifact& artifact, Additions& added) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   require_same_geometry(o.artifact, artifact.header, o.geometry, geometry.header);
   const std::vector<NodeId> nodes_in_groups = artifact.mesh.segment_nodes;
   const std::vector<EdgeId> edges_in_groups = artifact.mesh.segment_edge;
   add_all_segments(artifact.mesh, geometry.tables.edge_vertices);
-  MidNodes mid_nodes;
+  const Model model = stored_model(geometry, o.geometry);
+  if (shows_values(o.output)) added.values.push_back({"deviation", triangle_deviations(model, artifact.mesh)});
   if (o.quadratic) {
     std::int64_t n_straight = 0;
-    mid_nodes = make_mid_nodes(artifact.mesh, elements, stored_model(geometry, o.geometry), n_straight);
+    added.mid_nodes = make_mid_nodes(artifact.mesh, elements, model, n_straight);
     if (n_straight > 0)
       log_warning(fmt::format("{}: {} of {} sides stay straight, where the CAD is too far from them", o.output,
-                              n_straight, mid_nodes.size()));
+                              n_straight, added.mid_nodes.size()));
   }
   if (!o.parametric) {
     artifact.mesh.segment_nodes = nodes_in_groups;
     artifact.mesh.segment_edge = edges_in_groups;
   }
-  return mid_nodes;
 }
 
 void export_sol_artifact(const ExportStageOptions& o) {
@@ -115,17 +132,22 @@ void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
     throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds what a sizing asks for; give --sizing sizing.hdf"
                                          : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
   if (is_sol) return export_sol_artifact(o);
+  const bool is_in_blocks = o.output.ends_with(".vtm");
+  if (is_in_blocks) options.format = "vtu";
   require_export_format(o.output, options);
   require_writable(o.output);
   MeshArtifact artifact = read_mesh(o.artifact);
   const QuadPairs elements = o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh);
-  MidNodes mid_nodes;
-  if (!o.geometry.empty()) mid_nodes = use_geometry(o, elements, artifact);
-  options.unit = change_unit(o, artifact, mid_nodes);
-  if (o.split_groups)
-    export_groups(o.output, artifact.mesh, options);
+  Additions added;
+  if (shows_values(o.output)) added.values = measured_values(artifact.mesh);
+  if (!o.geometry.empty()) use_geometry(o, elements, artifact, added);
+  options.unit = change_unit(o, artifact, added);
+  if (is_in_blocks)
+    export_blocks(o.output, artifact.mesh, added.values, options);
+  else if (o.split_groups)
+    export_groups(o.output, artifact.mesh, added.values, options);
   else
-    export_and_warn(o.output, {artifact.mesh, elements, mid_nodes}, options);
+    export_and_warn(o.output, {artifact.mesh, elements, added.mid_nodes, added.values}, options);
 }
 
 /// Throws Error(kUsage) for an option that only meshes have.
@@ -159,9 +181,12 @@ void export_artifact(const ExportStageOptions& o) {
     require_writable(output);
     export_failures(artifact, output);
   } else if (schema == "geometry") {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: is a geometry artifact, which is exported as FLITE .dat only; give -o model.dat", artifact));
+    if (!output.ends_with(".vtu"))
+      throw Error(ExitCode::kInput,
+                  artifact + ": is a geometry artifact, which is exported as .vtu or FLITE .dat; give -o cad.vtu");
+    require_writable(output);
+    GeometryArtifact geometry = read_geometry(artifact);
+    write_cell_view(output, view_cad(stored_model(geometry, artifact), geometry.findings));
   } else {
     throw Error(
         ExitCode::kInput,

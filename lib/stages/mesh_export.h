@@ -10,7 +10,21 @@ namespace st {
 /// export_mesh(), and one warning of what the format has no room for. Local.
 void export_and_warn(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
 
-/// Likewise one file for each group that has triangles, named after it. Returns how many.
-std::size_t export_groups(const std::string& path, const SurfaceMesh& mesh, const ExportOptions& options);
+/// What ParaView is to show of each triangle: quality, and size_ratio, the mean length of its sides over the mean of
+/// the sizes that its corners were asked for. Local, linear.
+std::vector<TriangleValues> measured_values(const SurfaceMesh& mesh);
+
+/// A file of one group.
+struct GroupFile {
+  std::string group, path;
+};
+/// Likewise one file for each group that has triangles, named after it.
+std::vector<GroupFile> export_groups(const std::string& path, const SurfaceMesh& mesh,
+                                     std::span<const TriangleValues> values, const ExportOptions& options);
+
+/// ParaView's .vtm: a block for each group under its name, as a .vtu in a folder beside it, NAME/NAME_GROUP.vtu. Throws
+/// Error(kOutput).
+void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleValues> values,
+                   const ExportOptions& options);
 
 }  // namespace st

@@ -233,6 +233,39 @@ class Exports(unittest.TestCase):
         self.assertEqual(len(triangles_of(medit, "line")), len(lines))
         self.check(medit.points, triangles_of(medit))
 
+    def test_vtk_reads_a_block_for_each_group_with_what_was_measured(self):
+        from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+        from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader
+        reader = vtkXMLMultiBlockDataReader()
+        reader.SetFileName(str(export("vtm", "--geometry", WORK / "geometry.hdf")))
+        reader.Update()
+        out = reader.GetOutput()
+        blocks = {out.GetMetaData(i).Get(vtkCompositeDataSet.NAME()): out.GetBlock(i)
+                  for i in range(out.GetNumberOfBlocks())}
+        self.assertEqual({name: b.GetNumberOfCells() for name, b in blocks.items()},
+                         {name: self.groups[i + 1] for i, name in enumerate(self.names)})
+        ranges = {name: [b.GetCellData().GetArray(v).GetRange() for v in ("quality", "size_ratio", "deviation")]
+                  for name, b in blocks.items()}
+        for quality, ratio, _ in ranges.values():
+            self.assertTrue(0.3 < quality[0] <= quality[1] <= 1 and 0.3 < ratio[0] <= ratio[1] < 2, ranges)
+        self.assertEqual(ranges["block"][2], (0, 0))  # planes
+        self.assertTrue(1e-3 < ranges["pin_mantle"][2][1] < 0.1, ranges)  # a cylinder
+
+    def test_the_cad_is_shown_with_its_edges(self):
+        run("st-export", WORK / "geometry.hdf", "-o", WORK / "cad.vtu", "-q")
+        mesh = meshio.read(WORK / "cad.vtu")
+        self.assertEqual(counts(mesh, "dim").keys() | counts(mesh, "dim", "line").keys(), {1, 2})
+        with h5py.File(WORK / "geometry.hdf") as file:
+            faces = file["/st/face/area"][...]
+            lengths, is_pole = file["/st/edge/length"][...], file["/st/edge/is_degenerate"][...]
+        self.assertEqual(set(counts(mesh, "id")), set(range(1, len(faces) + 1)))
+        self.assertEqual(set(counts(mesh, "id", "line")), {i + 1 for i, pole in enumerate(is_pole) if not pole})
+        self.assertAlmostEqual(area(mesh.points, triangles_of(mesh)), faces.sum(), delta=0.01 * faces.sum())
+        ends = mesh.points[triangles_of(mesh, "line")]
+        found = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+        self.assertAlmostEqual(found, lengths.sum(), delta=0.01 * lengths.sum())
+        self.assertEqual(mesh.field_data["group:pin"].tolist(), [3])
+
     def test_split_groups_makes_a_file_for_each(self):
         run("st-export", WORK / "mesh.hdf", "-o", WORK / "part.stl", "--split-groups", "-q")
         sizes = [len(triangles_of(meshio.read(WORK / f"part_{name}.stl"))) for name in self.names]

@@ -6,8 +6,8 @@ int main(int argc, char** argv) {
   st::ExportStageOptions o;
   st::ToolMain tool(
       "st-export",
-      "Converts a mesh (.cgns .su2 .ugrid .msh .msh2 .mesh .meshb .bdf .stl .obj .ply .vtu .off .smesh .poly .fro "
-      ".eMesh .sol), sizes (.vtu .pos .bac) or a geometry (FLITE .dat).");
+      "Converts a mesh (.cgns .su2 .ugrid .msh .msh2 .mesh .meshb .bdf .stl .obj .ply .vtu .vtm .off .smesh .poly .fro "
+      ".eMesh .sol), sizes (.vtu .pos .bac) or a geometry (.vtu, FLITE .dat). ParaView shows .vtu and .vtm.");
   tool.input("artifact", o.artifact, "mesh, raster, sizing, failures or geometry artifact");
   tool.output(o.output, "file to write; its suffix selects the format");
   tool.text("--format", o.format, "SUFFIX", "format of a mesh, whatever the suffix of the file: msh2, ascii.stl ...");
@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   tool.flag("--parametric", o.parametric,
             "with t of nodes on edges, (u,v) on faces; with --geometry lines, too (.msh .mesh .meshb)");
   tool.flag("--split-groups", o.split_groups, "one file for each group: NAME_GROUP.stl");
-  tool.optional_input("--geometry", o.geometry, "the geometry of the mesh, for --quadratic and --parametric");
+  tool.optional_input("--geometry", o.geometry,
+                      "the geometry of the mesh, for --quadratic, --parametric and deviations in .vtu");
   tool.optional_input("--sizing", o.sizing, "sizing artifact, for .sol: the size asked for at each node of a mesh");
   tool.number(o.kFeatureAngle, o.feature_angle_deg);
   tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");

@@ -203,7 +203,7 @@ std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& 
   wanted.has_mid_nodes |= !mesh.mid_nodes.empty();
   require_export_format(path, wanted);
   const Format& format = format_of(path, wanted);
-  const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options};
+  const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values};
   Output out(path);
   format.write(out, task);
   if (format.room & kMapbc) {

@@ -1,6 +1,7 @@
 // Meshes for other programs.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,18 @@ struct ExportOptions {
   std::string unit;              ///< of the coordinates: "mm" ...; empty: unknown
 };
 
+/// Something measured of each triangle, for formats that show it (.vtu).
+struct TriangleValues {
+  std::string name;                ///< of the array: "quality"
+  std::vector<float> of_triangle;  ///< [n_triangles]
+};
+
 /// A mesh as elements.
 struct ExportMesh {
   const SurfaceMesh& mesh;
   const QuadPairs& elements;
   const MidNodes& mid_nodes;  ///< empty: straight elements; else of every side of every element
+  std::span<const TriangleValues> values = {};
 };
 
 /// Throws Error(kUsage) unless a format is known that has all that is wanted: encoding, quadrilaterals, second order.

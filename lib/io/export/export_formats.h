@@ -97,6 +97,7 @@ struct ExportTask {
   const QuadPairs& elements;
   const MidNodes& mid_nodes;
   const ExportOptions& options;
+  std::span<const TriangleValues> values;
 
   std::int64_t n_nodes() const { return mesh.n_nodes() + mid_nodes.size(); }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(elements.triangles.size()); }

@@ -27,7 +27,7 @@ TEST_F(ExportStage, refuses_options_that_contradict_each_other_or_lack_the_geome
   EXPECT_ERROR(run_export(o_), kUsage, "give --geometry geometry.hdf");
   o_.quadratic = false;
   o_.geometry = dir_ / "g.hdf";
-  EXPECT_ERROR(run_export(o_), kUsage, "--geometry is for --quadratic and --parametric");
+  EXPECT_ERROR(run_export(o_), kUsage, "--geometry is for --quadratic, --parametric");
   EXPECT_EQ(dir_.files().size(), 1u);
 }
 
