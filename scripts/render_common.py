@@ -1,5 +1,6 @@
 """What the rendering scripts share: VTK without a screen, small PNG files, colours."""
 
+import json
 import os
 import shutil
 import struct
@@ -75,10 +76,15 @@ def window_of(renderer, size):
     return window
 
 
+def upright(out):
+    """The axis that a picture has upwards, seen from direction `out` of length 1."""
+    return (0, 0, 1) if abs(out[2]) < 0.99 else (1, 0, 0)
+
+
 def axes(direction):
     """Unit vectors to the right, up and towards the viewer."""
     out = numpy.array(direction) / numpy.linalg.norm(direction)
-    right = numpy.cross((0, 0, 1), out)
+    right = numpy.cross(upright(out), out)
     right /= numpy.linalg.norm(right)
     return right, numpy.cross(out, right), out
 
@@ -98,13 +104,58 @@ def look(renderer, focus, direction, half_height):
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*focus)
     camera.SetPosition(*(numpy.array(focus) + 1000 * half_height * direction))
-    camera.SetViewUp(*((0, 0, 1) if abs(direction[2]) < 0.99 else (1, 0, 0)))
+    camera.SetViewUp(*upright(direction))
     camera.SetParallelScale(half_height)
     renderer.ResetCameraClippingRange()
 
 
-def write_png(window, path, n_colours=256):
-    """Renders and writes a PNG with a palette: about a third of the size of true colour."""
+GRID = (8, 5)  # columns and rows of what a picture remembers
+STALE = 0.20  # share of what a picture shows that may differ from what it would show now: no reader sees less
+
+
+def shown(points, focus, direction, half_height, size):
+    """What a picture shows, coarsely: how many of the points (of triangles, of cells) lie in each part of it."""
+    right, up, _ = axes(direction)
+    offsets = numpy.asarray(points) - numpy.array(focus)
+    half_width = half_height * size[0] / size[1]
+    columns = numpy.floor((offsets @ right / half_width + 1) / 2 * GRID[0]).astype(int)
+    rows = numpy.floor((offsets @ up / half_height + 1) / 2 * GRID[1]).astype(int)
+    inside = (columns >= 0) & (columns < GRID[0]) & (rows >= 0) & (rows < GRID[1])
+    counts = numpy.bincount(rows[inside] * GRID[0] + columns[inside], minlength=GRID[0] * GRID[1])
+    return [int(n) for n in counts]
+
+
+def remembered(path):
+    """What the picture showed when it was made, or None: its text chunk "shows"."""
+    if not os.path.isfile(path):
+        return None
+    with open(path, "rb") as file:
+        data = file.read()
+    at = 8
+    while at + 8 <= len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"tEXt" and body.startswith(b"shows\0"):
+            return json.loads(body[6:])
+        at += 12 + length
+    return None
+
+
+def is_current(path, shows):
+    """Whether a picture still shows what it would show now; prints the verdict."""
+    name, before = os.path.basename(path), remembered(path)
+    if before is None or len(before) != len(shows):
+        print(f"STALE: {name}: it does not exist, or does not say what it shows; make it again")
+        return False
+    old, new = numpy.array(before, float), numpy.array(shows, float)
+    difference = float(numpy.abs(old - new).sum() / max(1.0, (old + new).sum() / 2))
+    verdict = "ok" if difference <= STALE else "STALE"
+    print(f"{verdict}: {name}: {int(old.sum())} things shown, {int(new.sum())} now, {100 * difference:.1f} % differ")
+    return difference <= STALE
+
+
+def write_png(window, path, shows=None, n_colours=256):
+    """Renders and writes a PNG with a palette: about a third of the size of true colour. It remembers what it shows."""
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
@@ -127,7 +178,8 @@ def write_png(window, path, n_colours=256):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
+    text = b"" if shows is None else chunk(b"tEXt", b"shows\0" + json.dumps(shows).encode())
     with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) + chunk(b"PLTE", palette)
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) + text + chunk(b"PLTE", palette)
                   + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
     print(f"{path}  {os.path.getsize(path) // 1000} kB")

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Pictures of docs/guide/sizing_guide.md: one setting of the bundled aircraft changed at a time, two meshes in each.
 
-usage: render_guide.py BIN_DIR [-o docs/images] [--only NAME ...]
+usage: render_guide.py BIN_DIR [-o docs/images] [--only NAME ...] [--check]
+--check: draw nothing; exit code 1 when a picture shows other meshes.
 Needs python3-vtk9 and, without a display, xvfb. Takes two minutes.
 """
 import argparse
 import os
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -55,6 +57,13 @@ def mesh_of(bin_dir, folder, raster_options, prolong_options):
     return render_mesh.Mesh(str(file["mesh"]))
 
 
+def shown(meshes, place):
+    """Triangles in each part of both halves."""
+    focus, direction, half_height, _ = place
+    half = (SIZE[0] // 2, SIZE[1])
+    return [n for mesh in meshes for n in mesh.shown(~mesh.is_outer(), focus, direction, half_height, half)]
+
+
 def draw(meshes, place, path):
     """Both meshes side by side, from the same place."""
     focus, direction, half_height, edge_width = place
@@ -73,7 +82,7 @@ def draw(meshes, place, path):
     between.SetBackground(0.5, 0.5, 0.55)
     between.SetViewport(0.5 - GAP / 2, 0, 0.5 + GAP / 2, 1)
     window.AddRenderer(between)
-    common.write_png(window, path)
+    common.write_png(window, path, shown(meshes, place))
 
 
 def main():
@@ -81,7 +90,9 @@ def main():
     parser.add_argument("bin_dir", type=Path)
     parser.add_argument("-o", "--output", default="docs/images")
     parser.add_argument("--only", nargs="+", choices=PICTURES, default=list(PICTURES))
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
+    stale = False
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         step = folder / "aircraft.step"
@@ -90,10 +101,15 @@ def main():
         for picture in options.only:
             place, *halves = PICTURES[picture]
             meshes = [mesh_of(options.bin_dir, folder, *half) for half in halves]
-            draw(meshes, place, os.path.join(options.output, picture + ".png"))
-            shown = [f"{half[0]} {half[1]}".strip() or "defaults" for half in halves]
-            print(", ".join(f"{text}: {len(mesh.triangles):,} triangles" for text, mesh in zip(shown, meshes)))
+            path = os.path.join(options.output, picture + ".png")
+            if options.check:
+                stale |= not common.is_current(path, shown(meshes, place))
+                continue
+            draw(meshes, place, path)
+            texts = [f"{half[0]} {half[1]}".strip() or "defaults" for half in halves]
+            print(", ".join(f"{text}: {len(mesh.triangles):,} triangles" for text, mesh in zip(texts, meshes)))
+    return 1 if stale else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

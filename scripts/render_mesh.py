@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of its difficult places.
 
-usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--at NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
+usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--prefix mesh] [--check] [--at NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -47,6 +47,10 @@ class Mesh:
         """Corners of the bounding box of nodes(prefix), or None."""
         nodes = self.nodes(prefix)
         return None if nodes is None else numpy.array([nodes.min(axis=0), nodes.max(axis=0)])
+
+    def shown(self, selected, focus, direction, half_height, size):
+        """Triangles in each part of a picture, hidden ones too."""
+        return common.shown(self.points[self.triangles[selected]].mean(axis=1), focus, direction, half_height, size)
 
     def surface(self, selected):
         """Selected triangles as poly data in the colours of their groups."""
@@ -166,6 +170,8 @@ def main():
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     parser.add_argument("--view", action="append", help="only this view (may be repeated)")
     parser.add_argument("--at", action="append", default=[], metavar="NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ]", help="a place of your own; only these and --view are made")
+    parser.add_argument("--prefix", default="mesh", help="first word of the names of the files (default: %(default)s)")
+    parser.add_argument("--check", action="store_true", help="draw nothing; exit code 1 when a picture shows another mesh")
     options = parser.parse_args()
     mesh = Mesh(options.mesh)
     all_views = {} if options.at and not options.view else views(mesh)
@@ -176,13 +182,20 @@ def main():
         if name not in all_views:
             parser.error(f"unknown view '{name}'; there are: {', '.join(all_views)}")
     os.makedirs(options.output, exist_ok=True)
+    stale = False
     for name in options.view or all_views:
+        path = os.path.join(options.output, name.replace("mesh", options.prefix, 1) + ".png")
         focus, direction, half_height, selected, edge_width = all_views[name]
+        shows = mesh.shown(selected, focus, direction, half_height, SIZE)
+        if options.check:
+            stale |= not common.is_current(path, shows)
+            continue
         renderer = scene(mesh, selected & in_picture(mesh, focus, direction, half_height), edge_width)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, focus, direction, half_height)
-        common.write_png(window, os.path.join(options.output, name + ".png"))
+        common.write_png(window, path, shows)
+    return 1 if stale else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -2,7 +2,7 @@
 """Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale, by the cause of
 the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow, orange cut, grey blanked).
 
-usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour] [--suffix TEXT] [-o docs/images]
+usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour] [--suffix TEXT] [--view NAME [--as NAME]] [--check] [-o docs/images]
        [--slice NAME X Y Z HALF]
 --slice: a horizontal slice through a point, HALF high to either side. Else with --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
 Needs python3-vtk9 and, without a display, xvfb.
@@ -10,6 +10,7 @@ Needs python3-vtk9 and, without a display, xvfb.
 
 import argparse
 import os
+import sys
 
 import render_common as common
 from render_common import numpy, vtk, vtk_to_numpy
@@ -131,6 +132,19 @@ def scale_bar(table):
     return bar
 
 
+def shown_cells(grid, by, origin, normal, half_height):
+    """Cells that the slice meets in each part of the picture; by category, the parts of each category."""
+    piece = cut(grid, origin, normal)
+    centres = vtk.vtkCellCenters()
+    centres.SetInputData(piece)
+    centres.Update()
+    points = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
+    if by != "colour":
+        return common.shown(points, origin, normal, half_height, SIZE)
+    category = vtk_to_numpy(piece.GetCellData().GetArray("category"))
+    return [n for value in range(3) for n in common.shown(points[category == value], origin, normal, half_height, SIZE)]
+
+
 def finest_place(grid, name):
     """Centre of the finest cell and the extent of the cells that are at most eight times as long."""
     lengths = common.cell_array(grid, name)
@@ -168,6 +182,9 @@ def main():
     parser.add_argument("--by", choices=("size", "cause", "colour"), default="size", help="what colours show (default: %(default)s)")
     parser.add_argument("--slice", nargs=5, metavar=("NAME", "X", "Y", "Z", "HALF"), help="name of the picture, point in its middle, half its height")
     parser.add_argument("--suffix", default="", help="added to the names of the pictures")
+    parser.add_argument("--view", help="only this picture: sizing_nacelle or sizing_section")
+    parser.add_argument("--as", dest="name", help="with --view or --slice: name of the file")
+    parser.add_argument("--check", action="store_true", help="draw nothing; exit code 1 when a picture shows other sizes")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     options = parser.parse_args()
     grid = common.read(options.sizing)
@@ -183,12 +200,21 @@ def main():
     if options.slice:
         x, y, z, half = map(float, options.slice[1:])
         wanted = {options.slice[0]: ((x, y, z), (0, 0, 1), half)}
+    if options.view:
+        wanted = {options.view: wanted[options.view]}
+    stale = False
     for picture, (origin, normal, half_height) in wanted.items():
+        path = os.path.join(options.output, (options.name or picture) + options.suffix + ".png")
+        shows = shown_cells(grid, options.by, origin, normal, half_height)
+        if options.check:
+            stale |= not common.is_current(path, shows)
+            continue
         renderer = slice_scene(grid, name, origin, normal, body, half_height, table)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, origin, normal, half_height)
-        common.write_png(window, os.path.join(options.output, picture + options.suffix + ".png"))
+        common.write_png(window, path, shows)
+    return 1 if stale else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

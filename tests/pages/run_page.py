@@ -87,6 +87,7 @@ def run_page(page, folder, long=False):
     models = Path(os.environ["ST_MODELS"]) if os.environ.get("ST_MODELS") else None
     environment = {**os.environ, "PATH": f"{os.environ.get('ST_BIN', '')}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
     for name in ("examples", "scripts"):
+        (folder / name).unlink(missing_ok=True)
         (folder / name).symlink_to(SOURCE / name)
     n_run = n_left = 0
     for kind, line, content in pieces(page.read_text(encoding="utf-8")):
