@@ -5,6 +5,9 @@
 
 namespace st {
 
+/// Equilateral triangles of the local length h, per unit of the integral of 1/h^2 over a surface: 4/sqrt(3).
+inline constexpr double kTrianglesPerWeight = 2.3094010767585034;
+
 /// Requested edge length in space. Implementations are immutable and safe to share between threads; `hint` is the
 /// caller's own.
 class SizeField {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "sizing/size_field.h"
 
 namespace st {
 namespace {

@@ -9,9 +9,6 @@
 
 namespace st {
 
-/// Equilateral triangles of the local length, per unit of the integral of 1/h^2: 4/sqrt(3).
-inline constexpr double kTrianglesPerWeight = 2.3094010767585034;
-
 /// About this many triangles: equilateral ones of the local length. `face_weight`: see SizingArtifact.
 double expected_triangles(std::span<const double> face_weight);
 

@@ -26,6 +26,7 @@ void require_valid(const MeshStageOptions& o) {
   o.kEnhanceRounds.require(o.enhance_rounds);
   o.kMergeBelow.require(o.merge_below);
   o.kMaxTurning.require(o.max_turning_deg);
+  o.kTile.require(o.tile_triangles);
 }
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
@@ -95,6 +96,7 @@ ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& ge
       {"faces", o.faces},
       {"group", o.group},
       {"enhance_rounds", o.enhance_rounds},
+      {"tile", o.tile_triangles},
       {"merge_below", o.merge_below},
       {"max_turning",
        o.max_turning_deg}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -122,7 +124,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const double load_seconds = timer.seconds();
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
-                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below}, comm);
+                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles}, comm);
   if (!comm.is_root()) return {};
   return write_patches_result(o.output, model.tables(), geometry.header,
                               output_header(o, geometry.header, sizing.header), topology, std::move(result),

@@ -27,6 +27,10 @@ struct MeshStageOptions {
   static constexpr NumberOption kMaxTurning{
       "--max-turning", "DEG", "[0.001, 60]",
       "largest angle in degrees by which a CAD edge turns along one mesh segment"};
+  double tile_triangles = 100'000;
+  static constexpr NumberOption kTile{
+      "--tile", "N", "[0, 1e9]",
+      "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none"};
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

@@ -16,6 +16,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
+#include "sizing/size_field.h"
 #include "stages/blank_input.h"
 #include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"

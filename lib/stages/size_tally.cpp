@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "sizing/size_field.h"
 #include "stages/expected_triangles.h"
 
 namespace st {

@@ -16,5 +16,6 @@ int main(int argc, char** argv) {
   tool.number(o.kEnhanceRounds, o.enhance_rounds);
   tool.number(o.kMergeBelow, o.merge_below);
   tool.number(o.kMaxTurning, o.max_turning_deg);
+  tool.number(o.kTile, o.tile_triangles);
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
 }

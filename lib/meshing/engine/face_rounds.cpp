@@ -48,7 +48,8 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       dirty_faces_(plan_.faces),
       outcomes_(tables_.n_faces()),
       crossings_(tables_.face_shell) {
-  if (static_cast<FaceId>(plan_.face_weight.size()) != tables_.n_faces()) plan_.face_weight = tables_.face_area;
+  if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
+    for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   result_.edges = std::move(plan_.kept_edges);
   result_.patches = std::move(plan_.kept_patches);
   result_.patches.resize(tables_.n_faces());
@@ -179,70 +180,116 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
   return nodes;
 }
 
+/// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
-  std::vector<double> weight;
-  for (const FaceId f : dirty_faces_) weight.push_back(plan_.face_weight[f]);
-  std::vector<std::vector<RefinementPoint>> wanted(dirty_faces_.size());
-  Progress progress("meshing", static_cast<double>(dirty_faces_.size()));
-  std::size_t n_done = 0;
-  executor_.run_tasks(
-      static_cast<std::int32_t>(dirty_faces_.size()), heaviest_first(weight),
-      [&](std::int32_t task) { return compute_face(dirty_faces_[task]); },
-      [&](std::int32_t task, Bytes&& bytes) {
-        wanted[task] = take_face(dirty_faces_[task], bytes);
-        progress.update(static_cast<double>(++n_done));
-      });
+  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options());
+  if (options_.tile_triangles > 0 && !expected_.empty())
+    tiled.cut(dirty_faces_, expected_, options_.tile_triangles, executor_);
+  std::vector<FaceId> whole;
+  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
+               [&](FaceId f) { return !tiled.is_cut(f); });
+  wanted_.assign(outcomes_.size(), {});
+  run_tasks(whole, tiled);
+  std::vector<FaceId> failed = join(tiled);
+  share(executor_, failed);
+  TiledFaces none(model_, *numbering_, field_, refinements_, face_options());
+  if (!failed.empty()) run_tasks(failed, none);
   std::vector<RefinementPoint> all;
-  for (const auto& w : wanted) all.insert(all.end(), w.begin(), w.end());
+  for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
 }
 
-/// A strip that is closed all along has no triangles: its neighbours share its nodes.
-FaceMesh FaceRounds::mesh_in(const Surface& surface, FaceId f, const FaceBoundary& boundary) const {
-  if (boundary.nodes.empty() && topology_.strip_of(f)) return {};
-  FaceMeshOptions options;
-  options.enhance_rounds = options_.enhance_rounds;
-  const std::vector<Refinement> near = refinements_.near(tables_.face_box[f]);
-  const RefinedField refined(field_, near);
-  const SizeField& field = near.empty() ? field_ : refined;  // spares one call for each length
-  FaceMesh mesh = mesh_face(surface, boundary, field, options);
-  repair_folds(surface, boundary, field, options, mesh);
-  return mesh;
+/// Tasks: `whole`, then the tiles.
+void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) {
+  const auto n_whole = static_cast<std::int32_t>(whole.size()), n = n_whole + tiled.n_tiles();
+  std::vector<double> weight;
+  for (const FaceId f : whole) weight.push_back(expected_.empty() ? tables_.face_area[f] : expected_[f]);
+  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) weight.push_back(tiled.weight(t));
+  Progress progress("meshing", n);
+  std::int32_t n_done = 0;
+  executor_.run_tasks(
+      n, heaviest_first(weight),
+      [&](std::int32_t task) {
+        return task < n_whole ? packed(mesh_whole(whole[task])) : tiled.compute(task - n_whole);
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        if (task < n_whole) {
+          FaceResult result;
+          unpack(bytes, result);
+          take_face(whole[task], std::move(result));
+        } else {
+          tiled.take(task - n_whole, bytes);
+        }
+        progress.update(++n_done);
+      });
 }
 
-Bytes FaceRounds::compute_face(FaceId f) const {
+/// Local. Joins the tiles of each face on rank 0; returns the faces of which a tile failed, or whose tiles do not fit.
+std::vector<FaceId> FaceRounds::join(TiledFaces& tiled) {
+  std::vector<FaceId> failed;
+  if (!executor_.is_root()) return failed;
+  for (const FaceId f : dirty_faces_) {
+    if (!tiled.is_cut(f)) continue;
+    FaceResult result = make_face(f, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+      return tiled.join(surface, f, boundary);
+    });
+    if (result.cause == FailureCause::kNone)
+      take_face(f, std::move(result));
+    else
+      failed.push_back(f);
+  }
+  return failed;
+}
+
+FaceMeshOptions FaceRounds::face_options() const {
+  FaceMeshOptions options;
+  options.enhance_rounds = options_.enhance_rounds;
+  return options;
+}
+
+FaceRounds::FaceResult FaceRounds::mesh_whole(FaceId f) const {
+  return make_face(f, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
+    if (boundary.nodes.empty() && topology_.strip_of(f)) return FaceMesh();  // closed: its neighbours share its nodes
+    return mesh_face(surface, boundary, field, face_options());
+  });
+}
+
+/// From the mesh to the patch, or to what is to be known of a failure.
+FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh) const {
   FaceMesh mesh;
-  FacePatch patch;
+  FaceResult result;
   FaceBoundary boundary;
-  std::string error;
-  patch.face = f;
+  result.patch.face = f;
   try {
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
-    mesh = mesh_in(*surface, f, boundary);
-    if (mesh.cause == FailureCause::kNone) patch = make_patch(tables_, f, boundary, mesh, *numbering_);
+    const FaceField field(field_, refinements_, tables_.face_box[f]);
+    mesh = make_mesh(*surface, boundary, field.get());
+    repair_folds(*surface, boundary, field.get(), face_options(), mesh);
+    if (mesh.cause == FailureCause::kNone) result.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
   } catch (const Error& e) {
     mesh.cause = FailureCause::kError;
-    error = e.what();
+    result.error = e.what();
   }
-  FailedFace failed;
-  if (mesh.cause != FailureCause::kNone) failed = describe_failure(*numbering_, f, boundary, mesh);
-  return packed(patch, mesh.cause, error, mesh.refinement, mesh.n_folds, failed);
+  if (mesh.cause != FailureCause::kNone) result.failed = describe_failure(*numbering_, f, boundary, mesh);
+  result.cause = mesh.cause;
+  result.wanted = std::move(mesh.refinement);
+  result.n_folds = mesh.n_folds;
+  return result;
 }
 
-/// Local, on rank 0. What compute_face() packed; returns the places that need smaller sizes.
-std::vector<RefinementPoint> FaceRounds::take_face(FaceId f, const Bytes& bytes) {
-  std::vector<RefinementPoint> wanted;
-  FailedFace failed;
-  int n_folds = 0;
+/// Local, on rank 0.
+void FaceRounds::take_face(FaceId f, FaceResult&& result) {
   FaceOutcome& o = outcomes_[f];
-  unpack(bytes, result_.patches[f], o.cause, o.error, wanted, n_folds, failed);
+  result_.patches[f] = std::move(result.patch);
+  o.cause = result.cause;
+  o.error = std::move(result.error);
   failed_faces_.erase(f);
-  if (o.cause != FailureCause::kNone) failed_faces_[f] = std::move(failed);
-  o.fold_places = n_folds ? wanted : std::vector<RefinementPoint>();
-  o.cause_xyz = wanted.empty() ? tables_.face_box[f].center() : wanted[0].x;
+  if (o.cause != FailureCause::kNone) failed_faces_[f] = std::move(result.failed);
+  o.fold_places = result.n_folds ? result.wanted : std::vector<RefinementPoint>();
+  o.cause_xyz = result.wanted.empty() ? tables_.face_box[f].center() : result.wanted[0].x;
   crossings_.renew(f);
-  return wanted;
+  wanted_[f] = std::move(result.wanted);
 }
 
 /// Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.

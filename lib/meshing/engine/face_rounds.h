@@ -1,9 +1,11 @@
 // Rounds over the edges and faces of a model.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
+#include "meshing/engine/tiled_faces.h"
 
 namespace st {
 
@@ -52,9 +55,23 @@ class FaceRounds : public MeshRounds {
   EdgeMesh make_edge(EdgeId e) const;
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
   void end_at_vertices(EdgeId e, EdgeMesh& nodes) const;
-  FaceMesh mesh_in(const Surface& surface, FaceId f, const FaceBoundary& boundary) const;
-  Bytes compute_face(FaceId f) const;
-  std::vector<RefinementPoint> take_face(FaceId f, const Bytes& bytes);
+  struct FaceResult {
+    FacePatch patch;
+    FailureCause cause = FailureCause::kNone;
+    std::string error;
+    std::vector<RefinementPoint> wanted;
+    int n_folds = 0;
+    FailedFace failed;
+
+    static auto fields(auto& x) { return std::tie(x.patch, x.cause, x.error, x.wanted, x.n_folds, x.failed); }
+  };
+  using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
+  FaceMeshOptions face_options() const;
+  FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
+  FaceResult mesh_whole(FaceId f) const;
+  void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);
+  std::vector<FaceId> join(TiledFaces& tiled);
+  void take_face(FaceId f, FaceResult&& result);
   void keep_whole();
   void find_dirty(std::size_t first_refinement);
 
@@ -63,13 +80,15 @@ class FaceRounds : public MeshRounds {
   const ModelTables& tables_;  // of topology_
   MeshPlan plan_;
   MeshOptions options_;
+  std::vector<double> expected_;        // [n_faces] triangles, by the weights of the plan; empty: it has none
   std::vector<double> face_tolerance_;  // [n_faces] of their groups, or empty
   std::vector<int> min_segments_;
   std::vector<Follower> followers_;  // empty unless sizes are stretched
   std::vector<EdgeId> dirty_edges_;  // to be meshed in this round
   std::vector<FaceId> dirty_faces_;
-  std::optional<BoundaryNumbering> numbering_;  // of the present edges
-  std::vector<FaceOutcome> outcomes_;           // by face, on rank 0
+  std::optional<BoundaryNumbering> numbering_;        // of the present edges
+  std::vector<FaceOutcome> outcomes_;                 // by face, on rank 0
+  std::vector<std::vector<RefinementPoint>> wanted_;  // likewise, of this round
   std::map<FaceId, FailedFace> failed_faces_;
   std::optional<WholeMesh> whole_;  // the last one, on rank 0
   bool is_restored_ = false;

@@ -13,7 +13,7 @@ struct MeshPlan {
   std::vector<FaceId> faces;            ///< likewise
   EdgeMesh kept_edges;                  ///< nodes of the other edges, on every rank
   std::vector<FacePatch> kept_patches;  ///< [n_faces] on rank 0: those of the other faces stay; or empty
-  std::vector<double> face_weight;      ///< [n_faces] expected work, any unit; empty: the areas
+  std::vector<double> face_weight;      ///< [n_faces] integrals of 1/h^2; empty: not known, and no face is cut
 };
 
 /// All edges and faces.

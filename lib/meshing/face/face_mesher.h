@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct FaceMesh {
   FailureCause cause = FailureCause::kNone;  ///< kNone: meshed
   std::vector<RefinementPoint> refinement;   ///< where smaller sizes may help
   int n_folds = 0;                           ///< triangles whose normal is against the surface's
+
+  static auto fields(auto& x) { return std::tie(x.inner, x.corners, x.cause, x.refinement, x.n_folds); }
 };
 
 /// Meshes the face. Never throws for geometry: a face that cannot be meshed says why. Local, pure.

@@ -23,6 +23,10 @@ struct FaceWork {
   std::size_t max_nodes = 0;  ///< more is a runaway: the front stops
   int hint = 0;
 
+  /// Sets the surface and the scale: mean lengths of the derivatives.
+  void set_surface(const Surface& s);
+  /// Of an evaluated node: the normal a little inside where the parametrisation is singular at the boundary.
+  Vec3 reliable_normal(const MeshNode& n) const;
   /// Sets request, h and squeeze of a node from the field.
   void ask_sizes(MeshNode& n);
   /// Fills uv, x, du, dv and the normal of a node from its p.

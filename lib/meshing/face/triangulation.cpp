@@ -265,6 +265,43 @@ std::optional<LoopConflict> Triangulation::insert_segment(std::int32_t a, std::i
   return std::nullopt;
 }
 
+void Triangulation::adopt(std::int32_t n_fixed, std::vector<MeshNode> part,
+                          const std::vector<std::array<std::int32_t, 3>>& corners) {
+  nodes = std::move(part);
+  nodes.insert(nodes.begin() + n_fixed, 4, MeshNode());
+  n_boundary = n_fixed;
+  node_triangle_.assign(nodes.size(), kNone);
+  triangles.clear();
+  std::vector<std::array<std::int32_t, 4>> sides;  // lower and higher node, triangle, side
+  for (const auto& own : corners) {
+    const auto t = static_cast<std::int32_t>(triangles.size());
+    PlaneTriangle& fresh = triangles.emplace_back(PlaneTriangle{{}, {kNone, kNone, kNone}, 0, 0, kFinished});
+    for (int k = 0; k < 3; ++k) fresh.v[k] = own[k] < n_fixed ? own[k] : own[k] + 4;
+    for (int k = 0; k < 3; ++k) {
+      node_triangle_[fresh.v[k]] = t;
+      const auto [low, high] = std::minmax({fresh.v[k], fresh.v[kNext[k]]});
+      sides.push_back({low, high, t, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& [low, high, t, k] = sides[i];
+    if (i + 1 < sides.size() && sides[i + 1][0] == low && sides[i + 1][1] == high) {
+      const auto& [low2, high2, t2, k2] = sides[++i];
+      triangles[t].n[k] = t2;
+      triangles[t2].n[k2] = t;
+    } else {
+      triangles[t].constrained |= static_cast<std::uint8_t>(1 << k);
+    }
+  }
+}
+
+void Triangulation::constrain(std::int32_t t, int k) {
+  triangles[t].constrained |= static_cast<std::uint8_t>(1 << k);
+  const std::int32_t o = triangles[t].n[k];
+  if (o != kNone) triangles[o].constrained |= static_cast<std::uint8_t>(1 << neighbour_index(o, t));
+}
+
 bool Triangulation::can_swap(std::int32_t t, int k) const {
   const PlaneTriangle& r = triangles[t];
   if ((r.constrained >> k & 1) || r.n[k] == kNone) return false;

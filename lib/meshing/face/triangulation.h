@@ -2,6 +2,7 @@
 // neighbours, constrained edges.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -59,6 +60,12 @@ class Triangulation {
   /// pairs) as edges, then marks inside by parity. Returns the conflicts; the triangulation is usable only when there
   /// is none.
   std::vector<LoopConflict> build(const std::vector<std::pair<std::int32_t, std::int32_t>>& segments);
+
+  /// Takes over a part of a mesh in place of build(): its nodes, the `n_fixed` of its rim first, and its triangles, as
+  /// inside. Four unused nodes come between. Sides without a neighbour are constrained.
+  void adopt(std::int32_t n_fixed, std::vector<MeshNode> part, const std::vector<std::array<std::int32_t, 3>>& corners);
+  /// A side that must stay.
+  void constrain(std::int32_t t, int k);
 
   /// Triangle that contains p, walked from `start` without crossing a constrained edge; kNone when one is in the way.
   std::int32_t locate(Vec2 p, std::int32_t start) const;

@@ -1,0 +1,19 @@
+// Tests of a face's mesh: every edge used as often as it must be, no folds. Internal to lib/meshing.
+#pragma once
+
+#include "meshing/face/face_mesher.h"
+#include "meshing/face/triangulation.h"
+
+namespace st {
+
+/// Are two corners of the triangle nodes of one pole? In space it has no area.
+bool has_pole_side(const Triangulation& mesh, const PlaneTriangle& t);
+
+/// Every edge used twice (boundary segments as often as the loops use them), no triangle with a repeated node, no
+/// repeated triangle. Else sets the cause and places to refine.
+void check_edges(const FaceBoundary& boundary, FaceMesh& mesh);
+
+/// Counts triangles turned against the surface, and neighbours folded onto each other, and adds their places to refine.
+void check_folds(const Triangulation& triangulation, FaceMesh& mesh);
+
+}  // namespace st

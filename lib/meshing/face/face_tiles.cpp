@@ -1,0 +1,366 @@
+#include "meshing/face/face_tiles.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "meshing/face/face_check.h"
+#include "meshing/face/scaled_field.h"
+#include "meshing/face/tile_seams.h"
+
+namespace st {
+namespace {
+
+constexpr double kCoarsePerTile = 64;  // triangles of the coarse mesh for each tile
+constexpr int kCoarseRounds = 2;       // of the enhancer: cuts should be straight and meet at wide angles
+constexpr int kSamplesPerNode = 4;     // of a cut, to space its nodes
+constexpr int kMaxSamples = 1 << 14;
+
+using Corners = std::pair<std::int32_t, std::int32_t>;
+
+class TileCutter {
+ public:
+  TileCutter(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
+             const SizeField& field, double tile_triangles)
+      : surface_(surface),
+        boundary_(boundary),
+        places_(places),
+        field_(field),
+        tile_triangles_(tile_triangles),
+        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {}
+
+  TileCut run() {
+    if (field_.is_stretched() || !follow_loops()) return {};  // rows would end at cuts
+    const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
+    for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
+      if (make_coarse(static_cast<std::int32_t>(step))) return cut();
+    return {};
+  }
+
+ private:
+  /// The segment that leaves each node. False: a node has not exactly one.
+  bool follow_loops() {
+    next_.assign(boundary_.nodes.size(), kNone);
+    for (const auto& [a, b] : boundary_.segments) {
+      if (next_[a] != kNone) return false;
+      next_[a] = b;
+    }
+    return std::find(next_.begin(), next_.end(), kNone) == next_.end();
+  }
+
+  /// Vertices, poles, and nodes that are the further apart the further from the end of their edge.
+  bool is_kept(std::int32_t node, std::int32_t step) const {
+    const BoundaryPlace& p = places_[node];
+    if (p.to_end == 0 || boundary_.nodes[node].is_pole) return true;
+    const auto graded = static_cast<std::int32_t>(std::bit_floor(static_cast<unsigned>(std::max(1, p.to_end / 2))));
+    return p.index % std::min(step, graded) == 0;
+  }
+
+  /// Sets coarse_ and what tells its corners. False: the coarse loops cross, or its mesh has folds.
+  bool make_coarse(std::int32_t step) {
+    FaceBoundary loops;
+    of_coarse_.clear();
+    std::vector<std::int32_t> coarse_of(boundary_.nodes.size(), kNone);
+    for (std::int32_t i = 0; i < n_boundary_; ++i) {
+      if (!is_kept(i, step)) continue;
+      coarse_of[i] = static_cast<std::int32_t>(of_coarse_.size());
+      of_coarse_.push_back(i);
+      loops.nodes.push_back(boundary_.nodes[i]);
+    }
+    for (std::size_t c = 0; c < of_coarse_.size(); ++c) {
+      double length = 0;
+      std::int32_t i = of_coarse_[c];
+      do {
+        length += distance(boundary_.nodes[i].x, boundary_.nodes[next_[i]].x);
+        i = next_[i];
+      } while (coarse_of[i] == kNone);
+      loops.segments.push_back({static_cast<std::int32_t>(c), coarse_of[i]});
+      if (length > 0) loops.nodes[c].h = std::max(loops.nodes[c].h, length);
+    }
+    coarse_segments_ = loops.segments;
+    FaceMeshOptions options;
+    options.enhance_rounds = kCoarseRounds;
+    coarse_ = mesh_face(surface_, loops, ScaledField(field_, step), options);
+    return coarse_.cause == FailureCause::kNone && coarse_.n_folds == 0 && !coarse_.corners.empty();
+  }
+
+  std::int32_t n_coarse() const { return static_cast<std::int32_t>(coarse_.corners.size() / 3); }
+  std::int32_t corner(std::int32_t t, int k) const { return coarse_.corners[3 * static_cast<std::size_t>(t) + k]; }
+  const FaceNode& node(std::int32_t corner) const {
+    const auto n = static_cast<std::int32_t>(of_coarse_.size());
+    return corner < n ? boundary_.nodes[of_coarse_[corner]] : coarse_.inner[corner - n];
+  }
+
+  TileCut cut() {
+    find_sides();
+    weigh();
+    part_.assign(static_cast<std::size_t>(n_coarse()), 0);
+    std::vector<std::int32_t> all(part_.size());
+    std::iota(all.begin(), all.end(), 0);
+    const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
+    n_parts_ = static_cast<std::int32_t>(std::ceil(total / tile_triangles_));
+    if (n_parts_ < 2) return {};
+    bisect(all, 0, n_parts_);
+    join_poles();
+    join_spikes();
+    result_.tiles.resize(static_cast<std::size_t>(n_parts_));
+    for (std::int32_t t = 0; t < n_coarse(); ++t) result_.tiles[part_[t]].weight += weight_[t];
+    if (!add_boundary()) return {};
+    add_cuts();
+    std::erase_if(result_.tiles, [](const Tile& tile) { return tile.segments.empty(); });
+    return std::move(result_);
+  }
+
+  void find_sides() {
+    triangle_left_of_.clear();
+    for (std::int32_t t = 0; t < n_coarse(); ++t)
+      for (int k = 0; k < 3; ++k) triangle_left_of_[{corner(t, k), corner(t, (k + 1) % 3)}] = t;
+  }
+
+  std::int32_t left_of(std::int32_t a, std::int32_t b) const {
+    const auto it = triangle_left_of_.find({a, b});
+    return it == triangle_left_of_.end() ? kNone : it->second;
+  }
+
+  void weigh() {
+    weight_.clear();
+    middle_.clear();
+    for (std::int32_t t = 0; t < n_coarse(); ++t) {
+      const FaceNode &a = node(corner(t, 0)), &b = node(corner(t, 1)), &c = node(corner(t, 2));
+      middle_.push_back((a.x + b.x + c.x) / 3);
+      const double h = field_.size(middle_.back(), hint_);
+      weight_.push_back(kTrianglesPerWeight * 0.5 * norm(cross(b.x - a.x, c.x - a.x)) / (h * h));
+    }
+  }
+
+  /// Parts [first, first + n) of about equal weight, across the longest extent.
+  void bisect(std::vector<std::int32_t>& triangles, std::int32_t first, std::int32_t n) {
+    if (n == 1 || triangles.size() < 2) {
+      for (const std::int32_t t : triangles) part_[t] = first;
+      return;
+    }
+    Box3 box;
+    double total = 0;
+    for (const std::int32_t t : triangles) {
+      box.add(middle_[t]);
+      total += weight_[t];
+    }
+    const Vec3 extent = box.hi - box.lo;
+    const auto along = [&](std::int32_t t) {
+      const Vec3& x = middle_[t];
+      return extent.x >= extent.y && extent.x >= extent.z ? x.x : extent.y >= extent.z ? x.y : x.z;
+    };
+    std::sort(triangles.begin(), triangles.end(),
+              [&](std::int32_t a, std::int32_t b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
+    const std::int32_t n_low = n / 2;
+    const double wanted = total * n_low / n;
+    double sum = 0;
+    std::size_t end = 0;
+    while (end + 1 < triangles.size() && (end == 0 || sum + 0.5 * weight_[triangles[end]] < wanted))
+      sum += weight_[triangles[end++]];
+    std::vector<std::int32_t> high(triangles.begin() + static_cast<std::ptrdiff_t>(end), triangles.end());
+    triangles.resize(end);
+    bisect(triangles, first, n_low);
+    bisect(high, first + n_low, n - n_low);
+  }
+
+  /// All triangles about a pole belong to one part: that of the first.
+  void join_poles() {
+    for (std::int32_t t = 0; t < n_coarse(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const FaceNode& n = node(corner(t, k));
+        if (n.is_pole) part_[t] = part_of_pole_.try_emplace(n.id, part_[t]).first->second;
+      }
+  }
+
+  bool touches_pole(std::int32_t t) const {
+    return node(corner(t, 0)).is_pole || node(corner(t, 1)).is_pole || node(corner(t, 2)).is_pole;
+  }
+
+  /// A triangle with two neighbours in one other part joins them.
+  void join_spikes() {
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::int32_t t = 0; t < n_coarse(); ++t) {
+        if (touches_pole(t)) continue;
+        std::array<std::int32_t, 3> beyond;
+        for (int k = 0; k < 3; ++k) {
+          const std::int32_t o = left_of(corner(t, (k + 1) % 3), corner(t, k));
+          beyond[k] = o == kNone ? kNone : part_[o];
+        }
+        for (int k = 0; k < 3; ++k)
+          if (beyond[k] != kNone && beyond[k] == beyond[(k + 1) % 3]) part_[t] = beyond[k];
+      }
+  }
+
+  /// The corner that stands for a coarse boundary node in the triangles: itself, or its twin nearby.
+  std::int32_t standing_for(std::int32_t c, const std::vector<std::uint8_t>& is_used) const {
+    if (is_used[c]) return c;
+    std::int32_t nearest = kNone;
+    for (std::size_t o = 0; o < of_coarse_.size(); ++o) {
+      const auto other = static_cast<std::int32_t>(o);
+      if (!is_used[o] || node(other).id != node(c).id) continue;
+      if (nearest == kNone || norm(node(other).uv - node(c).uv) < norm(node(nearest).uv - node(c).uv)) nearest = other;
+    }
+    return nearest;
+  }
+
+  /// Each coarse segment of the loops, as the segments of the face, to the tile on its left. False: a segment has none.
+  bool add_boundary() {
+    std::vector<std::uint8_t> is_used(of_coarse_.size(), 0);
+    for (const std::int32_t c : coarse_.corners)
+      if (c < static_cast<std::int32_t>(of_coarse_.size())) is_used[c] = 1;
+    for (const auto& [a, b] : coarse_segments_) {
+      const std::int32_t from = standing_for(a, is_used), to = standing_for(b, is_used);
+      std::int32_t part = kNone;
+      if (node(a).is_pole && node(a).id == node(b).id) {
+        const auto it = part_of_pole_.find(node(a).id);
+        if (it != part_of_pole_.end()) part = it->second;
+      } else if (from != kNone && to != kNone && left_of(from, to) != kNone) {
+        part = part_[left_of(from, to)];
+        is_boundary_[{from, to}] = 1;
+      }
+      if (part == kNone) return false;
+      for (std::int32_t i = of_coarse_[a]; i != of_coarse_[b]; i = next_[i])
+        result_.tiles[part].segments.push_back({i, next_[i]});
+    }
+    return true;
+  }
+
+  /// Edges of the coarse mesh between two parts, cut into segments, to the tiles on both sides.
+  void add_cuts() {
+    for (const auto& [side, t] : triangle_left_of_) {
+      const auto [a, b] = side;
+      const std::int32_t o = left_of(b, a);
+      if (o == kNone || a > b || part_[t] == part_[o] || is_boundary_.contains({a, b})) continue;
+      const std::vector<std::int32_t> chain = cut_nodes(a, b);
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        result_.tiles[part_[t]].segments.push_back({chain[i], chain[i + 1]});
+        result_.tiles[part_[o]].segments.push_back({chain[i + 1], chain[i]});
+      }
+    }
+  }
+
+  /// The node of the face at a corner of the coarse mesh.
+  std::int32_t end_node(std::int32_t c) {
+    if (c < static_cast<std::int32_t>(of_coarse_.size())) return of_coarse_[c];
+    const auto [it, is_new] = junction_.try_emplace(c, kNone);
+    if (is_new) it->second = add_node(node(c).uv);
+    return it->second;
+  }
+
+  std::int32_t add_node(Vec2 uv) {
+    if (result_.nodes.empty())
+      for (const FaceNode& n : boundary_.nodes) last_id_ = std::max(last_id_, n.id);
+    const Vec3 x = surface_.point(uv);
+    result_.nodes.push_back({uv, x, field_.size(x, hint_), ++last_id_, false});
+    return n_boundary_ + static_cast<std::int32_t>(result_.nodes.size()) - 1;
+  }
+
+  /// Nodes from corner a to corner b, straight in (u,v), spaced by the integral of 1/h.
+  std::vector<std::int32_t> cut_nodes(std::int32_t a, std::int32_t b) {
+    const Vec2 from = node(a).uv, to = node(b).uv;
+    const double h = std::min(field_.size(node(a).x, hint_), field_.size(node(b).x, hint_));
+    const int n_samples = static_cast<int>(
+        std::clamp(kSamplesPerNode * distance(node(a).x, node(b).x) / h, 16.0, static_cast<double>(kMaxSamples)));
+    std::vector<double> sum{0};
+    Vec3 last = surface_.point(from);
+    for (int i = 1; i <= n_samples; ++i) {
+      const Vec3 x = surface_.point(from + (static_cast<double>(i) / n_samples) * (to - from));
+      sum.push_back(sum.back() + distance(last, x) / field_.size(0.5 * (last + x), hint_));
+      last = x;
+    }
+    const int n = std::max(1, static_cast<int>(std::lround(sum.back())));
+    std::vector<std::int32_t> chain{end_node(a)};
+    for (int k = 1, i = 0; k < n; ++k) {
+      const double wanted = sum.back() * k / n;
+      while (sum[static_cast<std::size_t>(i) + 1] < wanted) ++i;
+      const double share = (wanted - sum[i]) / (sum[i + 1] - sum[i]);
+      chain.push_back(add_node(from + ((i + share) / n_samples) * (to - from)));
+    }
+    chain.push_back(end_node(b));
+    return chain;
+  }
+
+  const Surface& surface_;
+  const FaceBoundary& boundary_;
+  const std::span<const BoundaryPlace> places_;
+  const SizeField& field_;
+  const double tile_triangles_;
+  const std::int32_t n_boundary_;
+  int hint_ = 0;
+  std::vector<std::int32_t> next_;       // boundary node after each
+  FaceMesh coarse_;                      // its corners: coarse boundary nodes, then its inner ones
+  std::vector<std::int32_t> of_coarse_;  // boundary node of each coarse boundary node
+  std::vector<Corners> coarse_segments_;
+  std::map<Corners, std::int32_t> triangle_left_of_;
+  std::map<Corners, char> is_boundary_;
+  std::vector<double> weight_;  // of the coarse triangles: triangles expected in each
+  std::vector<Vec3> middle_;
+  std::vector<std::int32_t> part_;
+  std::int32_t n_parts_ = 0;
+  std::map<std::int32_t, std::int32_t> part_of_pole_;  // by id
+  std::map<std::int32_t, std::int32_t> junction_;      // cut node at an inner corner of the coarse mesh
+  std::int32_t last_id_ = 0;
+  TileCut result_;
+};
+
+/// Nodes of a tile in the order of its boundary.
+std::vector<std::int32_t> nodes_of(const Tile& tile) {
+  std::vector<std::int32_t> nodes;
+  for (const auto& [a, b] : tile.segments) nodes.insert(nodes.end(), {a, b});
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
+                 const SizeField& field, double tile_triangles) {
+  return TileCutter(surface, boundary, places, field, tile_triangles).run();
+}
+
+FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, const Tile& tile) {
+  const auto n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
+  const std::vector<std::int32_t> nodes = nodes_of(tile);
+  FaceBoundary own;
+  for (const std::int32_t n : nodes)
+    own.nodes.push_back(n < n_boundary ? boundary.nodes[n] : cut.nodes[n - n_boundary]);
+  const auto local = [&](std::int32_t n) {
+    return static_cast<std::int32_t>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin());
+  };
+  for (const auto& [a, b] : tile.segments) own.segments.push_back({local(a), local(b)});
+  return own;
+}
+
+FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const TileCut& cut, const SizeField& field,
+                    const FaceMeshOptions& options, std::vector<FaceMesh> meshes) {
+  const auto n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
+  FaceMesh joined;
+  joined.inner = cut.nodes;
+  for (FaceNode& n : joined.inner) n.id = kNone;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    FaceMesh& mesh = meshes[i];
+    if (joined.cause == FailureCause::kNone) joined.cause = mesh.cause;
+    joined.n_folds += mesh.n_folds;
+    for (const RefinementPoint& p : mesh.refinement)
+      if (joined.refinement.size() < kMostRefined) joined.refinement.push_back(p);
+    const std::vector<std::int32_t> nodes = nodes_of(cut.tiles[i]);
+    const auto n_own = static_cast<std::int32_t>(nodes.size());
+    const auto first_inner = n_boundary + static_cast<std::int32_t>(joined.inner.size());
+    for (const std::int32_t c : mesh.corners)
+      joined.corners.push_back(c == kNone ? kNone : c < n_own ? nodes[c] : first_inner + c - n_own);
+    joined.inner.insert(joined.inner.end(), mesh.inner.begin(), mesh.inner.end());
+    mesh = {};
+  }
+  if (joined.cause != FailureCause::kNone) return joined;
+  improve_seams(surface, boundary, field, options, static_cast<std::int32_t>(cut.nodes.size()), joined);
+  check_edges(boundary, joined);
+  return joined;
+}
+
+}  // namespace st

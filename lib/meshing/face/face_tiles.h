@@ -1,0 +1,51 @@
+// A heavy face cut into tiles that are meshed one by one, and joined without a trace.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "meshing/face/face_mesher.h"
+
+namespace st {
+
+/// Where a boundary node lies on its edge.
+struct BoundaryPlace {
+  std::int32_t index = 0;   ///< on the edge; the same for both uses of a seam
+  std::int32_t to_end = 0;  ///< nodes to the nearer end of the edge; 0: a vertex
+};
+
+/// Boundary of a tile, its interior on the left. Nodes: boundary node i of the face as i, cut node j as
+/// n_boundary + j.
+struct Tile {
+  std::vector<std::array<std::int32_t, 2>> segments;
+  double weight = 0;  ///< expected triangles
+
+  static auto fields(auto& x) { return std::tie(x.segments, x.weight); }
+};
+
+/// How a face is cut: by its boundary and the sizes alone.
+struct TileCut {
+  std::vector<FaceNode> nodes;  ///< on the cuts, with ids beyond those of the boundary
+  std::vector<Tile> tiles;      ///< empty: the face stays whole
+
+  static auto fields(auto& x) { return std::tie(x.nodes, x.tiles); }
+};
+
+/// Cuts a face along edges of a coarse mesh of itself into tiles of about `tile_triangles` triangles (Chen, Zhao, Zheng
+/// et al., Proc. 22nd International Meshing Roundtable, 2013, cut a background mesh likewise). `places`: of the
+/// boundary's nodes. Local, pure. Cost: the coarse mesh, some hundred triangles per tile.
+TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
+                 const SizeField& field, double tile_triangles);
+
+/// What mesh_face() needs of one tile.
+FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, const Tile& tile);
+
+/// The mesh of the face from the meshes of its tiles ([n_tiles]), improved in a band about the cuts. Its cause is that
+/// of the first tile that failed. Local, pure.
+FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const TileCut& cut, const SizeField& field,
+                    const FaceMeshOptions& options, std::vector<FaceMesh> meshes);
+
+}  // namespace st
