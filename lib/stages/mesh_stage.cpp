@@ -22,11 +22,16 @@
 namespace st {
 namespace {
 
+constexpr double kLeastTile = 1000;  // triangles
+
 void require_valid(const MeshStageOptions& o) {
   o.kEnhanceRounds.require(o.enhance_rounds);
   o.kMergeBelow.require(o.merge_below);
   o.kMaxTurning.require(o.max_turning_deg);
   o.kTile.require(o.tile_triangles);
+  if (o.tile_triangles > 0 && o.tile_triangles < kLeastTile)
+    throw Error(ExitCode::kUsage, fmt::format("--tile {}: tiles below {} triangles are mostly seams; give more, or 0",
+                                              o.tile_triangles, kLeastTile));
 }
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {

@@ -37,7 +37,7 @@ REFUSED = {
         "--np": ["0", "-2", "x"],
     },
     "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
-    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"], "--np": ["0"]},
+    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"], "--tile": ["-1", "999", "1e10"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
     "st-check": {
         "--area-tolerance": ["0", "1.1"],

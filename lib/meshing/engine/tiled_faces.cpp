@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kWorthCutting = 1.5;  // tiles
 
-std::vector<BoundaryPlace> places_of(const FaceBoundary& boundary, const BoundaryNumbering& numbering) {
+}  // namespace
+
+std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering) {
   std::vector<BoundaryPlace> places;
   for (const FaceNode& n : boundary.nodes) {
     const BoundaryNumbering::Entity own = numbering.entity(n.id);
@@ -22,13 +24,11 @@ std::vector<BoundaryPlace> places_of(const FaceBoundary& boundary, const Boundar
   return places;
 }
 
-}  // namespace
-
 TileCut TiledFaces::cut_one(FaceId f, double tile_triangles) const {
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary boundary = make_face_boundary(model_, *surface, f, numbering_);
-    return cut_face(*surface, boundary, places_of(boundary, numbering_), field_of(f).get(), tile_triangles);
+    return cut_face(*surface, boundary, boundary_places(boundary, numbering_), field_of(f).get(), tile_triangles);
   } catch (const Error&) {  // the face as a whole will say what is wrong
     return {};
   }

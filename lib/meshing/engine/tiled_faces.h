@@ -28,6 +28,9 @@ class FaceField {
   RefinedField refined_;
 };
 
+/// Where the boundary's nodes lie on their edges.
+std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering);
+
 /// The faces of one round that are cut. All tasks are pure functions of the boundary and the sizes.
 class TiledFaces {
  public:

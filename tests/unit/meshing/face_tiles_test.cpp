@@ -1,0 +1,131 @@
+// Faces in tiles are as good as whole ones.
+#include "meshing/face/face_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include "meshing/engine/tiled_faces.h"
+#include "unit/meshing/faces.h"
+
+namespace st {
+namespace {
+
+using test::FaceCase;
+using test::MeshView;
+
+constexpr double kTile = 1000;
+
+std::vector<BoundaryPlace> places_of(const FaceCase& face) {
+  return boundary_places(face.boundary, BoundaryNumbering(MeshTopology(face.model.tables()), face.edges));
+}
+
+TileCut cut(const FaceCase& face, const SizeField& field) {
+  return cut_face(*face.surface, face.boundary, places_of(face), field, kTile);
+}
+
+FaceMesh mesh_tiles(const FaceCase& face, const TileCut& cut, const SizeField& field) {
+  std::vector<FaceMesh> meshes;
+  for (const Tile& tile : cut.tiles)
+    meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, cut, tile), field, {}));
+  return join_tiles(*face.surface, face.boundary, cut, field, {}, std::move(meshes));
+}
+
+double share_below(const std::vector<double>& sorted, double quality) {
+  return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), quality) - sorted.begin()) /
+         static_cast<double>(sorted.size());
+}
+
+/// Face `id` of a shape, with the length that gives about ten tiles.
+struct TileCase {
+  const char* shape;
+  FaceId id = 0;
+};
+
+class FaceTiles : public testing::TestWithParam<TileCase> {};
+
+TEST_P(FaceTiles, are_joined_to_a_mesh_as_good_as_that_of_the_whole_face) {
+  const double area = test::make_model(GetParam().shape).tables().face_area[GetParam().id];
+  const UniformField field(std::sqrt(kTrianglesPerWeight * area / (10 * kTile)));
+  const FaceCase face(GetParam().shape, field, GetParam().id);
+  const TileCut tiles = cut(face, field);
+  ASSERT_GE(tiles.tiles.size(), 8u);
+  const FaceMesh whole = face.mesh(field), joined = mesh_tiles(face, tiles, field);
+  test::expect_valid(face.boundary, joined);
+  const MeshView a{face.boundary, whole}, b{face.boundary, joined};
+  EXPECT_NEAR(b.area(), a.area(), 2e-3 * a.area());
+  EXPECT_GT(b.mean_quality(), a.mean_quality() - 0.003);
+  EXPECT_LE(share_below(b.qualities(), 0.6), share_below(a.qualities(), 0.6) + 2e-4);
+  EXPECT_GT(b.conformity(field), a.conformity(field) - 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, FaceTiles,
+                         testing::Values(TileCase{"square"}, TileCase{"annulus"}, TileCase{"plate_with_hole"},
+                                         TileCase{"sphere"}, TileCase{"cone_side"}, TileCase{"torus"},
+                                         TileCase{"cylinder"}, TileCase{"wave"}, TileCase{"stretched"},
+                                         TileCase{"periodic_tube"}, TileCase{"closed_tube"}, TileCase{"disc"},
+                                         TileCase{"sphere_octant"}, TileCase{"revolution"}),
+                         [](const auto& tested) { return std::string(tested.param.shape); });
+
+TEST(TileCut, gives_each_segment_of_the_loops_to_one_tile_and_each_cut_to_two_in_opposite_directions) {
+  const UniformField field(0.15);
+  const FaceCase face("plate_with_hole", field);
+  const TileCut tiles = cut(face, field);
+  ASSERT_GE(tiles.tiles.size(), 2u);
+  std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
+  double expected = 0;
+  for (const Tile& tile : tiles.tiles) {
+    expected += tile.weight;
+    EXPECT_GT(tile.weight, 0.4 * kTile);
+    EXPECT_LT(tile.weight, 1.6 * kTile);
+    for (const auto& [a, b] : tile.segments) ++uses[{a, b}];
+  }
+  EXPECT_NEAR(expected, kTrianglesPerWeight * face.area() / (0.15 * 0.15), 0.02 * expected);
+  for (const auto& segment : face.boundary.segments) EXPECT_EQ(uses[segment], 1);
+  const auto n_boundary = static_cast<std::int32_t>(face.boundary.nodes.size());
+  std::set<std::pair<std::int32_t, std::int32_t>> loops(face.boundary.segments.begin(), face.boundary.segments.end());
+  for (const auto& [side, n] : uses) {
+    EXPECT_EQ(n, 1);
+    if (loops.contains(side)) continue;
+    EXPECT_TRUE(uses.contains({side.second, side.first}));
+    EXPECT_LT(std::max(side.first, side.second) - n_boundary, static_cast<std::int32_t>(tiles.nodes.size()));
+  }
+}
+
+TEST(TileCut, follows_sizes_that_grow_so_that_tiles_expect_alike) {
+  const test::LinearField field({0, 0, 0}, 0.02, 0.05);
+  const FaceCase face("square", field);
+  const TileCut tiles = cut(face, field);
+  ASSERT_GE(tiles.tiles.size(), 4u);
+  for (const Tile& tile : tiles.tiles) EXPECT_LT(tile.weight, 2 * kTile);
+  test::expect_valid(face.boundary, mesh_tiles(face, tiles, field));
+}
+
+TEST(TileCut, leaves_light_faces_and_stretched_ones_whole) {
+  const UniformField coarse(0.6);
+  EXPECT_TRUE(cut(FaceCase("square", coarse), coarse).tiles.empty());
+  const test::StretchedField stretched({0.1, 0.4, {1, 0, 0}});
+  EXPECT_TRUE(cut(FaceCase("square", stretched), stretched).tiles.empty());
+}
+
+TEST(JoinTiles, says_of_the_first_tile_that_failed_why) {
+  const UniformField field(0.1);
+  const FaceCase face("square", field);
+  const TileCut tiles = cut(face, field);
+  ASSERT_GE(tiles.tiles.size(), 2u);
+  std::vector<FaceMesh> meshes(tiles.tiles.size());
+  meshes[1].cause = FailureCause::kTooManyNodes;
+  EXPECT_EQ(join_tiles(*face.surface, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kTooManyNodes);
+}
+
+TEST(JoinTiles, sees_a_tile_that_is_missing) {
+  const UniformField field(0.1);
+  const FaceCase face("square", field);
+  const TileCut tiles = cut(face, field);
+  std::vector<FaceMesh> meshes;
+  for (const Tile& tile : tiles.tiles)
+    meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, tiles, tile), field, {}));
+  meshes.back() = {};
+  EXPECT_NE(join_tiles(*face.surface, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kNone);
+}
+
+}  // namespace
+}  // namespace st

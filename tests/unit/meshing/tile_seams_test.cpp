@@ -1,0 +1,73 @@
+#include "meshing/face/tile_seams.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "unit/meshing/faces.h"
+
+namespace st {
+namespace {
+
+using test::FaceCase;
+using test::MeshView;
+
+constexpr double kLength = 0.25, kNear = 0.15;  // of nodes that count as those of a cut, from x = 5
+
+/// The mesh of a square whose first inner nodes are those near x = 5; how many these are.
+std::pair<FaceMesh, std::int32_t> with_cut(const FaceCase& face, const SizeField& field) {
+  FaceMesh mesh = face.mesh(field);
+  const auto n_boundary = static_cast<std::int32_t>(face.boundary.nodes.size());
+  std::vector<std::int32_t> order(mesh.inner.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto is_near = [&](std::int32_t i) { return std::abs(mesh.inner[i].x.x - 5) < kNear; };
+  const auto end = std::stable_partition(order.begin(), order.end(), is_near);
+  std::vector<std::int32_t> place(order.size());
+  FaceMesh sorted = mesh;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.inner[i] = mesh.inner[order[i]];
+    place[order[i]] = static_cast<std::int32_t>(i);
+  }
+  for (std::int32_t& c : sorted.corners)
+    if (c >= n_boundary) c = n_boundary + place[c - n_boundary];
+  return {sorted, static_cast<std::int32_t>(end - order.begin())};
+}
+
+TEST(TileSeams, smooth_what_is_uneven_at_a_cut_and_leave_the_rest_alone) {
+  const UniformField field(kLength);
+  const FaceCase face("square", field);
+  auto [mesh, n_cut] = with_cut(face, field);
+  ASSERT_GT(n_cut, 20);
+  for (std::int32_t i = 0; i < n_cut; ++i) {
+    FaceNode& n = mesh.inner[i];
+    n.uv.y += (i % 2 ? 0.3 : -0.3) * kLength;
+    n.x = face.surface->point(n.uv);
+  }
+  const FaceMesh uneven = mesh;
+  mesh.n_folds = 0;
+  improve_seams(*face.surface, face.boundary, field, {}, n_cut, mesh);
+  test::expect_valid(face.boundary, mesh);
+  const MeshView before{face.boundary, uneven}, after{face.boundary, mesh};
+  EXPECT_GT(after.qualities().front(), before.qualities().front() + 0.1);
+  EXPECT_GT(after.mean_quality(), before.mean_quality());
+  std::set<std::pair<double, double>> places;
+  for (const FaceNode& n : mesh.inner) places.insert({n.x.x, n.x.y});
+  for (const FaceNode& n : uneven.inner)
+    if (std::abs(n.x.x - 5) > 6 * kLength) {
+      EXPECT_TRUE(places.contains({n.x.x, n.x.y})) << n.x.x << ' ' << n.x.y;
+    }
+}
+
+TEST(TileSeams, count_the_folds_of_the_band_alone) {
+  const UniformField field(kLength);
+  const FaceCase face("square", field);
+  auto [mesh, n_cut] = with_cut(face, field);
+  FaceMesh far = mesh;
+  for (FaceNode& n : far.inner)
+    if (std::abs(n.x.x - 1) < 0.1 && std::abs(n.x.y - 5) < 0.3) n.x.x = n.uv.x = 4 * kLength + 1;
+  improve_seams(*face.surface, face.boundary, field, {}, n_cut, far);
+  EXPECT_EQ(far.n_folds, 0);
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,88 @@
+// Heavy faces as several tasks.
+#include "meshing/engine/tiled_faces.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "support/meshed.h"
+
+namespace st {
+namespace {
+
+/// Tasks in the opposite order, as they may arrive.
+class BackwardExecutor : public SerialExecutor {
+ public:
+  void run_tasks(std::int32_t, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t)>& compute,
+                 const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    for (auto task = order.rbegin(); task != order.rend(); ++task) collect(*task, compute(*task));
+    n_tasks += order.size();
+  }
+  mutable std::size_t n_tasks = 0;
+};
+
+MeshPlan weighed_plan(const MeshTopology& topology, double length) {
+  MeshPlan plan = plan_all(topology);
+  for (const double area : topology.tables().face_area) plan.face_weight.push_back(area / (length * length));
+  return plan;
+}
+
+MeshResult mesh(const Model& model, const SizeField& field, double length, double tile, const Executor& executor) {
+  set_verbosity(Verbosity::kQuiet);
+  const MeshTopology topology(model.tables());
+  MeshOptions options;
+  options.tile_triangles = tile;
+  return mesh_regions(model, topology, field, weighed_plan(topology, length), options, executor);
+}
+
+TEST(TiledFaces, make_the_same_mesh_in_whatever_order_tiles_are_done) {
+  const Model model = test::make_model("drilled_block");
+  const UniformField field(0.35);
+  const BackwardExecutor backward;
+  const MeshResult a = mesh(model, field, 0.35, 1000, test::one_rank), b = mesh(model, field, 0.35, 1000, backward);
+  EXPECT_TRUE(a.failures.empty());
+  EXPECT_EQ(a.n_crossing_pairs, 0);
+  EXPECT_GT(backward.n_tasks, a.patches.size() + 20);
+  for (std::size_t f = 0; f < a.patches.size(); ++f) {
+    ASSERT_FALSE(a.patches[f].triangles.empty()) << f;
+    EXPECT_EQ(packed(a.patches[f]), packed(b.patches[f])) << f;
+  }
+}
+
+TEST(TiledFaces, are_whole_where_nothing_tells_how_heavy_they_are_or_no_tiles_are_wanted) {
+  const Model model = test::make_model("box");
+  const UniformField field(1);
+  const MeshTopology topology(model.tables());
+  set_verbosity(Verbosity::kQuiet);
+  MeshOptions options;
+  options.tile_triangles = 1000;
+  const MeshResult unweighed = mesh_regions(model, topology, field, plan_all(topology), options, test::one_rank);
+  const MeshResult none = mesh(model, field, 1, 0, test::one_rank), cut = mesh(model, field, 1, 1000, test::one_rank);
+  bool differs = false;
+  for (FaceId f = 0; f < 6; ++f) {
+    EXPECT_EQ(packed(unweighed.patches[f]), packed(none.patches[f]));
+    differs |= packed(cut.patches[f]) != packed(none.patches[f]);
+  }
+  EXPECT_TRUE(differs);
+}
+
+/// Cannot be asked near the middle of the side z = 20 of the box 60 x 40 x 20.
+class NoSizeInTheMiddle : public UniformField {
+ public:
+  using SizeField::size;
+  using UniformField::UniformField;
+  double size(Vec3 x, int& hint) const override {
+    if (x.z > 19.999 && std::abs(x.x - 31) < 2 && std::abs(x.y - 21) < 2) throw Error(ExitCode::kInternal, "no size");
+    return UniformField::size(x, hint);
+  }
+};
+
+TEST(TiledFaces, of_which_a_tile_fails_are_tried_whole_and_reported) {
+  const MeshResult r = mesh(test::make_model("box"), NoSizeInTheMiddle(0.8), 0.8, 1000, test::one_rank);
+  ASSERT_EQ(r.failures.size(), 1u);
+  EXPECT_NE(r.failures[0].cause.find("no size"), std::string::npos);
+  for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == r.failures[0].face) << f;
+}
+
+}  // namespace
+}  // namespace st
