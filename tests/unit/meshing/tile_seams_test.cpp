@@ -69,5 +69,35 @@ TEST(TileSeams, count_the_folds_of_the_band_alone) {
   EXPECT_EQ(far.n_folds, 0);
 }
 
+TEST(TileSeams, count_folds_that_stay_in_the_band) {
+  const UniformField field(kLength);
+  const FaceCase face("square", field);
+  auto [mesh, n_cut] = with_cut(face, field);
+  mesh.inner[n_cut / 2].x.x = mesh.inner[n_cut / 2].uv.x = 5 + 3 * kLength;
+  FaceMeshOptions options;
+  options.enhance_rounds = 0;
+  improve_seams(*face.surface, face.boundary, field, options, n_cut, mesh);
+  EXPECT_GT(mesh.n_folds, 0);
+}
+
+TEST(TileSeams, keep_an_edge_that_lies_inside_the_face) {
+  const UniformField field(0.5);
+  std::vector<Vec2> rim, slit;
+  for (int i = 0; i < 20; ++i) rim.push_back({0.5 * i, 0});
+  for (int i = 0; i < 20; ++i) rim.push_back({10, 0.5 * i});
+  for (int i = 20; i > 0; --i) rim.push_back({0.5 * i, 10});
+  for (int i = 20; i > 0; --i) rim.push_back({0, 0.5 * i});
+  for (int i = 0; i <= 8; ++i) slit.push_back({3 + 0.5 * i, 5});
+  for (int i = 7; i > 0; --i) slit.push_back(slit[i]);
+  FaceBoundary boundary = test::polygons({rim, slit}, 0.5);
+  for (int i = 9; i < 16; ++i) boundary.nodes[rim.size() + i].id = boundary.nodes[rim.size() + 16 - i].id;
+  FaceMesh mesh = mesh_face(test::kPlane, boundary, field, {});
+  test::expect_valid(boundary, mesh);
+  for (FaceNode& n : mesh.inner)  // the slit would be swapped away
+    if (std::abs(n.x.y - 5) < 0.7 && std::abs(n.x.x - 5) < 1.7) n.x.x = n.uv.x += 0.2;
+  improve_seams(test::kPlane, boundary, field, {}, static_cast<std::int32_t>(mesh.inner.size()), mesh);
+  test::expect_valid(boundary, mesh);
+}
+
 }  // namespace
 }  // namespace st

@@ -72,13 +72,17 @@ class NoSizeInTheMiddle : public UniformField {
   using SizeField::size;
   using UniformField::UniformField;
   double size(Vec3 x, int& hint) const override {
-    if (x.z > 19.999 && std::abs(x.x - 31) < 2 && std::abs(x.y - 21) < 2) throw Error(ExitCode::kInternal, "no size");
+    if (x.z > 19.999 && distance(x, {30.2, 21.4, 20}) < 0.35) throw Error(ExitCode::kInternal, "no size");
     return UniformField::size(x, hint);
   }
 };
 
 TEST(TiledFaces, of_which_a_tile_fails_are_tried_whole_and_reported) {
-  const MeshResult r = mesh(test::make_model("box"), NoSizeInTheMiddle(0.8), 0.8, 1000, test::one_rank);
+  const Model box = test::make_model("box");
+  const BackwardExecutor counted, without;
+  const MeshResult r = mesh(box, NoSizeInTheMiddle(0.8), 0.8, 1000, counted);
+  mesh(box, UniformField(0.8), 0.8, 1000, without);
+  EXPECT_EQ(counted.n_tasks, without.n_tasks + 1);
   ASSERT_EQ(r.failures.size(), 1u);
   EXPECT_NE(r.failures[0].cause.find("no size"), std::string::npos);
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == r.failures[0].face) << f;
