@@ -1,6 +1,8 @@
 // The number of triangles that a sizing will give is refused when it cannot be numbered.
 #include "stages/expected_triangles.h"
 
+#include "sizing/size_field.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
