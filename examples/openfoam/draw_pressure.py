@@ -2,7 +2,7 @@
 """Picture of the pressure coefficient on the walls of an OpenFOAM case, from potentialFoam's velocity.
 
 usage: draw_pressure.py CASE pressure.png [--at X,Y,Z,HALF_HEIGHT] [--from DX,DY,DZ]
-Needs python3-vtk9 and, without a display, xvfb.
+Needs python3-vtk9, python3-numpy and, without a display, xvfb and xauth.
 """
 import argparse
 import os

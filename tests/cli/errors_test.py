@@ -26,8 +26,9 @@ READS = {
     "st-info": ["mesh.hdf"],
     "st-diff": ["mesh.hdf", "mesh.hdf"],
     "st-export": ["mesh.hdf"],
+    "st-report": ["mesh.hdf"],
 }
-WRITES = {"st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-export"}
+WRITES = {"st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-export", "st-report"}
 
 
 def output(tool, folder):

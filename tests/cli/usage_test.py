@@ -9,7 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
-N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1}
+N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
 # Options of all tools, which the pages describe in words.
 COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json"}
 HELP_COLUMN = 34  # where the texts of --help start

@@ -1,0 +1,135 @@
+"""st-report: one file that holds everything, and, where Chromium is installed, a page whose controls work."""
+import base64
+import json
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import USAGE, ToolTest, artifacts_of, must  # noqa: E402
+
+# What a person does, and what the page must then show; printed into its title, which --dump-dom gives.
+PROBE = """<script>
+const said = {};
+addEventListener("error", e => { said.error = e.message; });
+function coloured() {
+  draw();
+  const p = new Uint8Array(4 * canvas.width * canvas.height);
+  gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, p);
+  let n = 0;
+  for (let i = 0; i < p.length; i += 4) if (p[i] + p[i + 1] + p[i + 2] < 740) ++n;
+  return n / (p.length / 4);
+}
+setTimeout(() => {
+  said.verdict = $("verdict").textContent;
+  if (gl) {
+    said.shown = coloured();
+    for (const box of document.querySelectorAll("#groups input")) box.click();
+    said.hidden = coloured();
+    for (const box of document.querySelectorAll("#groups input")) box.click();
+    $("by").value = "quality"; $("by").onchange();
+    said.legend = $("legend").textContent;
+    canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
+    const half = camera.half, yaw = camera.yaw;
+    canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+    said.turned = camera.yaw !== yaw;
+    const button = document.querySelector("#findings button");
+    if (button) button.click();
+    setTimeout(() => {
+      said.flown = !button || camera.half < half;
+      said.near = coloured();
+      document.title = JSON.stringify(said);
+    }, 1500);
+  } else document.title = JSON.stringify(said);
+}, 1500);
+</script></body>"""
+
+
+def script(page, name):
+    return re.search(f'<script type="[^"]*" id="{name}">(.*?)</script>', page, re.S).group(1)
+
+
+class Report(ToolTest):
+    def report(self, model, *options):
+        made = artifacts_of(model)
+        file = self.folder / "report.html"
+        must("st-report", made / "mesh.hdf", "-o", file, *options)
+        return made, file
+
+    def browse(self, file):
+        """What the probe says in a browser, or None without one."""
+        browser = shutil.which("chromium")
+        if not browser:
+            print("SKIPPED: no chromium, st-report's page was not tried in a browser", file=sys.stderr)
+            return None
+        probed = file.with_name("probed.html")
+        probed.write_text(file.read_text(encoding="utf-8").replace("</body>", PROBE), encoding="utf-8")
+        done = subprocess.run([browser, "--headless", "--no-sandbox", "--use-angle=swiftshader",
+                               "--enable-unsafe-swiftshader", "--force-prefers-reduced-motion",
+                               "--virtual-time-budget=8000", "--window-size=1300,900",
+                               f"--user-data-dir={self.folder / 'browser'}", "--dump-dom", f"file://{probed}"],
+                              capture_output=True, text=True, timeout=120)
+        title = re.search("<title>(.*?)</title>", done.stdout, re.S)
+        self.assertTrue(title and title.group(1).startswith("{"), done.stdout[-500:] + done.stderr[-500:])
+        return json.loads(title.group(1).replace("&quot;", '"').replace("&amp;", "&"))
+
+    def test_holds_the_whole_mesh_and_refers_to_nothing_else(self):
+        made, file = self.report("two_boxes")
+        page = file.read_text(encoding="utf-8")
+        counts = json.loads(must("st-info", made / "mesh.hdf", "--json").out.splitlines()[-1])["counts"]
+        corners = base64.b64decode(script(page, "corners"))
+        nodes = base64.b64decode(script(page, "nodes"))
+        self.assertEqual(len(corners), 12 * counts["triangles"])
+        self.assertEqual(len(nodes), 12 * counts["nodes"])
+        self.assertLess(max(struct.unpack(f"<{len(corners) // 4}I", corners)), counts["nodes"])
+        meta = json.loads(script(page, "meta"))
+        self.assertEqual(sum(g["count"] for g in meta["groups"]), counts["triangles"])
+        self.assertEqual(meta["values"], ["quality", "size_ratio"])
+        outside = re.sub(r'"http://www\.w3\.org/[^"]*"', "", page)
+        self.assertNotRegex(outside, r"https?://|src=|@import|url\(")
+
+    def test_geometry_and_sizing_add_what_they_know(self):
+        made = artifacts_of("two_boxes")
+        _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
+        page = file.read_text(encoding="utf-8")
+        self.assertEqual(json.loads(script(page, "meta"))["values"], ["quality", "size_ratio", "deviation"])
+        check = json.loads(script(page, "check"))
+        self.assertIn("causes", check)
+        self.assertIn("all", check["sizes"])
+
+    def test_controls_work_in_a_browser(self):
+        made = artifacts_of("two_boxes")
+        _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
+        said = self.browse(file)
+        if said is None:
+            return
+        self.assertNotIn("error", said)
+        self.assertIn("passes all checks", said["verdict"])
+        self.assertGreater(said["shown"], 0.05, said)
+        self.assertEqual(said["hidden"], 0, said)
+        self.assertIn("Quality", said["legend"])
+        self.assertTrue(said["turned"] and said["flown"], said)
+        self.assertGreater(said["near"], 0.05, said)
+
+    def test_a_mesh_that_fails_gets_its_report(self):
+        _, file = self.report("plate_with_hole")
+        said = self.browse(file)
+        if said is None:
+            return
+        self.assertNotIn("error", said)
+        self.assertIn("does not pass: it has open edges", said["verdict"])
+        self.assertTrue(said["flown"], said)
+
+    def test_output_must_not_be_an_input(self):
+        made = artifacts_of("two_boxes")
+        copy = self.folder / "mesh.hdf"
+        shutil.copy(made / "mesh.hdf", copy)
+        self.expect_error(USAGE, "st-report", copy, "-o", copy, says="is an input")
+
+
+if __name__ == "__main__":
+    unittest.main()
