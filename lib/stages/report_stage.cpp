@@ -44,9 +44,15 @@ Verdict check(const ReportStageOptions& o) {
   return {read_text_file(file.name()), passes};
 }
 
-/// Quality, length over requested length and, with the geometry, distance from the CAD. [n_triangles] each
+/// Quality, length over requested length; after st-remesh 1 where a triangle is new; with the geometry, distance from
+/// the CAD. [n_triangles] each
 std::vector<TriangleValues> values_to_show(const ReportStageOptions& o, const MeshArtifact& mesh) {
   std::vector<TriangleValues> values = measured_values(mesh.mesh);
+  if (!mesh.mesh.triangle_previous.empty()) {
+    TriangleValues is_new{"is_new", {}};
+    for (const TriangleId t : mesh.mesh.triangle_previous) is_new.of_triangle.push_back(t == kNone ? 1.0F : 0.0F);
+    values.push_back(is_new);
+  }
   if (!o.geometry.empty()) {
     GeometryArtifact geometry = read_geometry(o.geometry);
     values.push_back({"deviation", triangle_deviations(stored_model(geometry, o.geometry), mesh.mesh)});

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/base64.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
 #include "stages/report_page.h"
@@ -62,6 +68,8 @@ TEST(Report, triangles_are_in_the_order_of_their_groups) {
   const std::string page = page_of(4, code);
   EXPECT_NE(page.find(R"("name":"body","role":"wall","first":0,"count":3)"), std::string::npos);
   EXPECT_NE(page.find(R"("first":3,"count":1)"), std::string::npos);
+  const std::vector<std::uint32_t> corners = {0, 1, 3, 1, 2, 3, 0, 3, 2, 0, 2, 1};  // the first triangle is the last
+  EXPECT_NE(page.find(">" + base64(std::as_bytes(std::span(corners))) + "<"), std::string::npos);
 }
 
 TEST(Report, is_written_of_a_mesh_that_does_not_pass) {
