@@ -111,7 +111,7 @@ Json describe(const MeshArtifact& artifact, const Box& box, std::span<const Tria
 }
 
 /// JSON for a <script> element: no "<" may end it.
-std::string script_text(std::string json) {
+std::string script_text(const std::string& json) {
   std::string text;
   for (const char c : json) {
     if (c == '<')
