@@ -13,7 +13,7 @@ if [ ! -f "$out/model.ref" ]; then
   exit 2
 fi
 
-files=(model.ref blank.ref preset.ref base.ref check.txt report.txt mesh.mapbc mesh.lb8.mapbc mesh.b8.mapbc)
+files=(model.ref blank.ref preset.ref base.ref check.txt report.txt report.html mesh.mapbc mesh.lb8.mapbc mesh.b8.mapbc)
 for artifact in geometry raster sizing patches mesh; do files+=("$artifact.hdf" "$artifact.incomplete.hdf"); done
 for format in "$@"; do files+=("mesh.$format"); done
 for stage in import raster prolong mesh merge check remesh export info; do

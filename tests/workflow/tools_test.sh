@@ -25,6 +25,9 @@ before=$(stamps)
 run MODEL="$models/block_with_hole.step" EXPORT="stl vtu" || fail "the second run failed"
 [ "$before" = "$(stamps)" ] || fail "the second run made something"
 grep -q 'up to date' said.txt || fail "the second run does not say that all is up to date"
+run MODEL="$models/block_with_hole.step" report || fail "no page was written"
+[ "$before" = "$(stamps)" ] || fail "the page made something else, too"
+grep -q 'Mesh report' out/block_with_hole/report.html || fail "the page is not there"
 
 sleep 0.02
 echo 'slope = 0.1' > out/block_with_hole/st-prolong.toml
