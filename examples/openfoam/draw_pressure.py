@@ -43,6 +43,8 @@ def patches(case, wanted):
         together.AddInputData(leaves.GetCurrentDataObject())
         leaves.GoToNextItem()
     together.Update()
+    if together.GetOutput().GetCellData().GetArray("grad(Phi)") is None:
+        sys.exit(f"draw_pressure: error: no grad(Phi) on {', '.join(wanted)} in '{case}'; run flow.sh first")
     return together.GetOutput()
 
 

@@ -32,12 +32,13 @@ case $mesh in
     ;;
   *.smesh)
     cp "$mesh" mesh.smesh
-    run tetgen tetgen -pq1.4/15Y mesh.smesh  # Y: the triangles stay as they are, so that each keeps its group
+    run tetgen tetgen -pAq1.4/15Y mesh.smesh  # Y: the triangles stay as they are, so that each keeps its group
     run tetgen_to_msh /usr/bin/python3 "$here/tetgen_to_msh.py" mesh.smesh filled.msh
     ;;
   *) echo "volume: error: '$1' is neither .msh nor .smesh" >&2; exit 2 ;;
 esac
-run gmshToFoam gmshToFoam filled.msh
+LC_ALL=C awk -f "$here/patches.awk" filled.msh filled.msh > patches.msh
+run gmshToFoam gmshToFoam patches.msh
 run changeDictionary changeDictionary  # which patches are walls: system/changeDictionaryDict
 run checkMesh checkMesh
 grep -E "^ +(cells|points):|Max skewness|non-orthogonality Max" log.checkMesh
