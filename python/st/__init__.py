@@ -1,0 +1,12 @@
+"""ST from Python: its artifacts as numpy arrays, its tools as functions. Needs h5py and numpy.
+
+    import st
+    run = st.mesh("wing.step", "out", **{"st-raster": {"lmax": "2%"}})
+    mesh = st.read("out/mesh.hdf")
+    print(mesh.area_of("WING"), st.read("out/sizing.hdf").size(mesh.points).min())
+"""
+from .artifact import Artifact, Failures, Geometry, Mesh, Patches, Raster, Sizing, read
+from .tools import ToolError, mesh, run
+
+__all__ = ["Artifact", "Failures", "Geometry", "Mesh", "Patches", "Raster", "Sizing", "ToolError", "mesh", "read",
+           "run"]

@@ -1,0 +1,107 @@
+"""The Python module: every kind of artifact is read, the chain runs, sizes are those of the tools."""
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+try:
+    import numpy
+    import st
+except ImportError as e:
+    print(f"SKIPPED: {e}; install python3-h5py and run with /usr/bin/python3")
+    sys.exit(77)
+
+MODELS, WORK = Path(os.environ["ST_MODELS"]), Path(os.environ["ST_WORK"]) / "python"
+EXAMPLE = Path(__file__).parents[2] / "examples/python/grid_family.py"
+
+
+class Module(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        cls.said = st.mesh(MODELS / "assembly.step", WORK)
+
+    def test_every_kind_is_read_as_what_it_is(self):
+        kinds = {"geometry": st.Geometry, "raster": st.Raster, "sizing": st.Sizing, "patches": st.Patches,
+                 "mesh": st.Mesh}
+        for name, kind in kinds.items():
+            artifact = st.read(WORK / f"{name}.hdf")
+            self.assertIs(type(artifact), kind)
+            self.assertEqual((artifact.schema, artifact.unit, artifact.unit_in_m), (name, "mm", 0.001))
+            self.assertEqual(artifact.hash, st.run("st-info", WORK / f"{name}.hdf")["hash"])
+            self.assertEqual(artifact.geometry_hash, st.read(WORK / "geometry.hdf").hash)
+            for dataset in artifact.names:
+                self.assertIsNotNone(artifact[dataset])
+
+    def test_counts_are_those_that_the_tools_said(self):
+        geometry, mesh = st.read(WORK / "geometry.hdf"), st.read(WORK / "mesh.hdf")
+        self.assertEqual(len(geometry.face_name), self.said["st-import"]["faces"])
+        self.assertEqual(len(mesh.triangles), self.said["st-merge"]["triangles"])
+        self.assertEqual(st.read(WORK / "patches.hdf").n_triangles, len(mesh.triangles))
+        self.assertEqual(st.read(WORK / "patches.hdf").failures, [])
+        self.assertEqual(len(geometry.findings), st.run("st-info", WORK / "geometry.hdf")["counts"]["findings"])
+
+    def test_areas_of_groups_are_those_of_their_faces(self):
+        geometry, mesh = st.read(WORK / "geometry.hdf"), st.read(WORK / "mesh.hdf")
+        self.assertEqual(mesh.group_name, geometry.group_name)
+        for name in mesh.group_name:
+            exact = geometry.face_area[geometry.faces_of(name)].sum()
+            self.assertAlmostEqual(mesh.area_of(name), exact, delta=0.01 * exact)
+        self.assertTrue(0.3 < mesh.quality().min() <= mesh.quality().max() <= 1 + 1e-12)
+
+    def test_cells_fill_the_root(self):
+        for name in ("raster", "sizing"):
+            octree = st.read(WORK / f"{name}.hdf")
+            centre, edge = octree.cells()
+            self.assertAlmostEqual((edge**3).sum() / octree.root[3] ** 3, 1, places=12)
+            self.assertTrue((numpy.abs(centre - octree.root[:3] - octree.root[3] / 2) < octree.root[3] / 2).all())
+
+    def check_sizes(self, sizing, mesh):
+        """Inside faces a mesh stores what the field says."""
+        inner = mesh.point_data("entity_dim") == 2
+        self.assertGreater(inner.sum(), 100)
+        found, stored = sizing.size(mesh.points[inner]), mesh.size[inner]
+        self.assertLess(numpy.abs(found / stored - 1).max(), 1e-9)
+
+    def test_sizes_are_those_that_the_mesh_was_made_for(self):
+        self.check_sizes(st.read(WORK / "sizing.hdf"), st.read(WORK / "mesh.hdf"))
+
+    def test_sizes_of_a_blanked_field_with_its_separated_cells(self):
+        folder = WORK / "blanked"
+        st.mesh(MODELS / "assembly.step", folder, **{"st-prolong": {"blank": WORK / "mesh.hdf", "scale": 1.5}})
+        self.check_sizes(st.read(folder / "sizing.hdf"), st.read(folder / "mesh.hdf"))
+
+    def test_sizes_of_a_field_that_was_moved_with_its_geometry(self):
+        moved = WORK / "moved"
+        moved.mkdir()
+        st.run("st-edit", WORK / "geometry.hdf", output=moved / "geometry.hdf",
+               transform="rotate 1 2 3 40; mirror 1 0 0; scale 2; translate 5 6 7")
+        st.run("st-prolong", WORK / "raster.hdf", geometry=moved / "geometry.hdf", output=moved / "sizing.hdf")
+        st.run("st-mesh", moved / "geometry.hdf", moved / "sizing.hdf", output=moved / "patches.hdf")
+        st.run("st-merge", moved / "patches.hdf", output=moved / "mesh.hdf")
+        self.check_sizes(st.read(moved / "sizing.hdf"), st.read(moved / "mesh.hdf"))
+
+    def test_errors_carry_code_and_message(self):
+        with self.assertRaises(st.ToolError) as caught:
+            st.run("st-raster", WORK / "mesh.hdf", output=WORK / "x.hdf")
+        self.assertEqual(caught.exception.code, 3)
+        self.assertIn("mesh.hdf", str(caught.exception))
+        self.assertEqual(st.run("st-diff", WORK / "mesh.hdf", WORK / "mesh.hdf")["equal"], True)
+        with self.assertRaises(TypeError):
+            st.mesh(MODELS / "box.step", WORK / "x", **{"st-rastr": {}})
+        (WORK / "no.hdf").write_text("no artifact")
+        self.assertRaises(OSError, st.read, WORK / "no.hdf")
+
+    def test_the_worked_script_runs(self):
+        command = [sys.executable, EXAMPLE, MODELS / "assembly.step", WORK / "family", "2"]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        rows = [line for line in done.stdout.splitlines() if line.startswith("level")]
+        self.assertEqual(len(rows), 2)
+        coarse, fine = (int(row.split()[2]) for row in rows)
+        self.assertTrue(3.5 < fine / coarse < 4.5, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
