@@ -200,6 +200,10 @@ class Exports(unittest.TestCase):
                 self.assertEqual(elements.shape, (len(self.triangles), nodes[1]))
                 n_sides = len(numpy.unique(numpy.sort(self.sides(), axis=1), axis=0))
                 self.assertEqual(len(mesh.points), len(self.points) + n_sides)
+                for k, (low, high) in enumerate([(0, 1), (1, 2), (2, 0)]):  # node 3 lies between the first two ...
+                    ends = mesh.points[elements[:, [low, high]]]
+                    rise = numpy.linalg.norm(mesh.points[elements[:, 3 + k]] - ends.mean(axis=1), axis=1)
+                    self.assertLess((rise / numpy.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)).max(), 0.34)
                 quarters = numpy.concatenate([elements[:, k] for k in ([0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5])])
                 # the exact area of box and pins: chords err by the square of their length, so a quarter is left
                 exact = self.exact_area()

@@ -68,10 +68,26 @@ class Module(unittest.TestCase):
     def test_sizes_are_those_that_the_mesh_was_made_for(self):
         self.check_sizes(st.read(WORK / "sizing.hdf"), st.read(WORK / "mesh.hdf"))
 
-    def test_sizes_of_a_blanked_field_with_its_separated_cells(self):
+    def test_sizes_on_both_sides_of_a_thin_wall_are_those_of_st_info(self):
         folder = WORK / "blanked"
-        st.mesh(MODELS / "assembly.step", folder, **{"st-prolong": {"blank": WORK / "mesh.hdf", "scale": 1.5}})
-        self.check_sizes(st.read(folder / "sizing.hdf"), st.read(folder / "mesh.hdf"))
+        st.mesh(MODELS / "tube_with_rod.brep", folder)
+        sizing = folder / "blanked.hdf"
+        st.run("st-prolong", folder / "raster.hdf", output=sizing, blank=folder / "mesh.hdf")
+        field = st.read(sizing)
+        leaf, plane = field["/st/split/leaf"], field["/st/split/plane"].astype(float)
+        self.assertGreater(len(leaf), 100)
+        centre, edge = field.cells()
+        # where the two parts ask for the most different lengths
+        cell, second = field["/st/octree/cell"][leaf, 0], field["/st/split/cell"][:, 0]
+        worst = numpy.argsort(-numpy.abs(numpy.log(cell / second)))[:4]
+        sides = []
+        for k in worst:
+            for way in (-0.45, 0.45):
+                x = centre[leaf[k]] + way * edge[leaf[k]] * plane[k, :3] / numpy.abs(plane[k, :3]).max()
+                said = st.run("st-info", sizing, at=",".join(map(repr, x.tolist())))["length"]
+                sides.append(said)
+                self.assertAlmostEqual(field.size(x)[0] / said, 1, places=9)
+        self.assertGreater(max(sides[k + 1] / sides[k] for k in range(0, 8, 2)), 1.02, sides)
 
     def test_sizes_of_a_field_that_was_moved_with_its_geometry(self):
         moved = WORK / "moved"
