@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """Share of the lines of lib that ran, by layer, against the floors of tests/coverage_floors.txt.
 
-usage: coverage.py BUILD_DIR             after the tests of a build with --coverage (preset asan); exit 1 below a floor
-       coverage.py BUILD_DIR --update    write what is measured, rounded down, as floors
-       coverage.py --self-test           a layer below its floor, one without a floor and one without lines are found
+usage: coverage.py BUILD_DIR [LAYER...]   after tests of objects compiled with --coverage; exit 1 below a floor
+       coverage.py BUILD_DIR [LAYER...] --update   write what is measured, rounded down, as floors of these layers
+       coverage.py BUILD_DIR --clean      forget what ran so far
+       coverage.py --self-test            a layer below its floor, one without a floor and one without lines are found
+
+LAYER: those that count; default: all that have a floor or lines.
 """
+import concurrent.futures
 import json
 import os
 import subprocess
@@ -14,23 +18,43 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 FLOORS = ROOT / "tests/coverage_floors.txt"
+CHUNK = 8  # files for one call of gcov
+
+
+def read_counts(counters):
+    """{source file: {line: it ran}} of some .gcda files. Paths in them may be relative, whatever wrote them."""
+    command = ["gcov", "--json-format", "--stdout", *map(str, counters)]
+    output = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
+    lines = defaultdict(lambda: defaultdict(bool))
+    for report in map(json.loads, output.splitlines()):
+        for file in report["files"]:
+            path = os.path.normpath(os.path.join(report["current_working_directory"], file["file"]))
+            if path.startswith(f"{ROOT}/lib/"):
+                for line in file["lines"]:
+                    lines[path[len(f"{ROOT}/"):]][line["line_number"]] |= line["count"] > 0
+    return {path: dict(ran) for path, ran in lines.items()}
 
 
 def measure(build):
-    """gcovr's summary of the objects of lib: [{"filename", "line_covered", "line_total"}]."""
-    objects = sorted(str(p) for p in (build / "CMakeFiles").glob("st_*.dir"))
-    command = ["gcovr", "--root", ROOT, "--object-directory", build, "--filter", str(ROOT / "lib") + "/",
-               "-j", str(os.cpu_count()), "--json-summary", "-", *objects]
-    output = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
-    return json.loads(output)["files"]
+    """The same for all that ran in a build."""
+    counters = sorted(build.rglob("*.gcda"))
+    if not counters:
+        sys.exit(f"coverage: error: no .gcda file below {build}; build with --coverage and run the tests")
+    merged = defaultdict(lambda: defaultdict(bool))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for counts in pool.map(read_counts, [counters[i:i + CHUNK] for i in range(0, len(counters), CHUNK)]):
+            for path, ran in counts.items():
+                for line, has_run in ran.items():
+                    merged[path][line] |= has_run
+    return merged
 
 
 def percent_by_layer(files):
     covered, total = defaultdict(int), defaultdict(int)
-    for file in files:
-        layer = Path(file["filename"]).parts[1]
-        covered[layer] += file["line_covered"]
-        total[layer] += file["line_total"]
+    for path, ran in files.items():
+        layer = Path(path).parts[1]
+        covered[layer] += sum(ran.values())
+        total[layer] += len(ran)
     return {layer: 100 * covered[layer] / total[layer] for layer in sorted(total) if total[layer]}
 
 
@@ -39,8 +63,8 @@ def read_floors():
     return {layer: float(percent) for layer, percent in (line.split() for line in lines if line.strip())}
 
 
-def violations(percents, floors):
-    for layer in sorted(percents.keys() | floors.keys()):
+def violations(percents, floors, layers):
+    for layer in layers or sorted(percents.keys() | floors.keys()):
         if layer not in floors:
             yield f"coverage: {layer} has no floor; run scripts/coverage.py with --update"
         elif percents.get(layer, 0) < floors[layer]:
@@ -49,11 +73,10 @@ def violations(percents, floors):
 
 
 def self_test():
-    counts = {"lib/base/a.cpp": (3, 4), "lib/mesh/b.cpp": (9, 10), "lib/mesh/c.cpp": (0, 10)}
-    files = [{"filename": f, "line_covered": covered, "line_total": total} for f, (covered, total) in counts.items()]
-    found = list(violations(percent_by_layer(files), {"base": 75, "mesh": 46, "io": 1}))
-    expected = ["coverage: io 0.0 %", "coverage: mesh 45.0 %"]
-    found += list(violations(percent_by_layer(files), {"mesh": 45}))
+    files = {"lib/base/a.cpp": {1: True, 2: True, 3: True, 4: False}, "lib/mesh/b.cpp": {1: True, 2: False}}
+    found = list(violations(percent_by_layer(files), {"base": 75, "mesh": 51, "io": 1}, []))
+    expected = ["coverage: io 0.0 %", "coverage: mesh 50.0 %"]
+    found += list(violations(percent_by_layer(files), {"mesh": 50, "io": 1}, ["base", "mesh"]))
     expected += ["coverage: base has no floor"]
     return 0 if [f[:len(e)] for f, e in zip(found, expected)] == expected and len(found) == len(expected) else 1
 
@@ -61,13 +84,20 @@ def self_test():
 def main():
     if "--self-test" in sys.argv:
         return self_test()
-    percents = percent_by_layer(measure(Path(sys.argv[1]).resolve()))
+    build, *layers = [a for a in sys.argv[1:] if not a.startswith("--")]
+    build = Path(build).resolve()
+    if "--clean" in sys.argv:
+        for counters in build.rglob("*.gcda"):
+            counters.unlink()
+        return 0
+    percents = {layer: p for layer, p in percent_by_layer(measure(build)).items() if layer in layers or not layers}
     for layer, percent in percents.items():
         print(f"coverage: {layer:9} {percent:5.1f} % of lines")
     if "--update" in sys.argv:
-        FLOORS.write_text("".join(f"{layer} {int(percent)}\n" for layer, percent in percents.items()), encoding="utf-8")
+        floors = read_floors() | {layer: int(percent) for layer, percent in percents.items()}
+        FLOORS.write_text("".join(f"{layer} {floors[layer]:.0f}\n" for layer in sorted(floors)), encoding="utf-8")
         return 0
-    found = list(violations(percents, read_floors()))
+    found = list(violations(percents, read_floors(), layers))
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 

@@ -15,7 +15,7 @@ build_packages=(
 check_packages=(
   libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
   lintian dpkg-dev file  # packages
-  clang-format clang-tidy universal-ctags pyflakes3 shellcheck gcovr  # lints, coverage
+  clang-format clang-tidy universal-ctags pyflakes3 shellcheck  # lints
   libcgal-dev  # the independent judge of meshes, tests only
   python3-meshio tetgen gmsh libcgns-dev cgns-convert python3-h5py  # foreign readers of exports, tests only
   iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh

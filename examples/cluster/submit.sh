@@ -6,7 +6,7 @@ set -eu -o pipefail
 here=$(dirname "$(realpath "$0")")
 workflow=$(realpath "$here/../../Makefile.workflow")
 
-# What sbatch is asked for: edit it for your cluster and model. The ranks of st-raster, st-mesh and st-remesh are the
+# What is requested from sbatch: edit it for your cluster and model. The ranks of st-raster, st-mesh and st-remesh are the
 # tasks of their jobs; the other stages have one task.
 resources_of() {
   case $1 in

@@ -33,7 +33,7 @@ bool is_repetition(const std::string& line) {
 std::string advice(int signal) {
   switch (signal) {
     case SIGKILL:
-      return "out of memory? the host's system log tells: use larger lengths, fewer ranks or a machine with more "
+      return "out of memory? see the host's system log; use larger lengths, fewer ranks or a machine with more "
              "memory";
     case SIGSEGV:
     case SIGABRT:
@@ -44,7 +44,7 @@ std::string advice(int signal) {
     case SIGXCPU:
     case SIGALRM:
     case SIGPROF:
-      return "a time limit was reached: ask for more time, or use larger lengths";
+      return "a time limit was reached: request more time, or use larger lengths";
     default:
       return "somebody or the batch system ended it: run again";
   }

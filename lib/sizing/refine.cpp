@@ -132,7 +132,7 @@ class Refinement {
 
   void require_few() {
     if (7 * ++n_added_ + octree_.n_leaves() > options_.max_leaves)
-      throw Error(ExitCode::kUsage, "sources: ask for more than " + std::to_string(options_.max_leaves) +
+      throw Error(ExitCode::kUsage, "sources: need more than " + std::to_string(options_.max_leaves) +
                                         " cells; make their lengths larger or the sources smaller");
   }
 

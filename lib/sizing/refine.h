@@ -30,7 +30,7 @@ struct RefineOptions {
 };
 
 /// The octree refined where the lengths of the sources change over a cell by more than half and more than linearly,
-/// balanced anew; stored lengths are the smaller of the raster's and the sources': the smallest of a source's lengths
+/// balanced again; stored lengths are the smaller of the raster's and the sources': the smallest of a source's lengths
 /// in cells that meet its core, its length at the centre elsewhere. Cells that lie within one core stay as they are,
 /// however small the length. Independent of the order of sources with different causes. Cost: cells times the sources
 /// that matter there. `requests` (may be null) gets all that the sources ask for, by leaf.

@@ -26,11 +26,10 @@ struct SizeRule {
   bool for_curves = true;              ///< the edges of the faces selected
   std::optional<bool> is_sampled;      ///< false: asks for nothing
   std::optional<LengthSpec> lmin, lmax, chord;
-  std::optional<double> alpha_deg;   ///< (0, 90]
-  std::optional<int> gap_cells;      ///< [1, 100]; 0: gaps do not matter
-  std::optional<int> wall_cells;     ///< [1, 100]; 0: thin walls do not matter
-  std::optional<int> edge_cells;     ///< [1, 100]; 0: one length along an edge will do
-  std::optional<double> max_aspect;  ///< [1, 100]; edges that are named are stretched along themselves
+  // see SizeOptions
+  std::optional<double> alpha_deg;
+  std::optional<int> gap_cells, wall_cells, edge_cells;
+  std::optional<double> max_aspect;  ///< edges that are named are stretched along themselves
 
   bool has_selection() const {
     return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty());

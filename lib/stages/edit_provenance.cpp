@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/file/json_text.h"
 
 namespace st {
 
@@ -15,7 +16,7 @@ std::string edit_options_json(const EditStageOptions& o) {
     if (!value->empty()) json[name] = *value;
   if (!o.transforms.empty()) json["transform"] = o.transforms;
   if (!o.of.empty()) json["of"] = o.of;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(json);
 }
 
 Similarity whole_motion(const std::string& path, const ArtifactHeader& moved, const std::string& geometry_hash) {

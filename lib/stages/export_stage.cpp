@@ -14,6 +14,7 @@
 #include "io/export/cell_view.h"
 #include "io/export/export.h"
 #include "io/export/octree_export.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
@@ -32,7 +33,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Names in artifacts are any bytes; JSON wants UTF-8.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string dump(const Json& json) { return json_text(json); }
 
 StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
   StageSummary summary;
@@ -129,7 +130,7 @@ void export_sol_artifact(const ExportStageOptions& o) {
 void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
   const bool is_sol = o.output.ends_with(".sol");
   if (is_sol != !o.sizing.empty())
-    throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds what a sizing asks for; give --sizing sizing.hdf"
+    throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds the requested sizes; give --sizing sizing.hdf"
                                          : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
   if (is_sol) return export_sol_artifact(o);
   const bool is_in_blocks = o.output.ends_with(".vtm");

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/length.h"
+#include "io/file/json_text.h"
 #include "io/foreign/triangulation_reader.h"
 
 namespace st {
@@ -104,16 +105,15 @@ StageSummary association_summary(const std::string& path, const SurfaceMesh& mes
   if (r.n_unused > 0) s.line += fmt::format("; {} nodes without a triangle left out", r.n_unused);
   if (!mesh.merged.edge.empty())
     s.line += fmt::format("; {} short CAD edges without a mesh edge", mesh.merged.edge.size());
-  s.json = nlohmann::json{{"farthest", r.max_distance},
-                          {"farthest_at", {r.max_place.x, r.max_place.y, r.max_place.z}},
-                          {"nodes_on_vertices", r.n_nodes[0]},
-                          {"nodes_on_edges", r.n_nodes[1]},
-                          {"nodes_in_faces", r.n_nodes[2]},
-                          {"triangles_turned", r.n_turned},
-                          {"nodes_unused", r.n_unused},
-                          {"merged_edges", mesh.merged.edge.size()},
-                          {"triangles_per_face", r.face_triangles}}
-               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  s.json = json_text(nlohmann::json{{"farthest", r.max_distance},
+                                    {"farthest_at", {r.max_place.x, r.max_place.y, r.max_place.z}},
+                                    {"nodes_on_vertices", r.n_nodes[0]},
+                                    {"nodes_on_edges", r.n_nodes[1]},
+                                    {"nodes_in_faces", r.n_nodes[2]},
+                                    {"triangles_turned", r.n_turned},
+                                    {"nodes_unused", r.n_unused},
+                                    {"merged_edges", mesh.merged.edge.size()},
+                                    {"triangles_per_face", r.face_triangles}});
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "io/file/json_text.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/inspect.h"
 
@@ -17,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Names in artifacts are any bytes; JSON wants UTF-8.
-std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string dump(const Json& json) { return json_text(json); }
 
 /// What there is how many of, by schema: name for people and programs, dataset whose rows are counted, rows that do not
 /// count.

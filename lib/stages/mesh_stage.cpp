@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
@@ -97,14 +98,12 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
 ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& geometry, const ArtifactHeader& sizing) {
   ArtifactHeader header;
   header.tool = "st-mesh";
-  header.options_json = nlohmann::json{
-      {"faces", o.faces},
-      {"group", o.group},
-      {"enhance_rounds", o.enhance_rounds},
-      {"tile", o.tile_triangles},
-      {"merge_below", o.merge_below},
-      {"max_turning",
-       o.max_turning_deg}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  header.options_json = json_text(nlohmann::json{{"faces", o.faces},
+                                                 {"group", o.group},
+                                                 {"enhance_rounds", o.enhance_rounds},
+                                                 {"tile", o.tile_triangles},
+                                                 {"merge_below", o.merge_below},
+                                                 {"max_turning", o.max_turning_deg}});
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.content_hash}};
   return header;

@@ -202,8 +202,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   const OctreeShape raster_shape = raster.octree.shape;
   const Barrier barrier = find_barrier(o, raster, to_octree);
   make_lengths(o, input, barrier, raster, sizing);
-  sizing.names = std::move(raster.names);
-  sizing.names.source = std::move(input.names);
+  sizing.names = {std::move(raster.edge_name), raster.labels.face_name, std::move(input.names)};
   const OctreeField field(sizing.field_data(), nullptr);
   SizeTally tally = tally_by_group(raster);
   std::vector<FaceWeight> weights =
@@ -243,23 +242,21 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   summary.line =
       fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s",
                   o.output, sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
-  summary.json = Json{
-      {"tool", "st-prolong"},
-      {"output", o.output},
-      {"cells", sizing.lengths.cells.size()},
-      {"blanked_cells", n_blanked},
-      {"cut_cells", n_cut},
-      {"split_cells", sizing.blanking.split.size()},
-      {"sources", sizing.names.source.size()},
-      {"lmin", lo},
-      {"lmax", hi},
-      {"slope", o.slope},
-      {"scale", sizing.scale},
-      {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
-      {"groups", groups_json(groups, sizing.names)},
-      {"hash", sizing.header.content_hash},
-      {"seconds",
-       seconds}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  summary.json = json_text(Json{{"tool", "st-prolong"},
+                                {"output", o.output},
+                                {"cells", sizing.lengths.cells.size()},
+                                {"blanked_cells", n_blanked},
+                                {"cut_cells", n_cut},
+                                {"split_cells", sizing.blanking.split.size()},
+                                {"sources", sizing.names.source.size()},
+                                {"lmin", lo},
+                                {"lmax", hi},
+                                {"slope", o.slope},
+                                {"scale", sizing.scale},
+                                {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
+                                {"groups", groups_json(groups, sizing.names)},
+                                {"hash", sizing.header.content_hash},
+                                {"seconds", seconds}});
   return summary;
 }
 

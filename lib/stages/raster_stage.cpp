@@ -91,15 +91,15 @@ std::optional<LengthSpec> edge_size(const RasterStageOptions& o) {
 void require_valid(const RasterStageOptions& o) {
   option_rules(o);
   edge_size(o);
-  o.kAlpha.require(o.alpha_deg);
-  o.kGapCells.require(o.gap_cells);
-  o.kWallCells.require(o.wall_cells);
-  o.kEdgeCells.require(o.edge_cells);
+  SizeOptions::kAlpha.require(o.alpha_deg);
+  SizeOptions::kGapCells.require(o.gap_cells);
+  SizeOptions::kWallCells.require(o.wall_cells);
+  SizeOptions::kEdgeCells.require(o.edge_cells);
   o.kBaseCells.require(o.base_cells);
   o.kChordCells.require(o.chord_cells);
   o.kCellPerLength.require(o.cell_per_length);
   o.kMaxCells.require(o.max_cells);
-  o.kMaxAspect.require(o.max_aspect);
+  SizeOptions::kMaxAspect.require(o.max_aspect);
 }
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
@@ -550,27 +550,26 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
       "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes,
       n_cells, a.numbers.min_length, a.numbers.max_length, wings.aircraft.wings.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
-  summary.json = nlohmann::ordered_json{{"tool", "st-raster"},
-                                        {"output", o.output},
-                                        {"samples", counts.n_boxes},
-                                        {"cells", n_cells},
-                                        {"lmin", a.numbers.min_length},
-                                        {"lmax", a.numbers.max_length},
-                                        {"far_length", a.numbers.far_length},
-                                        {"alpha", a.numbers.alpha_deg},
-                                        {"cell_per_length", a.numbers.cell_per_length},
-                                        {"rules", n_rules},
-                                        {"wing_edges", wings.edges.size()},
-                                        {"lifting_surfaces", wings_json(wings)},
-                                        {"gap_samples", counts.n_gap_boxes},
-                                        {"not_sampled", counts.n_failures},
-                                        {"beyond_depth", depth_json(counts.depth)},
-                                        {"groups", sampled_json(groups, a.names)},
-                                        {"hash", a.header.content_hash},
-                                        {"seconds", seconds},
-                                        {"seconds_of", times.wall()},
-                                        {"processor_seconds_of", times.processor()}}
-                     .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  summary.json = json_text(nlohmann::ordered_json{{"tool", "st-raster"},
+                                                  {"output", o.output},
+                                                  {"samples", counts.n_boxes},
+                                                  {"cells", n_cells},
+                                                  {"lmin", a.numbers.min_length},
+                                                  {"lmax", a.numbers.max_length},
+                                                  {"far_length", a.numbers.far_length},
+                                                  {"alpha", a.numbers.alpha_deg},
+                                                  {"cell_per_length", a.numbers.cell_per_length},
+                                                  {"rules", n_rules},
+                                                  {"wing_edges", wings.edges.size()},
+                                                  {"lifting_surfaces", wings_json(wings)},
+                                                  {"gap_samples", counts.n_gap_boxes},
+                                                  {"not_sampled", counts.n_failures},
+                                                  {"beyond_depth", depth_json(counts.depth)},
+                                                  {"groups", sampled_json(groups, a.cause_names())},
+                                                  {"hash", a.header.content_hash},
+                                                  {"seconds", seconds},
+                                                  {"seconds_of", times.wall()},
+                                                  {"processor_seconds_of", times.processor()}});
   return summary;
 }
 
@@ -645,7 +644,7 @@ class RasterRun {
 
   void write() {
     artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
-    artifact_.names = {model_.tables().edge_name, model_.tables().labels.face_name, {}};
+    artifact_.edge_name = model_.tables().edge_name;
     artifact_.labels = model_.tables().labels;
     fill_header(o_, geometry_.header, wall_, sizes_hash_, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
@@ -654,7 +653,7 @@ class RasterRun {
   StageSummary report() const {
     report_wings(o_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
-    for (const std::string& line : sampled_lines(groups, artifact_.names, kMostGroups)) log_report(line);
+    for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
     return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
   }
 

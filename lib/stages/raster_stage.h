@@ -6,6 +6,7 @@
 
 #include "base/number_option.h"
 #include "comm/communicator.h"
+#include "sizing/size_options.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -13,25 +14,12 @@ namespace st {
 struct RasterStageOptions {
   std::string geometry;  ///< geometry artifact
   std::string output = "raster.hdf";
-  std::string lmin;  ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
-  std::string lmax;  ///< largest length; empty: 2.5 % of the diagonal
-  double alpha_deg = 10;
-  static constexpr NumberOption kAlpha{
-      "--alpha", "DEG", "[0.001, 90]",
-      "curvature angle: largest angle in degrees by which normal or tangent turn along one edge length"};
-  std::string chord;  ///< largest distance of a length's chord from the geometry; empty: no limit
-  std::string sizes;  ///< file of rules for groups, faces and edges; empty: none
-  std::optional<int> gap_cells;
-  static constexpr NumberOption kGapCells{
-      "--gap-cells", "N", "[1, 100]", "proximity: edge lengths across gaps in the flow, down to --lmin; default: off"};
-  std::optional<int> wall_cells;
-  static constexpr NumberOption kWallCells{
-      "--wall-cells", "N", "[1, 100]",
-      "edge lengths across thin walls, inside the material, down to --lmin; default: off"};
-  std::optional<int> edge_cells;
-  static constexpr NumberOption kEdgeCells{
-      "--edge-cells", "N", "[1, 100]",
-      "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1"};
+  std::string lmin;       ///< smallest length; "3", "0.1%", "0.25mm"; empty: lmax/64
+  std::string lmax;       ///< largest length; empty: 2.5 % of the diagonal
+  double alpha_deg = 10;  ///< see SizeOptions for this and all that has no option below it
+  std::string chord;      ///< largest distance of a length's chord from the geometry; empty: no limit
+  std::string sizes;      ///< file of rules for groups, faces and edges; empty: none
+  std::optional<int> gap_cells, wall_cells, edge_cells;
   std::string trailing_edges;  ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
   std::string leading_edges;   ///< lengths at detected leading edges, written the same way
   std::string edge_size = "0.3%chord";  ///< length at trailing edges and noses of lifting surfaces; "none": off
@@ -45,9 +33,6 @@ struct RasterStageOptions {
   static constexpr NumberOption kCellPerLength{"--cell-per-length", "N", "[1, 8]",
                                                "octree cell size in edge lengths: larger means fewer cells"};
   double max_aspect = 1;
-  static constexpr NumberOption kMaxAspect{
-      "--max-aspect", "A", "[1, 100]",
-      "largest length along noses, edges and flat directions over the length across; 1: the same in all directions"};
   std::optional<int> max_cells;
   static constexpr NumberOption kMaxCells{
       "--max-cells", "N", "[1, 2147483647]",

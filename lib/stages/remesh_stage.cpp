@@ -126,9 +126,8 @@ void move(RemeshInput& in) {
 /// A mesh of another program, put onto the geometry.
 RemeshInput read_foreign_input(const RemeshStageOptions& o) {
   if (o.moved)
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--moved: {} is no mesh artifact, so it lies on no geometry that could have moved", o.mesh));
+    throw Error(ExitCode::kUsage,
+                fmt::format("--moved: {} is not a mesh artifact: only these know the geometry that moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
   MappedSizing sizing = map_sizing(o.sizing);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
@@ -221,12 +220,12 @@ ArtifactHeader output_header(const RemeshStageOptions& o, const RemeshInput& in,
   ArtifactHeader header;
   header.tool = "st-remesh";
   header.tool_version = ST_VERSION;
-  header.options_json = nlohmann::json{{"too_long", o.too_long},
-                                       {"too_short", o.too_short},
-                                       {"keep", o.keep},
-                                       {"sizes_on_nodes", std::filesystem::path(o.sizes_on_nodes).filename().string()},
-                                       {"faces_redone", holes.dirty_faces().size()}}
-                            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  header.options_json =
+      json_text(nlohmann::json{{"too_long", o.too_long},
+                               {"too_short", o.too_short},
+                               {"keep", o.keep},
+                               {"sizes_on_nodes", std::filesystem::path(o.sizes_on_nodes).filename().string()},
+                               {"faces_redone", holes.dirty_faces().size()}});
   header.inputs = {{"mesh", std::filesystem::path(o.mesh).filename().string(), in.old.header.content_hash},
                    {"geometry", std::filesystem::path(o.geometry).filename().string(), in.geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), in.sizing.header.content_hash}};
@@ -273,16 +272,15 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
   StageSummary s;
   s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(),
                        artifact.mesh.n_nodes(), seconds, facts.n_ranks);
-  s.json = nlohmann::json{{"tool", "st-remesh"},
-                          {"output", o.merged},
-                          {"hash", hash},
-                          {"triangles", artifact.mesh.n_triangles()},
-                          {"nodes", artifact.mesh.n_nodes()},
-                          {"ranks", facts.n_ranks},
-                          {"seconds", seconds},
-                          {"seconds_load", facts.load_seconds},
-                          {"seconds_write", write_seconds}}
-               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  s.json = json_text(nlohmann::json{{"tool", "st-remesh"},
+                                    {"output", o.merged},
+                                    {"hash", hash},
+                                    {"triangles", artifact.mesh.n_triangles()},
+                                    {"nodes", artifact.mesh.n_nodes()},
+                                    {"ranks", facts.n_ranks},
+                                    {"seconds", seconds},
+                                    {"seconds_load", facts.load_seconds},
+                                    {"seconds_write", write_seconds}});
   return s;
 }
 

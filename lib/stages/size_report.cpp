@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "sizing/size_origin.h"
@@ -70,7 +71,7 @@ RasterArtifact read_own_raster(const std::string& artifact, const ArtifactHeader
 std::vector<std::uint8_t> find_named_faces(const std::string& name, const RasterArtifact& raster) {
   std::vector<std::uint8_t> is_in = find_faces(name, raster.labels);
   if (!is_in.empty()) return is_in;
-  for (const std::string& face_name : raster.names.face) is_in.push_back(face_name == name);
+  for (const std::string& face_name : raster.labels.face_name) is_in.push_back(face_name == name);
   if (std::find(is_in.begin(), is_in.end(), 1) == is_in.end())
     throw Error(ExitCode::kUsage, fmt::format("--why '{}': no group of faces, part or face has this name{}; "
                                               "st-info geometry.hdf --groups lists them",
@@ -131,7 +132,7 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
       {"cause", cause},
       {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
       {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
-  summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  summary.json = json_text(json);
   return summary;
 }
 
@@ -156,7 +157,7 @@ StageSummary run_size_why(const std::string& artifact, const std::string& group,
                      {"least", sizes.least},
                      {"median", sizes.median},
                      {"causes", causes_json(sizes, names)}};
-  summary.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  summary.json = json_text(json);
   return summary;
 }
 

@@ -32,7 +32,7 @@ NamedSlope parse_slope(const std::string& item) {
 
 /// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.
 std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& raster) {
-  const std::vector<std::string>& face_name = raster.names.face;
+  const std::vector<std::string>& face_name = raster.labels.face_name;
   std::vector<std::uint8_t> is_in(face_name.size(), 0);
   for (std::size_t f = 0; f < face_name.size(); ++f) is_in[f] = face_name[f] == s.name;
   if (std::find(is_in.begin(), is_in.end(), 1) != is_in.end()) return is_in;
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& ra
 
 /// Smallest slope that a face is given; 0: none.
 std::vector<double> face_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster) {
-  std::vector<double> result(raster.names.face.size(), 0);
+  std::vector<double> result(raster.labels.face_name.size(), 0);
   for (const NamedSlope& s : slopes) {
     const std::vector<std::uint8_t> is_in = faces_of(s, raster);
     for (std::size_t f = 0; f < result.size(); ++f)
@@ -70,7 +70,7 @@ std::vector<NamedSlope> parse_slopes(const std::string& text) {
 SlopeSeeds::SlopeSeeds(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster)
     : raster_shape_(raster.octree.shape),
       of_face_(face_slopes(slopes, raster)),
-      of_edge_(raster.names.edge.size(), 0),
+      of_edge_(raster.edge_name.size(), 0),
       of_leaf_(raster.octree.stored_cause.size(), 0) {
   const auto lower = [](double& slope, double other) { slope = slope > 0 ? std::min(slope, other) : other; };
   for (std::int32_t f = 0; f < raster.faces.n_faces(); ++f) {

@@ -13,7 +13,6 @@
 namespace {
 
 using st::DatasetInfo;
-using st::ElementType;
 using Random = std::mt19937_64;
 
 std::size_t below(Random& random, std::size_t n) { return n ? random() % n : 0; }
@@ -91,22 +90,13 @@ void copy_strings(const st::Hdf5Reader& in, const DatasetInfo& d, Random* random
 }
 
 void copy_dataset(const st::Hdf5Reader& in, const DatasetInfo& d, Random* random, st::Hdf5Writer& out) {
-  switch (d.type) {
-    case ElementType::kFloat64:
-      return copy<double>(in, d, random, out);
-    case ElementType::kFloat32:
-      return copy<float>(in, d, random, out);
-    case ElementType::kInt32:
-      return copy<std::int32_t>(in, d, random, out);
-    case ElementType::kInt64:
-      return copy<std::int64_t>(in, d, random, out);
-    case ElementType::kUint8:
-      return copy<std::uint8_t>(in, d, random, out);
-    case ElementType::kUint64:
-      return copy<std::uint64_t>(in, d, random, out);
-    case ElementType::kString:
-      return copy_strings(in, d, random, out);
-  }
+  st::with_element(d.type, [&](const auto& element) {
+    using T = std::decay_t<decltype(element)>;
+    if constexpr (std::is_same_v<T, std::string>)
+      copy_strings(in, d, random, out);
+    else
+      copy<T>(in, d, random, out);
+  });
 }
 
 void copy_attribute(const st::AttributeSummary& a, Random* random, st::Hdf5Writer& out) {

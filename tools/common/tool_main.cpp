@@ -17,6 +17,7 @@
 #include "base/text.h"
 #include "common/option_file.h"
 #include "common/presets.h"
+#include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
@@ -279,7 +280,7 @@ void ToolMain::print_summary(const StageSummary& summary) const {
   }
   if (std::fflush(stdout) == 0) return;
   if (kind_ == Kind::kReport || json_) throw Error(ExitCode::kOutput, "stdout: cannot write the summary");
-  log_warning("stdout takes nothing; what was to be written is complete");
+  log_warning("stdout cannot be written; the output files are complete");
 }
 
 void ToolMain::print_text(const std::string& text) {
@@ -290,7 +291,7 @@ void ToolMain::print_text(const std::string& text) {
 void ToolMain::print_error(ExitCode code, const std::string& message) const {
   if (json_) {
     const nlohmann::json object = {{"error", message}, {"exit_code", static_cast<int>(code)}, {"tool", name_}};
-    std::puts(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    std::puts(json_text(object).c_str());
     std::fflush(stdout);
   }
   const std::string line = name_ + ": error: " + one_line(message) + "\n";

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
              "moves parts: 'rotate X Y Z DEG at X Y Z; hinge X Y Z X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'; "
              "repeatable");
   tool.texts("--of", o.of, "NAMES",
-             "groups, parts or faces that the --transform of the same rank moves; repeatable; default: everything");
+             "groups, parts or faces that the --transform in the same place of the order moves; repeatable; default: "
+             "everything");
   tool.flag("--require-valid", o.require_valid, "end with exit code 4 when the result is open or its parts cross");
   return tool.run(argc, argv, [&] { return st::run_edit(o); });
 }

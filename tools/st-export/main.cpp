@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   tool.flag("--split-groups", o.split_groups, "one file for each group: NAME_GROUP.stl");
   tool.optional_input("--geometry", o.geometry,
                       "the geometry of the mesh, for --quadratic, --parametric and deviations in .vtu");
-  tool.optional_input("--sizing", o.sizing, "sizing artifact, for .sol: the size asked for at each node of a mesh");
+  tool.optional_input("--sizing", o.sizing, "sizing artifact, for .sol: the requested size at each node of a mesh");
   tool.number(o.kFeatureAngle, o.feature_angle_deg);
   tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");
   return tool.run(argc, argv, [&] { return st::run_export(o); });

@@ -10,13 +10,13 @@ int main(int argc, char** argv) {
   tool.output(o.output);
   tool.length("--lmin", o.lmin, "lmax/64", "smallest edge length that curvature and rules may set");
   tool.length("--lmax", o.lmax, "2.5%", "largest edge length on walls");
-  tool.number(o.kAlpha, o.alpha_deg);
+  tool.number(st::SizeOptions::kAlpha, o.alpha_deg);
   tool.length("--chord", o.chord, "",
               "largest chord error: distance between a straight edge and the geometry; default: no limit");
   tool.optional_input("--sizes", o.sizes, "file with rules [[size]] for groups, faces and edges (TOML)");
-  tool.number(o.kGapCells, o.gap_cells);
-  tool.number(o.kWallCells, o.wall_cells);
-  tool.number(o.kEdgeCells, o.edge_cells);
+  tool.number(st::SizeOptions::kGapCells, o.gap_cells);
+  tool.number(st::SizeOptions::kWallCells, o.wall_cells);
+  tool.number(st::SizeOptions::kEdgeCells, o.edge_cells);
   tool.text("--trailing-edges", o.trailing_edges, "[LMIN:]LMAX",
             "find trailing edges by shape and give them these edge lengths; default: off");
   tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX",
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   tool.number(o.kBaseCells, o.base_cells);
   tool.number(o.kChordCells, o.chord_cells);
   tool.number(o.kCellPerLength, o.cell_per_length);
-  tool.number(o.kMaxAspect, o.max_aspect);
+  tool.number(st::SizeOptions::kMaxAspect, o.max_aspect);
   tool.number(o.kMaxCells, o.max_cells);
   tool.flag("--no-surface", o.no_surface,
             "leave out the coarse surface of a closed model: lengths then pass through solids");

@@ -31,7 +31,7 @@ FarField parse_farfield(const std::string& text);
 
 /// Cuts the model at the symmetry plane where it lies on both sides, closes it there with faces named "symmetry"; with
 /// a far field the result is the fluid between the body and the outer faces named "farfield": one closed solid, normals
-/// out of the fluid. Faces of the body come first, in their order; faces in the plane are made anew. `box` of the model
+/// out of the fluid. Faces of the body come first, in their order; faces in the plane are new. `box` of the model
 /// and its reference diagonal in the unit of the shape. Throws Error(kGeometry) with the places of free edges that are
 /// not in the plane, and for a model that does not reach the plane.
 void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, const std::optional<SymmetryPlane>& plane,

@@ -113,7 +113,7 @@ void require_closed(const ImportResult& result, const std::string& path) {
                                          " free edges; close it in the CAD system, or import without --require-closed");
 }
 
-/// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field gives anew.
+/// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
 bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
   if (options.symmetry.empty() && options.farfield.empty()) return false;
   return std::any_of(rule.faces.begin(), rule.faces.end(), [](const std::string& item) {

@@ -8,7 +8,7 @@
 
 namespace st::occt {
 
-/// Makes the loops of a curved face anew from the space curves of its edges where a reader has lost them in (u,v): a
+/// Rebuilds the loops of a curved face from the space curves of its edges where a reader has lost them in (u,v): a
 /// trimming curve far from its edge, a pole that is no point, a loop that cannot be walked (fillets of radius larger
 /// than the bend they go around, tubes bent by half a period). Every edge is sampled and projected, the pieces are
 /// joined end to end across periods; what does not close, or does not lie on the surface, stays as it was. Tolerances

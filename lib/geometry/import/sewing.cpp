@@ -194,7 +194,7 @@ double vertex_gap(const TopoDS_Edge& edge, const TopoDS_Vertex& vertex) {
 
 /// Sewing measures at equal parameters: where partners run at different speeds it leaves tolerances as long as the
 /// edge. Edges above `limit` get the sewing tolerance, their vertices what their curves need; repair_pcurves() then
-/// compares, projects anew and raises what must be.
+/// compares, projects again and raises what must be.
 void tighten_tolerances(const TopoDS_Shape& shape, double sewing_tolerance, double limit) {
   const ShapeFix_ShapeTolerance setter;
   TopTools_IndexedDataMapOfShapeListOfShape vertex_edges;

@@ -6,7 +6,7 @@
 namespace st {
 namespace {
 
-/// Numbers the ids in use anew, in their order; returns for each old id the new one or kNone.
+/// Renumbers the ids in use, in their order; returns for each old id the new one or kNone.
 std::vector<std::int32_t> renumber(std::vector<std::int32_t>& ids, std::size_t n_old) {
   std::vector<std::int32_t> number(n_old, kNone);
   for (const std::int32_t id : ids)

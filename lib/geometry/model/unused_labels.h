@@ -5,7 +5,7 @@
 
 namespace st {
 
-/// Takes away groups (of all tables) and parts without faces; shells and solids that are left are numbered anew without
+/// Takes away groups (of all tables) and parts without faces; shells and solids that are left are renumbered without
 /// gaps.
 void drop_unused(ModelTables& tables);
 

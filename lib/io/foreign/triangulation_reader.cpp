@@ -200,7 +200,7 @@ SurfaceMesh read_triangulation(const std::string& path) {
       break;
   }
   fail_if_cut_stl(path, head, size);
-  fail(path, "no mesh that is read here; give STL, Gmsh MSH 2.2 or 4.1, VTU, .fro or a mesh artifact");
+  fail(path, "not a mesh of a known format; give STL, Gmsh MSH 2.2 or 4.1, VTU, .fro or a mesh artifact");
 }
 
 }  // namespace st

@@ -171,40 +171,8 @@ std::string tool_of(const std::string& schema) {
 bool is_provenance(const std::string& dataset) { return dataset.ends_with("/previous_id"); }
 
 const char* element_type_name(ElementType type) {
-  switch (type) {
-    case ElementType::kFloat64:
-      return "float64";
-    case ElementType::kFloat32:
-      return "float32";
-    case ElementType::kInt32:
-      return "int32";
-    case ElementType::kInt64:
-      return "int64";
-    case ElementType::kUint8:
-      return "uint8";
-    case ElementType::kUint64:
-      return "uint64";
-    case ElementType::kString:
-      return "string";
-  }
-  return "?";
-}
-
-std::size_t element_size(ElementType type) {
-  switch (type) {
-    case ElementType::kFloat64:
-    case ElementType::kInt64:
-    case ElementType::kUint64:
-      return 8;
-    case ElementType::kFloat32:
-    case ElementType::kInt32:
-      return 4;
-    case ElementType::kUint8:
-      return 1;
-    case ElementType::kString:
-      return 0;
-  }
-  return 0;
+  constexpr const char* kNames[] = {"float64", "float32", "int32", "int64", "uint8", "uint64", "string"};
+  return kNames[static_cast<int>(type)];
 }
 
 // -------------------------------------------------------------------------------- writer

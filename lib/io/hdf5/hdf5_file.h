@@ -27,65 +27,65 @@ enum class ElementType { kFloat64, kFloat32, kInt32, kInt64, kUint8, kUint64, kS
 /// "float64", "string" ...
 const char* element_type_name(ElementType type);
 /// Bytes of one element in memory; 0 for strings.
-std::size_t element_size(ElementType type);
+constexpr std::size_t element_size(ElementType type) {
+  constexpr std::size_t kSizes[] = {8, 4, 4, 8, 1, 8, 0};
+  return kSizes[static_cast<int>(type)];
+}
 
-/// How a C++ value is stored: its element type, and the number of elements it consists of.
+/// How a C++ value is stored: as `Count` elements.
+template <ElementType Type, std::size_t Count = 1>
+struct Elements {
+  static constexpr ElementType type = Type;
+  static constexpr std::size_t count = Count;
+};
 template <class T>
 struct Element;
 template <>
-struct Element<double> {
-  static constexpr ElementType type = ElementType::kFloat64;
-  static constexpr std::size_t count = 1;
-};
+struct Element<double> : Elements<ElementType::kFloat64> {};
 template <>
-struct Element<float> {
-  static constexpr ElementType type = ElementType::kFloat32;
-  static constexpr std::size_t count = 1;
-};
+struct Element<float> : Elements<ElementType::kFloat32> {};
 template <>
-struct Element<std::int32_t> {
-  static constexpr ElementType type = ElementType::kInt32;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::int32_t> : Elements<ElementType::kInt32> {};
 template <>
-struct Element<std::int64_t> {
-  static constexpr ElementType type = ElementType::kInt64;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::int64_t> : Elements<ElementType::kInt64> {};
 template <>
-struct Element<std::uint8_t> {
-  static constexpr ElementType type = ElementType::kUint8;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::uint8_t> : Elements<ElementType::kUint8> {};
 template <>
-struct Element<std::byte> : Element<std::uint8_t> {};
+struct Element<std::byte> : Elements<ElementType::kUint8> {};
 template <>
-struct Element<SurfaceType> : Element<std::uint8_t> {};
+struct Element<SurfaceType> : Elements<ElementType::kUint8> {};
 template <>
-struct Element<std::uint64_t> {
-  static constexpr ElementType type = ElementType::kUint64;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::uint64_t> : Elements<ElementType::kUint64> {};
 template <>
-struct Element<Vec3> {
-  static constexpr ElementType type = ElementType::kFloat64;
-  static constexpr std::size_t count = 3;
-};
+struct Element<Vec3> : Elements<ElementType::kFloat64, 3> {};
 template <>
-struct Element<Vec2> {
-  static constexpr ElementType type = ElementType::kFloat64;
-  static constexpr std::size_t count = 2;
-};
+struct Element<Vec2> : Elements<ElementType::kFloat64, 2> {};
 template <>
-struct Element<Box3> {
-  static constexpr ElementType type = ElementType::kFloat64;
-  static constexpr std::size_t count = 6;
-};
+struct Element<Box3> : Elements<ElementType::kFloat64, 6> {};
 template <>
-struct Element<Triangle> {
-  static constexpr ElementType type = ElementType::kInt32;
-  static constexpr std::size_t count = 3;
-};
+struct Element<Triangle> : Elements<ElementType::kInt32, 3> {};
+
+/// Calls `f` with a value of the C++ type that has these elements; std::string for strings.
+template <class Function>
+auto with_element(ElementType type, const Function& f) {
+  switch (type) {
+    case ElementType::kFloat64:
+      return f(double());
+    case ElementType::kFloat32:
+      return f(float());
+    case ElementType::kInt32:
+      return f(std::int32_t());
+    case ElementType::kInt64:
+      return f(std::int64_t());
+    case ElementType::kUint8:
+      return f(std::uint8_t());
+    case ElementType::kUint64:
+      return f(std::uint64_t());
+    case ElementType::kString:
+      break;
+  }
+  return f(std::string());
+}
 
 /// Whether a dataset says only what entities were before (`.../previous_id`): provenance, as equal contents may come
 /// from different ones.
@@ -105,7 +105,7 @@ class Hdf5Writer {
   /// `columns` counts elements of the basic type; values.size() must be a multiple of it. Each name once.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::size_t columns = Element<T>::count) {
-    static_assert(sizeof(T) == Element<T>::count * sizeof_element<T>(), "no padding inside");
+    static_assert(sizeof(T) == Element<T>::count * element_size(Element<T>::type), "no padding inside");
     write_raw(name, Element<T>::type, values.data(), values.size() * Element<T>::count, columns);
   }
   template <class T>
@@ -128,11 +128,6 @@ class Hdf5Writer {
   std::string commit();
 
  private:
-  template <class T>
-  static constexpr std::size_t sizeof_element() {
-    constexpr ElementType type = Element<T>::type;
-    return type == ElementType::kUint8 ? 1 : type == ElementType::kInt32 || type == ElementType::kFloat32 ? 4 : 8;
-  }
   void write_raw(const std::string& name, ElementType type, const void* values, std::size_t n_elements,
                  std::size_t columns);
   struct Impl;

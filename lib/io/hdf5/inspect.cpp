@@ -81,12 +81,6 @@ std::string compare_values(const std::vector<T>& a, const std::vector<T>& b, std
   return text;
 }
 
-template <class T>
-std::string compare_arrays(const Hdf5Reader& a, const Hdf5Reader& b, const DatasetInfo& d, double tolerance) {
-  const std::size_t columns = columns_of(d);
-  return compare_values(a.read<T>(d.name, columns), b.read<T>(d.name, columns), columns, tolerance);
-}
-
 std::string compare_dataset(const Hdf5Reader& a, const Hdf5Reader& b, const DatasetInfo& in_a, double tolerance) {
   if (!b.has(in_a.name)) return "only in the first";
   const DatasetInfo& in_b = b.info(in_a.name);
@@ -94,23 +88,15 @@ std::string compare_dataset(const Hdf5Reader& a, const Hdf5Reader& b, const Data
     return std::string(element_type_name(in_a.type)) + " against " + element_type_name(in_b.type);
   if (in_a.shape != in_b.shape) return "shape " + shape_text(in_a.shape) + " against " + shape_text(in_b.shape);
   if (in_a.is_foreign) return "";  // a copy of another dataset
-  switch (in_a.type) {
-    case ElementType::kFloat64:
-      return compare_arrays<double>(a, b, in_a, tolerance);
-    case ElementType::kFloat32:
-      return compare_arrays<float>(a, b, in_a, tolerance);
-    case ElementType::kInt32:
-      return compare_arrays<std::int32_t>(a, b, in_a, tolerance);
-    case ElementType::kInt64:
-      return compare_arrays<std::int64_t>(a, b, in_a, tolerance);
-    case ElementType::kUint8:
-      return compare_arrays<std::uint8_t>(a, b, in_a, tolerance);
-    case ElementType::kUint64:
-      return compare_arrays<std::uint64_t>(a, b, in_a, tolerance);
-    case ElementType::kString:
+  return with_element(in_a.type, [&](const auto& element) {
+    using T = std::decay_t<decltype(element)>;
+    if constexpr (std::is_same_v<T, std::string>) {
       return compare_values(a.read_strings(in_a.name), b.read_strings(in_a.name), 1, 0);
-  }
-  return "";
+    } else {
+      const std::size_t columns = columns_of(in_a);
+      return compare_values(a.read<T>(in_a.name, columns), b.read<T>(in_a.name, columns), columns, tolerance);
+    }
+  });
 }
 
 using AttributeMap = std::map<std::string, std::variant<std::string, std::int64_t, double>>;

@@ -132,7 +132,7 @@ MeshArtifact read_mesh(const std::string& path) {
   m.node_t = r.read_rows<double>("/st/node/t", n_nodes);
   m.triangles = read_triangles(r, n_nodes);
   m.labels = read_labels(r, r.read_strings("/st/face/name").size());
-  for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made anew of the labels
+  for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made again from the labels
   m.triangle_face = read_ids(r, "/VTKHDF/CellData/face", m.triangles.size());
   require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.labels.face_name.size());
   for (std::size_t n = 0; n < n_nodes; ++n)

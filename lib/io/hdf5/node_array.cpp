@@ -23,9 +23,9 @@ namespace {
 
 void require_count(const std::string& path, const std::string& name, std::int64_t n, std::size_t n_nodes) {
   if (n < 0 || static_cast<std::size_t>(n) != n_nodes)
-    fail(
-        path, name,
-        fmt::format("has {} values, the mesh {} nodes; give one length per node of the mesh to be redone", n, n_nodes));
+    fail(path, name,
+         fmt::format("has {} values, the mesh {} nodes; give one length per node of the mesh to be remeshed", n,
+                     n_nodes));
 }
 
 /// Reads a whole dataset of `n_nodes` values as doubles; nullopt: there is none of this name.

@@ -17,31 +17,19 @@
 namespace st {
 
 template <>
-struct Element<CellLength> {
-  static constexpr ElementType type = ElementType::kFloat32;
-  static constexpr std::size_t count = 5;
-};
+struct Element<CellLength> : Elements<ElementType::kFloat32, 5> {};
 
 template <>
-struct Element<CellPlane> {
-  static constexpr ElementType type = ElementType::kFloat32;
-  static constexpr std::size_t count = 6;
-};
+struct Element<CellPlane> : Elements<ElementType::kFloat32, 6> {};
 
 template <>
-struct Element<CellSplit> {
-  static constexpr ElementType type = ElementType::kFloat32;
-  static constexpr std::size_t count = 5;
-};
+struct Element<CellSplit> : Elements<ElementType::kFloat32, 5> {};
 
 template <>
-struct Element<SmallNormal> {
-  static constexpr ElementType type = ElementType::kUint8;
-  static constexpr std::size_t count = 3;
-};
+struct Element<SmallNormal> : Elements<ElementType::kUint8, 3> {};
 
 template <>
-struct Element<CellColour> : Element<std::uint8_t> {};
+struct Element<CellColour> : Elements<ElementType::kUint8> {};
 
 namespace {
 
@@ -406,8 +394,8 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
   file.write<float>(kFaceArea, raster.faces.area);
   file.write<CellPlane>(kFacePlane, raster.faces.plane);
-  file.write_strings(kFaceName, raster.names.face);
-  file.write_strings(kEdgeName, raster.names.edge);
+  file.write_strings(kFaceName, raster.labels.face_name);
+  file.write_strings(kEdgeName, raster.edge_name);
   if (!raster.labels.face_group.empty()) {
     file.write_strings(kGroupName, raster.labels.group_name);
     file.write<std::int32_t>(kFaceGroup, raster.labels.face_group);
@@ -433,11 +421,11 @@ RasterArtifact read_raster(const std::string& path) {
   require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length), "a length > 0",
                      [](float x) { return x > 0; });
   raster.faces = read_face_cells(file, n);
-  raster.names = {file.read_strings(kEdgeName), file.read_strings(kFaceName), {}};
-  if (raster.faces.offsets.size() != raster.names.face.size() + 1)
-    file.fail(kFaceOffset, "does not fit the number of faces");
-  if (!file.has(kFaceGroup)) return raster;  // written before groups were
-  raster.labels = read_labels(file, raster.names.face.size());
+  raster.edge_name = file.read_strings(kEdgeName);
+  raster.labels.face_name = file.read_strings(kFaceName);
+  const std::size_t n_faces = raster.labels.face_name.size();
+  if (raster.faces.offsets.size() != n_faces + 1) file.fail(kFaceOffset, "does not fit the number of faces");
+  if (file.has(kFaceGroup)) raster.labels = read_labels(file, n_faces);  // files before groups were have none
   return raster;
 }
 

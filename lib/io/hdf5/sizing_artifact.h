@@ -45,13 +45,15 @@ struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty
-  BlankSurface surface;               ///< coarse triangles of a closed model; empty: not closed
-  FaceCells faces;                    ///< where in the octree each face lies, with its area there
-  CauseNames names;
-  std::int64_t n_not_sampled = 0;  ///< faces and batches of edges that could not be sampled; > 0: the raster is
-                                   ///< incomplete
-  FaceLabels labels;               ///< for slopes of groups; or empty
+  std::vector<LengthSample> samples;   ///< all samples, where cell_per_length is larger than 2; else empty
+  BlankSurface surface;                ///< coarse triangles of a closed model; empty: not closed
+  FaceCells faces;                     ///< where in the octree each face lies, with its area there
+  std::vector<std::string> edge_name;  ///< [n_edges]; "": none
+  FaceLabels labels;                   ///< names of faces, and groups for slopes of groups, or none
+  std::int64_t n_not_sampled = 0;      ///< faces and batches of edges that could not be sampled; > 0: the raster is
+                                       ///< incomplete
+
+  CauseNames cause_names() const { return {edge_name, labels.face_name, {}}; }
 };
 
 /// sizing.hdf

@@ -1,10 +1,9 @@
 #include "io/toml/size_rule_file.h"
 
-#include <fmt/format.h>
-
 #include "base/hash.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
+#include "sizing/size_options.h"
 
 namespace st {
 namespace {
@@ -52,15 +51,15 @@ class RuleReader : TomlEntry {
     else if (key == "chord")
       rule_.chord = length(key, node);
     else if (key == "alpha")
-      read_alpha(node);
+      rule_.alpha_deg = number(key, node, SizeOptions::kAlpha);
     else if (key == "gap_cells")
-      rule_.gap_cells = count(key, node);
+      rule_.gap_cells = count(key, node, SizeOptions::kGapCells);
     else if (key == "wall_cells")
-      rule_.wall_cells = count(key, node);
+      rule_.wall_cells = count(key, node, SizeOptions::kWallCells);
     else if (key == "edge_cells")
-      rule_.edge_cells = count(key, node);
+      rule_.edge_cells = count(key, node, SizeOptions::kEdgeCells);
     else if (key == "max_aspect")
-      rule_.max_aspect = number(key, node, 1, 100);
+      rule_.max_aspect = number(key, node, SizeOptions::kMaxAspect);
     else
       fail(node, "unknown key '" + key + "' of a [[size]]; allowed are " + kKeys);
   }
@@ -88,22 +87,18 @@ class RuleReader : TomlEntry {
     rule_.is_sampled = node.as_boolean()->get();
   }
 
-  void read_alpha(const toml::node& node) {
+  double number(const std::string& key, const toml::node& node, const NumberOption& option) const {
     const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !(*value >= 0.001 && *value <= 90)) fail(node, "alpha: takes degrees in [0.001, 90]");
-    rule_.alpha_deg = *value;
-  }
-
-  double number(const std::string& key, const toml::node& node, double least, double most) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !(*value >= least && *value <= most))
-      fail(node, fmt::format("{}: takes a number in [{:g}, {:g}]", key, least, most));
+    if (!value) fail(node, key + ": takes a number in " + option.interval);
+    if (const std::string refusal = option.refusal(*value); !refusal.empty()) fail(node, key + ": " + refusal);
     return *value;
   }
 
-  int count(const std::string& key, const toml::node& node) const {
+  /// 0 is accepted, too.
+  int count(const std::string& key, const toml::node& node, const NumberOption& option) const {
     const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
-    if (!value || *value < 0 || *value > 100) fail(node, key + ": takes a whole number in [1, 100], or 0 for off");
+    if (!value || (*value != 0 && !option.refusal(static_cast<double>(*value)).empty()))
+      fail(node, key + ": takes a whole number in " + option.interval + ", or 0 for off");
     return static_cast<int>(*value);
   }
 

@@ -7,6 +7,7 @@
 #include "base/share.h"
 #include "features/strip.h"
 #include "meshing/engine/curve_tasks.h"
+#include "meshing/engine/dirty_parts.h"
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
@@ -335,31 +336,19 @@ void FaceRounds::keep_whole() {
   for (const FaceId f : dirty_faces_) whole_->faces.try_emplace(f, result_.patches[f], outcomes_[f]);
 }
 
-/// Edges and faces of the plan that refinements from this one on reach, with all faces of these edges.
+/// Edges and faces of the plan that refinements from this one on reach.
 void FaceRounds::find_dirty(std::size_t first_refinement) {
-  const ModelTables& t = tables_;
-  const EdgeMesh& edges = result_.edges;
-  std::vector<char> edge_dirty(t.n_edges(), 0), face_dirty(t.n_faces(), 0);
-  const std::vector<Refinement>& all = refinements_.all();
-  for (std::size_t r = first_refinement; r < all.size(); ++r) {
-    for (EdgeId e = 0; e < t.n_edges(); ++e)
-      for (std::int32_t i = edges.first_node(e); !edge_dirty[e] && i < edges.first_node(e) + edges.n_nodes(e); ++i)
-        edge_dirty[e] = distance(edges.node_xyz[i], all[r].x) < all[r].reach + edges.node_size[i];
-    for (FaceId f = 0; f < t.n_faces(); ++f) face_dirty[f] |= box_distance(t.face_box[f], all[r].x) < all[r].reach;
-  }
-  for (const MeshTopology::Strip& strip : topology_.strips())
-    edge_dirty[strip.closed] = edge_dirty[strip.kept] |= edge_dirty[strip.closed];
-  for (const Follower& f : followers_) edge_dirty[f.leader] |= edge_dirty[f.edge];
-  for (const Follower& f : followers_) edge_dirty[f.edge] |= edge_dirty[f.leader];
-  for (FaceId f = 0; f < t.n_faces(); ++f)
-    for (const EdgeId e : t.edges_of(f)) face_dirty[f] |= edge_dirty[e];
+  std::vector<std::pair<EdgeId, EdgeId>> followers;
+  for (const Follower& f : followers_) followers.push_back({f.edge, f.leader});
+  const DirtyParts dirty_parts =
+      find_dirty_parts(topology_, result_.edges, std::span(refinements_.all()).subspan(first_refinement), followers);
   const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {
     std::vector<std::int32_t> dirty;
     std::copy_if(plan.begin(), plan.end(), std::back_inserter(dirty), [&](std::int32_t i) { return is_dirty[i]; });
     return dirty;
   };
-  dirty_edges_ = of_plan(plan_.edges, edge_dirty);
-  dirty_faces_ = of_plan(plan_.faces, face_dirty);
+  dirty_edges_ = of_plan(plan_.edges, dirty_parts.edge);
+  dirty_faces_ = of_plan(plan_.faces, dirty_parts.face);
 }
 
 }  // namespace st

@@ -20,7 +20,7 @@ class HoleMarker {
   HoleMarker(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field,
              HoleMarkOptions options, const Executor& executor);
 
-  /// Collective. Marks anew: for the sizes with these refinements, and those triangles of `redo` (rank 0's count).
+  /// Collective. Marks again: for the sizes with these refinements, and those triangles of `redo` (rank 0's count).
   void mark_again(const Refinements& refinements, std::vector<TriangleId> redo);
   /// Local, on rank 0. A hole of the face grows by some layers of triangles, or to the whole face.
   void grow(FaceId face, std::span<const TriangleId> hole, int layers) { grow_hole(mesh_, face, hole, layers, marks_); }

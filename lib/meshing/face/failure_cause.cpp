@@ -13,7 +13,7 @@ const char* text_of(FailureCause cause) {
     case FailureCause::kCrossingLoops:
       return "its loops cross or touch in (u,v)";
     case FailureCause::kTooManyNodes:
-      return "the sizes ask for far more nodes than the face's area explains";
+      return "the sizes need far more nodes than the face's area explains";
     case FailureCause::kOutsideLoops:
       return "a triangle reaches outside its loops";
     case FailureCause::kNarrowPart:
@@ -27,14 +27,14 @@ const char* text_of(FailureCause cause) {
 const char* remedy_of(FailureCause cause) {
   switch (cause) {
     case FailureCause::kCrossingLoops:
-      return "repair its boundary in the CAD system where it crosses itself, or ask for smaller sizes there";
+      return "repair its boundary in the CAD system where it crosses itself, or use smaller sizes there";
     case FailureCause::kShortLoops:
     case FailureCause::kNarrowPart:
-      return "ask for smaller sizes there (st-raster), or remove the feature in the CAD system";
+      return "use smaller sizes there (st-raster), or remove the feature in the CAD system";
     case FailureCause::kTooManyNodes:
-      return "its surface is degenerate: export it again from the CAD system, or ask for larger sizes there";
+      return "its surface is degenerate: export it again from the CAD system, or use larger sizes there";
     default:
-      return "repair the face in the CAD system, or ask for smaller sizes there";
+      return "repair the face in the CAD system, or use smaller sizes there";
   }
 }
 

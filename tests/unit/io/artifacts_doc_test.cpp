@@ -88,8 +88,9 @@ RasterArtifact sample_raster() {
   r.faces.leaf.resize(7);
   r.faces.area.resize(7, 1);
   r.faces.plane.resize(7);
-  r.names = {std::vector<std::string>(5), std::vector<std::string>(3), {}};
+  r.edge_name.resize(5);
   r.labels = sample_labels(3);
+  r.labels.face_name.resize(3);
   r.labels.group_name = {"body", "wing"};
   r.labels.face_group = {0, 1, 0};
   r.n_not_sampled = 1;

@@ -31,7 +31,8 @@ RasterArtifact sample_raster() {
   raster.samples = sorted_samples(boxes);
   raster.faces.append_face(std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
   raster.faces.append_face({});
-  raster.names = {{"TE", ""}, {"wing", "tip"}, {}};
+  raster.edge_name = {"TE", ""};
+  raster.labels.face_name = {"wing", "tip"};
   return raster;
 }
 
@@ -46,7 +47,7 @@ SizingArtifact sample_sizing() {
   sizing.lengths = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
                            raster.octree.stored_cause, {0.2, 0.2});
   sizing.face_weight = {12.5, 0};
-  sizing.names = raster.names;
+  sizing.names = raster.cause_names();
   sizing.names.source = {"wake"};
   sizing.shape = raster.octree.shape;
   return sizing;

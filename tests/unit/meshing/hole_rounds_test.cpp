@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -129,12 +130,16 @@ TEST_P(RefilledSolid, done_again_as_a_whole_is_what_st_mesh_makes) {
 INSTANTIATE_TEST_SUITE_P(, RefilledSolid, testing::ValuesIn(test::kSolids),
                          [](const auto& info) { return std::string(info.param); });
 
-/// Cannot be asked inside the side z = 20 of the box 60 x 40 x 20 once it is armed.
+/// Inside the side z = 20 of the box 60 x 40 x 20.
+bool is_on_top(Vec3 x) { return x.z > 19.999 && x.x > 0.01 && x.x < 59.99 && x.y > 0.01 && x.y < 39.99; }
+
+/// Cannot be asked at some places once it is armed.
 class FailingField : public FinerCorner {
  public:
-  using FinerCorner::FinerCorner;
+  explicit FailingField(const ShapeMesh& solid, std::function<bool(Vec3)> fails = is_on_top)
+      : FinerCorner(solid), fails_(std::move(fails)) {}
   double size(Vec3 x, int& hint) const override {
-    if (is_armed && n_failures_left && x.z > 19.999 && x.x > 0.01 && x.x < 59.99 && x.y > 0.01 && x.y < 39.99) {
+    if (is_armed && n_failures_left && fails_(x)) {
       --n_failures_left;
       throw Error(ExitCode::kInternal, "no size here");
     }
@@ -142,7 +147,31 @@ class FailingField : public FinerCorner {
   }
   bool is_armed = false;
   mutable int n_failures_left = 1000;
+
+ private:
+  std::function<bool(Vec3)> fails_;
 };
+
+/// What st-remesh makes where no hole of a face can be filled and then the face as a whole can.
+MeshResult fill_after_failures(const ShapeMesh& solid, FailingField& field, const HoleMarkOptions& options) {
+  field.is_armed = true;
+  field.n_failures_left = 0;
+  int n_tries = 0;
+  {  // with holes that grow to the whole face
+    Marked m(solid, field, options);
+    field.n_failures_left = 1000;
+    MeshResult ignored;
+    HoleRounds(m.holes, field, {}, one_rank, ignored).run();
+    n_tries = 1000 - field.n_failures_left;
+  }
+  field.n_failures_left = 0;
+  Marked m(solid, field, options);
+  field.n_failures_left = n_tries;
+  MeshResult r = m.fill();
+  EXPECT_EQ(field.n_failures_left, 0);
+  EXPECT_TRUE(r.failures.empty());
+  return r;
+}
 
 /// The face all of whose nodes are at this height.
 FaceId face_at(const ShapeMesh& box, double z) {
@@ -186,22 +215,7 @@ TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
   const FaceId top = face_at(box, 20);
   HoleMarkOptions options;
   options.redo = {triangle_near(box, HoleMesh(box.mesh, box.model.tables()), top, {30, 20, 20})};
-  field.is_armed = true;
-  field.n_failures_left = 0;
-  const auto tries = [&] {  // with holes that grow to the whole face
-    Marked m(box, field, options);
-    field.n_failures_left = 1000;
-    MeshResult ignored;
-    HoleRounds(m.holes, field, {}, one_rank, ignored).run();
-    return 1000 - field.n_failures_left;
-  };
-  const int n_tries = tries();
-  field.n_failures_left = 0;
-  Marked m(box, field, options);
-  field.n_failures_left = n_tries;
-  const MeshResult r = m.fill();
-  EXPECT_EQ(field.n_failures_left, 0);
-  EXPECT_TRUE(r.failures.empty());
+  const MeshResult r = fill_after_failures(box, field, options);
   EXPECT_TRUE(check_topology(r.mesh).passes());
   NodeId n_kept = 0;
   for (NodeId n = 0; n < r.mesh.n_nodes(); ++n) {
@@ -221,6 +235,29 @@ TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
       EXPECT_EQ(r.mesh.node_previous[n], same->second) << "what stays on an edge keeps its number";
     }
   }
+}
+
+TEST(HoleRounds, keep_the_numbers_of_vertices_between_edges_that_change_with_a_failed_face) {
+  const ShapeMesh plate("plate_with_hole", 0.05);
+  FailingField field(plate, [](Vec3 x) {
+    return x.x > 0.01 && x.x < 59.99 && x.y > 0.01 && x.y < 39.99 && distance(x, {30, 20, 0}) > 8.1;
+  });
+  const MeshResult r = fill_after_failures(plate, field, {});
+  NodeId n_vertices = 0, n_new_on_edges = 0;
+  for (NodeId n = 0; n < r.mesh.n_nodes(); ++n) {
+    const NodeId before = r.mesh.node_previous[n];
+    n_new_on_edges += r.mesh.node_entity_dim[n] == 1 && before == kNone;
+    if (r.mesh.node_entity_dim[n] > 0) continue;
+    ++n_vertices;
+    ASSERT_NE(before, kNone);
+    EXPECT_TRUE(r.mesh.node_xyz[n] == plate.mesh.node_xyz[before]);
+  }
+  EXPECT_EQ(n_vertices, plate.model.tables().n_vertices());
+  for (EdgeId e = 0; e < r.edges.n_edges(); ++e) {
+    const std::int32_t first = r.edges.first_node(e), last = first + r.edges.n_nodes(e) - 1;
+    EXPECT_TRUE(r.edges.node_previous[first] != kNone && r.edges.node_previous[last] != kNone) << e;
+  }
+  EXPECT_GT(n_new_on_edges, 10);
 }
 
 TEST(HoleRounds, redo_old_triangles_that_new_ones_cross) {
@@ -245,18 +282,38 @@ TEST(HoleRounds, redo_old_triangles_that_new_ones_cross) {
   }
 }
 
-TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {
-  ShapeMesh box("box", 0.05);
-  const FinerCorner field(box);
-  const std::vector<char> marked = Marked(box, field).holes.marks().triangle;
-  // a node inside a face between triangles that go and such that stay
+/// A node inside a face that triangles which go and such that stay have in common; moves its (u,v) there by `move`.
+void misplace_rim_node(ShapeMesh& box, const std::vector<char>& marked, const std::function<Vec2(Vec2)>& move) {
   std::vector<char> goes(box.mesh.node_xyz.size(), 0), remains(box.mesh.node_xyz.size(), 0);
   for (std::size_t i = 0; i < marked.size(); ++i)
     for (const NodeId n : box.mesh.triangles[i].n) (marked[i] ? goes : remains)[n] = 1;
   NodeId around = 0;
   while (!(goes[around] && remains[around] && box.mesh.node_entity_dim[around] == 2)) ++around;
   for (std::size_t c = 0; c < box.mesh.corner_uv.size(); ++c)
-    if (box.mesh.triangles[c / 3].n[c % 3] == around) box.mesh.corner_uv[c] = box.mesh.corner_uv[c] + Vec2{25, 25};
+    if (box.mesh.triangles[c / 3].n[c % 3] == around) box.mesh.corner_uv[c] = move(box.mesh.corner_uv[c]);
+}
+
+TEST(HoleRounds, grow_a_hole_whose_fill_would_fold) {
+  ShapeMesh box("box", 0.05);
+  const HoleMesh old(box.mesh, box.model.tables());
+  HoleMarkOptions options = test::nothing_changes();
+  options.redo = {triangle_near(box, old, face_at(box, 20), {30, 20, 20})};
+  Vec2 middle;
+  for (int k = 0; k < 3; ++k) middle = middle + 1.0 / 3 * box.mesh.corner_uv[3 * options.redo[0] + k];
+  misplace_rim_node(box, Marked(box, box.field, options).holes.marks().triangle,
+                    [&](Vec2 uv) { return uv + 0.7 * (uv - middle); });  // over triangles that stay
+  const MeshResult r = Marked(box, box.field, options).fill();
+  EXPECT_GT(r.n_grown, 0);
+  EXPECT_TRUE(r.failures.empty());
+  EXPECT_TRUE(check_topology(r.mesh).passes());
+  EXPECT_TRUE(check_shape(r.mesh).passes());
+  EXPECT_NEAR(measure_mesh(r.mesh).area, 8800, 1e-6);
+}
+
+TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {
+  ShapeMesh box("box", 0.05);
+  const FinerCorner field(box);
+  misplace_rim_node(box, Marked(box, field).holes.marks().triangle, [](Vec2 uv) { return uv + Vec2{25, 25}; });
   const MeshResult r = Marked(box, field).fill();
   EXPECT_GT(r.n_grown, 0);
   EXPECT_TRUE(r.failures.empty());

@@ -136,7 +136,7 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
     EXPECT_LE(same->least, g.least * (1 + 1e-2)) << "growth makes lengths smaller only";
     EXPECT_NEAR(sum_of_shares(g), 1, 1e-12);
   }
-  const std::vector<std::string> lines = sampled_lines(sampled, raster.names, 12);
+  const std::vector<std::string> lines = sampled_lines(sampled, raster.cause_names(), 12);
   EXPECT_EQ(lines.size(), 1 + sampled.size());
   EXPECT_EQ(lines[0].find("triangles"), std::string::npos);
 }
