@@ -51,7 +51,7 @@ TEST(ImportRepair, makes_shells_inside_shells_voids_and_solids_in_turn) {
 
 TEST(ImportRepair, projects_a_trimming_curve_that_leaves_its_edge) {
   const ImportResult r = import_broken("off_pcurve");
-  const auto found = findings_of(r, "trimming curve off its edge, projected anew");
+  const auto found = findings_of(r, "trimming curve off its edge, projected again");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_GT(found[0].size, 0.1);
   EXPECT_LE(largest_gap(Model(r.tables, r.brep), 0), 1e-5);
@@ -73,9 +73,9 @@ TEST(ImportRepair, makes_slits_of_edges_inside_a_face_on_which_others_end) {
   EXPECT_EQ(r.n_free_edges, 3);
 }
 
-TEST(ImportRepair, keeps_the_period_and_the_pole_of_a_trimming_curve_projected_anew) {
+TEST(ImportRepair, keeps_the_period_and_the_pole_of_a_trimming_curve_projected_again) {
   const ImportResult r = import_broken("off_meridian");
-  ASSERT_EQ(findings_of(r, "trimming curve off its edge, projected anew").size(), 2u);
+  ASSERT_EQ(findings_of(r, "trimming curve off its edge, projected again").size(), 2u);
   EXPECT_EQ(r.tables.n_coedges(), 4);  // the pole among them
   EXPECT_NEAR(r.area, 50 * kPi, 1e-4);
   EXPECT_NEAR(r.tables.face_uv_bounds[1] - r.tables.face_uv_bounds[0], 0.5 * kPi, 1e-6);

@@ -27,9 +27,9 @@ double pin_volume() {
   return end + kPi * 4 * 8.8;
 }
 
-TEST(LoopRepair, makes_loops_anew_that_are_elsewhere_on_the_surface) {
+TEST(LoopRepair, rebuilds_loops_that_are_at_another_place_of_the_surface) {
   const ImportResult r = import_broken("lost_fillet");
-  const auto found = findings_of(r, "loops made anew from their edges");
+  const auto found = findings_of(r, "loops rebuilt from their edges");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(r.is_closed);
   EXPECT_NEAR(r.volume, pin_volume(), 1e-4);
@@ -40,7 +40,7 @@ TEST(LoopRepair, makes_loops_anew_that_are_elsewhere_on_the_surface) {
 
 TEST(LoopRepair, names_the_face_and_its_place) {
   const ImportResult r = import_broken("lost_fillet");
-  const auto found = findings_of(r, "loops made anew from their edges");
+  const auto found = findings_of(r, "loops rebuilt from their edges");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_repair);
   EXPECT_GT(found[0].size, 1);
@@ -51,17 +51,17 @@ TEST(LoopRepair, leaves_loops_that_are_where_they_should_be) {
   for (const char* shape :
        {"sphere", "cone", "cone_side", "torus", "drilled_cylinder", "mirrored_cylinder", "sphere_octant", "wave",
         "periodic_tube", "closed_tube", "tube_window", "rational_torus", "revolution", "extrusion", "kinked"})
-    EXPECT_TRUE(findings_of(test::import_shape(shape), "loops made anew").empty()) << shape;
+    EXPECT_TRUE(findings_of(test::import_shape(shape), "loops rebuilt from").empty()) << shape;
 }
 
 TEST(LoopRepair, leaves_a_trimming_curve_that_is_only_inaccurate_to_others) {
-  EXPECT_TRUE(findings_of(import_broken("off_pcurve"), "loops made anew").empty());
-  EXPECT_TRUE(findings_of(import_broken("off_meridian"), "loops made anew").empty());
+  EXPECT_TRUE(findings_of(import_broken("off_pcurve"), "loops rebuilt from").empty());
+  EXPECT_TRUE(findings_of(import_broken("off_meridian"), "loops rebuilt from").empty());
 }
 
 TEST(LoopRepair, leaves_a_face_whose_edges_are_not_on_its_surface) {
   const ImportResult r = import_broken("edges_elsewhere");
-  EXPECT_TRUE(findings_of(r, "loops made anew").empty());
+  EXPECT_TRUE(findings_of(r, "loops rebuilt from").empty());
   EXPECT_EQ(r.tables.n_faces(), 1);
 }
 
