@@ -1,10 +1,11 @@
 #!/bin/bash
 # What remeshing a region costs, beside making the whole mesh again on the same sizes.
 # usage: compare_remesh.sh BIN MODEL [RANKS...]       RANKS: 1 2 by default
-# "whole" is st-mesh and st-merge, "redone" st-remesh --merged: whole processes, from the same sizing to a mesh artifact. st-prolong, which
-# both need, is in neither. The least of REPEAT (3) wall times each, taken alternately, and user+system seconds of the same run.
-# Environment: SCALE of all sizes (0.3: a million triangles on a D150 half aircraft); SOURCES, lines of "x y z length radius" in the model
-# unit; FOLDER for the artifacts (removed by default).
+# "whole" is st-mesh and st-merge, "redone" st-remesh --merged: whole processes, from the same sizing to a mesh
+# artifact. st-prolong, which both need, is in neither. The least of REPEAT (3) wall times each, taken alternately, and
+# user+system seconds of the same run.
+# Environment: SCALE of all sizes (0.3: a million triangles on a D150 half aircraft); SOURCES, lines of "x y z length
+# radius" in the model unit; FOLDER for the artifacts (removed by default).
 set -eu -o pipefail
 bin=$1 model=$2
 shift 2
@@ -49,14 +50,16 @@ print(f"{before} {100 * redone / before:.1f} {100 * (after - before + redone) / 
     done | awk -v name="$1" -v shares="$shares" -v n="$n" '
       NR == 1 || $1 < whole { whole = $1; whole_cpu = $2 }
       NR == 1 || $3 < redone { redone = $3; redone_cpu = $4 }
-      END { split(shares, s); printf "%-28s %9d %8s %8s %3d %8.2f %8.2f %6.0f %% %8.2f %8.2f %6.0f %%\n", name, s[1], s[2] " %", s[3] " %", n,
-            whole, redone, 100 * redone / whole, whole_cpu, redone_cpu, 100 * redone_cpu / whole_cpu }'
+      END { split(shares, s)
+            printf "%-28s %9d %8s %8s %3d %8.2f %8.2f %6.0f %% %8.2f %8.2f %6.0f %%\n", name, s[1], s[2] " %",
+            s[3] " %", n, whole, redone, 100 * redone / whole, whole_cpu, redone_cpu, 100 * redone_cpu / whole_cpu }'
   done
 }
 
-echo "source                       triangles   redone      new  np    whole   redone    ratio   whole(cpu)  redone    ratio"
+echo "source                       triangles   redone      new  np    whole   redone    ratio   whole(cpu) redone ratio"
 while read -r x y z length radius; do
-  printf '[[source]]\nname = "p"\ntype = "point"\nat = [%s, %s, %s]\nlength = %s\nradius = %s\n' "$x" "$y" "$z" "$length" "$radius" > source.toml
+  printf '[[source]]\nname = "p"\ntype = "point"\nat = [%s, %s, %s]\nlength = %s\nradius = %s\n' "$x" "$y" "$z" \
+    "$length" "$radius" > source.toml
   "$bin/st-prolong" raster.hdf -o finer.hdf --scale "$scale" --sources source.toml -q
   compare "$x $y $z $length $radius" mesh.hdf finer.hdf
   mv once.hdf finer_mesh.hdf

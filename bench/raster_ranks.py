@@ -3,10 +3,11 @@
 
 usage: bench/raster_ranks.py [BIN_DIR] [MODEL...] [--ranks 1 2 4] [--runs 5] [-- OPTION...]
 
-Default models: two of the corpus (ST_CORPUS, default ../shared/corpus beside the repository). Wall times count only on a quiet machine. Processor times
-say what the parts cost whatever else runs: work on demand (sampling, gaps, faces) is shared out evenly, of everything else the busiest rank counts.
-The speed-up is that of the stage without its opening of the geometry, which every rank does, and without the start of mpirun, which is outside
-the stage: 0.3 to 0.6 s. The best of all runs counts. Every run must give the same raster: exit 1 otherwise.
+Default models: two of the corpus (ST_CORPUS, default ../shared/corpus beside the repository). Wall times count only on
+a quiet machine. Processor times say what the parts cost whatever else runs: work on demand (sampling, gaps, faces) is
+shared out evenly, of everything else the busiest rank counts. The speed-up is that of the stage without its opening of
+the geometry, which every rank does, and without the start of mpirun, which is outside the stage: 0.3 to 0.6 s. The best
+of all runs counts. Every run must give the same raster: exit 1 otherwise.
 """
 import argparse
 import json
@@ -37,7 +38,8 @@ def best_run(bin_dir, geometry, ranks, runs, options, folder):
     """Least wall time, least estimate from processor times with its parts, hashes."""
     walls, estimates, hashes = [], [], set()
     for _ in range(runs):
-        run = summary_of(bin_dir / "st-raster", geometry, "-o", folder / "raster.hdf", "--np", ranks, "--json", *options)
+        run = summary_of(bin_dir / "st-raster", geometry, "-o", folder / "raster.hdf", "--np", ranks, "--json",
+                         *options)
         walls.append(run["seconds"] - run["seconds_of"]["opening"])
         parts = {part: cost_of(part, seconds) for part, seconds in run["processor_seconds_of"].items()}
         estimates.append((sum(parts.values()) - parts["opening"], parts))
@@ -51,11 +53,13 @@ def measure(model, arguments, folder):
     hashes, first = set(), None
     print(f"{model.name}\n  ranks  wall s  speed-up  processor s  speed-up  parts (processor s)")
     for ranks in arguments.ranks:
-        wall, (estimate, parts), seen = best_run(arguments.bin_dir, geometry, ranks, arguments.runs, arguments.options, folder)
+        wall, (estimate, parts), seen = best_run(arguments.bin_dir, geometry, ranks, arguments.runs, arguments.options,
+                                                 folder)
         hashes |= seen
         first = first or (wall, estimate)
         text = "  ".join(f"{part} {seconds:.4f}" for part, seconds in parts.items())
-        print(f"  {ranks:5d}  {wall:6.3f}  {first[0] / wall:8.2f}  {estimate:11.3f}  {first[1] / estimate:8.2f}  {text}", flush=True)
+        print(f"  {ranks:5d}  {wall:6.3f}  {first[0] / wall:8.2f}  {estimate:11.3f}  {first[1] / estimate:8.2f}  "
+              f"{text}", flush=True)
     return len(hashes) == 1
 
 

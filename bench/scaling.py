@@ -4,8 +4,9 @@
 usage: bench/scaling.py MODEL [--bin DIR] [--triangles 100000,1000000,5000000] [--runs N] [--work DIR]
 
 Sizes are rastered once and scaled by `st-prolong --target-triangles`; then st-mesh, st-merge and st-check are measured
-(wall and processor time, the best of --runs; largest resident memory of the process). Run it on a quiet machine: the load average is printed with the table, and
-time per triangle is processor time, which other work on the machine disturbs least.
+(wall and processor time, the best of --runs; largest resident memory of the process). Run it on a quiet machine: the
+load average is printed with the table, and time per triangle is processor time, which other work on the machine
+disturbs least.
 """
 import argparse
 import json
@@ -24,7 +25,8 @@ def measure(command):
     """Processor seconds, wall seconds, largest resident memory in bytes and the JSON summary of a tool."""
     start = time.monotonic()
     with tempfile.TemporaryFile("w+") as out:
-        process = subprocess.Popen([str(c) for c in command] + ["--json"], stdout=out, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        process = subprocess.Popen([str(c) for c in command] + ["--json"], stdout=out, stderr=subprocess.PIPE,
+                                   stdin=subprocess.DEVNULL)
         errors = process.stderr.read().decode()
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -32,7 +34,8 @@ def measure(command):
         if process.returncode not in (0, 5):
             sys.exit(f"{' '.join(map(str, command))}: exit {process.returncode}: {errors}")
         out.seek(0)
-        return usage.ru_utime + usage.ru_stime, seconds, 1024 * usage.ru_maxrss, json.loads(out.read().rstrip().splitlines()[-1])
+        summary = json.loads(out.read().rstrip().splitlines()[-1])
+        return usage.ru_utime + usage.ru_stime, seconds, 1024 * usage.ru_maxrss, summary
 
 
 def best(command, runs):
@@ -54,7 +57,8 @@ def measure_size(bin_dir, work, n_wanted, runs):
 
 
 def print_table(rows):
-    print("| triangles | st-mesh, wall s | µs per triangle | bytes per triangle | st-merge s | µs | bytes | st-check s | µs | bytes | passes |")
+    print("| triangles | st-mesh, wall s | µs per triangle | bytes per triangle | st-merge s | µs | bytes | st-check s "
+          "| µs | bytes | passes |")
     print("|--:" * 10 + "|---|")
     for row in rows:
         n = row["triangles"]

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""What blanking does to the bundled example: the inside of the nacelle is made fine, and the triangles and edge lengths on its outside are
-counted without and with blanking.
+"""What blanking does to the bundled example: the inside of the nacelle is made fine, and the triangles and edge lengths
+on its outside are counted without and with blanking.
 
 usage: scripts/blanking_figures.py BIN_DIR aircraft.step|geometry.hdf [--inner LENGTH] [--lmax LENGTH] [--keep DIR]
-Two passes: the mesh made without blanking blanks the second one; the geometry is sampled once. Needs python3-vtk9. About ten seconds.
---keep DIR keeps raster.hdf and mesh.hdf of the first pass: scripts/render_sizes.sh BIN_DIR DIR IMAGE_DIR makes pictures of them.
+Two passes: the mesh made without blanking blanks the second one; the geometry is sampled once. Needs python3-vtk9.
+About ten seconds.
+--keep DIR keeps raster.hdf and mesh.hdf of the first pass: scripts/render_sizes.sh BIN_DIR DIR IMAGE_DIR makes pictures
+of them.
 """
 
 import argparse
@@ -27,7 +29,8 @@ def run(folder, tool, *arguments):
 
 
 def lengths_of(mesh, group):
-    """Number of triangles of a group, and the edge length (of the equilateral triangle as large) that half of its area stays below."""
+    """Number of triangles of a group, and the edge length (of the equilateral triangle as large) that half of its area
+    stays below."""
     corners = mesh.points[mesh.triangles[mesh.group == mesh.names.index(group)]].astype(float)
     area = 0.5 * numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     order = numpy.argsort(area)
@@ -58,7 +61,8 @@ def main():
     without = mesh_of(folder, "open.hdf", "mesh.hdf")
     run(folder, "st-prolong", "raster.hdf", "--blank", "mesh.hdf", "-o", "blanked.hdf")
     blanked = mesh_of(folder, "blanked.hdf", "mesh_blanked.hdf")
-    print("| group | triangles without | with blanking | edge of half the area without | with blanking | factor |\n|---|---|---|---|---|---|")
+    print("| group | triangles without | with blanking | edge of half the area without | with blanking | factor |\n"
+          "|---|---|---|---|---|---|")
     for group in ("nacelle_inner", "nacelle_outer"):
         (n, a), (m, b) = lengths_of(without, group), lengths_of(blanked, group)
         print(f"| {group} | {n} | {m} | {a:.4f} | {b:.4f} | {b / a:.2f} |")

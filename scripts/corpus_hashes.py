@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""Content hashes of every stage on the corpus, and of three remeshings: what a change that should change nothing must leave as it was.
+"""Content hashes of every stage on the corpus, and of three remeshings: what a change that should change nothing must
+leave as it was.
 
-usage: scripts/corpus_hashes.py BIN_DIR [--models GLOB] [--np N]                  prints one line per artifact: model, artifact, hash
-       scripts/corpus_hashes.py BIN_DIR --compare FILE [--models GLOB] [--np N]    compares with what was printed before; exit 5 on a difference
+usage: scripts/corpus_hashes.py BIN_DIR [--models GLOB] [--np N]                  prints one line per artifact: model,
+artifact, hash
+       scripts/corpus_hashes.py BIN_DIR --compare FILE [--models GLOB] [--np N]    compares with what was printed
+       before; exit 5 on a difference
 
-BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). A stage that fails is a line with its exit code.
+BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). A stage that fails is
+a line with its exit code.
 """
 import argparse
 import fnmatch
@@ -37,7 +41,8 @@ def chain(bin_dir, model, folder, ranks):
                    ("coarser", "st-prolong", [path("raster"), "--scale", "1.7"]),
                    ("remeshed_coarser", "st-remesh", [*old, path("coarser"), *ranks], "--merged")]
     for name, tool, arguments, *output in stages:
-        done = subprocess.run([f"{bin_dir}/{tool}", *arguments, *(output or ["-o"]), path(name)], capture_output=True, text=True,
+        done = subprocess.run([f"{bin_dir}/{tool}", *arguments, *(output or ["-o"]), path(name)], capture_output=True,
+                              text=True,
                               stdin=subprocess.DEVNULL)
         if done.returncode not in (OK, INCOMPLETE):
             yield name, f"exit {done.returncode}"
@@ -59,7 +64,8 @@ def main():
         lines = [line.split("\t") for line in Path(arguments.compare).read_text().splitlines()]
         before = {(model, artifact): value for model, artifact, value in lines}
     n_compared = n_different = 0
-    for model in sorted(m for m in CORPUS.iterdir() if m.suffix in SUFFIXES and fnmatch.fnmatch(m.name, arguments.models)):
+    for model in sorted(m for m in CORPUS.iterdir() if m.suffix in SUFFIXES
+                        and fnmatch.fnmatch(m.name, arguments.models)):
         with tempfile.TemporaryDirectory() as folder:
             for artifact, value in chain(arguments.bin_dir, model, Path(folder), ranks):
                 if not arguments.compare:

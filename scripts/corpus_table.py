@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""The whole chain on all CAD models of the corpus, judged by st-check and by the independent judge beside the corpus: one table.
+"""The whole chain on all CAD models of the corpus, judged by st-check and by the independent judge beside the corpus:
+one table.
 
 usage: scripts/corpus_table.py BIN_DIR [--peers] [--models GLOB] [--work DIR] [--format md|tsv] [--from-results]
 
-BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). One rank, one model at a time; per model at
-most --time-limit seconds and --memory-limit GB of address space. Seconds in the table are processor time. What was measured is kept in --work as one JSON file per model; --from-results
-prints the table from these without running anything. Exit 0 when every model was run to its check, whatever the check says, else 5.
+BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). One rank, one model
+at a time; per model at most --time-limit seconds and --memory-limit GB of address space. Seconds in the table are
+processor time. What was measured is kept in --work as one JSON file per model; --from-results prints the table from
+these without running anything. Exit 0 when every model was run to its check, whatever the check says, else 5.
 """
 import argparse
 import fnmatch
@@ -64,7 +66,8 @@ class Chain:
         if left <= 0:
             raise Stopped(f"{Path(command[0]).name}: no time left")
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=left, preexec_fn=limit, stdin=subprocess.DEVNULL)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=left, preexec_fn=limit,
+                                  stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             raise Stopped(f"{Path(command[0]).name}: time limit") from None
         return done.returncode, done.stdout, done.stderr, processor_seconds() - before
@@ -77,10 +80,13 @@ def run_model(model, arguments, folder):
     path = chain.path
     try:
         result["import"] = chain.stage("import", str(model), "-o", path("geometry"))
-        result["raster"] = chain.stage("raster", path("geometry"), "-o", path("raster"), *(PEER_SIZES if arguments.peers else []))
+        result["raster"] = chain.stage("raster", path("geometry"), "-o", path("raster"),
+                                       *(PEER_SIZES if arguments.peers else []))
         chain.stage("prolong", path("raster"), "-o", path("sizing"))
-        result["mesh"] = chain.stage("mesh", path("geometry"), path("sizing"), "-o", path("patches"), accept=(OK, INCOMPLETE))
-        result["merge"] = chain.stage("merge", path("patches"), "-o", path("mesh"), "--allow-incomplete", accept=(OK, INCOMPLETE))
+        result["mesh"] = chain.stage("mesh", path("geometry"), path("sizing"), "-o", path("patches"),
+                                     accept=(OK, INCOMPLETE))
+        result["merge"] = chain.stage("merge", path("patches"), "-o", path("mesh"), "--allow-incomplete",
+                                      accept=(OK, INCOMPLETE))
         result["check"] = chain.stage(
             "check", path("mesh"), "--geometry", path("geometry"), "--sizing", path("sizing"), accept=(OK, INCOMPLETE))
         if JUDGE.exists():
@@ -102,9 +108,11 @@ def read_peers():
 
 
 COLUMNS = ["model", "triangles"] + [f"{s} s" for s in STAGES] + [
-    "not meshed", "open (CAD)", "non-manifold (CAD)", "folds", "crossings", "judge: open/nm/folds/crossings", "min angle", "below 10°", "forced", "free", "growth free",
+    "not meshed", "open (CAD)", "non-manifold (CAD)", "folds", "crossings", "judge: open/nm/folds/crossings",
+    "min angle", "below 10°", "forced", "free", "growth free",
     "q mean",
-    "q 1 %", "jump 99.9 %", "sizes %", "inner %", "area error %", "gmsh: triangles", "gmsh s", "gmsh: below 10°", "gmsh: q mean",
+    "q 1 %", "jump 99.9 %", "sizes %", "inner %", "area error %", "gmsh: triangles", "gmsh s", "gmsh: below 10°",
+    "gmsh: q mean",
     "gmsh: jump 99.9 %", "worse than gmsh"]
 
 
@@ -117,7 +125,8 @@ def largest_area_error(check):
 def cells_of_check(check, judge):
     crossings = check["crossings"] + check["checks"]["overlaps"]["count"]
     sizes = check.get("sizes", {})
-    judged = "/".join(str(judge[k]) for k in ("boundary_edges", "nonmanifold_edges", "folds", "self_intersections")) if judge else ""
+    judged = "/".join(str(judge[k]) for k in ("boundary_edges", "nonmanifold_edges", "folds",
+                                              "self_intersections")) if judge else ""
     quality, causes = check["quality"], check.get("causes")
     return {
         "triangles": check["triangles"],
@@ -143,8 +152,10 @@ def cells_of_check(check, judge):
 
 def worse_than(peer, judge):
     """What the judge finds worse than in Gmsh's mesh, angles and neighbours only where more than rounding."""
-    bounds = {"q mean": judge["mean_q"] >= float(peer["mean_q"]) - 1e-4, "jump": judge["jump_p999"] <= float(peer["jump_p999"]) + 1e-3,
-              "below 10°": judge["below_10deg"] <= int(peer["below_10deg"]), "min angle": judge["min_angle"] >= float(peer["min_angle"]) - 0.01}
+    bounds = {"q mean": judge["mean_q"] >= float(peer["mean_q"]) - 1e-4,
+              "jump": judge["jump_p999"] <= float(peer["jump_p999"]) + 1e-3,
+              "below 10°": judge["below_10deg"] <= int(peer["below_10deg"]),
+              "min angle": judge["min_angle"] >= float(peer["min_angle"]) - 0.01}
     return ", ".join(name for name, holds in bounds.items() if not holds)
 
 
@@ -156,7 +167,8 @@ def cells_of(result, peer):
     if result.get("stopped"):
         cells["triangles"] = result["stopped"]
     if peer:
-        cells |= {"gmsh: triangles": peer.get("triangles", ""), "gmsh s": peer.get("wall_s", ""), "gmsh: below 10°": peer.get("below_10deg", ""),
+        cells |= {"gmsh: triangles": peer.get("triangles", ""), "gmsh s": peer.get("wall_s", ""),
+                  "gmsh: below 10°": peer.get("below_10deg", ""),
                   "gmsh: q mean": peer.get("mean_q", ""), "gmsh: jump 99.9 %": peer.get("jump_p999", "")}
         if result.get("judge") and peer.get("min_angle"):
             cells["worse than gmsh"] = worse_than(peer, result["judge"])
@@ -189,9 +201,11 @@ def print_causes(results):
 
 def print_free(results, n_places=10):
     """The worst places of the corpus that no cause in the CAD excuses: sharp triangles, then growth."""
-    for kind, what, sign in (("sharp", "Triangles below 10° that nothing forces", 1), ("growth", "Growth above 1.6 that nothing forces", -1)):
+    for kind, what, sign in (("sharp", "Triangles below 10° that nothing forces", 1),
+                             ("growth", "Growth above 1.6 that nothing forces", -1)):
         lists = [(r["model"], r["check"]["causes"][kind]) for r in results if (r.get("check") or {}).get("causes")]
-        places = [(sign * w["value"], model, w) for model, found in lists for w in found["worst"] if w["cause"] == "free"]
+        places = [(sign * w["value"], model, w) for model, found in lists for w in found["worst"]
+                  if w["cause"] == "free"]
         print(f"\n{what}: {sum(found['free'] for _, found in lists)}, the worst\n")
         for _, model, w in sorted(places, key=lambda p: (p[0], p[1]))[:n_places]:
             print(f"- {model}: {place_text(w)}")
@@ -238,7 +252,8 @@ def main():
     arguments = parse_arguments()
     if not CORPUS.is_dir():
         sys.exit(f"corpus not found at {CORPUS}; set ST_CORPUS")
-    models = [m for m in sorted(CORPUS.iterdir()) if m.suffix.lower() in CAD_SUFFIXES and fnmatch.fnmatch(m.name, arguments.models)]
+    models = [m for m in sorted(CORPUS.iterdir()) if m.suffix.lower() in CAD_SUFFIXES
+              and fnmatch.fnmatch(m.name, arguments.models)]
     work = Path(arguments.work)
     work.mkdir(parents=True, exist_ok=True)
     if not arguments.from_results:

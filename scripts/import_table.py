@@ -3,9 +3,10 @@
 
 usage: scripts/import_table.py BIN_DIR [--models GLOB] [--format md|tsv] [--free-edges]
 
-The corpus is ST_CORPUS (default ../shared/corpus beside the repository). A file that the index calls closed, or unsewn and closable, must come out
-closed with the same number of faces; every free edge of an open one must be listed with its place. --free-edges prints these places below the
-table. Exit 1 when a file does not fit the index, fails or takes more than --time-limit seconds (default 60), else 0.
+The corpus is ST_CORPUS (default ../shared/corpus beside the repository). A file that the index calls closed, or unsewn
+and closable, must come out closed with the same number of faces; every free edge of an open one must be listed with its
+place. --free-edges prints these places below the table. Exit 1 when a file does not fit the index, fails or takes more
+than --time-limit seconds (default 60), else 0.
 """
 import argparse
 import csv
@@ -21,7 +22,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 CORPUS = Path(os.environ.get("ST_CORPUS") or ROOT / "../shared/corpus").resolve()
 SUFFIXES = {".step", ".stp", ".iges", ".igs", ".brep", ".fli"}
-COLUMNS = ["model", "index", "import", "solids", "shells", "faces", "free edges", "non-manifold", "findings", "repairs", "seconds", "verdict"]
+COLUMNS = ["model", "index", "import", "solids", "shells", "faces", "free edges", "non-manifold", "findings", "repairs",
+           "seconds", "verdict"]
 
 
 def models(pattern):
@@ -68,8 +70,10 @@ def table_row(row, report, error, seconds):
     if report is None:
         return [row["file"], expected(row)] + [""] * 8 + [f"{seconds:.2f}", error]
     state = "closed" if report["closed"] else "open"
-    return [row["file"], expected(row), state, *(str(report[k]) for k in ("solids", "shells", "faces", "free_edges", "nonmanifold_edges")),
-            str(len(report["findings"])), str(len(report["repairs"])), f"{seconds:.2f}", verdict(row, report) or remark(row, report)]
+    return [row["file"], expected(row), state,
+            *(str(report[k]) for k in ("solids", "shells", "faces", "free_edges", "nonmanifold_edges")),
+            str(len(report["findings"])), str(len(report["repairs"])), f"{seconds:.2f}", verdict(row, report)
+            or remark(row, report)]
 
 
 def print_table(rows, style):
@@ -100,7 +104,8 @@ def main():
             rows.append(table_row(row, report, error, seconds))
             for f in (report or {"findings": []})["findings"]:
                 if f["what"] == "free edge":
-                    details.append(f"{row['file']}: {f['entity']} at ({', '.join(f'{x:.6g}' for x in f['xyz'])}), length {f['size']:.4g}")
+                    details.append(f"{row['file']}: {f['entity']} at ({', '.join(f'{x:.6g}' for x in f['xyz'])}), "
+                                   f"length {f['size']:.4g}")
     print_table(rows, args.format)
     if args.free_edges:
         print("\n" + "\n".join(details))

@@ -24,8 +24,10 @@ import vtk  # noqa: E402
 from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 # Pastel colours that stay apart from their neighbours in the list.
-PALETTE = [(0.71, 0.78, 0.86), (0.95, 0.76, 0.55), (0.60, 0.78, 0.64), (0.87, 0.60, 0.58), (0.72, 0.65, 0.83), (0.94, 0.87, 0.58),
-           (0.55, 0.75, 0.80), (0.86, 0.70, 0.78), (0.76, 0.80, 0.55), (0.65, 0.68, 0.90), (0.93, 0.66, 0.70), (0.62, 0.84, 0.78)]
+PALETTE = [(0.71, 0.78, 0.86), (0.95, 0.76, 0.55), (0.60, 0.78, 0.64), (0.87, 0.60, 0.58), (0.72, 0.65, 0.83),
+           (0.94, 0.87, 0.58),
+           (0.55, 0.75, 0.80), (0.86, 0.70, 0.78), (0.76, 0.80, 0.55), (0.65, 0.68, 0.90), (0.93, 0.66, 0.70),
+           (0.62, 0.84, 0.78)]
 
 
 def read(path):
@@ -62,7 +64,8 @@ def actor(data, colour=(0.8, 0.8, 0.8), line_width=1.0):
     return result
 
 
-SAMPLES = 2  # rendered pixels per pixel of the picture and direction: faster than multisampling in software, and lines can be thinner than a pixel
+# rendered pixels per pixel of the picture and direction: faster than multisampling in software, and lines can be thinner than a pixel
+SAMPLES = 2
 
 
 def window_of(renderer, size):
@@ -172,7 +175,8 @@ def write_png(window, path, shows=None, n_colours=256):
     width, height, _ = image.GetDimensions()
     pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width)[::-1].astype(numpy.uint8)
     table = quantise.GetLookupTable()
-    palette = b"".join(bytes(int(round(255 * c)) for c in table.GetTableValue(i)[:3]) for i in range(table.GetNumberOfTableValues()))
+    palette = b"".join(bytes(int(round(255 * c)) for c in table.GetTableValue(i)[:3])
+                       for i in range(table.GetNumberOfTableValues()))
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
 
     def chunk(kind, body):
@@ -180,6 +184,7 @@ def write_png(window, path, shows=None, n_colours=256):
 
     text = b"" if shows is None else chunk(b"tEXt", b"shows\0" + json.dumps(shows).encode())
     with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) + text + chunk(b"PLTE", palette)
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) + text +
+                  chunk(b"PLTE", palette)
                   + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
     print(f"{path}  {os.path.getsize(path) // 1000} kB")

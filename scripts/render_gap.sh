@@ -25,4 +25,5 @@ cd "$scratch"
 "$bin/st-mesh" geometry.hdf sizing.hdf -q
 "$bin/st-merge" patches.hdf -q
 "$bin/st-export" sizing.hdf -o sizing.vtu -q
-/usr/bin/python3 "$here/render_sizing.py" sizing.vtu --mesh mesh.hdf --slice $name 20 9 7.03 6 -o "$images" "${check[@]}"
+/usr/bin/python3 "$here/render_sizing.py" sizing.vtu --mesh mesh.hdf --slice $name 20 9 7.03 6 -o "$images" \
+  "${check[@]}"

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of its difficult places.
+"""Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of
+its difficult places.
 
-usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--prefix mesh] [--check] [--at NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
+usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--prefix mesh] [--check] [--at
+NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -29,7 +31,8 @@ class Mesh:
         self.group = common.cell_array(self.grid, "group").astype(int) - 1  # the artifact counts from 1
         names = self.grid.GetFieldData().GetAbstractArray("group_name")
         n_groups = int(self.group.max()) + 1
-        self.names = [names.GetValue(i) for i in range(names.GetNumberOfValues())] if names else [f"group {i}" for i in range(n_groups)]
+        self.names = [names.GetValue(i)
+                      for i in range(names.GetNumberOfValues())] if names else [f"group {i}" for i in range(n_groups)]
 
     def is_outer(self):
         """Per triangle: far field or symmetry plane."""
@@ -37,7 +40,8 @@ class Mesh:
         return flags[self.group]
 
     def nodes(self, prefix=None):
-        """Coordinates of the corners of the groups whose name starts so; None when there is no such group. Without prefix: of the walls."""
+        """Coordinates of the corners of the groups whose name starts so; None when there is no such group. Without
+        prefix: of the walls."""
         selected = ~self.is_outer()
         if prefix is not None:
             selected = numpy.array([n.startswith(prefix) for n in self.names])[self.group]
@@ -57,7 +61,8 @@ class Mesh:
         poly = vtk.vtkPolyData()
         poly.SetPoints(self.grid.GetPoints())
         poly.SetPolys(cell_list(self.triangles[selected]))
-        palette = numpy.array([OUTER_COLOUR if any(word in n.lower() for word in OUTER) else common.PALETTE[i % len(common.PALETTE)]
+        palette = numpy.array([OUTER_COLOUR if any(word in n.lower() for word in OUTER)
+                               else common.PALETTE[i % len(common.PALETTE)]
                                for i, n in enumerate(self.names)])
         colours = (255 * palette[self.group[selected]]).astype(numpy.uint8)
         array = numpy_support.numpy_to_vtk(colours, deep=1)
@@ -87,7 +92,8 @@ def cell_list(nodes):
 
 def scene(mesh, selected, edge_width):
     """Surface in the colours of its groups with the triangle edges on it."""
-    normals = vtk.vtkPolyDataNormals()  # of the cells: without them the renderer differentiates coordinates, which shows as stripes
+    # of the cells: without them the renderer differentiates coordinates, which shows as stripes
+    normals = vtk.vtkPolyDataNormals()
     normals.SetInputData(mesh.surface(selected))
     normals.ComputeCellNormalsOn()
     normals.ComputePointNormalsOff()
@@ -119,7 +125,8 @@ def in_picture(mesh, focus, direction, half_height):
 
 
 def views(mesh):
-    """name -> (focus, direction to the viewer, half height of the picture, triangles, width of their edges in pixels)."""
+    """name -> (focus, direction to the viewer, half height of the picture, triangles, width of their edges in
+    pixels)."""
     walls, everything = ~mesh.is_outer(), mesh.box()
     if everything is None:
         sys.exit("render: error: the mesh has far field and symmetry only")
@@ -150,7 +157,8 @@ def views(mesh):
 
 
 def own_view(mesh, text):
-    """NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] as (name, view): any place, seen from there along the surface's normal when no direction is given."""
+    """NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] as (name, view): any place, seen from there along the surface's normal when no
+    direction is given."""
     name, _, numbers = text.partition("=")
     values = [float(v) for v in numbers.split(",")]
     if len(values) not in (4, 7):
@@ -160,7 +168,8 @@ def own_view(mesh, text):
         corners = mesh.points[mesh.triangles]
         nearest = numpy.argmin(numpy.linalg.norm(corners.mean(axis=1) - focus, axis=1))
         direction = numpy.cross(corners[nearest, 1] - corners[nearest, 0], corners[nearest, 2] - corners[nearest, 0])
-        direction = direction / numpy.linalg.norm(direction) + 0.05  # not quite along an axis: the picture needs an upright
+        # not quite along an axis: the picture needs an upright
+        direction = direction / numpy.linalg.norm(direction) + 0.05
     return name, (focus, direction, values[3], numpy.ones(len(mesh.triangles), bool), 1.0)
 
 
@@ -169,9 +178,11 @@ def main():
     parser.add_argument("mesh", help="mesh artifact (.hdf) or its .vtu export with face and group")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     parser.add_argument("--view", action="append", help="only this view (may be repeated)")
-    parser.add_argument("--at", action="append", default=[], metavar="NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ]", help="a place of your own; only these and --view are made")
+    parser.add_argument("--at", action="append", default=[], metavar="NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ]",
+                        help="a place of your own; only these and --view are made")
     parser.add_argument("--prefix", default="mesh", help="first word of the names of the files (default: %(default)s)")
-    parser.add_argument("--check", action="store_true", help="draw nothing; exit code 1 when a picture shows another mesh")
+    parser.add_argument("--check", action="store_true",
+                        help="draw nothing; exit code 1 when a picture shows another mesh")
     options = parser.parse_args()
     mesh = Mesh(options.mesh)
     all_views = {} if options.at and not options.view else views(mesh)

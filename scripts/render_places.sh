@@ -1,6 +1,6 @@
 #!/bin/bash
-# Pictures of the difficult places (nose, wing tip, nacelle lip, fillet, sphere pole, thin wall ...), each from the chain
-# on a corpus model (ST_CORPUS; default ../shared/corpus beside the repository) with default sizes.
+# Pictures of the difficult places (nose, wing tip, nacelle lip, fillet, sphere pole, thin wall ...), each from the
+# chain on a corpus model (ST_CORPUS; default ../shared/corpus beside the repository) with default sizes.
 # usage: scripts/render_places.sh BIN_DIR IMAGE_DIR [NAME ...]      needs python3-vtk9, xvfb and xauth
 set -eu
 [ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }

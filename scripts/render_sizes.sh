@@ -1,6 +1,6 @@
 #!/bin/bash
 # Slices of the octree of a run of the bundled example with and without blanking: size, cause, and what is blanked.
-# usage: scripts/render_sizes.sh BIN_DIR RUN_DIR IMAGE_DIR      RUN_DIR: raster.hdf and mesh.hdf; needs python3-vtk9, xvfb
+# usage: scripts/render_sizes.sh BIN_DIR RUN_DIR IMAGE_DIR  RUN_DIR: raster.hdf and mesh.hdf; needs python3-vtk9, xvfb
 set -eu
 [ $# -eq 3 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)

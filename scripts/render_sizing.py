@@ -1,10 +1,14 @@
 #!/usr/bin/python3
-"""Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale, by the cause of
-the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow, orange cut, grey blanked).
+"""Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale, by the
+cause of
+the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow,
+orange cut, grey blanked).
 
-usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour] [--suffix TEXT] [--view NAME [--as NAME]] [--check] [-o docs/images]
+usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour]
+[--suffix TEXT] [--view NAME [--as NAME]] [--check] [-o docs/images]
        [--slice NAME X Y Z HALF]
---slice: a horizontal slice through a point, HALF high to either side. Else with --mesh the slices lie through the parts of the bundled example and show the body; without, in the middle of the finest cells.
+--slice: a horizontal slice through a point, HALF high to either side. Else with --mesh the slices lie through the parts
+of the bundled example and show the body; without, in the middle of the finest cells.
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -179,12 +183,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("sizing", help="octree exported as .vtu")
     parser.add_argument("--mesh", help="mesh artifact: places the slices and shows the body")
-    parser.add_argument("--by", choices=("size", "cause", "colour"), default="size", help="what colours show (default: %(default)s)")
-    parser.add_argument("--slice", nargs=5, metavar=("NAME", "X", "Y", "Z", "HALF"), help="name of the picture, point in its middle, half its height")
+    parser.add_argument("--by", choices=("size", "cause", "colour"), default="size",
+                        help="what colours show (default: %(default)s)")
+    parser.add_argument("--slice", nargs=5, metavar=("NAME", "X", "Y", "Z", "HALF"),
+                        help="name of the picture, point in its middle, half its height")
     parser.add_argument("--suffix", default="", help="added to the names of the pictures")
     parser.add_argument("--view", help="only this picture: sizing_nacelle or sizing_section")
     parser.add_argument("--as", dest="name", help="with --view or --slice: name of the file")
-    parser.add_argument("--check", action="store_true", help="draw nothing; exit code 1 when a picture shows other sizes")
+    parser.add_argument("--check", action="store_true",
+                        help="draw nothing; exit code 1 when a picture shows other sizes")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     options = parser.parse_args()
     grid = common.read(options.sizing)

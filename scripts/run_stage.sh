@@ -1,9 +1,9 @@
 #!/bin/bash
 # Runs one stage of the workflow: says what it says, keeps its wall time in OUT/log/<stage>.seconds and its last lines
 # in OUT/log/<stage>.log.
-# usage: scripts/run_stage.sh OUT STAGE COMMAND... -o|--merged ARTIFACT ...   exits as the command, which may be a launcher's
-# A stage that ends with 5 (incomplete) keeps its artifact as <name>.incomplete.hdf, which no rule trusts, unless
-# ALLOW_INCOMPLETE is 1.
+# usage: scripts/run_stage.sh OUT STAGE COMMAND... -o|--merged ARTIFACT ...   exits as the command, which may be a
+# launcher's A stage that ends with 5 (incomplete) keeps its artifact as <name>.incomplete.hdf, which no rule trusts,
+# unless ALLOW_INCOMPLETE is 1.
 set -u -o pipefail
 out=$1 stage=$2
 shift 2

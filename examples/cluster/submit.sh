@@ -1,13 +1,13 @@
 #!/bin/bash
 # Submits the chain to Slurm: one job per stage, each starting when the one before has succeeded.
-# usage: submit.sh [--remesh] [--from STAGE] VARIABLE=VALUE...    variables of make help: MODEL=wing.step TOOLS=/opt/st/bin
+# usage: submit.sh [--remesh] [--from STAGE] VARIABLE=VALUE...    variables of make help: MODEL=wing.step TOOLS=DIR
 # A failed stage cancels those that wait for it; remove the cause and submit the rest with --from STAGE.
 set -eu -o pipefail
 here=$(dirname "$(realpath "$0")")
 workflow=$(realpath "$here/../../Makefile.workflow")
 
-# What is requested from sbatch: edit it for your cluster and model. The ranks of st-raster, st-mesh and st-remesh are the
-# tasks of their jobs; the other stages have one task.
+# What is requested from sbatch: edit it for your cluster and model. The ranks of st-raster, st-mesh and st-remesh are
+# the tasks of their jobs; the other stages have one task.
 resources_of() {
   case $1 in
     st-raster | st-mesh | st-remesh) echo --nodes=2 --ntasks-per-node=32 --time=02:00:00 ;;

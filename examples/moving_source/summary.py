@@ -16,7 +16,8 @@ def last_line(path):
 def facts(results, step):
     check, remesh = last_line(results / f"check_{step}.json"), last_line(results / f"remesh_{step}.json")
     sizes = check.get("sizes", {}).get("free", {}).get("share", float("nan"))
-    return check["triangles"], check["quality"]["mean"], check["quality"]["p1"], sizes, remesh.get("triangles_redone", 0), remesh.get("seconds", 0)
+    redone, seconds = remesh.get("triangles_redone", 0), remesh.get("seconds", 0)
+    return check["triangles"], check["quality"]["mean"], check["quality"]["p1"], sizes, redone, seconds
 
 
 def main(results, n_steps):

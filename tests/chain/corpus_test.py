@@ -1,5 +1,6 @@
-"""The chain with no option but the file name, on real CAD files (ST_CORPUS, by default ../shared/corpus beside the repository): a mesh that
-passes st-check and, where it is there, the independent judge ../tools/meshcheck.sh beside the corpus."""
+"""The chain with no option but the file name, on real CAD files (ST_CORPUS, by default ../shared/corpus beside the
+repository): a mesh that passes st-check and, where it is there, the independent judge ../tools/meshcheck.sh beside the
+corpus."""
 import os
 import subprocess
 import sys
@@ -32,7 +33,8 @@ class Corpus(ToolTest):
         if not judge.exists():
             print(f"SKIPPED: judge not found beside the corpus, {name} was checked by st-check alone", flush=True)
             return
-        done = subprocess.run([judge, folder / "mesh.hdf", "--cad", CORPUS / name], capture_output=True, text=True, timeout=600)
+        done = subprocess.run([judge, folder / "mesh.hdf", "--cad", CORPUS / name], capture_output=True, text=True,
+                              timeout=600)
         self.assertEqual(done.returncode, 0, f"{name}: {done.stdout} {done.stderr}")
 
 

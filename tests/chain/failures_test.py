@@ -1,4 +1,5 @@
-"""A face that nobody can mesh: named, shown in an artifact of its own, whatever the number of ranks; the others are meshed."""
+"""A face that nobody can mesh: named, shown in an artifact of its own, whatever the number of ranks; the others are
+meshed."""
 import math
 import re
 import struct
@@ -20,7 +21,8 @@ def vtu_arrays(path):
     arrays = {}
     for kind, name, offset in re.findall(r'type="(\w+)" Name="(\w+)" .*?offset="(\d+)"', head.decode()):
         (n_bytes,) = struct.unpack_from("<Q", block, int(offset))
-        arrays[name] = struct.unpack_from(f"<{n_bytes // struct.calcsize(CODES[kind])}{CODES[kind]}", block, int(offset) + 8)
+        arrays[name] = struct.unpack_from(f"<{n_bytes // struct.calcsize(CODES[kind])}{CODES[kind]}", block,
+                                          int(offset) + 8)
     return arrays
 
 
@@ -32,7 +34,8 @@ class Failures(ToolTest):
 
     def mesh(self, name="patches.hdf", n_ranks=1, *options):
         ranks = ["--np", n_ranks] if n_ranks > 1 else []
-        return Run("st-mesh", self.folder / "geometry.hdf", self.folder / "sizing.hdf", "-o", self.folder / name, "--json", *ranks, *options)
+        return Run("st-mesh", self.folder / "geometry.hdf", self.folder / "sizing.hdf", "-o", self.folder / name,
+                   "--json", *ranks, *options)
 
     def test_a_crossed_loop_is_named_with_cause_remedy_and_place_and_the_job_goes_on(self):
         self.sizes_of("crossed_loop.brep")

@@ -1,4 +1,5 @@
-"""Half models and far fields: the mesh of the fluid is one closed mesh, with small triangles on the body and large ones far from it."""
+"""Half models and far fields: the mesh of the fluid is one closed mesh, with small triangles on the body and large ones
+far from it."""
 import sys
 import unittest
 from pathlib import Path
@@ -20,7 +21,8 @@ class Half(ToolTest):
         for k, (model, options) in enumerate(DOMAINS):
             with self.subTest(model=model, options=options):
                 folder = make_chain(MODELS / model, self.folder / str(k), import_options=options)
-                check = must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing", folder / "sizing.hdf", "--json")
+                check = must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                             folder / "sizing.hdf", "--json")
                 self.assertLess(check.json()["triangles"], 60000)
 
 

@@ -1,4 +1,5 @@
-"""The chain with no option but the file name, on every test model: a mesh that passes, and invariants that geometry gives."""
+"""The chain with no option but the file name, on every test model: a mesh that passes, and invariants that geometry
+gives."""
 import math
 import struct
 import sys
@@ -8,7 +9,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import INCOMPLETE, MODELS, Run, ToolTest, artifacts_of, content_hash, make_chain, must  # noqa: E402
 
-CLOSED = ["box", "box_inch", "sphere", "cylinder", "cone", "torus", "block_with_hole", "thin_plate", "two_boxes", "assembly"]
+CLOSED = ["box", "box_inch", "sphere", "cylinder", "cone", "torus", "block_with_hole", "thin_plate", "two_boxes",
+          "assembly"]
 
 
 def stl_volume_and_area(path):
@@ -32,7 +34,8 @@ class Models(ToolTest):
     def test_every_closed_model_passes_the_check(self):
         for name in CLOSED:
             folder = artifacts_of(name)
-            must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing", folder / "sizing.hdf")
+            must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                 folder / "sizing.hdf")
 
     def test_open_plate_passes_the_check_with_its_geometry(self):
         folder = artifacts_of("plate_with_hole")
@@ -103,8 +106,10 @@ class Options(ToolTest):
 
     def test_turning_along_edges_is_bounded(self):
         coarse = ["--lmin", "20%", "--lmax", "30%", "--alpha", "90"]
-        few = make_chain(MODELS / "cylinder.brep", self.folder / "few", raster_options=coarse, mesh_options=["--max-turning", "60"])
-        many = make_chain(MODELS / "cylinder.brep", self.folder / "many", raster_options=coarse, mesh_options=["--max-turning", "5"])
+        few = make_chain(MODELS / "cylinder.brep", self.folder / "few", raster_options=coarse,
+                         mesh_options=["--max-turning", "60"])
+        many = make_chain(MODELS / "cylinder.brep", self.folder / "many", raster_options=coarse,
+                          mesh_options=["--max-turning", "5"])
         self.assertGreater(self.n_triangles(many), self.n_triangles(few))
 
 

@@ -1,4 +1,5 @@
-"""Parts of a model meshed apart fit: the edge nodes of the first are given to the others, and the merged mesh is that of one run."""
+"""Parts of a model meshed apart fit: the edge nodes of the first are given to the others, and the merged mesh is that
+of one run."""
 import sys
 import unittest
 from pathlib import Path

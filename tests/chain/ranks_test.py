@@ -33,7 +33,8 @@ class Ranks(ToolTest):
         hashes = set()
         for n_ranks in (1, 2, 3):
             patches, mesh = self.folder / f"p{n_ranks}.hdf", self.folder / f"m{n_ranks}.hdf"
-            must("st-remesh", a / "mesh.hdf", a / "geometry.hdf", self.folder / "finer.hdf", "-o", patches, "--np", n_ranks)
+            must("st-remesh", a / "mesh.hdf", a / "geometry.hdf", self.folder / "finer.hdf", "-o", patches, "--np",
+                 n_ranks)
             must("st-merge", patches, "-o", mesh)
             must("st-check", mesh, "--geometry", a / "geometry.hdf")
             hashes.add(content_hash(mesh))

@@ -1,4 +1,4 @@
-"""st-remesh over the chain: a local change is redone locally, at any number of ranks, and what is kept is kept to the bit."""
+"""st-remesh over the chain: a local change remeshes locally, at any number of ranks; the rest stays to the bit."""
 import os
 import re
 import subprocess
@@ -45,12 +45,15 @@ class LocalChange(ToolTest):
 
     def test_marks_and_mesh_of_a_single_face_are_equal_at_np_1_2_3_5(self):
         sphere = make_chain(MODELS / "sphere.brep", self.folder / "sphere")
-        (self.folder / "poles.toml").write_text(SOURCE.format(0, 0, 10, "0.8%", "8%") + SOURCE.format(10, 0, 0, "0.8%", "8%"))
-        must("st-prolong", sphere / "raster.hdf", "-o", self.folder / "poles.hdf", "--sources", self.folder / "poles.toml")
+        (self.folder / "poles.toml").write_text(SOURCE.format(0, 0, 10, "0.8%", "8%") +
+                                                SOURCE.format(10, 0, 0, "0.8%", "8%"))
+        must("st-prolong", sphere / "raster.hdf", "-o", self.folder / "poles.hdf", "--sources",
+             self.folder / "poles.toml")
         results = set()
         for n_ranks in (1, 2, 3, 5):
             mesh = self.folder / f"sphere{n_ranks}.hdf"
-            facts = must("st-remesh", sphere / "mesh.hdf", sphere / "geometry.hdf", self.folder / "poles.hdf", "--merged", mesh, "--np", n_ranks, "--json").json()
+            facts = must("st-remesh", sphere / "mesh.hdf", sphere / "geometry.hdf", self.folder / "poles.hdf",
+                         "--merged", mesh, "--np", n_ranks, "--json").json()
             results.add((content_hash(mesh), facts["marks_hash"], facts["triangles_redone"]))
             must("st-check", mesh, "--geometry", sphere / "geometry.hdf", "--sizing", self.folder / "poles.hdf")
         self.assertEqual(len(results), 1)
@@ -61,7 +64,8 @@ class LocalChange(ToolTest):
         sizing = self.size("source")
         mesh, first = self.remesh(self.chain / "mesh.hdf", sizing, "first")
         _, second = self.remesh(mesh, sizing, "second")
-        self.assertLess(second["triangles_redone"], 0.1 * (first["triangles_redone"] + first["triangles"] - first["triangles_before"]))
+        self.assertLess(second["triangles_redone"],
+                        0.1 * (first["triangles_redone"] + first["triangles"] - first["triangles_before"]))
 
     def test_refining_and_taking_back_returns_to_the_number_of_triangles(self):
         mesh, refined = self.remesh(self.chain / "mesh.hdf", self.size("source"), "refined")
@@ -79,7 +83,8 @@ class LocalChange(ToolTest):
         self.assertEqual(must("st-remesh", *inputs, "--keep", "default").json()["triangles_redone"], 0)
 
     def test_keeping_a_group_that_is_none_is_a_usage_error(self):
-        run = Run("st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "--dry-run", "--keep", "no such group")
+        run = Run("st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "--dry-run", "--keep",
+                  "no such group")
         self.assertEqual(run.code, USAGE, str(run))
         self.assertIn("no such group", run.err)
 
@@ -92,7 +97,8 @@ class LocalChange(ToolTest):
         sizing = self.size("source")
         mesh, _ = self.remesh(self.chain / "mesh.hdf", sizing, "by_merge")
         for n_ranks in (1, 2, 3):
-            must("st-remesh", self.chain / "mesh.hdf", self.geometry, sizing, "--merged", self.folder / "merged.hdf", "--np", n_ranks)
+            must("st-remesh", self.chain / "mesh.hdf", self.geometry, sizing, "--merged", self.folder / "merged.hdf",
+                 "--np", n_ranks)
             self.assertEqual(content_hash(self.folder / "merged.hdf"), content_hash(mesh))
 
     def test_ten_steps_of_a_moving_source_do_not_drift(self):
@@ -106,12 +112,14 @@ class LocalChange(ToolTest):
         """A .vtu with these lengths as point data; only that part of it is read."""
         text = "\n".join(str(v) for v in values)
         path = self.folder / "lengths.vtu"
-        path.write_text(f'<VTKFile><PointData><DataArray type="Float64" Name="h" format="ascii">{text}</DataArray></PointData></VTKFile>')
+        path.write_text(f'<VTKFile><PointData><DataArray type="Float64" Name="h" '
+                        f'format="ascii">{text}</DataArray></PointData></VTKFile>')
         return f"{path}:h"
 
     def remesh_on_nodes(self, lengths):
         mesh = self.folder / "on_nodes.hdf"
-        run = Run("st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "--merged", mesh, "--sizes-on-nodes", lengths, "--json")
+        run = Run("st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "--merged", mesh,
+                  "--sizes-on-nodes", lengths, "--json")
         return run, mesh
 
     def test_lengths_on_nodes_refine_and_coarsen(self):
@@ -135,13 +143,15 @@ class LocalChange(ToolTest):
     def test_bad_lengths_on_nodes_are_refused_and_nothing_is_written(self):
         n = must("st-check", self.chain / "mesh.hdf", "--json").json()["nodes"]
         good = [1.0] * n
-        for bad, expected in [(good[1:], f"has {n - 1} values"), (["nan"] + good[1:], "is nan at node 0"), (good[1:] + [-1], f"is -1 at node {n - 1}"),
+        for bad, expected in [(good[1:], f"has {n - 1} values"), (["nan"] + good[1:], "is nan at node 0"),
+                              (good[1:] + [-1], f"is -1 at node {n - 1}"),
                               (good[1:] + ["inf"], "is inf")]:
             run, mesh = self.remesh_on_nodes(self.node_sizes(bad))
             self.assertEqual(run.code, INPUT, str(run))
             self.assertIn(expected, run.err)
             self.assertFalse(mesh.exists())
-        for lengths, code in [("lengths.vtu", USAGE), (f"{self.chain / 'mesh.hdf'}:nothing", INPUT), (f"{self.folder / 'missing.vtu'}:h", INPUT)]:
+        for lengths, code in [("lengths.vtu", USAGE), (f"{self.chain / 'mesh.hdf'}:nothing", INPUT),
+                              (f"{self.folder / 'missing.vtu'}:h", INPUT)]:
             run, mesh = self.remesh_on_nodes(lengths)
             self.assertEqual(run.code, code, str(run))
             self.assertFalse(mesh.exists())
@@ -150,9 +160,11 @@ class LocalChange(ToolTest):
         """The block with its end at x = 60 moved, and a chain of its own."""
         def moved(match):
             x = [float(v) for v in match.group(1).split(",")]
-            return match.group(0) if len(x) != 3 or x[0] < 50 else f"CARTESIAN_POINT('',({x[0] + by!r},{x[1]!r},{x[2]!r}))"
+            is_moved = len(x) == 3 and x[0] >= 50
+            return f"CARTESIAN_POINT('',({x[0] + by!r},{x[1]!r},{x[2]!r}))" if is_moved else match.group(0)
         model = self.folder / "moved.step"
-        model.write_text(re.sub(r"CARTESIAN_POINT\(''\s*,\s*\(([^)]*)\)\)", moved, (MODELS / "block_with_hole.step").read_text()))
+        model.write_text(re.sub(r"CARTESIAN_POINT\(''\s*,\s*\(([^)]*)\)\)", moved,
+                                (MODELS / "block_with_hole.step").read_text()))
         return make_chain(model, self.folder / "moved", raster_options=["--lmax", "3%"])
 
     def test_a_mesh_follows_its_geometry(self):
@@ -162,8 +174,10 @@ class LocalChange(ToolTest):
         self.assertEqual(run.code, MISMATCH, str(run))
         facts = must("st-remesh", *inputs, "--moved", "--merged", self.folder / "m.hdf", "--json").json()
         self.assertLess(facts["triangles_redone"], 0.5 * facts["triangles_before"])
-        must("st-check", self.folder / "m.hdf", "--geometry", moved / "geometry.hdf", "--sizing", moved / "sizing.hdf", "--min-size-share", "0.95")
-        self.assertEqual(content_hash(self.remesh_moved(self.geometry, self.chain / "sizing.hdf")), content_hash(self.chain / "mesh.hdf"))
+        must("st-check", self.folder / "m.hdf", "--geometry", moved / "geometry.hdf", "--sizing", moved / "sizing.hdf",
+             "--min-size-share", "0.95")
+        self.assertEqual(content_hash(self.remesh_moved(self.geometry, self.chain / "sizing.hdf")),
+                         content_hash(self.chain / "mesh.hdf"))
 
     def remesh_moved(self, geometry, sizing):
         must("st-remesh", self.chain / "mesh.hdf", geometry, sizing, "--moved", "--merged", self.folder / "again.hdf")
@@ -172,7 +186,8 @@ class LocalChange(ToolTest):
     def test_a_geometry_of_other_topology_is_no_moved_one(self):
         for model, expected in (("box.step", "6 faces"), ("plate_with_hole.brep", "1 faces")):
             other = make_chain(MODELS / model, self.folder / model)
-            run = Run("st-remesh", self.chain / "mesh.hdf", other / "geometry.hdf", other / "sizing.hdf", "--moved", "--merged", self.folder / "m.hdf")
+            run = Run("st-remesh", self.chain / "mesh.hdf", other / "geometry.hdf", other / "sizing.hdf", "--moved",
+                      "--merged", self.folder / "m.hdf")
             self.assertEqual(run.code, MISMATCH, str(run))
             self.assertIn(expected, run.err)
             self.assertFalse((self.folder / "m.hdf").exists())
@@ -214,7 +229,8 @@ class Aircraft(ToolTest):
         (self.folder / "sources.toml").write_text(SOURCES)
         sizing, mesh, fresh = (self.folder / f"{n}.hdf" for n in ("sizing", "mesh", "fresh"))
         must("st-prolong", self.chain / "raster.hdf", "-o", sizing, "--sources", self.folder / "sources.toml")
-        facts = must("st-remesh", self.chain / "mesh.hdf", self.chain / "geometry.hdf", sizing, "--merged", mesh, "--json").json()
+        facts = must("st-remesh", self.chain / "mesh.hdf", self.chain / "geometry.hdf", sizing, "--merged", mesh,
+                     "--json").json()
         self.assertGreater(facts["triangles_redone"], 0.01 * facts["triangles_before"])
         self.assertLess(facts["triangles_redone"], 0.3 * facts["triangles_before"])
         must("st-mesh", self.chain / "geometry.hdf", sizing, "-o", self.folder / "patches.hdf")

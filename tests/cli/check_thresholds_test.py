@@ -45,7 +45,8 @@ class Thresholds(ToolTest):
 
     def test_numbers_of_accepted_defects_reach_their_checks(self):
         checks = self.expect(OK, [], "--max-folds", 3, "--max-crossings", 5).json()["checks"]
-        self.assertEqual([checks[name]["allowed"] for name in ("folds", "crossings", "overlaps", "closed")], [3, 5, 5, 0])
+        self.assertEqual([checks[name]["allowed"] for name in ("folds", "crossings", "overlaps", "closed")],
+                         [3, 5, 5, 0])
 
     def test_free_sharp_triangles_decide_below_the_angle_asked_for(self):
         self.expect(OK, [], "--max-free-sharp", 0)
@@ -57,12 +58,14 @@ class Thresholds(ToolTest):
 
     def test_threshold_without_its_input_is_2(self):
         mesh = self.inputs[0]
-        for option, value, needed in [("max-free-sharp", 0, "--geometry"), ("min-size-share", 0.5, "--sizing"), ("max-deviation", 1, "--geometry"), ("max-normal-deviation", 9, "--geometry")]:
+        for option, value, needed in [("max-free-sharp", 0, "--geometry"), ("min-size-share", 0.5, "--sizing"),
+                                      ("max-deviation", 1, "--geometry"), ("max-normal-deviation", 9, "--geometry")]:
             self.expect_error(USAGE, "st-check", mesh, f"--{option}", value, says=[f"--{option}", needed])
 
     def test_deviation_in_a_unit_the_model_does_not_have_is_2(self):
         cylinder = artifacts_of("cylinder")
-        self.expect_error(USAGE, "st-check", cylinder / "mesh.hdf", "--geometry", cylinder / "geometry.hdf", "--max-deviation", "1mm", says="--max-deviation")
+        self.expect_error(USAGE, "st-check", cylinder / "mesh.hdf", "--geometry", cylinder / "geometry.hdf",
+                          "--max-deviation", "1mm", says="--max-deviation")
 
 
 
@@ -70,7 +73,8 @@ class Report(ToolTest):
     def test_report_has_model_groups_and_faces_with_histograms(self):
         good = artifacts_of("cylinder")
         path = self.folder / "report.json"
-        run = must("st-check", good / "mesh.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf", "--report", path, "--json")
+        run = must("st-check", good / "mesh.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf",
+                   "--report", path, "--json")
         report = json.loads(path.read_text())
         n = report["triangles"]
         self.assertEqual(n, run.json()["triangles"])
@@ -86,7 +90,8 @@ class Report(ToolTest):
 
     def test_unwritable_report_is_6_and_leaves_nothing(self):
         mesh = artifacts_of("cylinder") / "mesh.hdf"
-        self.expect_error(OUTPUT, "st-check", mesh, "--report", self.folder / "none" / "report.json", says="report.json")
+        self.expect_error(OUTPUT, "st-check", mesh, "--report", self.folder / "none" / "report.json",
+                          says="report.json")
         self.expect_nothing_left(self.folder)
 
     def test_report_over_the_mesh_is_2(self):

@@ -51,14 +51,16 @@ class PutTogether(EditTest):
             self.assertAlmostEqual(facts[what] / sum(p[what] for p in parts), 1, delta=1e-9, msg=what)
         check = self.mesh(self.folder / "edited.hdf")
         self.assertAlmostEqual(check["volume"] / facts["volume"], 1, delta=0.01)
-        must("st-edit", self.folder / "edited.hdf", "-o", self.folder / "again.hdf", "--extract", "input:box", "--require-valid")
+        must("st-edit", self.folder / "edited.hdf", "-o", self.folder / "again.hdf", "--extract", "input:box",
+             "--require-valid")
         self.assertEqual(must("st-info", self.folder / "again.hdf", "--json").json()["counts"]["faces"], 6)
 
     def test_info_says_what_it_was_made_of(self):
         self.edit(self.box, self.block)
         info = must("st-info", self.folder / "edited.hdf", "--json").json()
         self.assertEqual([(i["role"], i["name"], i["hash"], i["faces"]) for i in info["inputs"]],
-                         [("geometry", "box.hdf", content_hash(self.box), 6), ("geometry", "block.hdf", content_hash(self.block), 7)])
+                         [("geometry", "box.hdf", content_hash(self.box), 6),
+                          ("geometry", "block.hdf", content_hash(self.block), 7)])
         self.assertIn("(7 faces)", must("st-info", self.folder / "edited.hdf").out)
 
     def test_bodies_in_each_other_are_said_and_refused_on_demand(self):
@@ -67,15 +69,18 @@ class PutTogether(EditTest):
         self.assertIn("warning: ", run.err)
         self.assertIn("parts cross", run.err)
         self.assertGreater(len(run.json()["crossings"]), 0)
-        self.expect_error(GEOMETRY, "st-edit", self.box, self.block, "-o", self.folder / "y.hdf", *move, "--require-valid", says="parts cross")
+        self.expect_error(GEOMETRY, "st-edit", self.box, self.block, "-o", self.folder / "y.hdf", *move,
+                          "--require-valid", says="parts cross")
         self.assertFalse((self.folder / "y.hdf").exists())
 
     def test_other_units_are_7_and_name_both_files(self):
         must("st-import", MODELS / "box_inch.step", "-o", self.folder / "inch.hdf")
-        self.expect_error(MISMATCH, "st-edit", self.box, self.folder / "inch.hdf", "-o", self.folder / "x.hdf", says=["box.hdf", "inch.hdf is in in", "--unit"])
+        self.expect_error(MISMATCH, "st-edit", self.box, self.folder / "inch.hdf", "-o", self.folder / "x.hdf",
+                          says=["box.hdf", "inch.hdf is in in", "--unit"])
 
     def test_names_given_take_the_place_of_those_of_files(self):
-        facts = self.edit(self.box, self.box, "--as", "right,left", "--of", "left", "--transform", "mirror 1 0 0 at -1 0 0")
+        facts = self.edit(self.box, self.box, "--as", "right,left", "--of", "left", "--transform",
+                          "mirror 1 0 0 at -1 0 0")
         self.assertEqual([i["name"] for i in facts["inputs"]], ["right", "left"])
         self.assertEqual(facts["moved_faces"], 6)
         self.assertEqual(facts["crossings"], [])
@@ -117,8 +122,10 @@ class TakeOut(EditTest):
         self.assertAlmostEqual(check["volume"] / facts["volume"], 1, delta=0.02)
 
     def test_errors_say_what_to_do_and_leave_nothing(self):
-        refused = [(USAGE, ["--extract", "blok"], "did you mean 'block'"), (USAGE, ["--remove", "1-12"], "nothing would be left"),
-                   (USAGE, ["--extract", "13"], "faces 1 to 12"), (GEOMETRY, ["--of", "1", "--transform", "translate 1 0 0"], "would tear"),
+        refused = [(USAGE, ["--extract", "blok"], "did you mean 'block'"),
+                   (USAGE, ["--remove", "1-12"], "nothing would be left"),
+                   (USAGE, ["--extract", "13"], "faces 1 to 12"),
+                   (GEOMETRY, ["--of", "1", "--transform", "translate 1 0 0"], "would tear"),
                    (USAGE, ["--remove", "block", "--of", "block", "--transform", "scale 2"], "nothing is left to move"),
                    (GEOMETRY, ["--remove", "1", "--require-valid"], "open where it was closed")]
         for code, arguments, text in refused:
@@ -126,7 +133,8 @@ class TakeOut(EditTest):
         self.expect_nothing_left(self.folder)
 
     def test_options_of_pairs_may_stand_in_a_file(self):
-        (self.folder / "o.toml").write_text('transform = ["translate 0 0 99", "scale 2"]\nof = ["block", "pin,pin_mantle"]\n')
+        (self.folder / "o.toml").write_text('transform = ["translate 0 0 99", "scale 2"]\nof = ["block", '
+                                            '"pin,pin_mantle"]\n')
         self.assertEqual(self.edit(self.assembly, "--options", self.folder / "o.toml")["moved_faces"], 12)
 
 
@@ -140,7 +148,8 @@ class Move(EditTest):
         original = artifacts_of("block_with_hole") / "geometry.hdf"
         before = self.edit(original)
         self.edit(original, "--transform", "hinge 0 0 0 1 2 3 40; scale 3", name="there.hdf")
-        back = self.edit(self.folder / "there.hdf", "--transform", "scale 3e-1; scale 1.1111111111111111; hinge 1 2 3 0 0 0 40")
+        back = self.edit(self.folder / "there.hdf", "--transform",
+                         "scale 3e-1; scale 1.1111111111111111; hinge 1 2 3 0 0 0 40")
         for what in ("area", "volume"):
             self.assertAlmostEqual(back[what] / before[what], 1, delta=1e-9)
 
@@ -151,14 +160,17 @@ class Move(EditTest):
         self.assertAlmostEqual(check["volume"] / facts["volume"], 1, delta=0.01)
 
     def test_a_flap_turns_about_its_hinge_and_the_mesh_follows(self):
-        done = subprocess.run([EXAMPLE, MODELS / "wing_with_flap.step", self.folder, BIN], capture_output=True, text=True, timeout=300)
+        done = subprocess.run([EXAMPLE, MODELS / "wing_with_flap.step", self.folder, BIN], capture_output=True,
+                              text=True, timeout=300)
         self.assertEqual(done.returncode, OK, done)
         self.assertNotIn("warning", done.stderr)
         before, after = [must("st-check", self.folder / m, "--json").json() for m in ("mesh.hdf", "turned_mesh.hdf")]
         self.assertAlmostEqual(after["volume"] / before["volume"], 1, delta=0.01)
-        facts = must("st-remesh", self.folder / "mesh.hdf", self.folder / "turned.hdf", self.folder / "turned_sizing.hdf", "--moved", "--dry-run", "--json").json()
+        facts = must("st-remesh", self.folder / "mesh.hdf", self.folder / "turned.hdf",
+                     self.folder / "turned_sizing.hdf", "--moved", "--dry-run", "--json").json()
         self.assertLess(facts["triangles_redone"], 0.6 * facts["triangles_before"])
-        self.expect_error(MISMATCH, "st-check", self.folder / "turned_mesh.hdf", "--geometry", self.folder / "geometry.hdf")
+        self.expect_error(MISMATCH, "st-check", self.folder / "turned_mesh.hdf", "--geometry",
+                          self.folder / "geometry.hdf")
 
 
 class Raster(EditTest):
@@ -176,7 +188,8 @@ class Raster(EditTest):
         """What STEPS do to points."""
         angle, (x, y, z) = math.radians(40), (v / math.sqrt(14) for v in (1, 2, 3))
         c, s = math.cos(angle), math.sin(angle)
-        rows = [[c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s], [y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s],
+        rows = [[c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s],
+                [y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s],
                 [z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)]]
         turned = [[sum(r[k] * p[k] for k in range(3)) for r in rows] for p in points]
         return [[-2.5 * t[0] + 7, 2.5 * t[1] - 8, 2.5 * t[2] + 9] for t in turned]
@@ -185,19 +198,22 @@ class Raster(EditTest):
         """The mesh of the block as it is, and moved."""
         must("st-export", self.good / "mesh.hdf", "-o", self.folder / "here.ascii.stl")
         text = (self.folder / "here.ascii.stl").read_text()
-        moved = re.sub(r"vertex (\S+) (\S+) (\S+)", lambda m: "vertex " + " ".join(map(repr, self.move([[float(v) for v in m.groups()]])[0])), text)
+        moved = re.sub(r"vertex (\S+) (\S+) (\S+)", lambda m: "vertex " +
+                       " ".join(map(repr, self.move([[float(v) for v in m.groups()]])[0])), text)
         (self.folder / "there.ascii.stl").write_text(moved)
         return [["--blank", self.folder / f"{name}.ascii.stl"] for name in ("here", "there")]
 
     def sizes(self, points, *options):
         (self.folder / "points.csv").write_text("".join(",".join(map(repr, p)) + "\n" for p in points))
-        must("st-prolong", self.good / "raster.hdf", "-o", self.folder / "s.hdf", "--sample", self.folder / "points.csv", "--sample-output", self.folder / "sizes.csv", *options)
+        must("st-prolong", self.good / "raster.hdf", "-o", self.folder / "s.hdf", "--sample",
+             self.folder / "points.csv", "--sample-output", self.folder / "sizes.csv", *options)
         with open(self.folder / "sizes.csv") as f:
             return [float(row["length"]) for row in csv.DictReader(f)]
 
     def test_lengths_move_and_scale_with_the_geometry_sources_and_blanking_too(self):
         points = [[x, y, z] for x in (-3.0, 20.5, 61.0) for y in (1.5, 19.0, 41.0) for z in (-2.0, 10.25, 22.0)]
-        (self.folder / "s.toml").write_text('[[source]]\nname = "p"\ntype = "point"\nat = [20, 20, 22]\nlength = 0.2\nradius = 1\n')
+        (self.folder / "s.toml").write_text('[[source]]\nname = "p"\ntype = "point"\nat = [20, 20, 22]\nlength = 0.2\n'
+                                            'radius = 1\n')
         source = ["--sources", self.folder / "s.toml"]
         for here, there in (([], []), (source, [*source, "--transform", self.STEPS]), self.blanks()):
             before = self.sizes(points, *here)
@@ -212,26 +228,33 @@ class Raster(EditTest):
         before = must("st-check", self.good / "mesh.hdf", "--json").json()
         self.assertAlmostEqual(moved["triangles"] / before["triangles"], 1, delta=0.03)
         self.assertAlmostEqual(moved["area"] / (2.5**2 * before["area"]), 1, delta=0.001)
-        self.assertEqual(must("st-info", self.folder / "moved.hdf", "--json").json()["geometry_hash"], content_hash(self.there))
+        self.assertEqual(must("st-info", self.folder / "moved.hdf", "--json").json()["geometry_hash"],
+                         content_hash(self.there))
         for suffix in ("vtu", "pos", "bac"):
             must("st-export", self.folder / "moved.hdf", "-o", self.folder / f"octree.{suffix}")
-        at = must("st-info", self.folder / "moved.hdf", "--at", ",".join(map(str, self.move([[0.0, 0.0, 0.0]])[0])), "--json").json()
+        at = must("st-info", self.folder / "moved.hdf", "--at", ",".join(map(str, self.move([[0.0, 0.0, 0.0]])[0])),
+                  "--json").json()
         self.assertTrue(at["is_inside"])
         self.assertLess(at["origin"]["distance"], 100)
 
     def test_its_own_geometry_moves_nothing_to_the_bit(self):
-        must("st-prolong", self.good / "raster.hdf", "-o", self.folder / "s.hdf", "--geometry", self.good / "geometry.hdf")
+        must("st-prolong", self.good / "raster.hdf", "-o", self.folder / "s.hdf", "--geometry",
+             self.good / "geometry.hdf")
         self.assertEqual(content_hash(self.folder / "s.hdf"), content_hash(self.good / "sizing.hdf"))
 
     def test_another_geometry_or_one_moved_in_part_is_7(self):
         refused = {"box": artifacts_of("box") / "geometry.hdf"}
         for name, arguments in (("part", ["--remove", "1", "-q"]), ("twice", [])):
             refused[name] = self.folder / f"{name}.hdf"
-            must("st-edit", self.there if name == "twice" else self.good / "geometry.hdf", "-o", refused[name], *arguments, "--transform", "translate 1 0 0")
+            must("st-edit", self.there if name == "twice" else self.good / "geometry.hdf", "-o", refused[name],
+                 *arguments, "--transform", "translate 1 0 0")
         for geometry in refused.values():
-            self.expect_error(MISMATCH, "st-prolong", self.good / "raster.hdf", "-o", self.folder / "x.hdf", "--geometry", geometry, says=geometry.name)
-        self.expect_error(INPUT, "st-prolong", self.good / "raster.hdf", "-o", self.folder / "x.hdf", "--geometry", self.good / "mesh.hdf", says="mesh artifact")
-        self.expect_error(MISMATCH, "st-mesh", self.there, self.good / "sizing.hdf", "-o", self.folder / "x.hdf", says="there.hdf")
+            self.expect_error(MISMATCH, "st-prolong", self.good / "raster.hdf", "-o", self.folder / "x.hdf",
+                              "--geometry", geometry, says=geometry.name)
+        self.expect_error(INPUT, "st-prolong", self.good / "raster.hdf", "-o", self.folder / "x.hdf", "--geometry",
+                          self.good / "mesh.hdf", says="mesh artifact")
+        self.expect_error(MISMATCH, "st-mesh", self.there, self.good / "sizing.hdf", "-o", self.folder / "x.hdf",
+                          says="there.hdf")
 
 
 if __name__ == "__main__":

@@ -32,7 +32,8 @@ WRITES = {"st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merg
 
 
 def output(tool, folder):
-    return ["-o", Path(folder) / ("out.stl" if tool == "st-export" else "out.hdf")] if tool in WRITES | {"st-import"} else []
+    return ["-o", Path(folder) / ("out.stl" if tool == "st-export"
+                                  else "out.hdf")] if tool in WRITES | {"st-import"} else []
 
 
 class BadInput(ToolTest):
@@ -59,7 +60,8 @@ class BadInput(ToolTest):
 
     def test_missing_file(self):
         self.expect_refused(self.folder / "none.hdf")
-        self.expect_error(INPUT, "st-import", self.folder / "none.step", *output("st-import", self.out), says="none.step")
+        self.expect_error(INPUT, "st-import", self.folder / "none.step", *output("st-import", self.out),
+                          says="none.step")
         self.expect_nothing_left(self.out)
 
     def test_directory(self):
@@ -71,7 +73,8 @@ class BadInput(ToolTest):
             (self.folder / name).touch()
         self.expect_refused(self.folder / "empty.hdf")
         for suffix in ("step", "igs", "brep"):
-            self.expect_error(INPUT, "st-import", self.folder / f"empty.{suffix}", *output("st-import", self.out), says=f"empty.{suffix}")
+            self.expect_error(INPUT, "st-import", self.folder / f"empty.{suffix}", *output("st-import", self.out),
+                              says=f"empty.{suffix}")
             self.expect_nothing_left(self.out)
 
     def test_file_of_another_format(self):
@@ -100,7 +103,8 @@ class BadInput(ToolTest):
             for wrong in set(ARTIFACTS) - {paths[position].name}:
                 changed = list(paths)
                 changed[position] = self.good / wrong
-                self.expect_error(INPUT, tool, *changed, *output(tool, self.out), says=[wrong, wrong.removesuffix(".hdf"), paths[position].name.removesuffix(".hdf")])
+                self.expect_error(INPUT, tool, *changed, *output(tool, self.out),
+                                  says=[wrong, wrong.removesuffix(".hdf"), paths[position].name.removesuffix(".hdf")])
         self.expect_error(INPUT, "st-export", self.good / "geometry.hdf", "-o", self.out / "x.stl", says="geometry.hdf")
         for option, wrong in (("--geometry", "sizing.hdf"), ("--sizing", "raster.hdf")):
             self.expect_error(INPUT, "st-check", self.good / "mesh.hdf", option, self.good / wrong, says=wrong)
@@ -156,19 +160,24 @@ class BadOutput(ToolTest):
             self.expect_error(OUTPUT, tool, *inputs, "-o", f"/proc/x.{suffix}", says="/proc/x")
 
     def test_export_to_a_missing_folder_leaves_no_mesh(self):
-        self.expect_error(OUTPUT, "st-merge", artifacts_of("box") / "patches.hdf", "-o", self.folder / "m.hdf", "--export", self.folder / "none" / "m.stl", says="m.stl")
+        self.expect_error(OUTPUT, "st-merge", artifacts_of("box") / "patches.hdf", "-o", self.folder / "m.hdf",
+                          "--export", self.folder / "none" / "m.stl", says="m.stl")
         self.expect_nothing_left(self.folder)
 
     def test_export_of_an_unknown_suffix_is_2(self):
-        self.expect_error(USAGE, "st-merge", artifacts_of("box") / "patches.hdf", "-o", self.folder / "m.hdf", "--export", self.folder / "m.xyz", says=".xyz")
-        self.expect_error(USAGE, "st-export", artifacts_of("box") / "mesh.hdf", "-o", self.folder / "m.xyz", says=".xyz")
+        self.expect_error(USAGE, "st-merge", artifacts_of("box") / "patches.hdf", "-o", self.folder / "m.hdf",
+                          "--export", self.folder / "m.xyz", says=".xyz")
+        self.expect_error(USAGE, "st-export", artifacts_of("box") / "mesh.hdf", "-o", self.folder / "m.xyz",
+                          says=".xyz")
         self.expect_nothing_left(self.folder)
 
     def test_merged_mesh_takes_the_place_of_patches(self):
         inputs = [artifacts_of("box") / name for name in READS["st-remesh"]]
-        self.expect_error(USAGE, "st-remesh", *inputs, "-o", self.folder / "p.hdf", "--merged", self.folder / "m.hdf", says=["--merged", "--output"])
+        self.expect_error(USAGE, "st-remesh", *inputs, "-o", self.folder / "p.hdf", "--merged", self.folder / "m.hdf",
+                          says=["--merged", "--output"])
         self.expect_nothing_left(self.folder)
-        must("st-remesh", *inputs, "--merged", "patches.hdf", cwd=self.folder)  # the default of -o is not written, so its name is free
+        must("st-remesh", *inputs, "--merged", "patches.hdf",
+             cwd=self.folder)  # the default of -o is not written, so its name is free
         self.assertEqual(must("st-info", self.folder / "patches.hdf", "--json").json()["schema"], "mesh")
 
     def test_old_output_survives_a_failed_run(self):
@@ -187,24 +196,31 @@ class Mismatch(ToolTest):
 
     def test_sizing_of_another_geometry(self):
         out = output("st-mesh", self.folder)
-        self.expect_error(MISMATCH, "st-mesh", self.a / "geometry.hdf", self.b / "sizing.hdf", *out, says=[str(self.a / "geometry.hdf"), str(self.b / "sizing.hdf")])
-        self.expect_error(MISMATCH, "st-remesh", self.a / "mesh.hdf", self.a / "geometry.hdf", self.b / "sizing.hdf", *out, says="sizing.hdf")
+        self.expect_error(MISMATCH, "st-mesh", self.a / "geometry.hdf", self.b / "sizing.hdf", *out,
+                          says=[str(self.a / "geometry.hdf"), str(self.b / "sizing.hdf")])
+        self.expect_error(MISMATCH, "st-remesh", self.a / "mesh.hdf", self.a / "geometry.hdf", self.b / "sizing.hdf",
+                          *out, says="sizing.hdf")
         self.expect_nothing_left(self.folder)
 
     def test_mesh_of_another_geometry(self):
-        self.expect_error(MISMATCH, "st-remesh", self.b / "mesh.hdf", self.a / "geometry.hdf", self.a / "sizing.hdf", *output("st-remesh", self.folder), says="mesh.hdf")
-        self.expect_error(MISMATCH, "st-check", self.a / "mesh.hdf", "--geometry", self.b / "geometry.hdf", says="geometry.hdf")
-        self.expect_error(MISMATCH, "st-check", self.a / "mesh.hdf", "--sizing", self.b / "sizing.hdf", says="sizing.hdf")
+        self.expect_error(MISMATCH, "st-remesh", self.b / "mesh.hdf", self.a / "geometry.hdf", self.a / "sizing.hdf",
+                          *output("st-remesh", self.folder), says="mesh.hdf")
+        self.expect_error(MISMATCH, "st-check", self.a / "mesh.hdf", "--geometry", self.b / "geometry.hdf",
+                          says="geometry.hdf")
+        self.expect_error(MISMATCH, "st-check", self.a / "mesh.hdf", "--sizing", self.b / "sizing.hdf",
+                          says="sizing.hdf")
         self.expect_nothing_left(self.folder)
 
     def test_patches_of_different_geometries(self):
-        self.expect_error(MISMATCH, "st-merge", self.a / "patches.hdf", self.b / "patches.hdf", *output("st-merge", self.folder), says="patches.hdf")
+        self.expect_error(MISMATCH, "st-merge", self.a / "patches.hdf", self.b / "patches.hdf",
+                          *output("st-merge", self.folder), says="patches.hdf")
         self.expect_nothing_left(self.folder)
 
     def test_edges_of_another_geometry(self):
         inputs = [self.a / "geometry.hdf", self.a / "sizing.hdf"]
         out = output("st-mesh", self.folder)
-        self.expect_error(MISMATCH, "st-mesh", *inputs, "--edges", self.b / "patches.hdf", *out, says=str(self.b / "patches.hdf"))
+        self.expect_error(MISMATCH, "st-mesh", *inputs, "--edges", self.b / "patches.hdf", *out,
+                          says=str(self.b / "patches.hdf"))
         self.expect_error(INPUT, "st-mesh", *inputs, "--edges", self.a / "mesh.hdf", *out, says="mesh.hdf")
         self.expect_error(INPUT, "st-mesh", *inputs, "--edges", self.folder / "none.hdf", *out, says="none.hdf")
         self.expect_nothing_left(self.folder)
@@ -217,12 +233,14 @@ class Mismatch(ToolTest):
 class Geometry(ToolTest):
     def test_open_model_is_4_when_it_has_to_be_closed(self):
         open_model = MODELS / "plate_with_hole.brep"
-        self.expect_error(GEOMETRY, "st-import", open_model, "--require-closed", *output("st-import", self.folder), says="plate_with_hole.brep")
+        self.expect_error(GEOMETRY, "st-import", open_model, "--require-closed", *output("st-import", self.folder),
+                          says="plate_with_hole.brep")
         self.expect_nothing_left(self.folder)
         self.assertEqual(Run("st-import", open_model, *output("st-import", self.folder)).code, OK)
 
     def test_closed_models_pass_require_closed(self):
-        for name in ("box.step", "box.igs", "sphere.brep", "torus.brep", "cone.brep", "cylinder.brep", "block_with_hole.step", "two_boxes.step", "assembly.step"):
+        for name in ("box.step", "box.igs", "sphere.brep", "torus.brep", "cone.brep", "cylinder.brep",
+                     "block_with_hole.step", "two_boxes.step", "assembly.step"):
             must("st-import", MODELS / name, "--require-closed", "-o", self.folder / "g.hdf")
 
     def test_check_writes_nothing(self):
@@ -231,12 +249,14 @@ class Geometry(ToolTest):
 
     def test_length_with_unit_on_a_model_without_one_is_2_and_names_the_remedy(self):
         geometry = artifacts_of("sphere") / "geometry.hdf"
-        self.expect_error(USAGE, "st-raster", geometry, "--lmin", "0.25mm", *output("st-raster", self.folder), says=["--lmin", "--unit"])
+        self.expect_error(USAGE, "st-raster", geometry, "--lmin", "0.25mm", *output("st-raster", self.folder),
+                          says=["--lmin", "--unit"])
         self.expect_nothing_left(self.folder)
 
     def test_lmin_above_lmax_is_2(self):
         geometry = artifacts_of("box") / "geometry.hdf"
-        self.expect_error(USAGE, "st-raster", geometry, "--lmin", "5", "--lmax", "1", *output("st-raster", self.folder), says="lmin")
+        self.expect_error(USAGE, "st-raster", geometry, "--lmin", "5", "--lmax", "1", *output("st-raster", self.folder),
+                          says="lmin")
 
 
 class Differences(ToolTest):
@@ -258,7 +278,8 @@ class Interrupted(ToolTest):
     SLOW = ["--lmin", "0.05%", "--lmax", "0.1%"]  # seconds of sampling, then tens of megabytes to write
 
     def interrupt(self, number, when, *options):
-        """Sends the signal to st-raster after 0.3 s of sampling ("computing") or as soon as its temporary appears ("writing")."""
+        """Sends the signal to st-raster after 0.3 s of sampling ("computing") or as soon as its temporary appears
+        ("writing")."""
         out = self.folder / "out"
         out.mkdir(exist_ok=True)
         command = [BIN / "st-raster", artifacts_of("torus") / "geometry.hdf", *self.SLOW, *options, "-o", out / "x.hdf"]
@@ -273,7 +294,8 @@ class Interrupted(ToolTest):
             if not any(out.glob(".*")):
                 break
             time.sleep(0.1)
-        if "--np" in options and (out / "x.hdf").exists():  # mpirun was slower to pass the signal on than the last bytes to be written
+        # mpirun was slower to pass the signal on than the last bytes to be written
+        if "--np" in options and (out / "x.hdf").exists():
             must("st-info", out / "x.hdf")
             (out / "x.hdf").unlink()
         self.expect_nothing_left(out)

@@ -35,7 +35,8 @@ class Import(FliteTest):
         for name, faces in (("cylinders", 8), ("trefoil", 30)):
             model = CORPUS / f"flite_zju_{name}.fli"
             report = self.geometry(model)[1]
-            self.assertEqual((report["format"], report["faces"], report["closed"], report["unit"]), ("FLITE", faces, True, ""))
+            self.assertEqual((report["format"], report["faces"], report["closed"], report["unit"]),
+                             ("FLITE", faces, True, ""))
             self.expect_checked_mesh(model)
             shutil.rmtree(self.folder / "chain")
 
@@ -59,7 +60,9 @@ class Import(FliteTest):
     @needs_corpus
     def test_damaged_files_are_refused_with_their_line(self):
         text = CYLINDERS.read_text()
-        cases = {"cut": (text[:20000], "cut off"), "number": (text.replace("-7.500000e-001", "-7.5x0000e-001", 1), "line 7: curve 1 of 18"), "garbage": ("\x01\x02garbage\n" * 50, "line 2")}
+        cases = {"cut": (text[:20000], "cut off"),
+                 "number": (text.replace("-7.500000e-001", "-7.5x0000e-001", 1), "line 7: curve 1 of 18"),
+                 "garbage": ("\x01\x02garbage\n" * 50, "line 2")}
         for name, (content, says) in cases.items():
             path = self.folder / f"{name}.fli"
             path.write_text(content)
@@ -74,7 +77,8 @@ class Export(FliteTest):
             self.assertEqual(export["regions"], regions)
             self.assertLessEqual(export["deviation"], export["tolerance"])
             after = self.geometry(model, "again.hdf")[1]
-            self.assertEqual((after["format"], after["faces"], after["closed"], after["solids"]), ("FLITE", regions, True, 1))
+            self.assertEqual((after["format"], after["faces"], after["closed"], after["solids"]),
+                             ("FLITE", regions, True, 1))
             self.assertAlmostEqual(after["volume"] / before["volume"], 1, delta=1e-4)
             self.expect_checked_mesh(model)
             shutil.rmtree(self.folder / "chain")

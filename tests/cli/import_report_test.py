@@ -7,7 +7,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import MODELS, ToolTest, must  # noqa: E402
 
-KEYS = ["closed", "unit", "solids", "shells", "faces", "edges", "free_edges", "nonmanifold_edges", "repairs", "findings", "area", "volume", "box"]
+KEYS = ["closed", "unit", "solids", "shells", "faces", "edges", "free_edges", "nonmanifold_edges", "repairs",
+        "findings", "area", "volume", "box"]
 
 
 class Report(ToolTest):
@@ -18,7 +19,8 @@ class Report(ToolTest):
         report = self.import_json(MODELS / "box.step")
         self.assertEqual([k for k in KEYS if k not in report], [])
         self.assertTrue(report["closed"])
-        self.assertEqual((report["unit"], report["solids"], report["shells"], report["faces"], report["edges"]), ("mm", 1, 1, 6, 12))
+        self.assertEqual((report["unit"], report["solids"], report["shells"], report["faces"], report["edges"]),
+                         ("mm", 1, 1, 6, 12))
         self.assertEqual((report["free_edges"], report["nonmanifold_edges"], report["repairs"]), (0, 0, []))
 
     def test_line_shows_box_area_and_volume_with_the_unit(self):
@@ -40,7 +42,8 @@ class Report(ToolTest):
         self.assertEqual((len(free), report["free_edges"]), (5, 5))
         self.assertTrue(all(len(f["xyz"]) == 3 and f["size"] > 0 and f["entity"].startswith("edge") for f in free))
         (self.folder / "g.hdf").unlink()
-        self.expect_error(4, "st-import", model, "-o", self.folder / "g.hdf", "--require-closed", says=[str(model), "5 free edges"])
+        self.expect_error(4, "st-import", model, "-o", self.folder / "g.hdf", "--require-closed",
+                          says=[str(model), "5 free edges"])
         self.assertFalse((self.folder / "g.hdf").exists())
         must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "--require-closed")
 
@@ -57,7 +60,8 @@ class Refused(ToolTest):
         self.assertFalse((self.folder / "out.hdf").exists())
 
     def test_other_kinds_of_file_are_named(self):
-        kinds = {"PNG": b"\x89PNG\r\n\x1a\n" + bytes(200), "web page": b"<!DOCTYPE html><html></html>", "STL": b"solid x\nendsolid\n", "PDF": b"%PDF-1.4\n"}
+        kinds = {"PNG": b"\x89PNG\r\n\x1a\n" + bytes(200), "web page": b"<!DOCTYPE html><html></html>",
+                 "STL": b"solid x\nendsolid\n", "PDF": b"%PDF-1.4\n"}
         for kind, data in kinds.items():
             path = self.folder / "model.step"
             path.write_bytes(data)

@@ -17,7 +17,8 @@ class Limits(ToolTest):
     def test_tiny_lengths_are_refused_with_cells_memory_and_what_to_do(self):
         for ranks in RANKS:
             start = time.monotonic()
-            self.expect_error(USAGE, "st-raster", self.geometry(), "-o", self.folder / "r.hdf", "--lmin", "1e-9", "--lmax", "1e-9", *ranks,
+            self.expect_error(USAGE, "st-raster", self.geometry(), "-o", self.folder / "r.hdf", "--lmin", "1e-9",
+                              "--lmax", "1e-9", *ranks,
                               says=["cells (", "GB", "--max-cells", "larger lengths"])
             self.assertLess(time.monotonic() - start, 10)
             self.expect_nothing_left(self.folder)
@@ -29,13 +30,15 @@ class Limits(ToolTest):
             must("st-raster", self.geometry(), "-o", self.folder / "r.hdf", "--max-cells", n, *ranks)
             self.assertEqual((self.folder / "r.hdf").read_bytes(), expected)
             (self.folder / "r.hdf").unlink()
-            self.expect_error(USAGE, "st-raster", self.geometry(), "-o", self.folder / "r.hdf", "--max-cells", n - 1, *ranks, says="cells")
+            self.expect_error(USAGE, "st-raster", self.geometry(), "-o", self.folder / "r.hdf", "--max-cells", n - 1,
+                              *ranks, says="cells")
             self.expect_nothing_left(self.folder)
             must("st-raster", self.geometry(), "-o", self.folder / "r.hdf")
 
     def test_samples_that_grow_without_bound_are_stopped(self):
         for ranks in RANKS:
-            self.expect_error(USAGE, "st-raster", self.geometry("sphere"), "-o", self.folder / "r.hdf", "--lmin", "1e-9", "--alpha", "0.01",
+            self.expect_error(USAGE, "st-raster", self.geometry("sphere"), "-o", self.folder / "r.hdf", "--lmin",
+                              "1e-9", "--alpha", "0.01",
                               "--max-cells", 100000, *ranks, says=["samples", "--max-cells"])
             self.expect_nothing_left(self.folder)
 
@@ -47,14 +50,17 @@ class Limits(ToolTest):
         for ranks in RANKS:
             start = time.monotonic()
             self.expect_error(USAGE, "st-mesh", self.geometry(), sizing, "-o", self.folder / "p.hdf", *ranks,
-                              says=["sizing.hdf: these sizes need about", "triangles", "on face", "a mesh can have at most", "larger lengths"])
+                              says=["sizing.hdf: these sizes need about", "triangles", "on face",
+                                    "a mesh can have at most", "larger lengths"])
             self.assertLess(time.monotonic() - start, 10)
         mesh = artifacts_of("assembly") / "mesh.hdf"
-        self.expect_error(USAGE, "st-remesh", mesh, self.geometry(), sizing, "-o", self.folder / "p.hdf", says="sizing.hdf: these sizes need about")
+        self.expect_error(USAGE, "st-remesh", mesh, self.geometry(), sizing, "-o", self.folder / "p.hdf",
+                          says="sizing.hdf: these sizes need about")
         self.expect_nothing_left(self.folder, "sizing.hdf")
 
     def test_an_expectation_beyond_whole_numbers_is_still_a_number(self):
-        run = must("st-prolong", artifacts_of("assembly") / "raster.hdf", "-o", self.folder / "s.hdf", "--scale", "1e-12", "--json")
+        run = must("st-prolong", artifacts_of("assembly") / "raster.hdf", "-o", self.folder / "s.hdf", "--scale",
+                   "1e-12", "--json")
         self.assertGreater(run.json()["expected_triangles"], 1e24)
 
 

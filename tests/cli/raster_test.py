@@ -10,11 +10,13 @@ from chain import MODELS, USAGE, ToolTest, artifacts_of, must  # noqa: E402
 class Rules(ToolTest):
     def raster(self, text, *options, name="assembly", by="--sizes", output="r.hdf"):
         (self.folder / "sizes.toml").write_text(text)
-        return must("st-raster", artifacts_of(name) / "geometry.hdf", "-o", self.folder / output, by, self.folder / "sizes.toml", *options, "--json").json()
+        return must("st-raster", artifacts_of(name) / "geometry.hdf", "-o", self.folder / output, by,
+                    self.folder / "sizes.toml", *options, "--json").json()
 
     def refuse(self, text, *says):
         (self.folder / "sizes.toml").write_text(text)
-        self.expect_error(USAGE, "st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "r.hdf", "--sizes", "sizes.toml", says=list(says),
+        self.expect_error(USAGE, "st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "r.hdf",
+                          "--sizes", "sizes.toml", says=list(says),
                           cwd=self.folder)
         self.expect_nothing_left(self.folder, "sizes.toml")
 
@@ -23,7 +25,8 @@ class Rules(ToolTest):
         a = self.raster("alpha = 12\n" + rule + "[[st-raster.size]]\nedges = 1\nlmax = 0.5\n", by="--options")
         self.assertEqual((a["alpha"], a["rules"]), (12, 2))
         self.assertEqual(a["lmin"], 0.02)
-        plain = must("st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "p.hdf", "--alpha", "12", "--json").json()
+        plain = must("st-raster", artifacts_of("assembly") / "geometry.hdf", "-o", self.folder / "p.hdf", "--alpha",
+                     "12", "--json").json()
         self.assertGreater(a["samples"], 2 * plain["samples"])
 
     def test_the_result_does_not_depend_on_the_number_of_ranks(self):
@@ -33,7 +36,8 @@ class Rules(ToolTest):
 
     def test_a_chord_error_makes_lengths_shorter(self):
         geometry = artifacts_of("assembly") / "geometry.hdf"
-        counts = [must("st-raster", geometry, "-o", self.folder / "r.hdf", "--lmin", "0.01", *chord, "--json").json()["samples"]
+        counts = [must("st-raster", geometry, "-o", self.folder / "r.hdf", "--lmin", "0.01", *chord,
+                       "--json").json()["samples"]
                   for chord in ([], ["--chord", "0.05"], ["--chord", "0.001"])]
         self.assertLess(counts[0] * 1.2, counts[2])
         self.assertLessEqual(counts[1], counts[2])
@@ -79,14 +83,16 @@ class DetectedEdges(ToolTest):
         listed = must("st-import", MODELS / "thin_plate.brep", "--check", "--json").json()["wing_edges"]
         self.assertEqual(len(listed), 8, "the rim of a thin plate")
         for edge in listed:
-            self.assertEqual((edge["kind"], round(edge["size"], 6), round(edge["angle"], 3)), ("blunt trailing edge", 0.2, 90))
+            self.assertEqual((edge["kind"], round(edge["size"], 6), round(edge["angle"], 3)),
+                             ("blunt trailing edge", 0.2, 90))
             self.assertIn(round(edge["length"], 6), (100, 60))
         must("st-import", MODELS / "thin_plate.brep", "-o", plate)
         plain = must("st-raster", plate, "-o", r, "--json").json()
         fine = must("st-raster", plate, "-o", r, "--trailing-edges", "0.1:0.5", "--json").json()
         self.assertEqual((plain["wing_edges"], fine["wing_edges"]), (8, 8))
         self.assertEqual(plain["lifting_surfaces"], [], "a plate is no wing")
-        self.assertLess(fine["samples"], 0.95 * plain["samples"], "0.5 at the edges instead of the width of the rim, 0.2")
+        self.assertLess(fine["samples"], 0.95 * plain["samples"],
+                        "0.5 at the edges instead of the width of the rim, 0.2")
         (self.folder / "sizes.toml").write_text('[[size]]\ndetected = "trailing"\nlmin = 0.1\nlmax = 0.5\n')
         by_rule = must("st-raster", plate, "-o", r, "--sizes", self.folder / "sizes.toml", "--json").json()
         self.assertEqual(by_rule["samples"], fine["samples"])
@@ -94,9 +100,11 @@ class DetectedEdges(ToolTest):
     def test_nothing_found_and_wrong_words_are_refused(self):
         geometry = artifacts_of("box") / "geometry.hdf"
         self.assertEqual(must("st-import", MODELS / "box.brep", "--check", "--json").json()["wing_edges"], [])
-        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--leading-edges", "0.5", says=["--leading-edges", "no leading edge found"])
+        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--leading-edges", "0.5",
+                          says=["--leading-edges", "no leading edge found"])
         (self.folder / "sizes.toml").write_text('[[size]]\nlmax = 1\ndetected = "upper"\n')
-        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--sizes", self.folder / "sizes.toml",
+        self.expect_error(USAGE, "st-raster", geometry, "-o", self.folder / "r.hdf", "--sizes",
+                          self.folder / "sizes.toml",
                           says=["sizes.toml:3", "trailing", "leading"])
         self.expect_nothing_left(self.folder, "sizes.toml")
 
@@ -105,12 +113,14 @@ class LiftingSurfaces(ToolTest):
     """Wing and flap: chords of 60 and 18, both with a blunt edge 0.5 wide."""
 
     def sizes(self, *options):
-        """The raster's summary, and the lengths at trailing edge and nose of the wing, and in the middle of its base."""
+        """The raster's summary, and the lengths at trailing edge and nose of the wing, and in the middle of its
+        base."""
         g, r, s = (self.folder / name for name in ("g.hdf", "r.hdf", "s.hdf"))
         must("st-import", MODELS / "wing_with_flap.step", "-o", g)
         said = must("st-raster", g, "-o", r, *options, "--json").json()
         must("st-prolong", r, "-o", s)
-        return said, [must("st-info", s, f"--at={at}", "--json").json()["length"] for at in ("60,50,0.25", "0,50,0", "30,50,3")]
+        return said, [must("st-info", s, f"--at={at}", "--json").json()["length"]
+                      for at in ("60,50,0.25", "0,50,0", "30,50,3")]
 
     def test_get_a_share_of_their_chord_by_default(self):
         said, (trailing, nose, middle) = self.sizes("--base-cells", 1)
@@ -134,7 +144,8 @@ class LiftingSurfaces(ToolTest):
         self.assertAlmostEqual(self.sizes("--lmin", "2%chord")[1][1], 1.2, delta=0.2)
         (self.folder / "sizes.toml").write_text('[[size]]\nlmax = "1%span"\n')
         self.assertLess(self.sizes("--sizes", self.folder / "sizes.toml")[1][2], 1.05)
-        self.expect_error(USAGE, "st-raster", artifacts_of("box") / "geometry.hdf", "-o", self.folder / "r.hdf", "--lmax", "3%chord",
+        self.expect_error(USAGE, "st-raster", artifacts_of("box") / "geometry.hdf", "-o", self.folder / "r.hdf",
+                          "--lmax", "3%chord",
                           says=["--lmax", "no lifting surface"])
 
     def test_a_smallest_length_that_coarsens_their_edges_is_said(self):

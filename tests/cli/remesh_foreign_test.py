@@ -1,4 +1,5 @@
-"""st-remesh on meshes of other programs: they are associated to the geometry, and refused where they do not belong to it."""
+"""st-remesh on meshes of other programs: they are associated to the geometry, and refused where they do not belong to
+it."""
 import os
 import shutil
 import subprocess
@@ -21,7 +22,8 @@ from chain import (  # noqa: E402
 from mesh_formats import Mesh  # noqa: E402
 
 CORPUS = os.environ.get("ST_CORPUS", "")
-REAL = {"screw": "mech_netgen_screw.step", "sphere_cube": "basic_refine_sphere_cube.brep", "d150": "aero_d150_wing_body_half.brep"}
+REAL = {"screw": "mech_netgen_screw.step", "sphere_cube": "basic_refine_sphere_cube.brep",
+        "d150": "aero_d150_wing_body_half.brep"}
 
 
 def corpus_chain(name):
@@ -41,7 +43,8 @@ def arrays(mesh, folder):
     reader.SetFileName(str(vtu))
     reader.Update()
     grid = reader.GetOutput()
-    result = {"x": vtk_to_numpy(grid.GetPoints().GetData()), "t": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)}
+    result = {"x": vtk_to_numpy(grid.GetPoints().GetData()),
+              "t": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)}
     for data in (grid.GetPointData(), grid.GetCellData()):
         for i in range(data.GetNumberOfArrays()):
             result[data.GetArrayName(i)] = vtk_to_numpy(data.GetArray(i))
@@ -65,7 +68,8 @@ class RoundTrip(ToolTest):
         old = arrays(good / "mesh.hdf", self.folder)
         for suffix, path in write_formats(good / "mesh.hdf", self.folder).items():
             merged = self.folder / f"{suffix}.hdf"
-            run = must("st-remesh", path, good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf", "--merged", merged, "--json")
+            run = must("st-remesh", path, good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf",
+                       "--merged", merged, "--json")
             self.assertEqual(run.json()["triangles_redone"], 0, run)
             new = arrays(merged, self.folder)
             for name in ("entity_dim", "entity_id", "face"):
@@ -105,12 +109,14 @@ class PointSource(ToolTest):
     """A finer place: the rest of the file stays to the bit."""
 
     def expect_local(self, good, at, length, reach):
-        (self.folder / "s.toml").write_text(f'[[source]]\ntype = "point"\nat = {list(at)}\nlength = {length}\nradius = {reach / 10}\n')
+        (self.folder / "s.toml").write_text(f'[[source]]\ntype = "point"\nat = {list(at)}\nlength = {length}\nradius = '
+                                            f'{reach / 10}\n')
         finer = self.folder / "finer.hdf"
         must("st-prolong", good / "raster.hdf", "-o", finer, "--sources", self.folder / "s.toml")
         for suffix, path in write_formats(good / "mesh.hdf", self.folder).items():
             merged = self.folder / f"{suffix}.hdf"
-            run = must("st-remesh", path, good / "geometry.hdf", finer, "--made-for", good / "sizing.hdf", "--merged", merged, "--json").json()
+            run = must("st-remesh", path, good / "geometry.hdf", finer, "--made-for", good / "sizing.hdf", "--merged",
+                       merged, "--json").json()
             self.assertGreater(run["triangles"], run["triangles_before"], suffix)
             self.assertLess(run["triangles_redone"], run["triangles_before"] / 2, suffix)
             must("st-check", merged, "--geometry", good / "geometry.hdf", "--sizing", finer)
@@ -123,12 +129,14 @@ class PointSource(ToolTest):
             far = np.linalg.norm(x[t].mean(axis=1) - np.array(at), axis=1) > reach
             self.assertGreater(far.sum(), len(t) / 3)
             self.assertEqual([c for c in triangles_of(x, t[far]) if c not in kept], [], suffix)
-            self.assertGreaterEqual(len(kept & set(triangles_of(x, t))), run["triangles_before"] - run["triangles_redone"], suffix)
+            self.assertGreaterEqual(len(kept & set(triangles_of(x, t))),
+                                    run["triangles_before"] - run["triangles_redone"], suffix)
 
     def test_on_a_seam(self):
         self.expect_local(artifacts_of("cylinder"), (10, 0, 15), 0.2, 8)
 
-    @unittest.skipUnless((Path(CORPUS) / REAL["d150"]).exists(), "ST_CORPUS names no corpus: the source on a real aircraft is NOT tested")
+    @unittest.skipUnless((Path(CORPUS) / REAL["d150"]).exists(),
+                         "ST_CORPUS names no corpus: the source on a real aircraft is NOT tested")
     def test_on_an_aircraft(self):
         self.expect_local(corpus_chain("d150"), (16, 6, -1), 0.05, 5)
 
@@ -148,7 +156,8 @@ class Refused(ToolTest):
         self.mesh.write_fro(self.folder / "foreign.fro")
         good = good or self.good
         for target in (["--merged", self.out / "m.hdf"], ["-o", self.out / "p.hdf"]):
-            self.expect_error(code, "st-remesh", self.folder / "foreign.fro", good / "geometry.hdf", good / "sizing.hdf", *target, *options, says=["foreign.fro", *says])
+            self.expect_error(code, "st-remesh", self.folder / "foreign.fro", good / "geometry.hdf",
+                              good / "sizing.hdf", *target, *options, says=["foreign.fro", *says])
             self.expect_nothing_left(self.out)
 
     def test_mesh_in_another_unit(self):
@@ -195,7 +204,8 @@ class Refused(ToolTest):
         self.expect(["lack a triangle"])
 
     def test_edge_that_the_mesh_crosses(self):
-        rim = np.flatnonzero((abs(self.mesh.x[:, 2] - 30) < 1e-9) & (np.hypot(self.mesh.x[:, 0], self.mesh.x[:, 1]) > 9.99) & (self.mesh.x[:, 0] < 0))
+        x, y, z = self.mesh.x.T
+        rim = np.flatnonzero((abs(z - 30) < 1e-9) & (np.hypot(x, y) > 9.99) & (x < 0))
         self.mesh.x[rim[0], 2] -= 0.5
         self.expect(["no chain of mesh edges follows 1 of 3 CAD edges"])
 
@@ -207,15 +217,19 @@ class Refused(ToolTest):
         sizes = np.ones(len(self.mesh.x))
         sizes[7] = float("nan")
         self.mesh.write_vtu(self.folder / "sizes.vtu", sizes)
-        self.expect_error(INPUT, "st-remesh", self.folder / "sizes.vtu", self.good / "geometry.hdf", self.good / "sizing.hdf", "--merged", self.out / "m.hdf",
+        self.expect_error(INPUT, "st-remesh", self.folder / "sizes.vtu", self.good / "geometry.hdf",
+                          self.good / "sizing.hdf", "--merged", self.out / "m.hdf",
                           says=["sizes.vtu", "'size'", "node 8"])
         self.expect_nothing_left(self.out)
 
     def test_sizing_of_another_geometry(self):
         self.mesh.write_fro(self.folder / "foreign.fro")
         other = artifacts_of("cone")
-        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf", other / "sizing.hdf", "--merged", self.out / "m.hdf", says="sizing.hdf")
-        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf", self.good / "sizing.hdf", "--made-for", other / "sizing.hdf", "--merged", self.out / "m.hdf", says="sizing.hdf")
+        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf",
+                          other / "sizing.hdf", "--merged", self.out / "m.hdf", says="sizing.hdf")
+        self.expect_error(MISMATCH, "st-remesh", self.folder / "foreign.fro", self.good / "geometry.hdf",
+                          self.good / "sizing.hdf", "--made-for", other / "sizing.hdf", "--merged", self.out / "m.hdf",
+                          says="sizing.hdf")
         self.expect_nothing_left(self.out)
 
     def test_moved_geometry(self):
@@ -229,7 +243,8 @@ class Turned(ToolTest):
         mesh = Mesh(self.folder / "m.vtu")
         mesh.triangles[::5] = mesh.triangles[::5, ::-1]
         mesh.write_stl(self.folder / "m.stl")
-        run = must("st-remesh", self.folder / "m.stl", good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf", "--merged", self.folder / "out.hdf", "--json").json()
+        run = must("st-remesh", self.folder / "m.stl", good / "geometry.hdf", good / "sizing.hdf", "--made-for",
+                   good / "sizing.hdf", "--merged", self.folder / "out.hdf", "--json").json()
         self.assertEqual(run["association"]["triangles_turned"], len(mesh.triangles[::5]))
         must("st-check", self.folder / "out.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
 
@@ -257,7 +272,8 @@ class Checked(ToolTest):
         mesh.x[node, 2] += 0.01  # the face grows by about a millionth
         mesh.write_stl(self.folder / "m.stl")
         for tolerance, fails in ((0.01, False), (1e-9, True)):
-            run = Run("st-check", self.folder / "m.stl", "--geometry", good / "geometry.hdf", "--json", "--area-tolerance", tolerance)
+            run = Run("st-check", self.folder / "m.stl", "--geometry", good / "geometry.hdf", "--json",
+                      "--area-tolerance", tolerance)
             self.assertEqual("areas" in run.json()["failed"], fails, run)
 
     def test_without_a_geometry(self):
@@ -268,8 +284,10 @@ class Checked(ToolTest):
         mesh.write_fro(self.folder / "open.fro")
         run = Run("st-check", self.folder / "open.fro", "--json")
         self.assertEqual((run.code, run.json()["failed"]), (INCOMPLETE, ["closed"]))
-        self.expect_error(USAGE, "st-check", self.folder / "open.fro", "--sizing", good / "sizing.hdf", says="--geometry")
-        self.expect_error(MISMATCH, "st-check", self.folder / "open.fro", "--geometry", good / "geometry.hdf", says="holes")
+        self.expect_error(USAGE, "st-check", self.folder / "open.fro", "--sizing", good / "sizing.hdf",
+                          says="--geometry")
+        self.expect_error(MISMATCH, "st-check", self.folder / "open.fro", "--geometry", good / "geometry.hdf",
+                          says="holes")
 
 
 class InsideOut(ToolTest):
@@ -279,7 +297,8 @@ class InsideOut(ToolTest):
         mesh = Mesh(self.folder / "m.vtu")
         mesh.triangles = mesh.triangles[:, ::-1]
         mesh.write_fro(self.folder / "m.fro")
-        must("st-remesh", self.folder / "m.fro", good / "geometry.hdf", good / "sizing.hdf", "--made-for", good / "sizing.hdf", "--merged", self.folder / "out.hdf")
+        must("st-remesh", self.folder / "m.fro", good / "geometry.hdf", good / "sizing.hdf", "--made-for",
+             good / "sizing.hdf", "--merged", self.folder / "out.hdf")
         must("st-check", self.folder / "out.hdf", "--geometry", good / "geometry.hdf", "--sizing", good / "sizing.hdf")
 
 
@@ -289,7 +308,8 @@ class Gmsh(ToolTest):
 
     def expect_remeshed(self, model, good, form):
         msh = self.folder / "gmsh.msh"
-        subprocess.run(["gmsh", "-2", model, "-o", msh, "-clcurv", "15", "-v", "0", *form], check=True, capture_output=True)
+        subprocess.run(["gmsh", "-2", model, "-o", msh, "-clcurv", "15", "-v", "0", *form], check=True,
+                       capture_output=True)
         merged = self.folder / "m.hdf"
         run = must("st-remesh", msh, good / "geometry.hdf", good / "sizing.hdf", "--merged", merged, "--json").json()
         self.assertEqual(sum(run["association"]["triangles_per_face"]), run["triangles_before"])
@@ -300,14 +320,16 @@ class Gmsh(ToolTest):
         for name, form in [("box", "msh22"), ("cylinder", "msh41"), ("plate_with_hole", "msh22"), ("torus", "msh41")]:
             for binary in ([], ["-bin"]):
                 with self.subTest(name=name, form=form, binary=binary):
-                    self.expect_remeshed(MODELS / f"{name}.{'step' if name == 'box' else 'brep'}", artifacts_of(name), ["-format", form, *binary])
+                    self.expect_remeshed(MODELS / f"{name}.{'step' if name == 'box' else 'brep'}", artifacts_of(name),
+                                         ["-format", form, *binary])
 
 
 class Import(ToolTest):
     def test_says_where_meshes_are_used(self):
         for name, path in write_formats(artifacts_of("box") / "mesh.hdf", self.folder).items():
             for options in (["-o", self.folder / "g.hdf"], ["--check"]):
-                self.expect_error(INPUT, "st-import", path, *options, says=[f"m.{name}", "mesh, not a CAD model", "st-prolong --blank", "st-remesh"])
+                self.expect_error(INPUT, "st-import", path, *options,
+                                  says=[f"m.{name}", "mesh, not a CAD model", "st-prolong --blank", "st-remesh"])
         self.assertFalse((self.folder / "g.hdf").exists())
 
 
@@ -315,7 +337,8 @@ class Options(ToolTest):
     def test_tolerance_decides(self):
         good = artifacts_of("cylinder")
         must("st-export", good / "mesh.hdf", "-o", self.folder / "m.stl")
-        inputs = [self.folder / "m.stl", good / "geometry.hdf", good / "sizing.hdf", "--merged", self.folder / "out.hdf"]
+        inputs = [self.folder / "m.stl", good / "geometry.hdf", good / "sizing.hdf", "--merged",
+                  self.folder / "out.hdf"]
         self.expect_error(MISMATCH, "st-remesh", *inputs, "--tolerance", "1e-12", says=["m.stl", "--tolerance"])
         must("st-remesh", *inputs, "--tolerance", "1e-3")
 

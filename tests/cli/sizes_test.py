@@ -1,4 +1,5 @@
-"""What a size specification says of itself: the length at a point and why, lengths at many points, the background meshes of other programs."""
+"""What a size specification says of itself: the length at a point and why, lengths at many points, the background
+meshes of other programs."""
 import csv
 import re
 import struct
@@ -15,7 +16,8 @@ SOURCE = '[[source]]\nname = "wake"\ntype = "point"\nat = [25, 20, 5]\nlength = 
 class Sizes(ToolTest):
     def with_source(self):
         (self.folder / "wake.toml").write_text(SOURCE)
-        run = must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "wake.toml", "--json")
+        run = must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources",
+                   self.folder / "wake.toml", "--json")
         self.n_cells = run.json()["cells"]
         return self.folder / "s.hdf"
 
@@ -27,7 +29,8 @@ class Sizes(ToolTest):
         self.assertAlmostEqual(at["length"], 0.1 + 0.2 * 1.5, delta=0.1)
         self.assertLessEqual(0.0999, at["origin"]["length"])
         self.assertLessEqual(at["origin"]["length"], at["length"])
-        self.assertEqual(must("st-info", artifacts_of("box") / "sizing.hdf", "--at", "27,20,5", "--json").json()["cause"], "the largest length")
+        self.assertEqual(must("st-info", artifacts_of("box") / "sizing.hdf", "--at", "27,20,5",
+                              "--json").json()["cause"], "the largest length")
 
     def test_sources_may_stand_in_the_option_file_beside_files_that_it_names(self):
         (self.folder / "wake.toml").write_text(SOURCE)
@@ -48,12 +51,14 @@ class Sizes(ToolTest):
     def test_points_of_a_csv_have_the_lengths_of_single_queries(self):
         (self.folder / "p.csv").write_text("x,y,z\n26,20,5\n# far\n1 2 3\n")
         (self.folder / "wake.toml").write_text(SOURCE)
-        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "wake.toml",
+        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources",
+             self.folder / "wake.toml",
              "--sample", self.folder / "p.csv", "--sample-output", self.folder / "o.csv")
         rows = list(csv.DictReader((self.folder / "o.csv").read_text().splitlines()))
         self.assertEqual([r["cause"] for r in rows][0], 'source 1 "wake"')
         for row, at in zip(rows, ("26,20,5", "1,2,3"), strict=True):
-            self.assertAlmostEqual(float(row["length"]), must("st-info", self.folder / "s.hdf", "--at", at, "--json").json()["length"], delta=1e-6)
+            self.assertAlmostEqual(float(row["length"]), must("st-info", self.folder / "s.hdf", "--at", at,
+                                                              "--json").json()["length"], delta=1e-6)
 
     def test_bad_points_are_refused_and_nothing_is_written(self):
         raster = artifacts_of("box") / "raster.hdf"
@@ -61,7 +66,8 @@ class Sizes(ToolTest):
         self.expect_error(INPUT, "st-info", artifacts_of("box") / "mesh.hdf", "--at", "1,2,3", says="mesh.hdf")
         (self.folder / "p.csv").write_text("1,2,3\n1,two,3\n")
         (self.folder / "out").mkdir()
-        self.expect_error(INPUT, "st-prolong", raster, "-o", self.folder / "out/s.hdf", "--sample", self.folder / "p.csv",
+        self.expect_error(INPUT, "st-prolong", raster, "-o", self.folder / "out/s.hdf", "--sample",
+                          self.folder / "p.csv",
                           "--sample-output", self.folder / "out/o.csv", says="p.csv:2")
         self.expect_nothing_left(self.folder / "out")
 
@@ -75,7 +81,8 @@ class Sizes(ToolTest):
         self.assertAlmostEqual(min(lengths), 0.1, delta=1e-3)
         must("st-export", sizing, "-o", self.folder / "s.bac")
         (self.folder / "p.csv").write_text("26,20,5\n25.2,20,5\n10,10,10\n")
-        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "b.hdf", "--background", self.folder / "s.bac",
+        must("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "b.hdf", "--background",
+             self.folder / "s.bac",
              "--sample", self.folder / "p.csv", "--sample-output", self.folder / "o.csv")
         for row in csv.DictReader((self.folder / "o.csv").read_text().splitlines()):
             at = must("st-info", sizing, "--at", f"{row['x']},{row['y']},{row['z']}", "--json").json()
@@ -105,10 +112,12 @@ class Causes(ToolTest):
         groups = must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--json").json()["groups"]
         self.assertGreater(len(groups), 1)
         for group in groups:
-            why = must("st-info", self.folder / "s.hdf", "--why", group["name"], "--raster", folder / "raster.hdf", "--json").json()
+            why = must("st-info", self.folder / "s.hdf", "--why", group["name"], "--raster", folder / "raster.hdf",
+                       "--json").json()
             self.assertAlmostEqual(sum(c["share"] for c in why["causes"]), 1, delta=1e-9)
             self.assertAlmostEqual(why["expected_triangles"] / group["expected_triangles"], 1, delta=1e-9)
-            self.assertAlmostEqual(sum(c["expected_triangles"] for c in why["causes"]) / why["expected_triangles"], 1, delta=1e-9)
+            self.assertAlmostEqual(sum(c["expected_triangles"] for c in why["causes"]) / why["expected_triangles"], 1,
+                                   delta=1e-9)
             self.assertEqual(why["causes"][0]["cause"], group["cause"])
             self.assertLessEqual(why["least"], why["median"])
             self.assertEqual(min(c["least"] for c in why["causes"]), why["least"])
@@ -124,10 +133,12 @@ class Causes(ToolTest):
 
     def test_a_face_is_found_by_its_name_where_no_group_has_it(self):
         (self.folder / "g.toml").write_text('[[group]]\nname = "PINS"\nfaces = "7-12"\n')
-        must("st-import", next(MODELS.glob("assembly.*")), "--groups", self.folder / "g.toml", "-o", self.folder / "g.hdf")
+        must("st-import", next(MODELS.glob("assembly.*")), "--groups", self.folder / "g.toml", "-o",
+             self.folder / "g.hdf")
         must("st-raster", self.folder / "g.hdf", "-o", self.folder / "raster.hdf")
         must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "s.hdf")
-        face, group = (must("st-info", self.folder / "s.hdf", "--why", name, "--json").json() for name in ("pin_mantle", "PINS"))
+        face, group = (must("st-info", self.folder / "s.hdf", "--why", name, "--json").json()
+                       for name in ("pin_mantle", "PINS"))
         self.assertEqual((face["faces"], group["faces"]), (2, 6))
         self.assertLess(face["expected_triangles"], group["expected_triangles"])
 
@@ -135,7 +146,8 @@ class Causes(ToolTest):
         box = artifacts_of("box")
         must("st-edit", box / "geometry.hdf", "--transform", "scale 3", "-o", self.folder / "g.hdf")
         must("st-prolong", box / "raster.hdf", "--geometry", self.folder / "g.hdf", "-o", self.folder / "s.hdf")
-        here, there = (must("st-info", s, "--why", "*", "--raster", box / "raster.hdf", "--json").json() for s in (box / "sizing.hdf", self.folder / "s.hdf"))
+        here, there = (must("st-info", s, "--why", "*", "--raster", box / "raster.hdf", "--json").json()
+                       for s in (box / "sizing.hdf", self.folder / "s.hdf"))
         for key, factor in (("expected_triangles", 1), ("least", 3), ("median", 3)):
             self.assertAlmostEqual(there[key] / here[key], factor, delta=1e-6)
 
@@ -143,14 +155,17 @@ class Causes(ToolTest):
         (self.folder / "near.toml").write_text(SOURCE.replace("25, 20, 5", "1, 1, 1"))
         box = artifacts_of("box")
         must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf", "--sources", self.folder / "near.toml")
-        why = must("st-info", self.folder / "s.hdf", "--why", "default", "--raster", box / "raster.hdf", "--json").json()
+        why = must("st-info", self.folder / "s.hdf", "--why", "default", "--raster", box / "raster.hdf",
+                   "--json").json()
         self.assertIn('source 1 "wake"', [c["cause"] for c in why["causes"]])
 
     def test_unknown_names_and_other_rasters_are_refused(self):
         box, assembly = artifacts_of("box"), artifacts_of("assembly")
-        self.expect_error(USAGE, "st-info", assembly / "sizing.hdf", "--why", "WING", says=["--why", "WING", "--groups"])
+        self.expect_error(USAGE, "st-info", assembly / "sizing.hdf", "--why", "WING",
+                          says=["--why", "WING", "--groups"])
         self.expect_error(USAGE, "st-info", assembly / "sizing.hdf", "--raster", assembly / "raster.hdf", says="--why")
-        self.expect_error(MISMATCH, "st-info", assembly / "sizing.hdf", "--why", "x", "--raster", box / "raster.hdf", says="--raster")
+        self.expect_error(MISMATCH, "st-info", assembly / "sizing.hdf", "--why", "x", "--raster", box / "raster.hdf",
+                          says="--raster")
         self.expect_error(INPUT, "st-info", assembly / "mesh.hdf", "--why", "x", says="mesh.hdf")
         must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf")
         self.expect_error(INPUT, "st-info", self.folder / "s.hdf", "--why", "default", says=["raster.hdf", "--raster"])
@@ -159,17 +174,21 @@ class Causes(ToolTest):
 class Slopes(ToolTest):
     def test_a_named_part_has_its_own_slope(self):
         folder = artifacts_of("assembly")
-        (self.folder / "p.csv").write_text("".join(f"{x},{y},{z}\n" for x in range(0, 160, 4) for y in range(0, 45, 4) for z in range(0, 21, 4)))
+        (self.folder / "p.csv").write_text("".join(f"{x},{y},{z}\n" for x in range(0, 160, 4) for y in range(0, 45, 4)
+                                                   for z in range(0, 21, 4)))
         lengths = {}
         for slope in ("", "pin_mantle=0.02"):
-            must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", slope, "--sample", self.folder / "p.csv",
+            must("st-prolong", folder / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", slope, "--sample",
+                 self.folder / "p.csv",
                  "--sample-output", self.folder / "o.csv")
-            lengths[slope] = [float(r["length"]) for r in csv.DictReader((self.folder / "o.csv").read_text().splitlines())]
+            lengths[slope] = [float(r["length"])
+                              for r in csv.DictReader((self.folder / "o.csv").read_text().splitlines())]
         self.assertTrue(all(b <= a * 1.1 for a, b in zip(*lengths.values(), strict=True)))
         self.assertTrue(any(b < 0.8 * a for a, b in zip(*lengths.values(), strict=True)))
 
     def test_a_name_that_no_face_has_is_refused(self):
-        self.expect_error(USAGE, "st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--slope-of", "WING=0.1", says="WING")
+        self.expect_error(USAGE, "st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf",
+                          "--slope-of", "WING=0.1", says="WING")
 
 
 class Blanking(ToolTest):
@@ -177,11 +196,13 @@ class Blanking(ToolTest):
         box = artifacts_of("box")
         said = {}
         for side in ("inside", "auto", "outside"):
-            run = must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", box / "mesh.hdf", "--blank-side", side, "--json")
+            run = must("st-prolong", box / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", box / "mesh.hdf",
+                       "--blank-side", side, "--json")
             said[side] = run.json()
         self.assertGreater(said["inside"]["cut_cells"], 0)
         self.assertEqual(said["auto"]["blanked_cells"], said["inside"]["blanked_cells"])
-        self.assertEqual(said["inside"]["blanked_cells"] + said["outside"]["blanked_cells"] + said["inside"]["cut_cells"], said["inside"]["cells"])
+        self.assertEqual(said["inside"]["blanked_cells"] + said["outside"]["blanked_cells"] +
+                         said["inside"]["cut_cells"], said["inside"]["cells"])
         must("st-export", self.folder / "s.hdf", "-o", self.folder / "s.vtu")
         self.assertIn(b'Name="colour"', (self.folder / "s.vtu").read_bytes())
 
@@ -192,24 +213,29 @@ class Blanking(ToolTest):
         text = ["solid tube"]
         for i in range(0, len(triangles), 50):
             xyz = struct.unpack("<12f", triangles[i : i + 48])
-            text += ["facet normal 0 0 0", "outer loop", *(f"vertex {xyz[k]!r} {xyz[k + 1]!r} {xyz[k + 2]!r}" for k in (3, 9, 6)), "endloop", "endfacet"]
+            text += ["facet normal 0 0 0", "outer loop",
+                     *(f"vertex {xyz[k]!r} {xyz[k + 1]!r} {xyz[k + 2]!r}" for k in (3, 9, 6)), "endloop", "endfacet"]
         (self.folder / "ascii.stl").write_text("\n".join([*text, "endsolid tube"]))  # inside out
         said = {}
         for mesh in (tube / "mesh.hdf", self.folder / "m.stl", self.folder / "ascii.stl"):
-            said[mesh] = must("st-prolong", tube / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", mesh, "--json").json()
+            said[mesh] = must("st-prolong", tube / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", mesh,
+                              "--json").json()
             self.assertGreater(said[mesh]["blanked_cells"], 0)
         counts = [(s["blanked_cells"], s["cut_cells"]) for s in said.values()]
         self.assertEqual(counts[1], counts[2])
         self.assertLess(abs(counts[0][0] - counts[1][0]), 5)
         (self.folder / "bad.stl").write_text("solid x\nvertex 1 2 three\n")
-        self.expect_error(INPUT, "st-prolong", tube / "raster.hdf", "-o", self.folder / "t.hdf", "--blank", self.folder / "bad.stl", says="three")
+        self.expect_error(INPUT, "st-prolong", tube / "raster.hdf", "-o", self.folder / "t.hdf", "--blank",
+                          self.folder / "bad.stl", says="three")
 
     def test_an_open_mesh_is_refused_with_the_places_of_its_edges(self):
         (self.folder / "out").mkdir()
         plate = artifacts_of("plate_with_hole")
-        self.expect_error(GEOMETRY, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "mesh.hdf",
+        self.expect_error(GEOMETRY, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank",
+                          plate / "mesh.hdf",
                           says=["mesh.hdf", "open", "only one triangle, at ("])
-        self.expect_error(INPUT, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank", plate / "raster.hdf", says="raster.hdf")
+        self.expect_error(INPUT, "st-prolong", plate / "raster.hdf", "-o", self.folder / "out/s.hdf", "--blank",
+                          plate / "raster.hdf", says="raster.hdf")
         self.expect_nothing_left(self.folder / "out")
 
 

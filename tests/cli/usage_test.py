@@ -9,14 +9,18 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
-N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1, "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
+N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1,
+            "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
 # Options of all tools, which the pages describe in words.
 COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json"}
 HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
-    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"], "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"], "--time-limit": ["0", "-1", "x"]},
-    "st-edit": {"--transform": ["shear 2", "rotate 1 2 3", "hinge 0 0 0 0 0 0 5", "mirror 1 2", "scale 0", "translate 1 2 3 at 0 0 0"], "--of": ["wing"]},
+    "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"],
+                  "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"],
+                  "--time-limit": ["0", "-1", "x"]},
+    "st-edit": {"--transform": ["shear 2", "rotate 1 2 3", "hinge 0 0 0 0 0 0 5", "mirror 1 2", "scale 0",
+                                "translate 1 2 3 at 0 0 0"], "--of": ["wing"]},
     "st-raster": {
         "--lmin": ["0", "-3", "x", "3pt", "nan"],
         "--lmax": ["0", "1e999"],
@@ -36,8 +40,11 @@ REFUSED = {
         "--preset": ["ranz"],
         "--np": ["0", "-2", "x"],
     },
-    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"], "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"], "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
-    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"], "--tile": ["-1", "999", "1e10"], "--np": ["0"]},
+    "st-prolong": {"--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"],
+                   "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"],
+                   "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
+    "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],
+                "--tile": ["-1", "999", "1e10"], "--np": ["0"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"]},
     "st-check": {
         "--area-tolerance": ["0", "1.1"],
@@ -69,7 +76,8 @@ def options_in_help(tool):
     options = {}
     for line, following in zip(lines, lines[1:]):
         if line.startswith("  -"):
-            head, text = (line, following) if following.startswith(" " * HELP_COLUMN) else (line[:HELP_COLUMN], line[HELP_COLUMN:])
+            head, text = (line, following) if following.startswith(" " * HELP_COLUMN) else (line[:HELP_COLUMN],
+                                                                                            line[HELP_COLUMN:])
             options[re.search(r"--[\w-]+", head)[0]] = (re.sub(r" Excludes: \S+", "", head).strip(), text.strip())
     return options
 
@@ -111,7 +119,8 @@ class Help(ToolTest):
             self.assertRegex(must(tool, "--version").out, rf"^{tool} \d+\.\d+\.\d+\n$")
 
     def test_help_of_a_parallel_run_is_printed_once(self):
-        environment_of_mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "2", str(BIN / "st-mesh"), "--version"]
+        environment_of_mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-np", "2", str(BIN / "st-mesh"),
+                                 "--version"]
         done = subprocess.run(environment_of_mpirun, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stdout.count("st-mesh")), (0, 1), done)
 
@@ -152,11 +161,13 @@ class Usage(ToolTest):
         (self.folder / "a.hdf").write_text("precious")
         for tool in ("st-edit", "st-raster", "st-prolong", "st-merge", "st-export", "st-import"):
             self.expect_error(USAGE, tool, "a.hdf", "-o", "./a.hdf", says="overwritten", cwd=self.folder)
-        self.expect_error(USAGE, "st-mesh", "g.hdf", "a.hdf", "-o", self.folder / "a.hdf", says="overwritten", cwd=self.folder)
+        self.expect_error(USAGE, "st-mesh", "g.hdf", "a.hdf", "-o", self.folder / "a.hdf", says="overwritten",
+                          cwd=self.folder)
         self.assertEqual((self.folder / "a.hdf").read_text(), "precious")
 
     def test_two_outputs_of_one_name_are_2(self):
-        self.expect_error(USAGE, "st-merge", "p.hdf", "--export", "a.stl", "--export", "./a.stl", says="twice", cwd=self.folder)
+        self.expect_error(USAGE, "st-merge", "p.hdf", "--export", "a.stl", "--export", "./a.stl", says="twice",
+                          cwd=self.folder)
 
     def test_usage_error_with_json_is_an_object(self):
         run = self.expect_error(USAGE, "st-mesh", "--json", says="required")
@@ -172,7 +183,8 @@ class OptionFile(ToolTest):
 
     def raster(self, text, code, says=(), arguments=()):
         (self.folder / "o.toml").write_text(text)
-        return self.expect_error(code, "st-raster", "missing.hdf", "--options", "o.toml", *arguments, says=says, cwd=self.folder)
+        return self.expect_error(code, "st-raster", "missing.hdf", "--options", "o.toml", *arguments, says=says,
+                                 cwd=self.folder)
 
     def test_known_options_are_taken(self):
         self.raster('lmin = "0.25mm"\nlmax = 3\nalpha = 7.5\n', INPUT)
@@ -181,7 +193,8 @@ class OptionFile(ToolTest):
         self.raster("", INPUT)
         for tool in TOOLS:
             (self.folder / "t.toml").write_text(must(tool, "--print-options").out)
-            run = Run(tool, *[f"missing{i}" for i in range(N_INPUTS[tool])], *(["-o", "x.stl"] if tool == "st-export" else []), "--options", "t.toml", cwd=self.folder)
+            run = Run(tool, *[f"missing{i}" for i in range(N_INPUTS[tool])],
+                      *(["-o", "x.stl"] if tool == "st-export" else []), "--options", "t.toml", cwd=self.folder)
             self.assertEqual(run.code, INPUT, run)
 
     def test_template_names_every_option_of_the_stage(self):
@@ -309,7 +322,8 @@ class Summary(ToolTest):
 
     def test_stdout_that_takes_nothing_is_6(self):
         with open("/dev/full", "w") as full:
-            done = subprocess.run([BIN / "st-info", artifacts_of("box") / "mesh.hdf"], stdout=full, stderr=subprocess.PIPE, text=True)
+            done = subprocess.run([BIN / "st-info", artifacts_of("box") / "mesh.hdf"], stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.returncode, OUTPUT, done)
 
     def test_hash_is_alone_on_one_line(self):
@@ -323,7 +337,8 @@ class Summary(ToolTest):
         must("st-mesh", "geometry.hdf", "sizing.hdf", cwd=self.folder)
         must("st-merge", "patches.hdf", cwd=self.folder)
         must("st-check", "mesh.hdf", "--geometry", "geometry.hdf", "--sizing", "sizing.hdf", cwd=self.folder)
-        self.expect_nothing_left(self.folder, "wing.step", "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf")
+        self.expect_nothing_left(self.folder, "wing.step", "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf",
+                                 "mesh.hdf")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Damaged CAD files through st-import: each must be refused with one clear message or imported, never crash, hang or succeed with nothing.
+"""Damaged CAD files through st-import: each must be refused with one clear message or imported, never crash, hang or
+succeed with nothing.
 
 usage: fuzz_import.py BIN_DIR [--full] [--cuts N] [--flips N] [--seed N] [--time-limit S] [--models GLOB] [--keep DIR]
 
-Cuts: five files of each format (STEP, IGES, BREP, FLITE) cut at every kilobyte, at most N cuts per file, evenly spread (--full: 100; default 2). A cut file
-must be refused (a BREP file may lose what follows the B-Rep). Flips: N cases in all (--full: 500; default 30), each one to eight bytes of one file set at random; success needs at least one
-face. Files come from ST_CORPUS (default ../shared/corpus beside the repository) and, without it, from ST_MODELS. Cases depend on the seed alone.
+Cuts: five files of each format (STEP, IGES, BREP, FLITE) cut at every kilobyte, at most N cuts per file, evenly spread
+(--full: 100; default 2). A cut file must be refused (a BREP file may lose what follows the B-Rep). Flips: N cases in
+all (--full: 500; default 30), each one to eight bytes of one file set at random; success needs at least one
+face. Files come from ST_CORPUS (default ../shared/corpus beside the repository) and, without it, from ST_MODELS. Cases
+depend on the seed alone.
 --keep DIR keeps the files of failed cases. Exit 1 when a case fails.
 """
 import argparse
@@ -34,7 +37,8 @@ def models(pattern):
     if folder != CORPUS:
         print(f"{CORPUS}: no corpus here, only {folder} is used; set ST_CORPUS", file=sys.stderr)
     for suffixes in FORMATS.values():
-        found = [p for p in sorted(folder.iterdir()) if p.suffix.lower() in suffixes and fnmatch.fnmatch(p.name, pattern)]
+        found = [p for p in sorted(folder.iterdir()) if p.suffix.lower() in suffixes
+                 and fnmatch.fnmatch(p.name, pattern)]
         yield from sorted(found, key=lambda p: (p.stat().st_size, p.name))[:FILES_PER_FORMAT]
 
 
@@ -83,7 +87,8 @@ def complaint(tool, path, cut_from, limit):
     if run.returncode != 0:
         return f"exit {run.returncode}: {error[-300:]!r}"
     report = json.loads(run.stdout.splitlines()[-1])
-    if cut_from and (cut_from.suffix != ".brep" or whole(tool, cut_from) != (report["faces"], report["area"])):  # other data may follow a B-Rep
+    if cut_from and (cut_from.suffix != ".brep"
+                     or whole(tool, cut_from) != (report["faces"], report["area"])):  # other data may follow a B-Rep
         return "taken for a whole file"
     return "" if report["faces"] > 0 else "empty success"
 

@@ -2,7 +2,8 @@
 fails.
 
 usage: golden_test.py             compare (in ctest)
-       golden_test.py --update    write the goldens anew: a commit of its own, with the numbers before and after and the reason
+       golden_test.py --update    write the goldens anew: a commit of its own, with the numbers before and after and the
+       reason
 """
 import sys
 import tempfile

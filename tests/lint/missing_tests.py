@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every lib/<layer>/.../x.cpp has its tests/unit/<layer>/.../x_test.cpp, or stands as <layer>/x in exempt/untested.txt."""
+"""Every lib/<layer>/.../x.cpp has its tests/unit/<layer>/.../x_test.cpp, or stands as <layer>/x in
+exempt/untested.txt."""
 import sys
 from pathlib import Path
 

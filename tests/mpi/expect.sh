@@ -1,6 +1,6 @@
 #!/bin/bash
-# expect.sh CODE TEXT COMMAND...: runs the command; passes when it exits with CODE ("any": not 0) and its stderr has TEXT
-# exactly once (if TEXT is not empty).
+# expect.sh CODE TEXT COMMAND...: runs the command; passes when it exits with CODE ("any": not 0) and its stderr has
+# TEXT exactly once (if TEXT is not empty).
 code=$1 text=$2
 shift 2
 errors=$(mktemp)

@@ -1,4 +1,5 @@
-"""A rank that a signal ends: its number, host and signal are said once, the job ends with 128 + signal, and nothing is left half-written."""
+"""A rank that a signal ends: its number, host and signal are said once, the job ends with 128 + signal, and nothing is
+left half-written."""
 import json
 import os
 import signal
@@ -42,7 +43,8 @@ class KilledRank(ToolTest):
     def start(self, *options):
         self.out = self.folder / "out"
         self.out.mkdir(exist_ok=True)
-        command = [BIN / "st-raster", artifacts_of("torus") / "geometry.hdf", *SLOW, "--np", 3, *options, "-o", self.out / "x.hdf"]
+        command = [BIN / "st-raster", artifacts_of("torus") / "geometry.hdf", *SLOW, "--np", 3, *options, "-o",
+                   self.out / "x.hdf"]
         return subprocess.Popen([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def find_ranks(self, process):
@@ -70,7 +72,8 @@ class KilledRank(ToolTest):
         self.assertEqual(code, 128 + number, err)
         lines = err.strip().split("\n")
         self.assertEqual(len(lines), 1, err)
-        self.assertTrue(lines[0].startswith(f"st-raster: error: rank {rank} on {socket.gethostname().split('.')[0]}"), err)
+        self.assertTrue(lines[0].startswith(f"st-raster: error: rank {rank} on {socket.gethostname().split('.')[0]}"),
+                        err)
         self.assertIn(f"was ended by signal {int(number)} ({text})", err)
         self.expect_nothing_left(self.out)
         return err

@@ -10,7 +10,8 @@ from chain import ToolTest, artifacts_of, must  # noqa: E402
 class RasterRanks(ToolTest):
     def hashes(self, model, *options, ranks=(1, 2, 3, 5, 8)):
         geometry = artifacts_of(model) / "geometry.hdf"
-        return {must("st-raster", geometry, "-o", self.folder / "r.hdf", "--np", n, *options, "--json").json()["hash"] for n in ranks}
+        return {must("st-raster", geometry, "-o", self.folder / "r.hdf", "--np", n, *options, "--json").json()["hash"]
+                for n in ranks}
 
     def test_the_raster_is_equal_at_np_1_2_3_5_8(self):
         self.assertEqual(len(self.hashes("assembly")), 1)
@@ -25,7 +26,8 @@ class RasterRanks(ToolTest):
         geometry, counts, triangles = artifacts_of("assembly") / "geometry.hdf", [], []
         for cell_per_length in (2, 4, 8):
             raster, sizing = self.folder / f"r{cell_per_length}.hdf", self.folder / f"s{cell_per_length}.hdf"
-            counts.append(must("st-raster", geometry, "-o", raster, "--cell-per-length", cell_per_length, "--json").json()["cells"])
+            counts.append(must("st-raster", geometry, "-o", raster, "--cell-per-length", cell_per_length,
+                               "--json").json()["cells"])
             triangles.append(must("st-prolong", raster, "-o", sizing, "--json").json()["expected_triangles"])
         self.assertLess(counts[1], 0.6 * counts[0])
         self.assertLess(counts[2], 0.6 * counts[1])

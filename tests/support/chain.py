@@ -13,7 +13,8 @@ from pathlib import Path
 BIN = Path(os.environ["ST_BIN"])
 MODELS = Path(os.environ["ST_MODELS"])
 WORK = Path(os.environ["ST_WORK"])
-TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info", "st-diff", "st-export"]
+TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info",
+         "st-diff", "st-export"]
 PARALLEL = {"st-raster", "st-mesh", "st-remesh"}
 OK, USAGE, INPUT, GEOMETRY, INCOMPLETE, OUTPUT, MISMATCH, INTERNAL = 0, 2, 3, 4, 5, 6, 7, 70
 
@@ -23,7 +24,8 @@ class Run:
 
     def __init__(self, tool, *arguments, cwd=None, timeout=300):
         self.command = [str(BIN / tool), *map(str, arguments)]
-        done = subprocess.run(self.command, cwd=cwd, capture_output=True, text=True, timeout=timeout, stdin=subprocess.DEVNULL)
+        done = subprocess.run(self.command, cwd=cwd, capture_output=True, text=True, timeout=timeout,
+                              stdin=subprocess.DEVNULL)
         self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
 
     def json(self):
@@ -50,7 +52,8 @@ def make_chain(model, folder, n_ranks=1, import_options=(), raster_options=(), p
     must("st-import", model, "-o", folder / "geometry.hdf", *import_options)
     must("st-raster", folder / "geometry.hdf", "-o", folder / "raster.hdf", *raster_options, *ranks)
     must("st-prolong", folder / "raster.hdf", "-o", folder / "sizing.hdf", *prolong_options)
-    must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "patches.hdf", *mesh_options, *ranks, timeout=1200)
+    must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "patches.hdf", *mesh_options, *ranks,
+         timeout=1200)
     must("st-merge", folder / "patches.hdf", "-o", folder / "mesh.hdf")
     return folder
 

@@ -21,12 +21,15 @@ class Mesh:
 
     def write_fro(self, path):
         head = [f"{len(self.triangles)} {len(self.x)} 1 0 0 {self.surface.max()} 0 0\n"]
-        rows = [f"{i + 1} {a + 1} {b + 1} {c + 1} {s}\n" for i, ((a, b, c), s) in enumerate(zip(self.triangles, self.surface))]
+        rows = [f"{i + 1} {a + 1} {b + 1} {c + 1} {s}\n" for i,
+                ((a, b, c), s) in enumerate(zip(self.triangles, self.surface))]
         path.write_text("".join(head + self.nodes() + rows))
 
     def write_msh(self, path):
-        rows = [f"{i + 1} 2 2 0 {s} {a + 1} {b + 1} {c + 1}\n" for i, ((a, b, c), s) in enumerate(zip(self.triangles, self.surface))]
-        parts = ["$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", f"$Nodes\n{len(self.x)}\n", *self.nodes(), f"$EndNodes\n$Elements\n{len(rows)}\n", *rows, "$EndElements\n"]
+        rows = [f"{i + 1} 2 2 0 {s} {a + 1} {b + 1} {c + 1}\n" for i,
+                ((a, b, c), s) in enumerate(zip(self.triangles, self.surface))]
+        parts = ["$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", f"$Nodes\n{len(self.x)}\n", *self.nodes(),
+                 f"$EndNodes\n$Elements\n{len(rows)}\n", *rows, "$EndElements\n"]
         path.write_text("".join(parts))
 
     def write_stl(self, path):
@@ -39,10 +42,17 @@ class Mesh:
     def write_vtu(self, path, sizes):
         """Ascii, with point data `size`."""
         def array(kind, name, values, components=1):
-            return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{" ".join(map(repr, values.ravel().tolist()))}</DataArray>\n'
+            text = " ".join(map(repr, values.ravel().tolist()))
+            return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+                    f'{text}</DataArray>\n')
 
         n = len(self.triangles)
-        cells = array("Int64", "connectivity", self.triangles) + array("Int64", "offsets", 3 * np.arange(1, n + 1)) + array("UInt8", "types", np.full(n, 5))
-        path.write_text('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n<UnstructuredGrid>\n'
-                        f'<Piece NumberOfPoints="{len(self.x)}" NumberOfCells="{n}">\n<Points>\n{array("Float64", "Points", self.x, 3)}</Points>\n'
-                        f'<Cells>\n{cells}</Cells>\n<PointData>\n{array("Float64", "size", np.asarray(sizes))}</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n')
+        cells = (array("Int64", "connectivity", self.triangles) + array("Int64", "offsets", 3 * np.arange(1, n + 1)) +
+                 array("UInt8", "types", np.full(n, 5)))
+        path.write_text('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" '
+                        'byte_order="LittleEndian">\n<UnstructuredGrid>\n'
+                        f'<Piece NumberOfPoints="{len(self.x)}" NumberOfCells="{n}">\n<Points>\n'
+                        f'{array("Float64", "Points", self.x, 3)}</Points>\n'
+                        f'<Cells>\n{cells}</Cells>\n<PointData>\n'
+                        f'{array("Float64", "size", np.asarray(sizes))}</PointData>\n</Piece>\n</UnstructuredGrid>\n'
+                        f'</VTKFile>\n')

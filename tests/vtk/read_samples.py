@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""read_samples.py WRITE_SAMPLES FORMAT: writes the sample mesh and reads it with VTK; the expected values are those of tests/unit/io/sample_artifacts.h."""
+"""read_samples.py WRITE_SAMPLES FORMAT: writes the sample mesh and reads it with VTK; the expected values are those of
+tests/unit/io/sample_artifacts.h."""
 import subprocess
 import sys
 import tempfile
@@ -22,9 +23,11 @@ FIELD_DATA = {"face_name": ["bottom", "", "Flügel", "a b"], "group_name": ["bod
               "part_name": ["Träger/bolt#1", "Träger/bolt#2"], "group_table_name": ["hot", "cold", "Öl"],
               "edge_group_name": ["te"], "edge_group_table_name": ["root"], "vertex_group_name": ["tip"]}
 # In VTU each name is an array: the numbers of what has it.
-VTU_NAMES = {"face:bottom": [1], "face:Flügel": [3], "face:a b": [4], "group:body": [1], "group:wing": [2], "part:Träger/bolt#2": [2],
+VTU_NAMES = {"face:bottom": [1], "face:Flügel": [3], "face:a b": [4], "group:body": [1], "group:wing": [2],
+             "part:Träger/bolt#2": [2],
              "group_table:Öl": [3], "edge_group:te": [1], "edge_group_table:root": [1], "vertex_group:tip": [1]}
-READERS = {"hdf": vtkHDFReader, "vtu": vtkXMLUnstructuredGridReader, "stl": vtkSTLReader, "obj": vtkOBJReader, "ply": vtkPLYReader}
+READERS = {"hdf": vtkHDFReader, "vtu": vtkXMLUnstructuredGridReader, "stl": vtkSTLReader, "obj": vtkOBJReader,
+           "ply": vtkPLYReader}
 
 
 def read(path, kind):
@@ -89,12 +92,14 @@ def main():
             assert "\ng wing\n# face 3 Flügel\n" in text, text
         if kind == "ply":
             header = open(f"{folder}/mesh.ply", "rb").read().split(b"end_header")[0].decode()
-            for line in ("comment group 2 wing", "comment face 3 Flügel", "comment part 1 Träger/bolt#1", "property int group_table", "property int edge_group",
+            for line in ("comment group 2 wing", "comment face 3 Flügel", "comment part 1 Träger/bolt#1",
+                         "property int group_table", "property int edge_group",
                          "comment edge_group 1 te"):
                 assert line in header, header
         if kind == "stl":  # in the order of groups, which is that of the triangles here
             check_geometry(read(f"{folder}/mesh.ascii.stl", kind))
-            assert [line.split()[1] for line in open(f"{folder}/mesh.ascii.stl") if line.startswith("solid")] == ["body", "wing"]
+            assert [line.split()[1] for line in open(f"{folder}/mesh.ascii.stl")
+                    if line.startswith("solid")] == ["body", "wing"]
     print(f"{kind}: read as written")
 
 

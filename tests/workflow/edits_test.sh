@@ -161,7 +161,7 @@ done << 'TABLE'
   :                                                        | remesh                  | -
   option st-prolong 'slope = 0.22'                         | remesh                  | prolong remesh check export info
   append wake.toml '# nearer'                              | remesh                  | prolong remesh check export info
-  option st-raster 'alpha = 11'                            | remesh                  | raster prolong remesh check export info
+  option st-raster 'alpha = 11'                            | remesh          | raster prolong remesh check export info
   option st-remesh 'too-long = 1.5'                        | remesh                  | remesh check export info
 * option st-remesh 'made-for = "part.hdf"'                 | remesh                  | remesh check export info
 * append part.hdf ''                                       | remesh                  | remesh check export info

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Stands for every tool of the chain in the tests of the make rules: copies what it was given into its output, atomically.
-# FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
+# Stands for every tool of the chain in the tests of the make rules: copies what it was given into its output,
+# atomically. FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it
+# 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
 tool=$(basename "$0")
 inputs=() output='' allowed='' preset=''

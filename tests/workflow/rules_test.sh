@@ -28,7 +28,8 @@ echo 'alpha = 5' > out/a/st-raster.toml
 run MODEL=a.step
 rm out/a/st-raster.toml
 run MODEL=a.step
-expect "a removed option file comes back with the defaults and counts as an edit" "$ran" "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+expect "a removed option file comes back with the defaults and counts as an edit" "$ran" \
+  "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
 echo 'sources = ["wake.toml"]' > out/a/st-prolong.toml
 run MODEL=a.step
 expect "a file that an option names and that is missing stops make before anything runs" "$status $ran" "2 "
@@ -66,7 +67,8 @@ expect "help starts with the five commands of a user" "$commands" "mesh after re
 expect "plain make at the top knows the same rules" "$said" "$(make -f "$source/Makefile.workflow" help)"
 
 run MODEL=a.step OUT=b BLANK=1
-expect "blanking takes two passes and one raster" "$ran" "st-import st-raster st-prolong st-mesh st-merge st-prolong st-mesh st-merge st-check st-export st-info "
+expect "blanking takes two passes and one raster" "$ran" \
+  "st-import st-raster st-prolong st-mesh st-merge st-prolong st-mesh st-merge st-check st-export st-info "
 run MODEL=a.step OUT=b BLANK=1
 expect "a second run with blanking runs nothing" "$ran" ""
 run MODEL=a.step OUT=b
@@ -161,7 +163,8 @@ run MODEL=e.step
 expect "a raster of which parts are missing stops make" "$status $ran" "2 st-raster "
 expect "and is kept under a name that no rule trusts" "$(ls out/e/raster*)" out/e/raster.incomplete.hdf
 run MODEL=e.step ALLOW_INCOMPLETE=1
-expect "raster and sizing are allowed to be incomplete when asked" "$status $ran" "0 st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+expect "raster and sizing are allowed to be incomplete when asked" "$status $ran" \
+  "0 st-raster st-prolong st-mesh st-merge st-check st-export st-info "
 unset FAKE_FAIL
 
 echo '# edited' >> out/e/st-mesh.toml
@@ -180,14 +183,16 @@ for _ in $(seq 200); do [ -s "$FAKE_LOG.pid" ] && break; sleep 0.05; done
 kill -KILL "$(cat "$FAKE_LOG.pid")"
 wait $make_id || true
 run MODEL=e.step
-expect "a killed stage runs again, and what follows" "$ran" "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
+expect "a killed stage runs again, and what follows" "$ran" \
+  "st-raster st-prolong st-mesh st-merge st-check st-export st-info "
 expect "and leaves no temporary" "$(find out/e -name '.*.tmp.*' | wc -l)" 0
 
 FAKE_CHECK=5
 export FAKE_CHECK
 echo '# edited' >> out/e/st-merge.toml
 run MODEL=e.step
-expect "a mesh that does not pass ends make with an error, after the report" "$status $(grep -c 'did not pass' <<< "$said")" "2 1"
+expect "a mesh that does not pass ends make with an error, after the report" \
+  "$status $(grep -c 'did not pass' <<< "$said")" "2 1"
 unset FAKE_CHECK
 run MODEL=e.step
 expect "and the verdict stays" "$status $ran" "2 "
@@ -218,7 +223,8 @@ run MODEL=a.step OUT=d clean
 expect "cleaning what is not there is fine" "$status" 0
 for odd in .brep ...brep /.step; do
   run MODEL=$odd clean
-  expect "$odd gives no folder a name: nothing is removed" "$status $(ls -d out/a) $(grep -c 'give OUT=' <<< "$said")" "2 out/a 1"
+  expect "$odd gives no folder a name: nothing is removed" \
+    "$status $(ls -d out/a) $(grep -c 'give OUT=' <<< "$said")" "2 out/a 1"
 done
 
 # shellcheck disable=SC2016
@@ -234,7 +240,8 @@ cp a.step ./-f.step
 run MODEL=-f.step OUT=d
 expect "a model's name may begin with a dash" "$status $ran" "0 $all"
 # shellcheck disable=SC2016
-for given in 'OUT=d;touch${IFS}pwned' 'OUT=$(shell touch pwned)' 'NP=1;touch pwned' NP=x 'TOOLS=bin;touch pwned' 'OUT=-rf'; do
+for given in 'OUT=d;touch${IFS}pwned' 'OUT=$(shell touch pwned)' 'NP=1;touch pwned' NP=x 'TOOLS=bin;touch pwned' \
+  'OUT=-rf'; do
   run MODEL=a.step "$given"
   expect "$given is refused" "$status $(missing pwned)" "2 1"
 done
@@ -242,7 +249,8 @@ done
 if localedef -i de_DE -f UTF-8 "$work/de_DE.UTF-8" > /dev/null 2>&1 || [ -d "$work/de_DE.UTF-8" ]; then
   export LOCPATH=$work
   { LC_ALL=de_DE.UTF-8 run MODEL=a.step OUT=f; } 2> /dev/null  # this shell itself cannot
-  expect "a locale with a decimal comma gives the same report" "$status $(grep -c '^  total .*\.[0-9]* s$' f/report.txt)" "0 1"
+  expect "a locale with a decimal comma gives the same report" \
+    "$status $(grep -c '^  total .*\.[0-9]* s$' f/report.txt)" "0 1"
 else
   echo "SKIPPED: localedef cannot make a locale with a decimal comma"
 fi

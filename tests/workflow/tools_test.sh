@@ -1,5 +1,6 @@
 #!/bin/bash
-# Makefile.workflow with the real tools on a small model: up to date means nothing to do, an edit runs only what follows.
+# Makefile.workflow with the real tools on a small model: up to date means nothing to do, an edit runs only what
+# follows.
 # usage: tools_test.sh SOURCE_DIR BIN_DIR MODELS_DIR
 set -eu -o pipefail
 source=$1 bin=$2 models=$3
