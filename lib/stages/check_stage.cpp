@@ -235,15 +235,7 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
 }
 
-void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
-                     const CheckThresholds& allow, Findings& f) {
-  const SurfaceMesh& mesh = artifact.mesh;
-  f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
-  f.shape = check_shape(mesh);
-  check_crossings_and_contacts(mesh, cad, f);
-  f.measure = measure_mesh(mesh);
-  f.quality = measure_quality(mesh, corners);
-  f.is_stretched = corners.is_stretched();
+std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, const Findings& f) {
   const std::string open = f.topology.n_cad_boundary_edges
                                ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges)
                                : "";
@@ -251,7 +243,7 @@ void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corner
       f.topology.n_cad_nonmanifold_edges
           ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges)
           : "";
-  f.checks = {
+  return {
       check_complete(artifact),
       {"closed", "open edges", f.topology.boundary_edges, true, open},
       {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
@@ -269,6 +261,18 @@ void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corner
        f.crossings.cad_contacts, false, ""},
       {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
       check_volume(f.topology, f.measure)};
+}
+
+void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
+                     const CheckThresholds& allow, Findings& f) {
+  const SurfaceMesh& mesh = artifact.mesh;
+  f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
+  f.shape = check_shape(mesh);
+  check_crossings_and_contacts(mesh, cad, f);
+  f.measure = measure_mesh(mesh);
+  f.quality = measure_quality(mesh, corners);
+  f.is_stretched = corners.is_stretched();
+  f.checks = list_mesh_checks(artifact, allow, f);
 }
 
 void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tolerance, Findings& f) {
@@ -469,7 +473,6 @@ StageSummary run_check(const CheckStageOptions& options) {
   std::unique_ptr<CadSide> cad;
   const MeshArtifact artifact = read_checked_mesh(options, cad);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
-
   const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
@@ -481,7 +484,6 @@ StageSummary run_check(const CheckStageOptions& options) {
   if (cad)
     f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
                                  options.list_below_deg);
-
   check_quality(artifact.mesh, corners, options.thresholds, f);
   check_causes(options.thresholds, f);
   check_sizes(options.thresholds, f);

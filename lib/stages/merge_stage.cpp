@@ -156,27 +156,10 @@ MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& op
   return artifact;
 }
 
-}  // namespace
-
-StageSummary run_merge(const MergeStageOptions& options) {
-  const Timer timer;
-  keep_freed_memory();
-  require_outputs(options);
-  std::vector<InputRef> inputs;
-  PatchesArtifact patches = read_parts(options.patches, inputs);
-  require_complete(patches, options);
-  OrientationReport orientation;
-  const MeshArtifact artifact = make_artifact(patches, options, std::move(inputs), orientation);
-  patches = {};
-  warn_of_changes(orientation);
-
+StageSummary summarize(const MergeStageOptions& options, const MeshArtifact& artifact, const std::string& hash,
+                       const TopologyReport& topology, const OrientationReport& orientation, double seconds) {
   const SurfaceMesh& mesh = artifact.mesh;
-  const TopologyReport topology = check_topology(mesh);
   const MeshMeasure measure = measure_mesh(mesh);
-  const std::string hash = write_mesh(options.output, artifact);
-  for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
-
-  const double seconds = timer.seconds();
   const nlohmann::json json{{"output", options.output},
                             {"hash", hash},
                             {"triangles", mesh.n_triangles()},
@@ -200,6 +183,28 @@ StageSummary run_merge(const MergeStageOptions& options) {
   return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(),
                       state, artifact.is_complete ? "" : ", INCOMPLETE", seconds),
           json_text(json), ExitCode::kOk};
+}
+
+}  // namespace
+
+StageSummary run_merge(const MergeStageOptions& options) {
+  const Timer timer;
+  keep_freed_memory();
+  require_outputs(options);
+  std::vector<InputRef> inputs;
+  PatchesArtifact patches = read_parts(options.patches, inputs);
+  require_complete(patches, options);
+  OrientationReport orientation;
+  const MeshArtifact artifact = make_artifact(patches, options, std::move(inputs), orientation);
+  patches = {};
+  warn_of_changes(orientation);
+
+  const SurfaceMesh& mesh = artifact.mesh;
+  const TopologyReport topology = check_topology(mesh);
+  const std::string hash = write_mesh(options.output, artifact);
+  for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
+
+  return summarize(options, artifact, hash, topology, orientation, timer.seconds());
 }
 
 }  // namespace st

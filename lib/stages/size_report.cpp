@@ -90,6 +90,58 @@ GroupSizes sizes_of_faces(const std::string& name, const std::vector<std::uint8_
   return groups.empty() ? GroupSizes{name, 0, 0, 0, {}} : groups[0];
 }
 
+/// What is said of the size at a point.
+struct PointSize {
+  Vec3 x;
+  SizeExplanation why;
+  SizeOrigin origin;  ///< of the cause, as the model is
+  std::string cause;
+  bool is_inside;  ///< the octree's box
+  double slope;
+};
+
+PointSize find_size(const std::string& artifact, const OctreeField& field, Vec3 x) {
+  PointSize p{x, field.explain(x), {}, "", false, field.slope()};
+  const Similarity frame = field.frame();
+  p.origin = find_origin(field.data(), Neighbours(field.data().octree), p.why.leaf);
+  p.origin.xyz = frame(p.origin.xyz);
+  p.origin.length *= frame.scale;
+  p.cause = cause_text(read_cause_names(artifact), p.why.cause);
+  p.is_inside = is_inside(field.data().octree, frame.inverse()(x));
+  return p;
+}
+
+/// `unit`: "" or " mm".
+std::string size_text(const PointSize& p, const std::string& unit) {
+  const SizeExplanation& why = p.why;
+  std::string text = fmt::format("length {:.6g}{}\n", why.length, unit);
+  if (why.along > why.length)
+    text += fmt::format("  along     {:.6g}{} in direction {}\n", why.along, unit, to_text(why.direction));
+  if (!p.is_inside) text += "  outside the box of the octree: the length at its border applies\n";
+  text +=
+      fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient), norm(why.gradient), p.slope);
+  text += fmt::format("  cause     {}", p.cause);
+  if (why.cause != kNone)
+    text += fmt::format(", which requires {:.6g}{} near {}, {:.4g}{} away", p.origin.length, unit,
+                        to_text(p.origin.xyz), distance(p.x, p.origin.xyz), unit);
+  return text + fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
+}
+
+Json size_json(const std::string& artifact, const PointSize& p) {
+  const double away = distance(p.x, p.origin.xyz);
+  return {{"tool", "st-info"},
+          {"artifact", artifact},
+          {"xyz", to_json(p.x)},
+          {"is_inside", p.is_inside},
+          {"length", p.why.length},
+          {"along", {{"length", p.why.along}, {"direction", to_json(p.why.direction)}}},
+          {"gradient", to_json(p.why.gradient)},
+          {"slope", p.slope},
+          {"cause", p.cause},
+          {"origin", {{"length", p.origin.length}, {"xyz", to_json(p.origin.xyz)}, {"distance", away}}},
+          {"cell", {{"id", p.why.leaf + 1}, {"level", p.why.level}, {"edge", p.why.cell_edge}}}};
+}
+
 }  // namespace
 
 StageSummary run_size_at(const std::string& artifact, const std::string& text) {
@@ -97,42 +149,11 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
   if (!parse_point(text, x))
     throw Error(ExitCode::kUsage, fmt::format("--at '{}': not a point; write three numbers, such as 1.5,0,-2", text));
   const MappedSizing sizing = map_sizing(artifact);
-  const CauseNames names = read_cause_names(artifact);
-  const OctreeField& field = *sizing.field;
-  const SizeExplanation why = field.explain(x);
-  const Similarity frame = field.frame();
-  SizeOrigin origin = find_origin(field.data(), Neighbours(field.data().octree), why.leaf);
-  origin.xyz = frame(origin.xyz);
-  origin.length *= frame.scale;
-  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit,
-                    cause = cause_text(names, why.cause);
-  const bool inside = is_inside(field.data().octree, frame.inverse()(x));
+  const PointSize size = find_size(artifact, *sizing.field, x);
+  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
   StageSummary summary;
-  summary.line = fmt::format("{} at {}: length {:.6g}{}\n", artifact, to_text(x), why.length, unit);
-  if (why.along > why.length)
-    summary.line += fmt::format("  along     {:.6g}{} in direction {}\n", why.along, unit, to_text(why.direction));
-  if (!inside) summary.line += "  outside the box of the octree: the length at its border applies\n";
-  summary.line += fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient),
-                              norm(why.gradient), field.slope());
-  summary.line += fmt::format("  cause     {}", cause);
-  if (why.cause != kNone)
-    summary.line += fmt::format(", which requires {:.6g}{} near {}, {:.4g}{} away", origin.length, unit,
-                                to_text(origin.xyz), distance(x, origin.xyz), unit);
-  summary.line +=
-      fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
-  const Json json = {
-      {"tool", "st-info"},
-      {"artifact", artifact},
-      {"xyz", to_json(x)},
-      {"is_inside", inside},
-      {"length", why.length},
-      {"along", {{"length", why.along}, {"direction", to_json(why.direction)}}},
-      {"gradient", to_json(why.gradient)},
-      {"slope", field.slope()},
-      {"cause", cause},
-      {"origin", {{"length", origin.length}, {"xyz", to_json(origin.xyz)}, {"distance", distance(x, origin.xyz)}}},
-      {"cell", {{"id", why.leaf + 1}, {"level", why.level}, {"edge", why.cell_edge}}}};
-  summary.json = json_text(json);
+  summary.line = fmt::format("{} at {}: {}", artifact, to_text(x), size_text(size, unit));
+  summary.json = json_text(size_json(artifact, size));
   return summary;
 }
 

@@ -677,11 +677,6 @@ T number_attribute(const Hdf5Reader& reader, const std::map<AttributeKey, Attrib
 }
 }  // namespace
 
-std::string Hdf5Reader::string_attribute(const std::string& group, const std::string& name) const {
-  const auto it = impl_->attributes.find({group, name});
-  if (it == impl_->attributes.end() || it->second.kind != 's') fail(group + "@" + name, "is missing");
-  return it->second.bytes;
-}
 std::int64_t Hdf5Reader::int_attribute(const std::string& group, const std::string& name) const {
   return number_attribute<std::int64_t>(*this, impl_->attributes, {group, name}, 'i');
 }

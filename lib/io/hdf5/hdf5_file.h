@@ -213,7 +213,6 @@ class Hdf5Reader {
 
   /// All single-valued attributes that are part of the content, by name.
   std::vector<AttributeSummary> content_attributes() const;
-  std::string string_attribute(const std::string& group, const std::string& name) const;
   std::int64_t int_attribute(const std::string& group, const std::string& name) const;
   double double_attribute(const std::string& group, const std::string& name) const;
 

@@ -1,0 +1,69 @@
+#include "io/toml/size_rule_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "base/error.h"
+#include "io/file/text_file.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+class SizeRuleFiles : public testing::Test {
+ protected:
+  /// The rules of a file with one table [[size]] of these lines.
+  SizeRuleFile read(const std::string& keys) const {
+    write_text_file(dir_ / "sizes.toml", "[[size]]\n" + keys + "\n");
+    return read_size_rules(dir_ / "sizes.toml");
+  }
+  /// What a reader is told; "": the rule was taken.
+  std::string refusal(const std::string& keys) const {
+    try {
+      read(keys);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::kUsage);
+      return e.what();
+    }
+    return "";
+  }
+  TemporaryDirectory dir_;
+};
+
+TEST_F(SizeRuleFiles, keep_what_each_key_sets) {
+  const SizeRule rule = read(
+                            "groups = [\"WING*\", \"TAIL\"]\nfaces = 3\nlmin = 0.5\nlmax = \"2%\"\nalpha = 7.5\n"
+                            "gap_cells = 3\nwall_cells = 4\nedge_cells = 0\nmax_aspect = 8\nfor = \"curves\"")
+                            .rules.at(0);
+  EXPECT_EQ(rule.groups, (std::vector<std::string>{"WING*", "TAIL"}));
+  EXPECT_EQ(rule.faces, std::vector<std::string>{"3"});
+  EXPECT_TRUE(rule.lmin && rule.lmax && !rule.chord);
+  EXPECT_EQ(rule.alpha_deg, 7.5);
+  EXPECT_EQ(rule.gap_cells, 3);
+  EXPECT_EQ(rule.wall_cells, 4);
+  EXPECT_EQ(rule.edge_cells, 0) << "off";
+  EXPECT_EQ(rule.max_aspect, 8);
+  EXPECT_TRUE(rule.for_curves && !rule.for_surfaces);
+  EXPECT_NE(rule.where.find("sizes.toml:1"), std::string::npos);
+}
+
+TEST_F(SizeRuleFiles, take_numbers_within_the_ranges_of_the_options_alone) {
+  for (const char* good : {"alpha = 0.001", "alpha = 90", "gap_cells = 100", "wall_cells = 0", "max_aspect = 1"})
+    EXPECT_EQ(refusal(good), "") << good;
+  for (const char* bad : {"alpha = 0", "alpha = 90.1", "alpha = \"7\"", "gap_cells = 101", "wall_cells = -1",
+                          "edge_cells = 1.5", "max_aspect = 0.9", "max_aspect = 101"}) {
+    const std::string text = refusal(bad), key = std::string(bad).substr(0, std::string(bad).find(' '));
+    EXPECT_NE(text.find("sizes.toml:2: " + key), std::string::npos) << bad << " -> " << text;
+    EXPECT_NE(text.find('['), std::string::npos) << "has the range: " << text;
+  }
+}
+
+TEST_F(SizeRuleFiles, refuse_rules_that_set_nothing_and_keys_that_they_do_not_know) {
+  EXPECT_NE(refusal("groups = \"WING\"").find("sets nothing"), std::string::npos);
+  EXPECT_NE(refusal("lmim = 2").find("unknown key 'lmim'"), std::string::npos);
+  EXPECT_NE(refusal("between = [\"A\"]\nlmax = 1").find("two names"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace st
