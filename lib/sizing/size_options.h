@@ -11,16 +11,17 @@ struct SizeOptions {
       "curvature angle: largest angle in degrees by which normal or tangent turn along one edge length"};
   // of these three a rule may also give 0: off
   static constexpr NumberOption kGapCells{
-      "--gap-cells", "N", "[1, 100]", "proximity: edge lengths across gaps in the flow, down to --lmin; default: off"};
+      "--gap-cells", "N", "[1, 100]",
+      "proximity: number of edge lengths across gaps in the flow, down to --lmin; default: off"};
   static constexpr NumberOption kWallCells{
       "--wall-cells", "N", "[1, 100]",
-      "edge lengths across thin walls, inside the material, down to --lmin; default: off"};
+      "number of edge lengths across thin walls, inside the material, down to --lmin; default: off"};
   static constexpr NumberOption kEdgeCells{
       "--edge-cells", "N", "[1, 100]",
       "smallest number of edge lengths along each CAD edge, down to --lmin; default: 1"};
   static constexpr NumberOption kMaxAspect{
       "--max-aspect", "A", "[1, 100]",
-      "largest length along noses, edges and flat directions over the length across; 1: the same in all directions"};
+      "largest edge length along noses, edges and flat directions, divided by the length across; 1: none is longer"};
 };
 
 }  // namespace st

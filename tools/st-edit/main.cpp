@@ -8,8 +8,9 @@ int main(int argc, char** argv) {
   tool.inputs("geometries", o.geometries, "geometry artifacts; several are joined into one");
   tool.output(o.output);
   tool.text("--as", o.as, "NAME,...", "names of the inputs, in order; default: the file names");
-  tool.text("--join", o.join, "NAMES",
-            "groups of this name in several inputs become one group; other later ones get their input's name in front");
+  tool.text(
+      "--join", o.join, "NAMES",
+      "groups of this name in several inputs become one group; others of later inputs get the input's name in front");
   tool.text("--extract", o.extract, "NAMES", "keep only these groups, parts or faces (17 or 3-7); default: everything");
   tool.text("--remove", o.remove, "NAMES", "remove these groups, parts or faces (17 or 3-7)");
   tool.texts("--transform", o.transforms, "STEPS",

@@ -5,6 +5,9 @@
 
 namespace st {
 
+// For boxes: what lies between samples is second order in their distance.
+constexpr int kBoxSamples = 32, kBoxSamplesPerPiece = 4;
+
 /// Ascending parameters from `lo` to `hi` (both included) through `knots` (inside, ascending), each interval between
 /// knots cut into as many equal parts as give at least `n_least` intervals, and at least `n_each`.
 inline std::vector<double> sample_parameters(double lo, double hi, const std::vector<double>& knots, int n_least = 16,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "features/strip.h"
 #include "meshing/topology/curve_discretiser.h"
 #include "support/meshed.h"
+#include "support/tapered_strip.h"
 
 namespace st {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// A bar whose narrow faces taper from 1 to 0.02, one of them closed as a strip, meshed with length 0.1.
 struct ClosedStrip {
   Model model = test::make_model("wedge_strip");
-  Strip strip = find_strips(model).front();
+  Strip strip = test::tapered_strip();
   MeshTopology topology{model.tables(),
                         {.edge = {},
                          .strip_face = {strip.face},

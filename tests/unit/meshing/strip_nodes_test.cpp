@@ -7,22 +7,14 @@
 
 #include "features/strip.h"
 #include "meshing/topology/small_features.h"
-#include "support/shapes.h"
+#include "support/tapered_strip.h"
 
 namespace st {
 namespace {
 
-Strip tapered_strip() {
-  for (const Strip& s : find_strips(test::make_model("wedge_strip")))
-    if (std::abs(s.stations.front().width - s.stations.back().width) > 0.9 &&
-        s.stations.front().width + s.stations.back().width < 1.1)
-      return s;
-  return {};
-}
-
 TEST(StripNodes, both_edges_get_as_many_nodes_common_ones_where_it_is_narrow) {
   const Model model = test::make_model("wedge_strip");
-  const Strip strip = tapered_strip();
+  const Strip strip = test::tapered_strip();
   const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
   const UniformField field(1);
   const EdgeMesh nodes = discretise_curve(*kept, field, {});

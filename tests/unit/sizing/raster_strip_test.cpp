@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/shapes.h"
+#include "support/tapered_strip.h"
 
 namespace st {
 namespace {
@@ -18,16 +18,8 @@ SamplingLimits limits(double min_length, double max_length) {
   return l;
 }
 
-Strip tapered_strip() {
-  for (const Strip& s : find_strips(test::make_model("wedge_strip")))
-    if (std::abs(s.stations.front().width - s.stations.back().width) > 0.9 &&
-        s.stations.front().width + s.stations.back().width < 1.1)
-      return s;
-  return {};
-}
-
 TEST(RasterStrip, asks_for_its_width_within_the_limits_and_for_nothing_where_it_is_too_narrow) {
-  const Strip strip = tapered_strip();
+  const Strip strip = test::tapered_strip();
   ASSERT_NE(strip.face, kNone);
   std::vector<RasterBox> boxes;
   raster_strip(strip, limits(0.5, 2), 7, boxes);
@@ -66,7 +58,7 @@ TEST(RasterStrip, follows_edges_of_many_turns) {
 }
 
 TEST(RasterStrip, asks_for_its_own_width_below_the_smallest_length_down_to_a_fifth) {
-  const Strip strip = tapered_strip();
+  const Strip strip = test::tapered_strip();
   ASSERT_NE(strip.face, kNone);
   std::vector<RasterBox> boxes;
   raster_strip(strip, limits(2, 10), 0, boxes);
