@@ -25,9 +25,8 @@ from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 # Pastel colours that stay apart from their neighbours in the list.
 PALETTE = [(0.71, 0.78, 0.86), (0.95, 0.76, 0.55), (0.60, 0.78, 0.64), (0.87, 0.60, 0.58), (0.72, 0.65, 0.83),
-           (0.94, 0.87, 0.58),
-           (0.55, 0.75, 0.80), (0.86, 0.70, 0.78), (0.76, 0.80, 0.55), (0.65, 0.68, 0.90), (0.93, 0.66, 0.70),
-           (0.62, 0.84, 0.78)]
+           (0.94, 0.87, 0.58), (0.55, 0.75, 0.80), (0.86, 0.70, 0.78), (0.76, 0.80, 0.55), (0.65, 0.68, 0.90),
+           (0.93, 0.66, 0.70), (0.62, 0.84, 0.78)]
 
 
 def read(path):
@@ -64,7 +63,8 @@ def actor(data, colour=(0.8, 0.8, 0.8), line_width=1.0):
     return result
 
 
-# rendered pixels per pixel of the picture and direction: faster than multisampling in software, and lines can be thinner than a pixel
+# rendered pixels per pixel of the picture and direction: faster than multisampling in software, and lines can
+# be thinner than a pixel
 SAMPLES = 2
 
 

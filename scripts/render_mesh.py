@@ -2,8 +2,8 @@
 """Pictures of a mesh artifact: the whole surface and, where the groups of the bundled example are found, close-ups of
 its difficult places.
 
-usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--prefix mesh] [--check] [--at
-NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
+usage: render_mesh.py mesh.hdf [-o docs/images] [--view NAME ...] [--prefix mesh] [--check]
+       [--at NAME=X,Y,Z,HALF_HEIGHT[,DX,DY,DZ] ...]
 Needs python3-vtk9 and, without a display, xvfb.
 """
 
@@ -31,8 +31,9 @@ class Mesh:
         self.group = common.cell_array(self.grid, "group").astype(int) - 1  # the artifact counts from 1
         names = self.grid.GetFieldData().GetAbstractArray("group_name")
         n_groups = int(self.group.max()) + 1
-        self.names = [names.GetValue(i)
-                      for i in range(names.GetNumberOfValues())] if names else [f"group {i}" for i in range(n_groups)]
+        self.names = [f"group {i}" for i in range(n_groups)]
+        if names:
+            self.names = [names.GetValue(i) for i in range(names.GetNumberOfValues())]
 
     def is_outer(self):
         """Per triangle: far field or symmetry plane."""

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 """Pictures of a size field: slices through the octree, coloured by requested edge length on a logarithmic scale, by the
-cause of
-the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks (white flow,
-orange cut, grey blanked).
+cause of the length (each edge, face and source its own colour; white: the largest length), or by what a mesh blanks
+(white flow, orange cut, grey blanked).
 
 usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour]
 [--suffix TEXT] [--view NAME [--as NAME]] [--check] [-o docs/images]
@@ -86,7 +85,8 @@ def slice_scene(grid, name, origin, normal, body, half_height, table=None):
         centres = vtk.vtkCellCenters()
         centres.SetInputData(piece)
         centres.Update()
-        near = numpy.abs(vtk_to_numpy(centres.GetOutput().GetPoints().GetData()) - numpy.array(origin)).max(axis=1) < 1.6 * half_height
+        places = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
+        near = numpy.abs(places - numpy.array(origin)).max(axis=1) < 1.6 * half_height
         lengths = vtk_to_numpy(piece.GetCellData().GetArray(name))[near]
         table = colours(float(lengths.min()), float(lengths.max()))
 
