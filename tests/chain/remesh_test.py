@@ -112,7 +112,7 @@ class LocalChange(ToolTest):
         """A .vtu with these lengths as point data; only that part of it is read."""
         text = "\n".join(str(v) for v in values)
         path = self.folder / "lengths.vtu"
-        path.write_text(f'<VTKFile><PointData><DataArray type="Float64" Name="h" '
+        path.write_text(f'<VTKFile type="UnstructuredGrid"><PointData><DataArray type="Float64" Name="h" '
                         f'format="ascii">{text}</DataArray></PointData></VTKFile>')
         return f"{path}:h"
 

@@ -1,6 +1,5 @@
 """Groups, parts and names from the CAD file and a groups file to the mesh and the exports."""
 import os
-import re
 import sys
 import unittest
 from collections import Counter
@@ -94,17 +93,19 @@ class Chain(ToolTest):
             name = line[6:] if line.startswith("solid ") else name
             solids[name] += line.startswith("facet ")
         self.assertEqual(list(solids), [n.replace(" ", "_") for n in names])
-        of_group, group = Counter(), 0
+        of_group, group = Counter(), ""
         for line in (self.folder / "mesh.obj").read_text().split("\n"):
             if line.startswith("g "):
-                group = int(re.search(r" group_(\d+)", line)[1])
+                group = line[2:]
             elif line.startswith("f "):
                 of_group[group] += 1
-        self.assertEqual([of_group[i + 1] for i in range(len(names))], list(solids.values()))
+        self.assertEqual(of_group, solids)
         msh = (self.folder / "mesh.msh").read_text()
         for i, n in enumerate(names):
             self.assertIn(f'\n2 {i + 1} "{n}"\n', msh)
-        self.assertIn("".join(n + "\0" for n in names).encode(), (self.folder / "mesh.vtu").read_bytes())
+        vtu = (self.folder / "mesh.vtu").read_text()
+        for n in names:
+            self.assertIn(f'Name="group:{n}"', vtu)
         ply = (self.folder / "mesh.ply").read_bytes().split(b"end_header")[0].decode()
         for i, n in enumerate(names):
             self.assertIn(f"comment group {i + 1} {n}\n", ply)
@@ -375,10 +376,11 @@ class EntityGroups(ToolTest):
         for suffix in ("msh", "vtu", "obj", "ply"):
             self.assertEqual(must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err, "")
         for suffix in ("stl", "ascii.stl", "fro"):
-            self.assertIn("3 are not exported",
+            self.assertIn("groups of edges and vertices (3)",
                           must("st-export", folder / "mesh.hdf", "-o", folder / f"m.{suffix}").err)
-        self.assertIn("3 are not exported", must("st-merge", folder / "patches.hdf", "-o", folder / "again.hdf",
-                                                 "--export", folder / "m.stl").err)
+        self.assertIn("groups of edges and vertices (3)",
+                      must("st-merge", folder / "patches.hdf", "-o", folder / "again.hdf", "--export",
+                           folder / "m.stl").err)
         msh = MshFile(folder / "m.msh")
         number = {name: (dim, n) for dim, n, name in msh.names}
         self.assertEqual((number["outline"][0], number["group_bc:uprights"][0], number["corner"][0]), (1, 1, 0))
@@ -565,7 +567,7 @@ class Names(ToolTest):
         make_chain(model, self.folder, **COARSE)
         _, json = groups_of(self.folder / "mesh.hdf")
         self.assertEqual(list(json["face_names"]), [name])
-        for suffix, text in (("vtu", f"{name}\0"), ("msh", f'"{name}"'),
+        for suffix, text in (("vtu", f'Name="face:{name}"'), ("msh", f'"{name}"'),
                              ("ascii.stl", f"solid {name.replace(' ', '_')}\n"), ("ply", f" {name}\n")):
             must("st-export", self.folder / "mesh.hdf", "-o", self.folder / f"mesh.{suffix}")
             self.assertIn(text.encode(), (self.folder / f"mesh.{suffix}").read_bytes(), suffix)

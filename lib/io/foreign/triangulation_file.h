@@ -21,6 +21,8 @@ struct TriangulationFile {
 /// All throw Error(kInput) naming file and place. `bytes`: the whole file.
 TriangulationFile parse_msh(const std::string& path, const std::string& bytes);
 TriangulationFile parse_vtu(const std::string& path, const std::string& bytes);
+/// The array `name` of the point data of a .vtu, as many values as it has.
+std::vector<double> parse_vtu_point_array(const std::string& path, const std::string& bytes, const std::string& name);
 TriangulationFile parse_fro(const std::string& path, const std::string& bytes);
 /// An HDF5 file with a group /VTKHDF of type UnstructuredGrid, by whomever.
 TriangulationFile read_vtkhdf(const std::string& path);

@@ -63,6 +63,13 @@ class VtuParser {
     return result;
   }
 
+  std::vector<double> point_array(const std::string& name) {
+    read_head();
+    const auto array = find("PointData", name);
+    if (!array) fail("array '" + name + "' is not among the point data");
+    return all_values<double>(*array);
+  }
+
  private:
   struct Array {
     std::string_view tag, body;  ///< body: up to the next tag
@@ -141,13 +148,22 @@ class VtuParser {
   /// Exactly `n` values of an array, converted.
   template <class Value>
   std::vector<Value> values(const Array& array, std::size_t n) const {
+    std::vector<Value> result = all_values<Value>(array);
+    if (result.size() != n)
+      fail("cut off: array '" + attribute(array.tag, "Name") + "' has " + std::to_string(result.size()) +
+           " values instead of " + std::to_string(n));
+    return result;
+  }
+
+  template <class Value>
+  std::vector<Value> all_values(const Array& array) const {
     const std::string format = attribute(array.tag, "format"), type = attribute(array.tag, "type"),
                       name = attribute(array.tag, "Name");
     std::vector<Value> result;
     if (format == "ascii") {
       ByteCursor in(path_, array.body);
       in.is_binary = true;
-      while (!in.is_at_end() && result.size() <= n) result.push_back(static_cast<Value>(in.real()));
+      while (!in.is_at_end()) result.push_back(static_cast<Value>(in.real()));
     } else if (type == "Float64") {
       result = convert<Value, double>(binary(array, format));
     } else if (type == "Float32") {
@@ -161,9 +177,6 @@ class VtuParser {
     } else {
       fail("array '" + name + "' has the type '" + type + "', which is not read");
     }
-    if (result.size() != n)
-      fail("cut off: array '" + name + "' has " + std::to_string(result.size()) + " values instead of " +
-           std::to_string(n));
     return result;
   }
 
@@ -268,5 +281,9 @@ class VtuParser {
 }  // namespace
 
 TriangulationFile parse_vtu(const std::string& path, const std::string& bytes) { return VtuParser(path, bytes).run(); }
+
+std::vector<double> parse_vtu_point_array(const std::string& path, const std::string& bytes, const std::string& name) {
+  return VtuParser(path, bytes).point_array(name);
+}
 
 }  // namespace st

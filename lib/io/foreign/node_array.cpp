@@ -1,18 +1,17 @@
-#include "io/hdf5/node_array.h"
+#include "io/foreign/node_array.h"
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <sstream>
 
 #include "base/error.h"
+#include "io/foreign/triangulation_file.h"
 
 namespace st {
 namespace {
@@ -58,67 +57,10 @@ std::vector<double> read_hdf5(const std::string& path, const std::string& name, 
   return *values;
 }
 
-/// Value of an attribute of an XML tag; empty: none.
-std::string attribute(const std::string& tag, const std::string& key) {
-  const std::size_t at = tag.find(" " + key + "=\"");
-  if (at == std::string::npos) return "";
-  const std::size_t begin = at + key.size() + 3;
-  return tag.substr(begin, tag.find('"', begin) - begin);
-}
-
-template <class Value>
-std::vector<double> convert(const char* data, std::size_t n_bytes) {
-  std::vector<double> values(n_bytes / sizeof(Value));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    Value v;
-    std::memcpy(&v, data + i * sizeof v, sizeof v);
-    values[i] = static_cast<double>(v);
-  }
-  return values;
-}
-
-/// Appended raw data: the number of bytes, then the values.
-std::vector<double> read_appended(const std::string& path, const std::string& name, const std::string& text,
-                                  const std::string& tag) {
-  const std::size_t data = text.find("<AppendedData");
-  const std::size_t open = data == std::string::npos ? data : text.find('>', data);
-  if (open == std::string::npos || attribute(text.substr(data, open - data), "encoding") != "raw" ||
-      text.find("compressor=") < data)
-    fail(path, name, "is compressed or encoded; write the file as ascii, or appended raw without compression");
-  const std::size_t header = attribute(text, "header_type") == "UInt64" ? 8 : 4;
-  const std::size_t offset = std::strtoull(attribute(tag, "offset").c_str(), nullptr, 10);
-  if (offset > text.size()) fail(path, name, "is cut off");
-  const std::size_t at = text.find('_', open) + 1 + offset;
-  std::uint64_t n = 0;
-  if (at + header <= text.size()) std::memcpy(&n, text.data() + at, header);
-  if (at + header > text.size() || n > text.size() - at - header) fail(path, name, "is cut off");
-  const std::string type = attribute(tag, "type");
-  const char* values = text.data() + at + header;
-  if (type == "Float64") return convert<double>(values, n);
-  if (type == "Float32") return convert<float>(values, n);
-  fail(path, name, "has the type " + type + "; Float64 or Float32 are needed");
-}
-
 std::vector<double> read_vtu(const std::string& path, const std::string& name) {
   std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const std::size_t begin = text.find("<PointData"), end = text.find("</PointData>");
-  for (std::size_t at = begin; at < end && end != std::string::npos; ++at) {
-    at = text.find("<DataArray", at);
-    if (at >= end) break;
-    const std::size_t close = text.find('>', at);
-    const std::string tag = text.substr(at, close - at);
-    if (attribute(tag, "Name") != name) continue;
-    const std::string format = attribute(tag, "format");
-    if (format == "appended") return read_appended(path, name, text, tag);
-    if (format != "ascii")
-      fail(path, name, "is written as '" + format + "'; write the file as ascii, or appended raw without compression");
-    std::istringstream numbers(text.substr(close + 1, text.find('<', close) - close - 1));
-    std::vector<double> values;
-    for (std::string word; numbers >> word;) values.push_back(std::strtod(word.c_str(), nullptr));
-    return values;
-  }
-  fail(path, name, "is not among the point data");
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return parse_vtu_point_array(path, bytes, name);
 }
 
 }  // namespace

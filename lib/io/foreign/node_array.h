@@ -6,7 +6,7 @@
 
 namespace st {
 
-/// The array `name` of a file: .vtu (PointData, ascii or appended raw) or HDF5 (any other suffix;
+/// The array `name` of a file: .vtu (PointData, any of its encodings) or HDF5 (any other suffix;
 /// /VTKHDF/PointData/name, /name, or a path with slashes). One number per node. Throws Error(kInput) for a missing file
 /// or array, another number of values than `n_nodes`, and values that are not positive and finite; the message names
 /// file, array and the first bad index.
