@@ -4,6 +4,7 @@ import resource
 import signal
 import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -101,6 +102,34 @@ class Outputs(Hostile):
 
 
 class Inputs(Hostile):
+    def test_a_sizing_that_is_cut_while_it_is_used_is_an_input_error(self):
+        fine, cut = self.folder / "fine.hdf", self.folder / "cut.hdf"
+        sphere = artifacts_of("sphere")
+        must("st-prolong", sphere / "raster.hdf", "-o", fine, "--scale", ".01")
+        for ranks in ([], ["--np", "2"]):
+            cut.write_bytes(fine.read_bytes())
+            process = subprocess.Popen([BIN / "st-mesh", sphere / "geometry.hdf", cut,
+                                        "-o", self.folder / "p.hdf", *ranks],
+                                       stderr=subprocess.PIPE, text=True)
+            self.wait_until_mapped(process, cut)
+            os.truncate(cut, 4096)
+            err = process.communicate(timeout=60)[1]
+            self.assertEqual(process.returncode, INPUT, err)
+            self.assertIn("cut.hdf: got shorter or unreadable while it was used", err)
+            self.expect_nothing_left(self.folder, "fine.hdf", "cut.hdf")
+
+    def wait_until_mapped(self, process, path):
+        """Until the tool or a rank of it has used the file for some time."""
+        while process.poll() is None:
+            for maps in Path("/proc").glob("[0-9]*/maps"):
+                try:
+                    if "st-mesh" in (maps.parent / "comm").read_text() and str(path) in maps.read_text():
+                        time.sleep(0.3)
+                        return
+                except OSError:
+                    pass
+        self.fail("the file was never mapped")
+
     def test_a_pipe_as_an_input_is_refused_at_once(self):
         pipe = self.pipe("pipe.brep")
         out = self.folder / "out"

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -14,6 +15,7 @@
 
 #include "base/length.h"
 #include "base/log.h"
+#include "base/mapped_file.h"
 #include "base/text.h"
 #include "common/option_file.h"
 #include "common/presets.h"
@@ -30,9 +32,30 @@ constexpr const char* kFooter =
     "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong "
     "together, 70 internal.";
 
+const char* g_name = "st";  // of the tool, for messages of signal handlers
+
 extern "C" void end_on_signal(int signal) {
   remove_temporaries();
   _exit(128 + signal);
+}
+
+void print(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(static_cast<int>(ExitCode::kInput));
+}
+
+/// A mapped file was cut by another program, or lies on a disk that fails: the place that was read is no longer there.
+extern "C" void end_on_lost_page(int signal, siginfo_t* info, void*) {
+  const char* file = mapped_file_at(info->si_addr);
+  remove_temporaries();
+  if (!file) {
+    std::signal(signal, SIG_DFL);
+    return;  // the access is tried again, and ends the program
+  }
+  print(g_name);
+  print(": error: ");
+  print(file);
+  print(": got shorter or unreadable while it was used; make it again, and leave it alone until this run ends\n");
+  _exit(static_cast<int>(ExitCode::kInput));
 }
 
 /// Type of an option that names an array in a file.
@@ -47,6 +70,10 @@ void install_signal_handlers() {
     action.sa_handler = end_on_signal;
     sigaction(signal, &action, nullptr);
   }
+  struct sigaction lost {};
+  lost.sa_sigaction = end_on_lost_page;
+  lost.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &lost, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size: the write fails and says so
 }
 
@@ -196,6 +223,7 @@ void ToolMain::preset() {
 }
 
 void ToolMain::begin(int argc, char** argv) {
+  g_name = name_.c_str();
   occupy_standard_streams();
   install_signal_handlers();
   json_ = has_argument(argc, argv, "--json");

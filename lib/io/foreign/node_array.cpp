@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/foreign/triangulation_file.h"
+#include "io/hdf5/hdf5_open.h"
 
 namespace st {
 namespace {
@@ -46,9 +47,9 @@ std::optional<std::vector<double>> read_dataset(hid_t file, const std::string& p
 }
 
 std::vector<double> read_hdf5(const std::string& path, const std::string& name, std::size_t n_nodes) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t file = open_hdf5(path);
   if (file < 0) throw Error(ExitCode::kInput, path + ": no HDF5 file that can be read; give .vtu or HDF5");
+  require_self_contained(file, path);
   std::optional<std::vector<double>> values;
   if (name.find('/') == std::string::npos) values = read_dataset(file, path, "/VTKHDF/PointData/" + name, n_nodes);
   if (!values) values = read_dataset(file, path, name, n_nodes);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "io/foreign/triangulation_file.h"
+#include "io/hdf5/hdf5_open.h"
 
 namespace st {
 namespace {
@@ -13,11 +14,11 @@ namespace {
 class VtkhdfParser {
  public:
   explicit VtkhdfParser(const std::string& path) : path_(path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     std::error_code none;
     bytes_ = std::filesystem::file_size(path, none);
-    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_ = open_hdf5(path);
     if (file_ < 0) fail("an HDF5 file that cannot be read: damaged or cut off; write it again");
+    require_self_contained(file_, path);
   }
   ~VtkhdfParser() { H5Fclose(file_); }
   VtkhdfParser(const VtkhdfParser&) = delete;
@@ -92,8 +93,7 @@ class VtkhdfParser {
 }  // namespace
 
 bool is_foreign_vtkhdf(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t file = open_hdf5(path);
   if (file < 0) return false;
   const bool is_foreign = H5Lexists(file, "/st", H5P_DEFAULT) <= 0 && H5Lexists(file, "/VTKHDF", H5P_DEFAULT) > 0;
   H5Fclose(file);

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <hdf5.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,8 +16,10 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/mapped_file.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
+#include "io/hdf5/hdf5_open.h"
 
 namespace st {
 namespace {
@@ -388,14 +389,15 @@ std::optional<ElementType> element_type_of(hid_t type) {
   return std::nullopt;
 }
 
-std::optional<AttributeValue> read_attribute(hid_t attribute) {
+/// The value, unless it is of another type or claims more than `max_bytes`.
+std::optional<AttributeValue> read_attribute(hid_t attribute, std::uint64_t max_bytes) {
   const Type type(H5Aget_type(attribute));
   const Space space(H5Aget_space(attribute));
   const hssize_t n = H5Sget_simple_extent_npoints(space);
   if (!type.is_valid() || n < 0 || n > 64) return std::nullopt;
   AttributeValue value;
   if (H5Tget_class(type) == H5T_STRING) {
-    if (n != 1 || H5Tis_variable_str(type) != 0) return std::nullopt;
+    if (n != 1 || H5Tis_variable_str(type) != 0 || H5Tget_size(type) > max_bytes) return std::nullopt;
     value.bytes.resize(H5Tget_size(type));
     if (H5Aread(attribute, type, value.bytes.data()) < 0) return std::nullopt;
     value.bytes = up_to_nul(value.bytes.data(), value.bytes.size());
@@ -415,6 +417,7 @@ struct Hdf5Reader::Impl {
   std::string path;
   File file;
   std::uint64_t file_bytes = 0;
+  int n_objects = 0;  // listed so far
   ArtifactHeader header;
   std::vector<DatasetInfo> datasets;
   std::map<AttributeKey, AttributeValue> attributes;
@@ -435,12 +438,8 @@ struct Hdf5Reader::Impl {
 };
 
 void Hdf5Reader::Impl::open() {
-  silence_hdf5();
   require_hdf5_file(path);
-  const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_file_locking(access, false, true);
-  file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  file = open_hdf5(path);
   if (!file.is_valid()) damaged("cannot be opened as HDF5");
   hsize_t size = 0;
   if (H5Fget_filesize(file, &size) < 0) damaged("has no size");
@@ -474,21 +473,20 @@ void Hdf5Reader::Impl::read_contents() {
   if (content_hash(datasets, attributes) != header.content_hash) damaged("its parts do not fit its content hash");
 }
 
-/// Lists datasets and attributes below a group. `depth` bounds what a malformed file can do.
+/// Lists datasets and attributes below a group. Depth and number of parts bound what a malformed file can do.
 void Hdf5Reader::Impl::read_group(const std::string& name, int depth) {
-  constexpr int kMaxDepth = 8;
+  constexpr int kMaxDepth = 8, kMaxObjects = 10000;
   const std::string path_name = name.empty() ? "/" : name;
   if (depth > kMaxDepth) damaged(path_name + ": groups too deep");
   const Group group(H5Gopen2(file, path_name.c_str(), H5P_DEFAULT));
-  H5G_info_t info{};
-  if (!group.is_valid() || H5Gget_info(group, &info) < 0) damaged("group " + path_name + " cannot be read");
+  if (!group.is_valid()) damaged("group " + path_name + " cannot be read");
   read_attributes(group, path_name);
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    const ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
-    if (length <= 0) damaged("group " + path_name + " cannot be listed");
-    std::string child(length + 1, '\0');
-    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, child.data(), child.size(), H5P_DEFAULT);
-    child.resize(length);
+  const auto names = link_names(group, kMaxObjects);
+  if (!names) damaged("group " + path_name + " cannot be listed, or has more than 10000 parts");
+  for (const std::string& child : *names) {
+    if (++n_objects > kMaxObjects) damaged("has more than " + std::to_string(kMaxObjects) + " parts");
+    if (const std::string defect = link_defect(group, child, Hdf5Origin::kArtifact); !defect.empty())
+      damaged(name + "/" + child + " " + defect);
     const Handle<H5Oclose> object(H5Oopen(group, child.c_str(), H5P_DEFAULT));
     if (!object.is_valid()) damaged(name + "/" + child + " cannot be opened");
     if (H5Iget_type(object) == H5I_GROUP) read_group(name + "/" + child, depth + 1);
@@ -504,7 +502,7 @@ void Hdf5Reader::Impl::read_attributes(hid_t group, const std::string& name) {
     char attribute_name[256] = {};
     if (!attribute.is_valid() || H5Aget_name(attribute, sizeof attribute_name, attribute_name) < 0)
       damaged("an attribute of " + name + " cannot be read");
-    const auto value = read_attribute(attribute);
+    const auto value = read_attribute(attribute, file_bytes);
     if (!value) damaged("attribute " + std::string(attribute_name) + " of " + name + " cannot be read");
     attributes[{name, attribute_name}] = *value;
   }
@@ -519,6 +517,8 @@ void Hdf5Reader::Impl::read_dataset_info(const std::string& name) {
   const auto element_type = element_type_of(type);
   if (!element_type || rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, dims, nullptr) < 0)
     damaged("dataset " + name + " cannot be read");
+  if (const std::string defect = storage_defect(dataset, Hdf5Origin::kArtifact); !defect.empty())
+    damaged("dataset " + name + " " + defect);
   DatasetInfo info{name, *element_type, {dims, dims + rank}, "", false};
   const std::size_t bytes_each = std::max<std::size_t>(1, element_size(*element_type));
   if (dims[0] > file_bytes || (rank == 2 && dims[1] > file_bytes) ||
@@ -526,7 +526,7 @@ void Hdf5Reader::Impl::read_dataset_info(const std::string& name) {
     damaged("dataset " + name + " is larger than the file");
   const Attribute attribute(H5Aopen(dataset, kChecksum, H5P_DEFAULT));
   if (!attribute.is_valid()) damaged("dataset " + name + " has no checksum");
-  if (const auto value = read_attribute(attribute)) info.checksum = value->bytes;
+  if (const auto value = read_attribute(attribute, file_bytes)) info.checksum = value->bytes;
   info.is_foreign = H5Tis_variable_str(type) != 0;
   datasets.push_back(std::move(info));
 }
@@ -654,12 +654,12 @@ std::shared_ptr<const void> Hdf5Reader::map_raw(const std::string& name, std::si
     read_raw(name, copy->data());
     return {copy, copy->data()};
   }
-  if (offset + n_bytes > impl_->file_bytes) fail(name, "ends after the file");
+  if (n_bytes > impl_->file_bytes || offset > impl_->file_bytes - n_bytes) fail(name, "ends after the file");
   const std::size_t page = sysconf(_SC_PAGESIZE), start = offset / page * page, length = offset - start + n_bytes;
-  void* base = mmap(nullptr, length, PROT_READ, MAP_SHARED, *fd, static_cast<off_t>(start));
-  if (base == MAP_FAILED) fail(name, std::string("cannot be mapped (") + std::strerror(errno) + ")");
-  const void* values = static_cast<const char*>(base) + (offset - start);
-  std::shared_ptr<const void> owner(values, [base, length](const void*) { munmap(base, length); });
+  const std::shared_ptr<const void> base = map_file(*fd, start, length, path());
+  if (!base) fail(name, std::string("cannot be mapped (") + std::strerror(errno) + ")");
+  const void* values = static_cast<const char*>(base.get()) + (offset - start);
+  const std::shared_ptr<const void> owner(base, values);
   if (hash_hex(values, n_bytes) != d.checksum) fail(name, "does not fit its checksum");
   return owner;
 }
