@@ -38,10 +38,10 @@ class Communicator : public Executor {
   /// was printed.
   [[noreturn]] void abort(int exit_code) const;
 
-  /// As Executor says. Rank 0 computes, too: `compute` runs there on a thread of its own, so it must not call MPI nor
-  /// share unguarded state with `collect`, which runs on the main thread; both cores of a two-rank run are busy. At one
-  /// rank everything runs on the main thread. Of several exceptions the first that arrives is thrown; the other ranks
-  /// stay in the call, so the job can then only be ended with abort().
+  /// As Executor says. `compute` runs on thread_count() threads of each rank, so it must not call MPI nor share
+  /// unguarded state with `collect`, which runs under a lock: at one rank on the thread of the task, at more on the
+  /// main thread of rank 0. Of several exceptions one rank throws the one of the first task in the order, several ranks
+  /// the first that arrives; the other ranks stay in the call, so the job can then only be ended with abort().
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                  const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;

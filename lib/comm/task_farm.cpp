@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
@@ -149,19 +150,22 @@ bool probe(int source, int tag, MPI_Status& status) {
   return false;
 }
 
-/// Rank 0's own computing thread. It never calls MPI.
-class LocalWorker {
+/// The computing threads of a rank. They never call MPI.
+class WorkerThreads {
  public:
-  explicit LocalWorker(const Compute& compute) : thread_([this, &compute] { work(compute); }) {}
-  ~LocalWorker() {
+  explicit WorkerThreads(const Compute& compute) {
+    for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, &compute] { work(compute); });
+  }
+  ~WorkerThreads() {
     {
       const std::lock_guard lock(mutex_);
-      tasks_.clear();
-      tasks_.push_back(kStop);
+      tasks_.assign(threads_.size(), kStop);
     }
-    has_task_.notify_one();
-    thread_.join();
+    has_task_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
   }
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
 
   void give(std::int32_t task) {
     {
@@ -214,7 +218,7 @@ class LocalWorker {
   std::condition_variable has_task_, has_outcome_;
   std::deque<std::int32_t> tasks_;
   std::deque<Outcome> outcomes_;
-  std::thread thread_;  // last: it uses the members above
+  std::vector<std::thread> threads_;  // last: they use the members above
 };
 
 /// Hands out tasks in order, and counts what is out.
@@ -224,7 +228,8 @@ class Distributor {
       : order_(order), collect_(collect), n_pending_(n_ranks, 0), local_(compute) {}
 
   void run() {
-    for (int rank = 0; rank < static_cast<int>(n_pending_.size()); ++rank) give(rank);
+    for (int i = 0; i < thread_count(); ++i)
+      for (int rank = 0; rank < static_cast<int>(n_pending_.size()); ++rank) give(rank);
     Backoff backoff;
     while (n_collected_ < order_.size()) {
       if (receive_all()) {
@@ -255,7 +260,8 @@ class Distributor {
   /// its time.
   void answer(int rank, double seconds) {
     --n_pending_[rank];
-    const int n_wanted = 1 + static_cast<int>(std::min<double>(kMaxAhead, kAheadSeconds / std::max(seconds, 1e-9)));
+    const int n_wanted =
+        thread_count() + static_cast<int>(std::min<double>(kMaxAhead, kAheadSeconds / std::max(seconds, 1e-9)));
     while (n_pending_[rank] < n_wanted && n_given_ < order_.size()) give(rank);
   }
 
@@ -312,38 +318,53 @@ class Distributor {
   std::size_t n_given_ = 0, n_collected_ = 0;
   std::list<Transfer> incoming_;
   std::deque<Outcome> received_;
-  LocalWorker local_;
+  WorkerThreads local_;
 };
 
-/// A worker's side: its results on their way, and its next task.
+/// A worker's side: tasks to the threads, their results on the way. The main thread sleeps while there is nothing to
+/// pass on.
 class Worker {
  public:
-  explicit Worker(const Compute& compute) : compute_(compute) {}
+  explicit Worker(const Compute& compute) : threads_(compute) {}
 
   void run() {
-    for (std::int32_t task = receive_task(); task != kStop; task = receive_task())
-      outgoing_.push_back(Transfer::send(run_task(task, compute_)));
-    while (is_sending()) std::this_thread::yield();
+    for (Backoff backoff; !is_stopped_ || n_inside_ > 0 || !outgoing_.empty();) {
+      const bool has_news = receive_tasks() | send_outcomes();
+      outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
+      if (has_news || !outgoing_.empty()) backoff.reset();  // results need this process to get through
+      if (has_news) continue;
+      threads_.wait_for_outcome(backoff.next());
+      backoff.lengthen();
+    }
   }
 
  private:
-  bool is_sending() {
-    outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
-    return !outgoing_.empty();
+  bool receive_tasks() {
+    bool has_news = false;
+    for (MPI_Status status; !is_stopped_ && probe(0, kTagTask, status); has_news = true) {
+      std::int32_t task = kStop;
+      require_mpi(MPI_Recv(&task, 1, MPI_INT32_T, 0, kTagTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
+      is_stopped_ = task == kStop;
+      if (is_stopped_) continue;
+      threads_.give(task);
+      ++n_inside_;
+    }
+    return has_news;
   }
 
-  /// Waits asleep, but not while results need this process to get through.
-  std::int32_t receive_task() {
-    MPI_Status status;
-    for (Backoff backoff; !probe(0, kTagTask, status);) is_sending() ? std::this_thread::yield() : backoff.sleep();
-    is_sending();
-    std::int32_t task = kStop;
-    require_mpi(MPI_Recv(&task, 1, MPI_INT32_T, 0, kTagTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE), "MPI_Recv");
-    return task;
+  bool send_outcomes() {
+    bool has_news = false;
+    for (; auto outcome = threads_.take(); has_news = true) {
+      outgoing_.push_back(Transfer::send(std::move(*outcome)));
+      --n_inside_;
+    }
+    return has_news;
   }
 
-  const Compute& compute_;
+  bool is_stopped_ = false;
+  int n_inside_ = 0;  ///< tasks whose outcome is not yet sent
   std::list<Transfer> outgoing_;
+  WorkerThreads threads_;
 };
 
 }  // namespace

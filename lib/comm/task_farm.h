@@ -1,9 +1,9 @@
 // The task farm behind Communicator::run_tasks. Internal to comm.
 //
-// Rank 0 hands out tasks and collects results on its main thread, asleep while there is nothing to do, and computes on
-// a second thread; MPI is called from main threads only. Workers get their next task when they send a result. Whose
-// tasks are so short that a message's latency matters gets some ahead; long ones are not given ahead, for a task that
-// waits behind another long one could run elsewhere.
+// Every rank computes on threads of its own and calls MPI from its main thread only, asleep while there is nothing to
+// do. Rank 0's main thread hands out tasks and collects results. A rank gets its next task when it sends a result.
+// Whose tasks are so short that a message's latency matters gets some ahead; long ones are not given ahead, for a task
+// that waits behind another long one could run elsewhere.
 #pragma once
 
 #include <chrono>

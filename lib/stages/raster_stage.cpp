@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -200,30 +201,28 @@ class RasterTasks {
     return heaviest_first(work);
   }
 
-  /// Local. Appends the boxes of one task to `own_boxes`; returns, packed, their number, what went wrong (empty:
-  /// nothing) and the patches.
-  Bytes compute(std::int32_t task, std::vector<RasterBox>& own_boxes) const {
-    const std::size_t n_before = own_boxes.size();
+  /// Local. The boxes of one task; returns, packed, their number, what went wrong (empty: nothing) and the patches.
+  Bytes compute(std::int32_t task, std::vector<RasterBox>& boxes) const {
     std::vector<GapPatch> patches;
     std::string failure;
     try {
       if (task < n_batches_)
-        raster_edges(task, own_boxes);
+        raster_edges(task, boxes);
       else
-        raster_one_face(task - n_batches_, own_boxes, patches);
+        raster_one_face(task - n_batches_, boxes, patches);
     } catch (const TooManyCells&) {
       throw;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      own_boxes.resize(n_before);
+      boxes.clear();
       patches.clear();
       failure = task < n_batches_ ? fmt::format("edges from {} on", task * kEdgesPerTask + 1)
                                   : model_.tables().face_label(task - n_batches_);
       failure += std::string(": not sampled, ") + e.what();
     }
     Packer packer;
-    packer.add(static_cast<std::uint64_t>(own_boxes.size() - n_before));
+    packer.add(static_cast<std::uint64_t>(boxes.size()));
     packer.add(failure);
     packer.add(patches);
     return packer.take();
@@ -298,11 +297,17 @@ class RasterTasks {
 
 /// The samples: boxes stay on the rank that made them, the rest is gathered on rank 0, by task.
 struct Samples {
-  std::vector<RasterBox> own_boxes;
+  std::vector<RasterBox> own_boxes;  // in any order
   std::vector<std::uint64_t> n_boxes;
   std::vector<std::string> failures;  // empty where there is none
   std::vector<std::vector<GapPatch>> patches;
 };
+
+/// Tasks of one rank run on several threads.
+void append_locked(const std::vector<RasterBox>& boxes, std::mutex& mutex, std::vector<RasterBox>& all) {
+  const std::lock_guard lock(mutex);
+  all.insert(all.end(), boxes.begin(), boxes.end());
+}
 
 /// Collective. Throws TooManyCells beyond `max_samples`.
 Samples sample_model(const RasterTasks& tasks, std::uint64_t max_samples, const Communicator& comm) {
@@ -314,8 +319,15 @@ Samples sample_model(const RasterTasks& tasks, std::uint64_t max_samples, const 
   Progress progress("sampling", tasks.count());
   std::int32_t n_done = 0;
   std::uint64_t n_samples = 0;
+  std::mutex mutex;
   comm.run_tasks(
-      tasks.count(), tasks.order(), [&](std::int32_t task) { return tasks.compute(task, samples.own_boxes); },
+      tasks.count(), tasks.order(),
+      [&](std::int32_t task) {
+        std::vector<RasterBox> boxes;
+        Bytes result = tasks.compute(task, boxes);
+        append_locked(boxes, mutex, samples.own_boxes);
+        return result;
+      },
       [&](std::int32_t task, Bytes&& result) {
         Unpacker unpacker(result);
         unpacker.get(samples.n_boxes[task]);
@@ -351,14 +363,17 @@ std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t 
   require_countable(patches.size(), "samples that look for gaps");
   const auto n_tasks = static_cast<std::int32_t>((patches.size() + kPatchesPerTask - 1) / kPatchesPerTask);
   std::size_t n_boxes = 0;
+  std::mutex mutex;
   comm.run_tasks(
       n_tasks, heaviest_first(std::vector<double>(static_cast<std::size_t>(n_tasks), 1.0)),
       [&](std::int32_t task) {
-        const std::size_t n_before = samples.own_boxes.size(), first = static_cast<std::size_t>(task) * kPatchesPerTask;
+        std::vector<RasterBox> boxes;
+        const std::size_t first = static_cast<std::size_t>(task) * kPatchesPerTask;
         for (std::size_t i = first; i < std::min(first + kPatchesPerTask, patches.size()); ++i)
-          finder.add_boxes(i, samples.own_boxes);
+          finder.add_boxes(i, boxes);
+        append_locked(boxes, mutex, samples.own_boxes);
         Packer packer;
-        packer.add(static_cast<std::uint64_t>(samples.own_boxes.size() - n_before));
+        packer.add(static_cast<std::uint64_t>(boxes.size()));
         return packer.take();
       },
       [&](std::int32_t, Bytes&& result) {

@@ -1,5 +1,5 @@
-// comm_farm SCENARIO [ranks] [--np N]: one scenario of the task farm, checked by the program itself; exit code 0, that
-// of the Error, or 1 for a failed check.
+// comm_farm SCENARIO [ranks] [--np N] [--threads N]: one scenario of the task farm, checked by the program itself; exit
+// code 0, that of the Error, or 1 for a failed check.
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/packer.h"
+#include "base/threads.h"
 #include "comm/communicator.h"
 
 namespace st {
@@ -75,7 +76,7 @@ std::vector<int> run_and_check(const Communicator& comm, std::int32_t n,
       },
       [&](std::int32_t task, Bytes&& bytes) {
         CHECK(comm.is_root());
-        CHECK(std::this_thread::get_id() == main_thread);
+        CHECK(std::this_thread::get_id() == main_thread || (comm.size() == 1 && thread_count() > 1));
         Unpacker unpacker(bytes);
         int rank = -1;
         std::vector<std::int64_t> numbers;
@@ -253,6 +254,8 @@ int run(int argc, char** argv) {
         return *job_code;
     }
     comm = std::make_unique<Communicator>();
+    if (const auto threads = std::find(arguments.begin(), arguments.end(), "--threads"); threads != arguments.end())
+      set_thread_count(std::stoi(threads[1]));
     scenarios.at(arguments.at(0))(*comm);
   } catch (const Error& e) {
     report(static_cast<int>(e.code()), e.what());

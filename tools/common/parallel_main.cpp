@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/log.h"
+#include "base/threads.h"
 #include "comm/communicator.h"
 #include "common/tool_main.h"
 #include "io/file/temporary_file.h"
@@ -57,6 +58,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
                   "number of MPI ranks; the tool starts itself under mpirun; same result for every number")
       ->type_name("N")
       ->capture_default_str();
+  threads();
   std::optional<std::string> text;
   std::optional<int> job_code;  // of ranks that were started here
   std::exception_ptr usage_error;
@@ -80,6 +82,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
       if (comm->is_root()) print_text(*text);
       return ExitCode::kOk;
     }
+    set_thread_count(n_threads_.value_or(comm->size() > 1 ? 1 : processor_count()));
     const StageSummary summary = stage(*comm);
     if (comm->is_root()) print_summary(summary);
     return summary.code;

@@ -17,6 +17,7 @@
 #include "base/log.h"
 #include "base/mapped_file.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "common/option_file.h"
 #include "common/presets.h"
 #include "io/file/json_text.h"
@@ -217,6 +218,14 @@ void ToolMain::flag(const std::string& flag, bool& value, const std::string& hel
   file_options_.push_back(app_.add_flag(flag, value, help)->disable_flag_override());
 }
 
+void ToolMain::threads() {
+  static constexpr NumberOption kThreads{
+      "--threads", "N", "[1, 4096]",
+      "threads of each process; same result for every number; default: all processors, 1 with several ranks"};
+  number(kThreads, n_threads_);
+  file_options_.pop_back();  // how a stage runs is no content
+}
+
 void ToolMain::preset() {
   text("--preset", preset_, "NAME",
        "settings for a purpose, which all other options override (docs/presets.md): " + preset_names());
@@ -353,6 +362,7 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
       print_text(*text);
       return ExitCode::kOk;
     }
+    set_thread_count(n_threads_.value_or(processor_count()));
     const StageSummary summary = stage();
     print_summary(summary);
     return summary.code;

@@ -69,6 +69,9 @@ class ToolMain {
   /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
   void preset();
 
+  /// --threads; run_parallel has it by itself.
+  void threads();
+
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.
   int run(int argc, char** argv, const std::function<StageSummary()>& stage);
   /// The same for an MPI tool, with --np: ranks but the first are quiet, and an error on any rank ends the job with one
@@ -106,6 +109,7 @@ class ToolMain {
   CLI::App app_;
   std::string options_file_, preset_;
   int n_ranks_ = 1;
+  std::optional<int> n_threads_;
   bool quiet_ = false, verbose_ = false, json_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;
   std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage

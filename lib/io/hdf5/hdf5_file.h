@@ -68,7 +68,7 @@ struct Element<Triangle> : Elements<ElementType::kInt32, 3> {};
 /// Calls `f` with a value of the C++ type that has these elements; std::string for strings.
 template <class Function>
 auto with_element(ElementType type, const Function& f) {
-  switch (type) {
+  switch (type) {  // NOLINT(bugprone-branch-clone): each calls for another type
     case ElementType::kFloat64:
       return f(double());
     case ElementType::kFloat32:

@@ -1,10 +1,12 @@
 #include "io/hdf5/inspect.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <map>
+#include <type_traits>
 
 #include "base/error.h"
 #include "io/hdf5/hdf5_file.h"
@@ -29,8 +31,10 @@ std::string value_text(const std::string& value) { return "'" + value + "'"; }
 
 template <class T>
 bool are_same(const T& a, const T& b) {
-  if constexpr (std::is_floating_point_v<T>)
-    return std::memcmp(&a, &b, sizeof a) == 0;
+  if constexpr (std::is_same_v<T, double>)
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  else if constexpr (std::is_same_v<T, float>)
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
   else
     return a == b;
 }
