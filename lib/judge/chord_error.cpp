@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
+
+#include "base/threads.h"
+#include "judge/face_surface.h"
 
 namespace st {
 
@@ -68,10 +72,16 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
 
-void add_corner(Vec3 on_surface, Vec3 node, double size, FaceId f, ChordError& error) {
+/// What some triangles of one face add, see ChordError.
+struct FacePart {
+  double area = 0, distance = 0, node_distance = 0, off_surface = 0;
+  Vec3 node_place, off_place;
+};
+
+void add_corner(Vec3 on_surface, Vec3 node, double size, FacePart& part) {
   const double d = distance(on_surface, node), off = d - kOffSurface * size;
-  if (d > error.node_distance[f]) error.node_distance[f] = d, error.node_place[f] = node;
-  if (off > error.off_surface[f]) error.off_surface[f] = off, error.off_place[f] = node;
+  if (d > part.node_distance) part.node_distance = d, part.node_place = node;
+  if (off > part.off_surface) part.off_surface = off, part.off_place = node;
 }
 
 /// Sum of the squared angles between the normals at the corners, rad^2; poles have none.
@@ -89,8 +99,7 @@ double turning(const std::array<SurfacePoint, 3>& corner) {
 
 /// The triangle of the surface's points at its corners, against its four parts with corners on the surface; and against
 /// a sphere that turns as the normals do, where (u,v) near a pole makes poor parts.
-void add_triangle(const Surface& surface, const std::array<Vec2, 3>& uv, FaceId f, std::array<Vec3, 3>& x,
-                  ChordError& error) {
+void add_triangle(const Surface& surface, const std::array<Vec2, 3>& uv, std::array<Vec3, 3>& x, FacePart& part) {
   constexpr double kRichardson = 4.0 / 3.0 * 1.1;  // terms of higher order: 10 % for nine triangles on an octant of a
                                                    // sphere
   constexpr double kSphere = 5.0 / 72.0 * 1.5;     // of the area, per rad^2 of turning
@@ -101,29 +110,44 @@ void add_triangle(const Surface& surface, const std::array<Vec2, 3>& uv, FaceId 
     x[k] = corner[k].x;
     m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
   }
-  for (int k = 0; k < 3; ++k)
-    error.distance[f] = std::max(error.distance[f], distance_to_line(m[k], x[k], x[(k + 1) % 3]));
+  for (int k = 0; k < 3; ++k) part.distance = std::max(part.distance, distance_to_line(m[k], x[k], x[(k + 1) % 3]));
   const double flat = area_of(x[0], x[1], x[2]);
   const double curved =
       area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
-  error.area[f] += std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(corner) * flat);
+  part.area += std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(corner) * flat);
+}
+
+void add_part(const FacePart& part, FaceId f, ChordError& error) {
+  error.area[f] += part.area;
+  error.distance[f] = std::max(error.distance[f], part.distance);
+  if (part.node_distance > error.node_distance[f])
+    error.node_distance[f] = part.node_distance, error.node_place[f] = part.node_place;
+  if (part.off_surface > error.off_surface[f])
+    error.off_surface[f] = part.off_surface, error.off_place[f] = part.off_place;
 }
 
 void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
-  std::unique_ptr<Surface> surface;
-  FaceId current = kNone;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const FaceId f = mesh.triangle_face[t];
-    if (f != current) surface = model.surface(f);
-    current = f;
-    const auto& n = mesh.triangles[t].n;
-    std::array<Vec3, 3> x;
-    add_triangle(*surface, {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, f, x, error);
-    for (int k = 0; k < 3; ++k) add_corner(x[k], mesh.node_xyz[n[k]], mesh.node_size[n[k]], f, error);
-    if (!mesh.merged.empty())  // nodes drawn together
-      error.area[f] +=
-          std::fabs(area_of(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]) - area_of(x[0], x[1], x[2]));
-  }
+  constexpr std::size_t kPerPiece = 16'384;
+  using Parts = std::map<FaceId, FacePart>;
+  const auto n_triangles = static_cast<std::size_t>(mesh.n_triangles());
+  std::vector<Parts> pieces((n_triangles + kPerPiece - 1) / kPerPiece);
+  parallel_for(n_triangles, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    FaceSurface surface(model);
+    for (std::size_t t = begin; t < end; ++t) {
+      const FaceId f = mesh.triangle_face[t];
+      FacePart& part = pieces[begin / kPerPiece][f];
+      const auto& n = mesh.triangles[t].n;
+      std::array<Vec3, 3> x;
+      add_triangle(surface.of(f), {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, x,
+                   part);
+      for (int k = 0; k < 3; ++k) add_corner(x[k], mesh.node_xyz[n[k]], mesh.node_size[n[k]], part);
+      if (!mesh.merged.empty())  // nodes drawn together
+        part.area += std::fabs(area_of(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]) -
+                               area_of(x[0], x[1], x[2]));
+    }
+  });
+  for (const Parts& parts : pieces)
+    for (const auto& [f, part] : parts) add_part(part, f, error);
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <map>
+
+#include "base/threads.h"
+#include "judge/face_surface.h"
 
 namespace st {
 
@@ -26,6 +29,8 @@ void DeviationStats::add(const DeviationStats& other) {
 }
 
 namespace {
+
+constexpr std::size_t kPerPiece = 16'384;  // triangles
 
 /// The nearest point found of the surface, as (u,v).
 Vec2 foot(const Surface& surface, Vec3 p, Vec2 guess) {
@@ -61,14 +66,18 @@ SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) 
   SurfaceDeviation deviation;
   deviation.faces.resize(tables.n_faces());
   const std::vector<double> side = sides_of_faces(mesh, tables.n_faces());
-  std::unique_ptr<Surface> surface;
-  FaceId current = kNone;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const FaceId f = mesh.triangle_face[t];
-    if (f != current) surface = model.surface(f);
-    current = f;
-    add_triangle(*surface, mesh, t, side[f], deviation.faces[f]);
-  }
+  using Parts = std::map<FaceId, DeviationStats>;
+  const auto n = static_cast<std::size_t>(mesh.n_triangles());
+  std::vector<Parts> pieces((n + kPerPiece - 1) / kPerPiece);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    FaceSurface surface(model);
+    for (std::size_t t = begin; t < end; ++t) {
+      const FaceId f = mesh.triangle_face[t];
+      add_triangle(surface.of(f), mesh, static_cast<TriangleId>(t), side[f], pieces[begin / kPerPiece][f]);
+    }
+  });
+  for (const Parts& parts : pieces)
+    for (const auto& [f, part] : parts) deviation.faces[f].add(part);
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     if (deviation.faces[f].max_distance > deviation.model.max_distance) deviation.worst_distance = f;
     if (deviation.faces[f].max_angle_deg > deviation.model.max_angle_deg) deviation.worst_angle = f;
@@ -78,15 +87,15 @@ SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) 
 }
 
 std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& mesh) {
-  std::vector<float> deviations;
-  deviations.reserve(mesh.triangles.size());
-  std::unique_ptr<Surface> surface;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    if (t == 0 || mesh.triangle_face[t] != mesh.triangle_face[t - 1]) surface = model.surface(mesh.triangle_face[t]);
-    DeviationStats one;
-    add_triangle(*surface, mesh, t, 1, one);
-    deviations.push_back(static_cast<float>(one.max_distance));
-  }
+  std::vector<float> deviations(mesh.triangles.size());
+  parallel_for(deviations.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    FaceSurface surface(model);
+    for (std::size_t t = begin; t < end; ++t) {
+      DeviationStats one;
+      add_triangle(surface.of(mesh.triangle_face[t]), mesh, static_cast<TriangleId>(t), 1, one);
+      deviations[t] = static_cast<float>(one.max_distance);
+    }
+  });
   return deviations;
 }
 

@@ -9,10 +9,13 @@
 
 #include "base/assert.h"
 #include "base/limits.h"
+#include "base/threads.h"
 
 namespace st {
 
 namespace {
+
+constexpr std::size_t kNodesPerPiece = 16'384;
 
 [[maybe_unused]] bool are_nodes_below(std::span<const Triangle> triangles, std::int64_t n_nodes) {
   return std::all_of(triangles.begin(), triangles.end(), [n_nodes](const Triangle& t) {
@@ -51,8 +54,14 @@ EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes) 
   });
   std::move_backward(offsets_.begin(), offsets_.end() - 1, offsets_.end());
   offsets_[0] = 0;
+  parallel_for(static_cast<std::size_t>(n_nodes), kNodesPerPiece,
+               [&](std::size_t begin, std::size_t end) { sort_buckets(begin, end); });
+}
+
+/// Of the lower nodes in [first, last).
+void EdgeTable::sort_buckets(std::size_t first, std::size_t last) {
   std::vector<std::pair<NodeId, SideId>> bucket;
-  for (std::int64_t low = 0; low < n_nodes; ++low) {
+  for (std::size_t low = first; low < last; ++low) {
     const std::int32_t begin = offsets_[low], end = offsets_[low + 1];
     bucket.clear();
     for (std::int32_t i = begin; i < end; ++i) bucket.emplace_back(high_[i], side_[i]);

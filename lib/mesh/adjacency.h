@@ -24,18 +24,28 @@ class EdgeTable {
   /// Calls visit(lower node, higher node, sides) once per mesh edge, ascending; `sides`: span of SideId, ascending.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
-    for (NodeId low = 0; low + 1 < static_cast<NodeId>(offsets_.size()); ++low)
+    for_each_edge(0, n_nodes(), visit);
+  }
+  /// The same for the edges whose lower node is in [begin, end).
+  template <class Visit>
+  void for_each_edge(NodeId begin, NodeId end_of_low, const Visit& visit) const {
+    for (NodeId low = begin; low < end_of_low; ++low)
       for (std::int32_t i = offsets_[low], end; i < offsets_[low + 1]; i = end) {
         for (end = i + 1; end < offsets_[low + 1] && high_[end] == high_[i];) ++end;
         visit(low, high_[i], std::span<const SideId>(side_).subspan(i, end - i));
       }
   }
+  NodeId n_nodes() const { return static_cast<NodeId>(offsets_.size()) - 1; }
 
  private:
+  void sort_buckets(std::size_t first, std::size_t last);
+
   std::vector<std::int32_t> offsets_;  ///< [n_nodes+1] into high_ and side_
   std::vector<NodeId> high_;           ///< [3 n_triangles]
   std::vector<SideId> side_;           ///< [3 n_triangles]
 };
+
+inline EdgeTable edges_of(const SurfaceMesh& mesh) { return {mesh.triangles, mesh.n_nodes()}; }
 
 inline NodeId side_start(std::span<const Triangle> triangles, SideId side) { return triangles[side / 3].n[side % 3]; }
 /// True when the two sides run the same way: their triangles are not oriented alike.

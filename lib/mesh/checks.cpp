@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "mesh/adjacency.h"
+#include "base/threads.h"
 #include "mesh/crossing.h"
 
 namespace st {
@@ -95,11 +95,11 @@ void find_pinched_nodes(const SurfaceMesh& mesh, DisjointSets& corners, Defects&
 
 }  // namespace
 
-TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad) {
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad) {
   TopologyReport r;
   const CadEdgeLookup lookup(mesh, cad);
   DisjointSets corners(3 * mesh.n_triangles());
-  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+  edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     ++r.n_edges;
     if (sides.size() == 1) {
       if (lookup.is_allowed(cad.may_be_open, a, b))
@@ -161,8 +161,8 @@ bool is_seam(const SurfaceMesh& mesh, NodeId a, NodeId b, TriangleId s, Triangle
   return norm(da) > 0 || norm(db) > 0;
 }
 
-void find_folds(const SurfaceMesh& mesh, Defects& folds) {
-  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+void find_folds(const SurfaceMesh& mesh, const EdgeTable& edges, Defects& folds) {
+  edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId s = sides[0] / 3, t = sides[i] / 3;
       if (mesh.triangle_face[s] != mesh.triangle_face[t] || is_seam(mesh, a, b, s, t)) continue;
@@ -195,7 +195,8 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
     const Vec3 p = mesh.node_xyz[n];
     return std::tuple(component[n], p.x, p.y, p.z);
   };
-  std::sort(order.begin(), order.end(), [&](NodeId a, NodeId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  parallel_sort(order.begin(), order.end(),
+                [&](NodeId a, NodeId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
   const auto is_vertex = [&](NodeId n) {
     return !mesh.node_entity_dim.empty() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex);
   };
@@ -210,13 +211,13 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
 
 }  // namespace
 
-ShapeReport check_shape(const SurfaceMesh& mesh) {
+ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges) {
   ShapeReport r;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
     if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t]))
       r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
   find_duplicate_nodes(mesh, r.duplicate_nodes);
-  find_folds(mesh, r.folds);
+  find_folds(mesh, edges, r.folds);
   return r;
 }
 

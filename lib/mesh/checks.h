@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/adjacency.h"
 #include "mesh/crossing.h"
 #include "mesh/surface_mesh.h"
 
@@ -59,8 +60,8 @@ struct TopologyReport {
   }
 };
 
-/// Local, linear. Precondition: node ids within the mesh.
-TopologyReport check_topology(const SurfaceMesh& mesh, const CadEdges& cad = {});
+/// Local, linear. `edges`: edges_of(mesh). Precondition: node ids within the mesh.
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad = {});
 
 /// Neighbours of one CAD face whose normals differ by more than this are a fold: cos(148.2 deg).
 inline constexpr double kFoldCosine = -0.85;
@@ -83,8 +84,8 @@ struct ShapeReport {
   bool passes() const { return zero_area.count == 0 && duplicate_nodes.count == 0 && folds.count == 0; }
 };
 
-/// Local, n log n.
-ShapeReport check_shape(const SurfaceMesh& mesh);
+/// Local, n log n. `edges`: edges_of(mesh).
+ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges);
 
 /// Which triangles meet where they should not. Exact.
 struct CrossingReport {

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "base/assert.h"
 #include "base/predicates.h"
+#include "base/threads.h"
 
 namespace st {
 
@@ -174,19 +177,31 @@ class BoxTree {
  public:
   BoxTree(std::span<const Vec3> points, std::span<const Triangle> triangles) {
     sort_along_curve(points, triangles);
-    boxes_.reserve(order_.size());
-    for (const TriangleId t : order_) boxes_.push_back(box_of(corners(points, triangles[t])));
+    boxes_.resize(order_.size());
+    parallel_for(order_.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) boxes_[i] = box_of(corners(points, triangles[order_[i]]));
+    });
     nodes_.reserve(order_.size() / 2 + 1);
     if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()));
   }
-  /// Calls visit(triangle, triangle) once for every pair whose boxes meet.
+  /// Parts of the tree, or pairs of them, to be searched apart.
+  struct Search {
+    std::int32_t a, b;  ///< nodes; b = kNone: pairs inside a
+  };
+  std::vector<Search> searches() const {
+    std::vector<Search> list;
+    if (!nodes_.empty()) split({0, kNone}, list);
+    return list;
+  }
+  /// Calls visit(triangle, triangle) once for every pair of a search whose boxes meet.
   template <class Visit>
-  void for_each_pair(const Visit& visit) const {
-    if (!nodes_.empty()) within(0, visit);
+  void for_each_pair(Search search, const Visit& visit) const {
+    search.b == kNone ? within(search.a, visit) : between(search.a, search.b, visit);
   }
 
  private:
-  static constexpr std::int32_t kLeafSize = 4;
+  static constexpr std::int32_t kLeafSize = 4, kSearchSize = 8'192;
+  static constexpr std::size_t kPerPiece = 16'384;
   struct Node {
     FloatBox box;
     std::int32_t begin, end, right;  ///< range in order_; left child is the next node, right = kNone in a leaf
@@ -200,19 +215,21 @@ class BoxTree {
     const auto cell = [](double x, double lo, double length) {
       return static_cast<std::uint64_t>(length > 0 ? std::clamp((x - lo) / length, 0.0, 1.0) * 2097151.0 : 0.0);
     };
-    std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
-    keyed.reserve(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      if (is_degenerate(points, triangles[t])) continue;
-      const Points p = corners(points, triangles[t]);
-      const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
-      const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 |
-                                spread(cell(c.z, all.lo.z, extent.z)) << 2;
-      keyed.emplace_back(key, static_cast<TriangleId>(t));
-    }
-    std::sort(keyed.begin(), keyed.end());
+    constexpr std::uint64_t kLeftOut = ~std::uint64_t{0};
+    std::vector<std::pair<std::uint64_t, TriangleId>> keyed(triangles.size());
+    parallel_for(triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Points p = corners(points, triangles[t]);
+        const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
+        const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 |
+                                  spread(cell(c.z, all.lo.z, extent.z)) << 2;
+        keyed[t] = {is_degenerate(points, triangles[t]) ? kLeftOut : key, static_cast<TriangleId>(t)};
+      }
+    });
+    parallel_sort(keyed.begin(), keyed.end(), std::less<>());
     order_.reserve(keyed.size());
-    for (const auto& [key, t] : keyed) order_.push_back(t);
+    for (const auto& [key, t] : keyed)
+      if (key != kLeftOut) order_.push_back(t);
   }
 
   std::int32_t build(std::int32_t begin, std::int32_t end) {
@@ -228,6 +245,25 @@ class BoxTree {
     nodes_[id].box = nodes_[left].box;
     nodes_[id].box.add(nodes_[right].box);
     return id;
+  }
+
+  std::int32_t size(std::int32_t n) const { return nodes_[n].end - nodes_[n].begin; }
+
+  /// As within() and between() go on, down to small parts.
+  void split(Search search, std::vector<Search>& list) const {
+    const auto [a, b] = search;
+    if (b == kNone) {
+      if (size(a) <= kSearchSize) return list.push_back(search);
+      for (const Search part : {Search{a + 1, kNone}, {nodes_[a].right, kNone}, {a + 1, nodes_[a].right}})
+        split(part, list);
+      return;
+    }
+    if (!nodes_[a].box.meets(nodes_[b].box)) return;
+    if (size(a) + size(b) <= kSearchSize) return list.push_back(search);
+    const bool is_first = size(a) >= size(b);
+    const std::int32_t halved = is_first ? a : b;
+    for (const std::int32_t half : {halved + 1, nodes_[halved].right})
+      split(is_first ? Search{half, b} : Search{a, half}, list);
   }
 
   template <class Visit>
@@ -298,11 +334,18 @@ bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Tria
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   std::vector<TrianglePair> pairs;
+  std::mutex mutex;
   const BoxTree tree(points, triangles);
-  tree.for_each_pair([&](TriangleId s, TriangleId t) {
-    const TriangleId a = std::min(s, t), b = std::max(s, t);
-    int n_shared = 0;
-    if (triangles_cross(points, triangles[a], triangles[b], n_shared)) pairs.push_back({a, b, n_shared});
+  const std::vector<BoxTree::Search> searches = tree.searches();
+  parallel_for(searches.size(), 1, [&](std::size_t i, std::size_t) {
+    std::vector<TrianglePair> found;
+    tree.for_each_pair(searches[i], [&](TriangleId s, TriangleId t) {
+      const TriangleId a = std::min(s, t), b = std::max(s, t);
+      int n_shared = 0;
+      if (triangles_cross(points, triangles[a], triangles[b], n_shared)) found.push_back({a, b, n_shared});
+    });
+    const std::lock_guard lock(mutex);
+    pairs.insert(pairs.end(), found.begin(), found.end());
   });
   std::sort(pairs.begin(), pairs.end(),
             [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });

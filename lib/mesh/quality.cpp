@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
-#include "mesh/adjacency.h"
+#include "base/threads.h"
 
 namespace st {
 
 namespace {
+
+constexpr std::size_t kPerPiece = 16'384;  // triangles or nodes
 
 double area_of(const TriangleCorners& corners, TriangleId t) {
   const auto [a, b, c] = corners(t);
@@ -53,54 +55,85 @@ double percentile(std::vector<double>& values, double share) {
   return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-QualityStats stats_of(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<const TriangleId> triangles,
-                      std::span<const double> quality) {
-  QualityStats s;
-  if (triangles.empty()) return s;
-  s.n_triangles = static_cast<std::int64_t>(triangles.size());
-  s.min = 2;
-  s.min_angle_deg = 180;
-  std::vector<double> sorted;
-  sorted.reserve(triangles.size());
-  for (const TriangleId t : triangles) {
-    const double q = quality[t];
-    sorted.push_back(q);
-    s.mean += q;
-    s.n_below_03 += q < 0.3;
-    ++s.histogram[std::clamp(static_cast<int>(10 * q), 0, 9)];
-    if (q < s.min) s.min = q, s.worst = t;
-    const auto angles = angles_of(corners, t);
-    const auto in_space = corners.is_stretched() ? angles_of(TriangleCorners(mesh), t) : angles;
-    add_angles(angles, *std::max_element(in_space.begin(), in_space.end()), s);
-  }
-  s.mean /= static_cast<double>(triangles.size());
-  s.p1 = nth_smallest(sorted, sorted.size() / 100);
-  return s;
+/// Statistics of parts: `mean` is the sum until finish(), `p1` is set by set_percentiles().
+void add_triangle(const SurfaceMesh& mesh, const TriangleCorners& corners, TriangleId t, double quality,
+                  QualityStats& s) {
+  if (s.n_triangles++ == 0) s.min = 2, s.min_angle_deg = 180;
+  s.mean += quality;
+  s.n_below_03 += quality < 0.3;
+  ++s.histogram[std::clamp(static_cast<int>(10 * quality), 0, 9)];
+  if (quality < s.min) s.min = quality, s.worst = t;
+  const auto angles = angles_of(corners, t);
+  const auto in_space = corners.is_stretched() ? angles_of(TriangleCorners(mesh), t) : angles;
+  add_angles(angles, *std::max_element(in_space.begin(), in_space.end()), s);
 }
 
-/// Triangles by key (face or group), ascending within each: one QualityStats per key.
-std::vector<QualityStats> stats_by_key(const SurfaceMesh& mesh, const TriangleCorners& corners,
-                                       std::span<const std::int32_t> key, std::size_t n_keys,
-                                       std::span<const double> quality) {
-  for (const std::int32_t k : key) n_keys = std::max(n_keys, static_cast<std::size_t>(k) + 1);
-  std::vector<std::int64_t> offsets(n_keys + 1, 0);
-  for (const std::int32_t k : key) ++offsets[k + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<TriangleId> sorted(key.size());
-  std::vector<std::int64_t> fill(offsets.begin(), offsets.end() - 1);
-  for (std::size_t t = 0; t < key.size(); ++t) sorted[fill[key[t]]++] = static_cast<TriangleId>(t);
-  std::vector<QualityStats> stats;
-  for (std::size_t k = 0; k < n_keys; ++k)
-    stats.push_back(stats_of(
-        mesh, corners, std::span<const TriangleId>(sorted).subspan(offsets[k], offsets[k + 1] - offsets[k]), quality));
-  return stats;
+void add_part(const QualityStats& part, QualityStats& s) {
+  if (s.n_triangles == 0) s.min = 2, s.min_angle_deg = 180;
+  s.n_triangles += part.n_triangles;
+  s.mean += part.mean;
+  s.n_below_03 += part.n_below_03;
+  for (std::size_t k = 0; k < s.histogram.size(); ++k) s.histogram[k] += part.histogram[k];
+  if (part.min < s.min) s.min = part.min, s.worst = part.worst;
+  s.min_angle_deg = std::min(s.min_angle_deg, part.min_angle_deg);
+  s.max_angle_deg = std::max(s.max_angle_deg, part.max_angle_deg);
+  s.n_below_20_deg += part.n_below_20_deg;
+  s.n_below_10_deg += part.n_below_10_deg;
+  s.n_below_5_deg += part.n_below_5_deg;
+  s.n_above_150_deg += part.n_above_150_deg;
+  for (std::size_t k = 0; k < s.angle_histogram.size(); ++k) s.angle_histogram[k] += part.angle_histogram[k];
 }
 
-void measure_jumps(const SurfaceMesh& mesh, const TriangleCorners& corners, QualityReport& report) {
+void finish(QualityStats& s) {
+  if (s.n_triangles > 0) s.mean /= static_cast<double>(s.n_triangles);
+}
+
+/// The element of a list that grows as needed.
+template <class Stats>
+Stats& at(std::vector<Stats>& list, std::int32_t i) {
+  if (static_cast<std::size_t>(i) >= list.size()) list.resize(static_cast<std::size_t>(i) + 1);
+  return list[i];
+}
+
+/// Model, groups and faces but for the percentiles: each piece of the mesh has its own sums, added up in order.
+void add_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<const double> quality,
+                QualityReport& report) {
+  using Parts = std::map<std::pair<FaceId, std::int32_t>, QualityStats>;
+  std::vector<Parts> pieces((quality.size() + kPerPiece - 1) / kPerPiece);
+  parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    Parts& parts = pieces[begin / kPerPiece];
+    for (std::size_t t = begin; t < end; ++t)
+      add_triangle(mesh, corners, static_cast<TriangleId>(t), quality[t],
+                   parts[{mesh.triangle_face[t], mesh.triangle_group[t]}]);
+  });
+  for (const Parts& parts : pieces)
+    for (const auto& [key, part] : parts) {
+      add_part(part, report.model);
+      add_part(part, at(report.faces, key.first));
+      add_part(part, at(report.groups, key.second));
+    }
+  finish(report.model);
+  for (auto* list : {&report.faces, &report.groups})
+    for (QualityStats& s : *list) finish(s);
+}
+
+/// First percentiles by key (face or group).
+void set_percentiles(std::span<const std::int32_t> key, std::span<const double> quality,
+                     std::vector<QualityStats>& stats) {
+  std::vector<std::vector<double>> of_key(stats.size());
+  for (std::size_t k = 0; k < stats.size(); ++k) of_key[k].reserve(static_cast<std::size_t>(stats[k].n_triangles));
+  for (std::size_t t = 0; t < key.size(); ++t) of_key[key[t]].push_back(quality[t]);
+  parallel_for(of_key.size(), 1, [&](std::size_t k, std::size_t) {
+    if (!of_key[k].empty()) stats[k].p1 = nth_smallest(of_key[k], of_key[k].size() / 100);
+  });
+}
+
+void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners,
+                   QualityReport& report) {
   std::vector<double> jumps;
   report.group_jumps.resize(report.groups.size());
   report.face_jumps.resize(report.faces.size());
-  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+  edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId t = sides[0] / 3;
       const auto [low, high] = std::minmax({area_of(corners, t), area_of(corners, sides[i] / 3)});
@@ -147,22 +180,26 @@ std::array<Vec3, 3> TriangleCorners::operator()(TriangleId t) const {
   return {Vec3{}, squeezed(x[1] - x[0], squeeze), squeezed(x[2] - x[0], squeeze)};
 }
 
-QualityReport measure_quality(const SurfaceMesh& mesh) { return measure_quality(mesh, TriangleCorners(mesh)); }
+QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges) {
+  return measure_quality(mesh, edges, TriangleCorners(mesh));
+}
 
-QualityReport measure_quality(const SurfaceMesh& mesh, const TriangleCorners& corners) {
-  std::vector<double> quality;
-  quality.reserve(mesh.triangles.size());
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const auto [a, b, c] = corners(t);
-    quality.push_back(triangle_quality(a, b, c));
-  }
-  std::vector<TriangleId> all(mesh.triangles.size());
-  std::iota(all.begin(), all.end(), 0);
+QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners) {
+  std::vector<double> quality(mesh.triangles.size());
+  parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = corners(static_cast<TriangleId>(t));
+      quality[t] = triangle_quality(a, b, c);
+    }
+  });
   QualityReport report;
-  report.model = stats_of(mesh, corners, all, quality);
-  report.groups = stats_by_key(mesh, corners, mesh.triangle_group, mesh.labels.group_name.size(), quality);
-  report.faces = stats_by_key(mesh, corners, mesh.triangle_face, mesh.labels.face_name.size(), quality);
-  measure_jumps(mesh, corners, report);
+  report.groups.resize(mesh.labels.group_name.size());
+  report.faces.resize(mesh.labels.face_name.size());
+  add_shapes(mesh, corners, quality, report);
+  set_percentiles(mesh.triangle_group, quality, report.groups);
+  set_percentiles(mesh.triangle_face, quality, report.faces);
+  measure_jumps(mesh, edges, corners, report);
+  if (!quality.empty()) report.model.p1 = nth_smallest(quality, quality.size() / 100);
   return report;
 }
 
@@ -233,24 +270,44 @@ class ForcedEdges {
 
 }  // namespace
 
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<LocalSize(Vec3)>& requested) {
+namespace {
+
+/// Length over requested length of every edge, in the order of the table.
+std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested) {
+  const auto n_nodes = static_cast<std::size_t>(mesh.n_nodes());
+  std::vector<LocalSize> at_node(n_nodes);
+  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    int hint = 0;
+    for (std::size_t n = begin; n < end; ++n) at_node[n] = requested(mesh.node_xyz[n], hint);
+  });
+  std::vector<std::vector<double>> pieces((n_nodes + kPerPiece - 1) / kPerPiece);
+  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    int hint = 0;
+    edges.for_each_edge(
+        static_cast<NodeId>(begin), static_cast<NodeId>(end), [&](NodeId a, NodeId b, std::span<const SideId>) {
+          const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
+          const auto inverse = [&](const LocalSize& size) { return 1 / size.in(q - p); };
+          const double middle = requested(0.5 * (p + q), hint).in(q - p);
+          pieces[begin / kPerPiece].push_back(distance(p, q) *
+                                              (inverse(at_node[a]) + 4 / middle + inverse(at_node[b])) / 6);
+        });
+  });
+  std::vector<double> ratios;
+  for (const std::vector<double>& piece : pieces) ratios.insert(ratios.end(), piece.begin(), piece.end());
+  return ratios;
+}
+
+}  // namespace
+
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested) {
   ConformityReport report;
   report.groups.resize(mesh.labels.group_name.size());
   report.faces.resize(mesh.labels.face_name.size());
-  std::vector<LocalSize> at_node(mesh.n_nodes());
-  std::vector<double> ratios;
+  std::vector<double> ratios = length_ratios(mesh, edges, requested);
   ForcedEdges forced(mesh);
-  for (std::int64_t n = 0; n < mesh.n_nodes(); ++n) at_node[n] = requested(mesh.node_xyz[n]);
-  const auto at = [](std::vector<ConformityStats>& stats, std::int32_t i) -> ConformityStats& {
-    if (static_cast<std::size_t>(i) >= stats.size()) stats.resize(i + 1);
-    return stats[i];
-  };
-  EdgeTable(mesh.triangles, mesh.n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
-    const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
-    const auto inverse = [&](const LocalSize& size) { return 1 / size.in(q - p); };
-    const double middle = requested(0.5 * (p + q)).in(q - p);
-    const double ratio = distance(p, q) * (inverse(at_node[a]) + 4 / middle + inverse(at_node[b])) / 6;
-    ratios.push_back(ratio);
+  std::size_t n_seen = 0;
+  edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    const double ratio = ratios[n_seen++];
     report.model.add(ratio);
     if (!forced.take(a, b, sides, ratio)) {
       report.free.add(ratio);

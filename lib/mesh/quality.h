@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/local_size.h"
+#include "mesh/adjacency.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -77,10 +78,10 @@ struct QualityReport {
   std::vector<LargeJump> large_jumps;              ///< by the nodes of their common edge
 };
 
-/// Local, linear. Needs 24 bytes per triangle. Shapes, growth and the smallest angles are those of `corners`, the
-/// largest angles those in space.
-QualityReport measure_quality(const SurfaceMesh& mesh, const TriangleCorners& corners);
-QualityReport measure_quality(const SurfaceMesh& mesh);
+/// Local, linear, by threads. `edges`: edges_of(mesh). Shapes, growth and the smallest angles are those of `corners`,
+/// the largest angles those in space.
+QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners);
+QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges);
 
 /// Lengths of mesh edges over the requested lengths.
 struct ConformityStats {
@@ -124,9 +125,12 @@ struct ConformityReport {
   double p1 = 1, p99 = 1;            ///< percentiles of the ratio
 };
 
+/// As SizeField::local; may be called on several threads.
+using RequestedSize = std::function<LocalSize(Vec3, int& hint)>;
+
 /// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
 /// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of
 /// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const std::function<LocalSize(Vec3)>& requested);
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested);
 
 }  // namespace st

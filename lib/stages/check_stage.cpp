@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "base/log.h"
+#include "base/threads.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
@@ -263,24 +265,30 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       check_volume(f.topology, f.measure)};
 }
 
-void run_mesh_checks(const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
-                     const CheckThresholds& allow, Findings& f) {
-  const SurfaceMesh& mesh = artifact.mesh;
-  f.topology = check_topology(mesh, cad ? cad->edges() : CadEdges{});
-  f.shape = check_shape(mesh);
-  check_crossings_and_contacts(mesh, cad, f);
-  f.measure = measure_mesh(mesh);
-  f.quality = measure_quality(mesh, corners);
+/// Everything that is measured: jobs that do not depend on each other, the longest first. `cad`, `field`: may be null.
+void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadSide* cad, const SizeField* field,
+             Findings& f) {
+  const EdgeTable edges = edges_of(mesh);
+  std::vector<std::function<void()>> jobs;
+  jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
+  if (cad) jobs.emplace_back([&] { f.chords = estimate_chord_error(cad->model, mesh); });
+  if (cad) jobs.emplace_back([&] { f.deviation = measure_deviation(cad->model, mesh); });
+  jobs.emplace_back([&] { f.quality = measure_quality(mesh, edges, corners); });
+  if (field)
+    jobs.emplace_back([&] {
+      f.conformity = measure_conformity(mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); });
+    });
+  jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
+  jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
+  jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
+  run_jobs(jobs);
   f.is_stretched = corners.is_stretched();
-  f.checks = list_mesh_checks(artifact, allow, f);
 }
 
 void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tolerance, Findings& f) {
   f.measure.face_area.resize(cad.model.tables().n_faces(), 0);
   f.cad_area = cad.model.tables().face_area;
   f.face_group = cad.model.tables().labels.face_group;
-  f.chords = estimate_chord_error(cad.model, mesh);
-  f.deviation = measure_deviation(cad.model, mesh);
   f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
   f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
   f.checks.push_back(check_cad_volume(mesh, f.topology, f.measure, cad.model.tables(), *f.chords));
@@ -447,10 +455,13 @@ std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const Ar
 
 /// [n_nodes]; empty where sizes are the same length in all directions, or unknown.
 std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* field) {
-  std::vector<Vec3> squeeze;
-  if (!field || !field->is_stretched()) return squeeze;
-  int hint = 0;
-  for (const Vec3& x : mesh.node_xyz) squeeze.push_back(field->local(x, hint).squeeze());
+  if (!field || !field->is_stretched()) return {};
+  constexpr std::size_t kPerPiece = 16'384;
+  std::vector<Vec3> squeeze(mesh.node_xyz.size());
+  parallel_for(squeeze.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    int hint = 0;
+    for (std::size_t n = begin; n < end; ++n) squeeze[n] = field->local(mesh.node_xyz[n], hint).squeeze();
+  });
   return squeeze;
 }
 
@@ -476,11 +487,9 @@ StageSummary run_check(const CheckStageOptions& options) {
   const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
-  run_mesh_checks(artifact, corners, cad.get(), options.thresholds, f);
+  measure(artifact.mesh, corners, cad.get(), field.get(), f);
+  f.checks = list_mesh_checks(artifact, options.thresholds, f);
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
-  if (field)
-    f.conformity = measure_conformity(artifact.mesh, [&, hint = 0](Vec3 p) mutable { return field->local(p, hint); });
-
   if (cad)
     f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
                                  options.list_below_deg);

@@ -200,7 +200,7 @@ StageSummary run_merge(const MergeStageOptions& options) {
   warn_of_changes(orientation);
 
   const SurfaceMesh& mesh = artifact.mesh;
-  const TopologyReport topology = check_topology(mesh);
+  const TopologyReport topology = check_topology(mesh, edges_of(mesh));
   const std::string hash = write_mesh(options.output, artifact);
   for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
 

@@ -48,6 +48,7 @@ REFUSED = {
                 "--tile": ["-1", "999", "1e10"], "--np": ["0"], "--threads": ["0", "x"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"], "--threads": ["0"]},
     "st-check": {
+        "--threads": ["0", "x"],
         "--area-tolerance": ["0", "1.1"],
         "--max-folds": ["-1", "1.5"],
         "--max-crossings": ["-1", "x"],

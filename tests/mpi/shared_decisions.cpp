@@ -23,7 +23,9 @@ void check(bool ok, const std::string& what) {
 void check_whole(const MeshTopology& topology, const MeshResult& result) {
   check(result.failures.empty(), "a face failed");
   OrientationReport report;
-  check(check_topology(test::merged(topology, result, report)).passes(), "the mesh is not closed");
+  check(
+      check_topology(test::merged(topology, result, report), edges_of(test::merged(topology, result, report))).passes(),
+      "the mesh is not closed");
   check(result.n_crossing_pairs == 0, "triangles cross");
 }
 

@@ -220,8 +220,7 @@ void ToolMain::flag(const std::string& flag, bool& value, const std::string& hel
 
 void ToolMain::threads() {
   static constexpr NumberOption kThreads{
-      "--threads", "N", "[1, 4096]",
-      "threads of each process; same result for every number; default: all processors, 1 with several ranks"};
+      "--threads", "N", "[1, 4096]", "threads of each process; same result for every number; default: all processors"};
   number(kThreads, n_threads_);
   file_options_.pop_back();  // how a stage runs is no content
 }

@@ -30,5 +30,6 @@ int main(int argc, char** argv) {
       "--max-deviation", t.max_deviation, "",
       "largest distance accepted of a triangle's centroid from its surface; needs --geometry; default: not checked");
   tool.number(t.kMaxNormalDeviation, t.max_normal_deviation_deg);
+  tool.threads();
   return tool.run(argc, argv, [&] { return st::run_check(o); });
 }

@@ -19,10 +19,11 @@ struct Meshed : test::Meshed {
     std::fill(mesh.node_size.begin(), mesh.node_size.end(), length);
   }
   ShapeCauses causes(double angle_deg = 10) const {
-    const ConformityReport sizes = measure_conformity(mesh, [this](Vec3) {
+    const ConformityReport sizes = measure_conformity(mesh, edges_of(mesh), [this](Vec3, int&) {
       return LocalSize{mesh.node_size[0], mesh.node_size[0], {}};
     });
-    return find_shape_causes(model, mesh, TriangleCorners(mesh), measure_quality(mesh), &sizes, angle_deg);
+    return find_shape_causes(model, mesh, TriangleCorners(mesh), measure_quality(mesh, edges_of(mesh)), &sizes,
+                             angle_deg);
   }
   /// An edge between two nodes inside the face, all of whose neighbours are inside, too.
   std::pair<NodeId, NodeId> inner_edge() const {

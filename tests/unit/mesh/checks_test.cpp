@@ -15,8 +15,8 @@ namespace {
 using Found = std::map<std::string, std::int64_t>;
 
 Found find_all(const SurfaceMesh& m, const CadEdges& cad = {}) {
-  const TopologyReport t = check_topology(m, cad);
-  const ShapeReport s = check_shape(m);
+  const TopologyReport t = check_topology(m, edges_of(m), cad);
+  const ShapeReport s = check_shape(m, edges_of(m));
   const CrossingReport c = check_crossings(m);
   Found found{{"boundary", t.boundary_edges.count},
               {"nonmanifold", t.nonmanifold_edges.count},
@@ -53,17 +53,18 @@ void remove_triangle(SurfaceMesh& m, TriangleId t) {
 TEST(Checks, find_nothing_in_clean_meshes) {
   for (const SurfaceMesh& m : {shapes::cube(5), shapes::sphere(6), shapes::torus(20, 10)}) {
     EXPECT_EQ(find_all(m), Found{});
-    EXPECT_TRUE(check_topology(m).passes() && check_shape(m).passes() && check_crossings(m).passes());
+    EXPECT_TRUE(check_topology(m, edges_of(m)).passes() && check_shape(m, edges_of(m)).passes() &&
+                check_crossings(m).passes());
   }
 }
 
 TEST(Checks, know_genus_components_volume_and_area) {
-  EXPECT_EQ(check_topology(shapes::cube(3)).genus, 0);
-  EXPECT_EQ(check_topology(shapes::sphere(4)).euler, 2);
-  EXPECT_EQ(check_topology(shapes::torus(20, 10)).genus, 1);
+  EXPECT_EQ(check_topology(shapes::cube(3), edges_of(shapes::cube(3))).genus, 0);
+  EXPECT_EQ(check_topology(shapes::sphere(4), edges_of(shapes::sphere(4))).euler, 2);
+  EXPECT_EQ(check_topology(shapes::torus(20, 10), edges_of(shapes::torus(20, 10))).genus, 1);
   const SurfaceMesh pair = shapes::join(shapes::torus(12, 8), shapes::torus(12, 8, 2, 0.5, {9, 0, 0}));
-  EXPECT_EQ(check_topology(pair).genus, 2);
-  EXPECT_EQ(check_topology(pair).n_components, 2);
+  EXPECT_EQ(check_topology(pair, edges_of(pair)).genus, 2);
+  EXPECT_EQ(check_topology(pair, edges_of(pair)).n_components, 2);
   const MeshMeasure cube = measure_mesh(shapes::cube(4, {5, 6, 7}, 2));
   EXPECT_NEAR(cube.volume, 8, 1e-12);
   EXPECT_NEAR(cube.area, 24, 1e-12);
@@ -73,7 +74,8 @@ TEST(Checks, know_genus_components_volume_and_area) {
 }
 
 TEST(Checks, count_a_lone_triangle_as_one_component) {
-  const TopologyReport t = check_topology(shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}));
+  const TopologyReport t = check_topology(shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}),
+                                          edges_of(shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}})));
   EXPECT_EQ(t.n_components, 1);
   EXPECT_EQ(t.euler, 1);
 }
@@ -82,15 +84,15 @@ TEST(Checks, do_not_let_a_triangle_that_names_a_node_twice_change_the_genus) {
   SurfaceMesh m = shapes::sphere(4);
   m.triangles.push_back({{0, 0, 1}});
   m = shapes::from(m.node_xyz, m.triangles);
-  EXPECT_EQ(check_topology(m).euler, 2);
-  EXPECT_EQ(check_topology(m).genus, 0);
+  EXPECT_EQ(check_topology(m, edges_of(m)).euler, 2);
+  EXPECT_EQ(check_topology(m, edges_of(m)).genus, 0);
 }
 
 TEST(Checks, find_a_hole_and_its_place) {
   SurfaceMesh m = shapes::cube(4);
   remove_triangle(m, 0);
   EXPECT_EQ(find_all(m), (Found{{"boundary", 3}}));
-  const TopologyReport t = check_topology(m);
+  const TopologyReport t = check_topology(m, edges_of(m));
   ASSERT_EQ(t.boundary_edges.first.size(), 3u);
   EXPECT_EQ(t.boundary_edges.first[0].xyz.x, 0);
   EXPECT_EQ(t.boundary_edges.first[0].face_b, kNone);
@@ -204,7 +206,7 @@ TEST(Checks, find_a_fold) {
   m.node_xyz[n] = {0.5 + 0.19, 0.5 + 0.03, 1 + 1e-3};
   const Found found = find_all(m);
   ASSERT_EQ(found.count("fold"), 1u);
-  EXPECT_EQ(check_shape(m).folds.first[0].face_a, 5);
+  EXPECT_EQ(check_shape(m, edges_of(m)).folds.first[0].face_a, 5);
   for (const char* other : {"boundary", "nonmanifold", "misoriented", "repeated", "duplicate", "pinched", "zero_area",
                             "duplicate_node", "contact"})
     EXPECT_EQ(found.count(other), 0u) << other;
@@ -214,7 +216,7 @@ TEST(Checks, do_not_take_a_sharp_edge_of_the_cad_for_a_fold) {
   SurfaceMesh m = shapes::cube(4);
   for (Vec3& p : m.node_xyz)
     p.z = p.x * (p.z - 0.5) * 0.05;  // a wedge with an edge of 3 degrees, which collapses at x = 0
-  const ShapeReport s = check_shape(m);
+  const ShapeReport s = check_shape(m, edges_of(m));
   EXPECT_EQ(s.folds.count, 0);
 }
 
@@ -224,10 +226,10 @@ TEST(Checks, do_not_take_a_sharp_seam_for_a_fold) {
       shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
   m.node_entity_dim = {1, 1, 2, 2};
   m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {1, 0}, {1, 1}, {0.6, 0.5}};
-  EXPECT_EQ(check_shape(m).folds.count, 0);
+  EXPECT_EQ(check_shape(m, edges_of(m)).folds.count, 0);
   m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1},
                  {0, 0}, {0, 1},     {0.6, 0.5}};  // no seam: the same place of (u,v) on both sides
-  EXPECT_EQ(check_shape(m).folds.count, 1);
+  EXPECT_EQ(check_shape(m, edges_of(m)).folds.count, 1);
 }
 
 TEST(Checks, do_not_take_a_sharp_seam_that_ends_at_a_pole_for_a_fold) {
@@ -235,7 +237,7 @@ TEST(Checks, do_not_take_a_sharp_seam_that_ends_at_a_pole_for_a_fold) {
       shapes::from({{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0.02}, {1, 0.5, -0.02}}, {{{0, 2, 1}}, {{0, 1, 3}}}, {0, 0});
   m.node_entity_dim = {0, 1, 2, 2};
   m.corner_uv = {{0, 0}, {0.4, 0.5}, {0, 1}, {0, 0}, {1, 1}, {0.6, 0.5}};  // node 0 has one (u,v) on both sides
-  EXPECT_EQ(check_shape(m).folds.count, 0);
+  EXPECT_EQ(check_shape(m, edges_of(m)).folds.count, 0);
 }
 
 TEST(Checks, find_crossing_triangles_within_one_part) {
@@ -267,11 +269,11 @@ TEST(Checks, take_vertices_of_the_cad_at_one_place_as_they_are) {
   m.node_entity_dim.assign(m.n_nodes(), 2);
   const NodeId a = node_at(m, {0.5, 0.5, 1}), b = node_at(m, {0.5, 0.5, 0});
   m.node_xyz[b] = m.node_xyz[a];
-  EXPECT_EQ(check_shape(m).duplicate_nodes.count, 1);
+  EXPECT_EQ(check_shape(m, edges_of(m)).duplicate_nodes.count, 1);
   m.node_entity_dim[a] = 0;
-  EXPECT_EQ(check_shape(m).duplicate_nodes.count, 1);
+  EXPECT_EQ(check_shape(m, edges_of(m)).duplicate_nodes.count, 1);
   m.node_entity_dim[b] = 0;
-  EXPECT_EQ(check_shape(m).duplicate_nodes.count, 0);
+  EXPECT_EQ(check_shape(m, edges_of(m)).duplicate_nodes.count, 0);
 }
 
 TEST(Checks, find_neighbours_that_lie_on_each_other) {
@@ -292,7 +294,7 @@ TEST(Checks, allow_open_and_nonmanifold_edges_only_where_the_cad_has_them) {
   const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 0};
   std::vector<std::uint8_t> open{1, 1, 1, 1};
   EXPECT_EQ(find_all(m, {edge_vertices, open, {}}), Found{});
-  EXPECT_EQ(check_topology(m, {edge_vertices, open, {}}).n_cad_boundary_edges, 5);
+  EXPECT_EQ(check_topology(m, edges_of(m), {edge_vertices, open, {}}).n_cad_boundary_edges, 5);
   open[0] = 0;
   EXPECT_EQ(find_all(m, {edge_vertices, open, {}}), (Found{{"boundary", 2}}));
   open = {1, 0, 1, 1};
@@ -318,7 +320,8 @@ TEST(Checks, give_at_most_ten_places) {
   std::vector<FaceId> faces;
   for (std::size_t t = 0; t < m.triangles.size(); ++t)
     if (m.triangle_face[t] != 5) triangles.push_back(m.triangles[t]), faces.push_back(m.triangle_face[t]);
-  const TopologyReport r = check_topology(shapes::from(m.node_xyz, triangles, faces));
+  const TopologyReport r =
+      check_topology(shapes::from(m.node_xyz, triangles, faces), edges_of(shapes::from(m.node_xyz, triangles, faces)));
   EXPECT_EQ(r.boundary_edges.count, 16);
   EXPECT_EQ(r.boundary_edges.first.size(), Defects::kMaxPlaces);
 }

@@ -12,8 +12,8 @@
 namespace st {
 namespace {
 
-std::function<LocalSize(Vec3)> same_everywhere(double length) {
-  return [length](Vec3) { return LocalSize{length, length, {}}; };
+RequestedSize same_everywhere(double length) {
+  return [length](Vec3, int&) { return LocalSize{length, length, {}}; };
 }
 
 TEST(Quality, is_one_for_equilateral_and_zero_for_flat_triangles) {
@@ -23,7 +23,7 @@ TEST(Quality, is_one_for_equilateral_and_zero_for_flat_triangles) {
 }
 
 TEST(Quality, of_a_cube_of_half_squares_is_exact) {
-  const QualityReport r = measure_quality(shapes::cube(5));
+  const QualityReport r = measure_quality(shapes::cube(5), edges_of(shapes::cube(5)));
   const double expected = std::sqrt(3.0) / 2;
   EXPECT_NEAR(r.model.mean, expected, 1e-12);
   EXPECT_NEAR(r.model.p1, expected, 1e-12);
@@ -37,7 +37,7 @@ TEST(Quality, of_a_cube_of_half_squares_is_exact) {
 TEST(Quality, of_faces_adds_up_to_the_model) {
   SurfaceMesh m = shapes::cube(6);
   m.node_xyz[10] += {0.05, 0.04, 0.03};
-  const QualityReport r = measure_quality(m);
+  const QualityReport r = measure_quality(m, edges_of(m));
   ASSERT_EQ(r.faces.size(), 6u);
   std::int64_t n = 0;
   double sum = 0, worst = 1;
@@ -53,17 +53,18 @@ TEST(Quality, of_faces_adds_up_to_the_model) {
 
 TEST(Quality, histograms_hold_every_angle_triangle_pair_and_edge_once) {
   const SurfaceMesh m = shapes::sphere(6);
-  const QualityReport q = measure_quality(m);
+  const QualityReport q = measure_quality(m, edges_of(m));
   const auto sum = [](const auto& histogram) {
     return std::accumulate(histogram.begin(), histogram.end(), std::int64_t{0});
   };
   EXPECT_EQ(sum(q.model.angle_histogram), 3 * m.n_triangles());
   EXPECT_EQ(sum(q.jumps.histogram), m.n_triangles() * 3 / 2);
-  EXPECT_EQ(sum(measure_conformity(m, same_everywhere(0.3)).model.histogram), m.n_triangles() * 3 / 2);
+  EXPECT_EQ(sum(measure_conformity(m, edges_of(m), same_everywhere(0.3)).model.histogram), m.n_triangles() * 3 / 2);
 }
 
 TEST(Quality, histogram_of_angles_of_half_squares_has_two_bins) {
-  const QualityReport r = measure_quality(shapes::cube(5));  // two angles of 45 and one of 90 degrees each
+  const QualityReport r = measure_quality(shapes::cube(5), edges_of(shapes::cube(5)));  // two angles of 45 and one of
+                                                                                        // 90 degrees each
   EXPECT_EQ(r.model.angle_histogram[4], 600);
   EXPECT_EQ(r.model.angle_histogram[8] + r.model.angle_histogram[9], 300);
 }
@@ -71,7 +72,9 @@ TEST(Quality, histogram_of_angles_of_half_squares_has_two_bins) {
 TEST(Quality, counts_triangles_by_their_smallest_angle) {
   const auto flat = [](double height) { return shapes::from({{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}}, {{{0, 1, 2}}}); };
   const auto below = [&](double angle_deg) {
-    const QualityStats s = measure_quality(flat(0.5 * std::tan(radians(angle_deg)))).model;
+    const QualityStats s =
+        measure_quality(flat(0.5 * std::tan(radians(angle_deg))), edges_of(flat(0.5 * std::tan(radians(angle_deg)))))
+            .model;
     return std::array<std::int64_t, 3>{s.n_below_20_deg, s.n_below_10_deg, s.n_below_5_deg};
   };
   EXPECT_EQ(below(21), (std::array<std::int64_t, 3>{0, 0, 0}));
@@ -83,7 +86,7 @@ TEST(Quality, counts_triangles_by_their_smallest_angle) {
 TEST(Quality, jumps_of_faces_add_up_to_the_model) {
   SurfaceMesh m = shapes::cube(6);
   m.node_xyz[10] += {0.05, 0.04, 0.03};
-  const QualityReport r = measure_quality(m);
+  const QualityReport r = measure_quality(m, edges_of(m));
   std::int64_t n = 0;
   double largest = 1;
   for (const JumpStats& f : r.face_jumps) n += f.n_pairs, largest = std::max(largest, f.max);
@@ -93,23 +96,25 @@ TEST(Quality, jumps_of_faces_add_up_to_the_model) {
 
 TEST(Quality, sees_a_jump_between_neighbours) {
   const SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -9, 0}}, {{{0, 1, 2}}, {{1, 0, 3}}});
-  EXPECT_NEAR(measure_quality(m).jump_max, 3, 1e-12);
+  EXPECT_NEAR(measure_quality(m, edges_of(m)).jump_max, 3, 1e-12);
 }
 
 TEST(Conformity, compares_lengths_with_the_requested_ones) {
   const SurfaceMesh m = shapes::cube(4);  // sides 1/4, diagonals sqrt(2)/4
-  const ConformityReport fits = measure_conformity(m, same_everywhere(0.25));
+  const ConformityReport fits = measure_conformity(m, edges_of(m), same_everywhere(0.25));
   EXPECT_EQ(fits.model.n_edges, 288);
   EXPECT_NEAR(fits.model.min, 1, 1e-12);
   EXPECT_NEAR(fits.model.max, std::sqrt(2.0), 1e-12);
   EXPECT_EQ(fits.model.n_within, 192) << "the diagonals are too long";
-  EXPECT_EQ(measure_conformity(m, same_everywhere(0.3)).model.share(), 1);
-  EXPECT_EQ(measure_conformity(m, same_everywhere(1.0)).model.share(), 0);
+  EXPECT_EQ(measure_conformity(m, edges_of(m), same_everywhere(0.3)).model.share(), 1);
+  EXPECT_EQ(measure_conformity(m, edges_of(m), same_everywhere(1.0)).model.share(), 0);
 }
 
 TEST(Conformity, follows_a_length_that_varies_along_the_edge) {
   const SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}});
-  const ConformityReport r = measure_conformity(m, [](Vec3 p) { return LocalSize{1 + p.x, 1 + p.x, {}}; });
+  const ConformityReport r = measure_conformity(m, edges_of(m), [](Vec3 p, int&) {
+    return LocalSize{1 + p.x, 1 + p.x, {}};
+  });
   EXPECT_NEAR(r.model.min, std::log(2.0), 2e-3) << "the integral of dx / (1 + x)";
 }
 
@@ -117,7 +122,7 @@ TEST(Conformity, tells_edges_inside_faces_from_those_the_cad_forces) {
   SurfaceMesh m =
       shapes::from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}}, {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}});
   m.node_entity_dim = {0, 0, 0, 2};
-  const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
+  const ConformityReport r = measure_conformity(m, edges_of(m), same_everywhere(1.0));
   EXPECT_EQ(r.model.n_edges, 6);
   EXPECT_EQ(r.inner.n_edges, 3);
 }
@@ -144,7 +149,7 @@ SurfaceMesh strip() {
 }
 
 TEST(Conformity, lists_what_the_cad_forces_apart) {
-  const ConformityReport r = measure_conformity(strip(), same_everywhere(0.5));
+  const ConformityReport r = measure_conformity(strip(), edges_of(strip()), same_everywhere(0.5));
   EXPECT_EQ(r.model.n_edges, 81);
   EXPECT_EQ(r.model.n_within, 60) << "20 edges below, 20 above, 20 diagonals; not the 21 across";
   EXPECT_EQ(r.free.n_edges, 60);
@@ -161,13 +166,13 @@ TEST(Conformity, lists_what_the_cad_forces_apart) {
 }
 
 TEST(Conformity, excuses_no_edge_of_a_curve_that_has_room) {
-  const ConformityReport r = measure_conformity(strip(), same_everywhere(1.0));
+  const ConformityReport r = measure_conformity(strip(), edges_of(strip()), same_everywhere(1.0));
   EXPECT_EQ(r.free.n_edges, 40) << "along both long edges";
   EXPECT_EQ(r.free.n_within, 0);
 }
 
 TEST(Conformity, excuses_no_short_edge_inside_a_face) {
-  const ConformityReport r = measure_conformity(shapes::cube(4), same_everywhere(1.0));
+  const ConformityReport r = measure_conformity(shapes::cube(4), edges_of(shapes::cube(4)), same_everywhere(1.0));
   EXPECT_TRUE(r.forced.empty());
   EXPECT_EQ(r.free.n_edges, r.model.n_edges);
 }
@@ -176,7 +181,7 @@ TEST(Conformity, takes_a_seam_for_a_boundary) {
   SurfaceMesh m = strip();
   for (std::size_t c = 0; c < m.corner_uv.size(); c += 6)
     for (int k = 0; k < 3; ++k) m.corner_uv[c + k].x += 100;  // no two triangles have a common (u,v)
-  for (const ForcedPlace& p : measure_conformity(m, same_everywhere(0.5)).forced)
+  for (const ForcedPlace& p : measure_conformity(m, edges_of(m), same_everywhere(0.5)).forced)
     EXPECT_EQ(p.kind, ForcedPlace::Kind::kShortEdge);
 }
 
@@ -190,7 +195,7 @@ TEST(Conformity, excuses_short_edges_of_a_curve_of_three_segments_but_not_of_fou
     m.node_entity_dim.assign(m.node_xyz.size(), 1);
     m.node_entity_dim[0] = m.node_entity_dim[1] = 0;
     m.node_entity_dim[2] = 2;
-    const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
+    const ConformityReport r = measure_conformity(m, edges_of(m), same_everywhere(1.0));
     EXPECT_EQ(r.forced.size(), n_inside == 2 ? 1u : 0u) << n_inside;
   }
 }
@@ -202,7 +207,7 @@ TEST(Conformity, percentiles_have_one_of_a_hundred_edges_beyond_them) {
     length.push_back(distance(m.node_xyz[a], m.node_xyz[b]));
   });
   std::sort(length.begin(), length.end());
-  const ConformityReport r = measure_conformity(m, same_everywhere(1.0));
+  const ConformityReport r = measure_conformity(m, edges_of(m), same_everywhere(1.0));
   const auto last = static_cast<double>(length.size() - 1);
   EXPECT_NEAR(r.p1, length[static_cast<std::size_t>(0.01 * last)], 1e-12);
   EXPECT_NEAR(r.p99, length[static_cast<std::size_t>(0.99 * last)], 1e-12);
@@ -216,7 +221,7 @@ TEST(Quality, first_percentile_has_one_of_a_hundred_triangles_below_it) {
     quality.push_back(triangle_quality(m.node_xyz[t.n[0]], m.node_xyz[t.n[1]], m.node_xyz[t.n[2]]));
   std::sort(quality.begin(), quality.end());
   ASSERT_LT(quality[quality.size() / 100], quality[quality.size() / 10]) << "a shape whose percentiles differ";
-  EXPECT_EQ(measure_quality(m).model.p1, quality[quality.size() / 100]);
+  EXPECT_EQ(measure_quality(m, edges_of(m)).model.p1, quality[quality.size() / 100]);
 }
 
 TEST(TriangleCorners, show_a_stretched_triangle_as_equilateral) {
@@ -229,18 +234,20 @@ TEST(TriangleCorners, show_a_stretched_triangle_as_equilateral) {
   std::vector<Vec3> signs = squeeze;
   signs[1] = -1.0 * signs[1];
   for (const std::vector<Vec3>& s : {squeeze, signs}) {
-    const QualityReport r = measure_quality(m, TriangleCorners(m, s));
+    const QualityReport r = measure_quality(m, edges_of(m), TriangleCorners(m, s));
     EXPECT_NEAR(r.model.mean, 1, 1e-12);
     EXPECT_NEAR(r.model.min_angle_deg, 60, 1e-9);
     EXPECT_GT(r.model.max_angle_deg, 165);  // in space
     EXPECT_EQ(r.model.n_above_150_deg, 1);
   }
-  EXPECT_LT(measure_quality(m).model.mean, 0.2);
+  EXPECT_LT(measure_quality(m, edges_of(m)).model.mean, 0.2);
 }
 
 TEST(Conformity, takes_the_length_in_the_direction_of_each_edge) {
   const SurfaceMesh m = shapes::cube(4);
-  const ConformityReport r = measure_conformity(m, [](Vec3) { return LocalSize{0.25, 2.5, {1, 0, 0}}; });
+  const ConformityReport r = measure_conformity(m, edges_of(m), [](Vec3, int&) {
+    return LocalSize{0.25, 2.5, {1, 0, 0}};
+  });
   EXPECT_NEAR(r.p1, 0.1, 1e-9);
   EXPECT_GT(r.model.max, 0.99);
 }

@@ -40,8 +40,8 @@ TEST_P(HoleFiller, fills_a_corner_and_keeps_the_rest_to_the_bit) {
     ASSERT_EQ(marked_runs(hole.holes, hole.marks).size(), 3u) << "one on each edge at the corner";
   }
   const SurfaceMesh after = hole.merged();
-  EXPECT_TRUE(check_topology(after).passes());
-  EXPECT_EQ(check_shape(after).folds.count, 0);
+  EXPECT_TRUE(check_topology(after, edges_of(after)).passes());
+  EXPECT_EQ(check_shape(after, edges_of(after)).folds.count, 0);
   EXPECT_NEAR(measure_mesh(after).area, measure_mesh(solid.mesh).area, 0.02 * measure_mesh(solid.mesh).area);
   EXPECT_GT(after.n_triangles(), solid.mesh.n_triangles());
   std::int64_t n_kept = 0;
@@ -192,7 +192,7 @@ TEST(HoleBoundary, has_a_pole_where_its_triangles_go) {
       }
   ASSERT_EQ(pole_nodes.size(), 1u) << "one vertex";
   EXPECT_GE(pole_nodes.begin()->second, 3) << "at several places in (u,v)";
-  EXPECT_TRUE(check_topology(hole.merged()).passes());
+  EXPECT_TRUE(check_topology(hole.merged(), edges_of(hole.merged())).passes());
 }
 
 TEST(HoleBoundary, refuses_marks_that_do_not_fit_the_new_nodes) {

@@ -34,7 +34,7 @@ TEST_P(MovedSolid, takes_all_its_nodes_along) {
   const double size = there.tables().reference_diagonal();
   for (NodeId n = 0; n < solid.mesh.n_nodes(); ++n)
     EXPECT_LE(distance(moved.mesh.node_xyz[n], at(solid.mesh.node_xyz[n])), 1e-6 * size);
-  EXPECT_TRUE(check_topology(moved.mesh).passes());
+  EXPECT_TRUE(check_topology(moved.mesh, edges_of(moved.mesh)).passes());
 }
 
 INSTANTIATE_TEST_SUITE_P(, MovedSolid, testing::ValuesIn(kSolids),

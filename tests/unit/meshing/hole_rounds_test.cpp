@@ -78,8 +78,8 @@ TEST_P(RefilledSolid, for_a_finer_corner_is_closed_and_unchanged_elsewhere_to_th
   const MeshResult r = m.fill();
   EXPECT_TRUE(r.failures.empty());
   const SurfaceMesh& after = r.mesh;
-  EXPECT_TRUE(check_topology(after).passes());
-  EXPECT_TRUE(check_shape(after).passes());
+  EXPECT_TRUE(check_topology(after, edges_of(after)).passes());
+  EXPECT_TRUE(check_shape(after, edges_of(after)).passes());
   EXPECT_GT(after.n_triangles(), solid.mesh.n_triangles());
   std::vector<char> stays(solid.mesh.triangles.size(), 0);
   for (TriangleId i = 0; i < after.n_triangles(); ++i) {
@@ -216,7 +216,7 @@ TEST(HoleRounds, hand_a_failed_face_on_to_be_meshed_as_a_whole) {
   HoleMarkOptions options;
   options.redo = {triangle_near(box, HoleMesh(box.mesh, box.model.tables()), top, {30, 20, 20})};
   const MeshResult r = fill_after_failures(box, field, options);
-  EXPECT_TRUE(check_topology(r.mesh).passes());
+  EXPECT_TRUE(check_topology(r.mesh, edges_of(r.mesh)).passes());
   NodeId n_kept = 0;
   for (NodeId n = 0; n < r.mesh.n_nodes(); ++n) {
     const NodeId before = r.mesh.node_previous[n];
@@ -305,8 +305,8 @@ TEST(HoleRounds, grow_a_hole_whose_fill_would_fold) {
   const MeshResult r = Marked(box, box.field, options).fill();
   EXPECT_GT(r.n_grown, 0);
   EXPECT_TRUE(r.failures.empty());
-  EXPECT_TRUE(check_topology(r.mesh).passes());
-  EXPECT_TRUE(check_shape(r.mesh).passes());
+  EXPECT_TRUE(check_topology(r.mesh, edges_of(r.mesh)).passes());
+  EXPECT_TRUE(check_shape(r.mesh, edges_of(r.mesh)).passes());
   EXPECT_NEAR(measure_mesh(r.mesh).area, 8800, 1e-6);
 }
 
@@ -317,8 +317,8 @@ TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {
   const MeshResult r = Marked(box, field).fill();
   EXPECT_GT(r.n_grown, 0);
   EXPECT_TRUE(r.failures.empty());
-  EXPECT_TRUE(check_topology(r.mesh).passes());
-  EXPECT_TRUE(check_shape(r.mesh).passes());
+  EXPECT_TRUE(check_topology(r.mesh, edges_of(r.mesh)).passes());
+  EXPECT_TRUE(check_shape(r.mesh, edges_of(r.mesh)).passes());
 }
 
 }  // namespace

@@ -35,10 +35,10 @@ struct Meshed : test::Meshed {
 
 void expect_sound(const Meshed& m, std::int64_t euler) {
   EXPECT_TRUE(m.result.failures.empty());
-  const TopologyReport topology = check_topology(m.mesh);
+  const TopologyReport topology = check_topology(m.mesh, edges_of(m.mesh));
   EXPECT_TRUE(topology.passes());
   EXPECT_EQ(topology.euler, euler);
-  EXPECT_TRUE(check_shape(m.mesh).passes());
+  EXPECT_TRUE(check_shape(m.mesh, edges_of(m.mesh)).passes());
   EXPECT_TRUE(check_crossings(m.mesh).passes());
 }
 

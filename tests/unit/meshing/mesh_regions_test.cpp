@@ -34,11 +34,11 @@ TEST_P(MeshedSolid, is_closed_oriented_and_whole) {
   EXPECT_TRUE(m.result.failures.empty());
   EXPECT_TRUE(m.result.folds.empty());
   EXPECT_EQ(m.result.n_crossing_pairs, 0);
-  const TopologyReport topology = check_topology(m.mesh);
+  const TopologyReport topology = check_topology(m.mesh, edges_of(m.mesh));
   EXPECT_TRUE(topology.passes());
   EXPECT_EQ(topology.pinched_nodes.count, 0);
   EXPECT_EQ(topology.euler, s.euler);
-  EXPECT_TRUE(check_shape(m.mesh).passes());
+  EXPECT_TRUE(check_shape(m.mesh, edges_of(m.mesh)).passes());
   EXPECT_TRUE(check_crossings(m.mesh).passes());
 }
 
@@ -94,15 +94,15 @@ TEST(MeshRegions, turns_a_mirrored_part_outward) {
   EXPECT_NEAR(measure_mesh(b.mesh).volume, volume, 0.005 * volume);
   EXPECT_TRUE(a.orientation.turned_faces.empty() && b.orientation.turned_faces.empty());
   EXPECT_EQ(a.orientation.turned_components + b.orientation.turned_components, 0);
-  EXPECT_TRUE(check_topology(b.mesh).passes());
+  EXPECT_TRUE(check_topology(b.mesh, edges_of(b.mesh)).passes());
 }
 
 TEST(MeshRegions, refines_a_tube_thinner_than_the_size_until_it_closes) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("thin_cylinder", 0.5);
   EXPECT_TRUE(m.result.failures.empty());
-  EXPECT_TRUE(check_topology(m.mesh).passes());
-  EXPECT_EQ(check_topology(m.mesh).euler, 2);
+  EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).passes());
+  EXPECT_EQ(check_topology(m.mesh, edges_of(m.mesh)).euler, 2);
 }
 
 TEST(MeshRegions, closes_a_solid_smaller_than_the_size) {
@@ -110,7 +110,7 @@ TEST(MeshRegions, closes_a_solid_smaller_than_the_size) {
   for (const char* shape : {"box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder"}) {
     const Meshed m(shape, 200);
     EXPECT_TRUE(m.result.failures.empty()) << shape;
-    EXPECT_TRUE(check_topology(m.mesh).passes()) << shape;
+    EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).passes()) << shape;
     EXPECT_GT(measure_mesh(m.mesh).volume, 0) << shape;
   }
 }
@@ -120,8 +120,8 @@ TEST(MeshRegions, closes_the_tip_of_a_slender_cone_and_a_needle) {
   for (double size : {0.1, 0.4, 3.0}) {  // the tip has less way around it than up to it at any size
     const Meshed m("slender_cone", size);
     EXPECT_TRUE(m.result.failures.empty()) << size;
-    EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
-    EXPECT_EQ(check_topology(m.mesh).euler, 2) << size;
+    EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).passes()) << size;
+    EXPECT_EQ(check_topology(m.mesh, edges_of(m.mesh)).euler, 2) << size;
     EXPECT_LT(m.result.n_refinements, 200) << size;
   }
 }
@@ -131,7 +131,7 @@ TEST(MeshRegions, keeps_two_faces_along_common_edges_apart) {
   for (double size : {1.2, 2.0, 3.0}) {  // sides 2 wide: no node inside either of them
     const Meshed m("shallow_prism", size);
     EXPECT_TRUE(m.result.failures.empty()) << size;
-    EXPECT_TRUE(check_topology(m.mesh).passes()) << size;
+    EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).passes()) << size;
     EXPECT_GT(measure_mesh(m.mesh).volume, 0) << size;
   }
 }
@@ -141,15 +141,15 @@ TEST(MeshRegions, leaves_an_open_model_open_at_its_free_edges_only) {
   const Meshed m("plate_with_hole", 2);
   const ModelTables& t = m.model.tables();
   const std::vector<std::uint8_t> may_be_open(t.n_edges(), 1);
-  EXPECT_TRUE(check_topology(m.mesh, {t.edge_vertices, may_be_open, {}}).is_closed());
-  EXPECT_FALSE(check_topology(m.mesh).is_closed());
+  EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh), {t.edge_vertices, may_be_open, {}}).is_closed());
+  EXPECT_FALSE(check_topology(m.mesh, edges_of(m.mesh)).is_closed());
 }
 
 TEST(MeshRegions, joins_three_faces_at_one_edge) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("t_junction", 1);
   EXPECT_TRUE(m.result.failures.empty());
-  EXPECT_EQ(check_topology(m.mesh).nonmanifold_edges.count, 10);
+  EXPECT_EQ(check_topology(m.mesh, edges_of(m.mesh)).nonmanifold_edges.count, 10);
   EXPECT_NEAR(measure_mesh(m.mesh).area, 150, 1e-6);
 }
 
@@ -157,7 +157,7 @@ TEST(MeshRegions, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed m("baffled_box", 1);
   EXPECT_TRUE(m.result.failures.empty());
-  EXPECT_EQ(check_topology(m.mesh).nonmanifold_edges.count, 4);
+  EXPECT_EQ(check_topology(m.mesh, edges_of(m.mesh)).nonmanifold_edges.count, 4);
   EXPECT_EQ(check_crossings(m.mesh).crossings.count, 0);
   EXPECT_EQ(check_crossings(m.mesh).contacts.count, 0);
   EXPECT_NEAR(measure_mesh(m.mesh).area, 616, 1e-6);
@@ -166,7 +166,8 @@ TEST(MeshRegions, meets_a_sheet_that_stands_on_a_face_in_common_nodes) {
 TEST(MeshRegions, meshes_poles_as_well_as_any_other_place) {
   set_verbosity(Verbosity::kQuiet);
   for (const double length : {0.7, 1.0, 1.2, 1.5, 1.8, 2.2, 2.7}) {
-    const QualityStats quality = measure_quality(Meshed("sphere", length).mesh).model;
+    const QualityStats quality =
+        measure_quality(Meshed("sphere", length).mesh, edges_of(Meshed("sphere", length).mesh)).model;
     EXPECT_GT(quality.min_angle_deg, 32) << length;
     EXPECT_GT(quality.mean, 0.98) << length;
   }
@@ -177,7 +178,7 @@ TEST(MeshRegions, refines_walls_thinner_than_their_chords_until_they_stand_apart
   for (const double length : {1.5, 2.0, 3.0}) {
     const Meshed m("thin_pipe", length);
     EXPECT_EQ(m.result.n_crossing_pairs, 0) << length;
-    EXPECT_TRUE(check_topology(m.mesh).is_closed());
+    EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).is_closed());
   }
 }
 
@@ -186,14 +187,15 @@ TEST(MeshRegions, makes_no_hole_where_refining_cannot_part_what_crosses) {
   for (const double length : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
     const Meshed m("spindle_torus", length);
     EXPECT_TRUE(m.result.failures.empty()) << length;
-    EXPECT_TRUE(check_topology(m.mesh).is_closed()) << length;
+    EXPECT_TRUE(check_topology(m.mesh, edges_of(m.mesh)).is_closed()) << length;
   }
 }
 
 TEST(MeshRegions, enhances_as_many_rounds_as_the_options_say) {
   set_verbosity(Verbosity::kQuiet);
   const Meshed none("sphere", 1, {.enhance_rounds = 0}), five("sphere", 1);
-  EXPECT_GT(measure_quality(five.mesh).model.mean, measure_quality(none.mesh).model.mean + 0.001);
+  EXPECT_GT(measure_quality(five.mesh, edges_of(five.mesh)).model.mean,
+            measure_quality(none.mesh, edges_of(none.mesh)).model.mean + 0.001);
 }
 
 TEST(MeshRegions, redoes_nothing_when_nothing_is_to_be_redone) {
@@ -226,7 +228,8 @@ TEST(MeshRegions, redoes_one_face_on_the_nodes_its_neighbours_keep) {
     }
   }
   OrientationReport report;
-  EXPECT_TRUE(check_topology(test::merged(m.topology, again, report)).passes());
+  EXPECT_TRUE(check_topology(test::merged(m.topology, again, report), edges_of(test::merged(m.topology, again, report)))
+                  .passes());
 }
 
 }  // namespace

@@ -232,8 +232,8 @@ TEST_F(Remesh, grows_a_hole_that_cannot_be_filled) {
   const StageSummary s = run_remesh(o, one_rank());
   EXPECT_GT(facts(s.json).at("holes_grown"), 0);
   const MeshArtifact after = read_mesh(o.merged);
-  EXPECT_TRUE(check_topology(after.mesh).passes());
-  EXPECT_TRUE(check_shape(after.mesh).passes());
+  EXPECT_TRUE(check_topology(after.mesh, edges_of(after.mesh)).passes());
+  EXPECT_TRUE(check_shape(after.mesh, edges_of(after.mesh)).passes());
   EXPECT_TRUE(check_crossings(after.mesh).passes());
 }
 
@@ -253,7 +253,7 @@ TEST_F(Remesh, redoes_old_triangles_that_new_ones_cross) {
   EXPECT_EQ(facts(s.json).at("crossing_pairs"), 0) << s.json;
   EXPECT_GT(facts(s.json).at("refinements"), 0) << s.json;
   const MeshArtifact after = read_mesh(o.merged);
-  EXPECT_TRUE(check_topology(after.mesh).passes());
+  EXPECT_TRUE(check_topology(after.mesh, edges_of(after.mesh)).passes());
   EXPECT_TRUE(check_crossings(after.mesh).passes());
 }
 
@@ -332,7 +332,7 @@ TEST_F(Remesh, of_a_mesh_with_closed_strips_follows_a_moved_geometry) {
       o.moved = true;
       EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
       const SurfaceMesh after = merge("remeshed.hdf", "after.hdf").mesh;
-      EXPECT_TRUE(check_topology(after).passes());
+      EXPECT_TRUE(check_topology(after, edges_of(after)).passes());
       EXPECT_TRUE(check_crossings(after).passes());
       EXPECT_NEAR(measure_mesh(after).volume, 501 * factor, 3);
     }
