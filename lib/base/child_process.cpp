@@ -14,6 +14,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/confinement.h"
 #include "base/error.h"
 
 namespace st {
@@ -68,8 +69,11 @@ double machine_memory() {
                            const std::string& subject) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (limits.cpu_seconds > 0) end_after(limits.cpu_seconds);
+#ifndef __SANITIZE_ADDRESS__  // which reserves more addresses than any machine has memory
   limit(RLIMIT_AS, machine_memory());
+#endif
   limit(RLIMIT_CORE, 0);
+  confine_process(limits.writable_folder);
   int code = kUnknownFailure;
   std::string text;
   try {

@@ -7,13 +7,14 @@
 namespace st {
 
 struct ChildLimits {
-  double cpu_seconds = 0;  ///< > 0: the child is ended after this much processor time
+  double cpu_seconds = 0;         ///< > 0: the child is ended after this much processor time
+  std::string writable_folder{};  ///< files are made and changed there alone, see confine_process(); empty: nowhere
 };
 
 /// Runs `work` in a forked child and returns its string; an Error thrown there is thrown here with its code and
 /// message. A child that crashes or exceeds its time, and one that runs out of memory (that of the machine is the
-/// limit), is an Error(kInput): "`subject`: ...". The child dies with its parent. What `work` prints to stderr appears
-/// there. Precondition: the process has no other threads.
+/// limit), is an Error(kInput): "`subject`: ...". The child dies with its parent, and is confined. What `work` prints
+/// to stderr appears there. Precondition: the process has no other threads.
 std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits,
                          const std::string& subject);
 

@@ -6,12 +6,14 @@
 #include <numeric>
 #include <vector>
 
+#include "base/local_size.h"
 #include "base/memory.h"
 #include "sizing/size_field.h"
 
 namespace st {
 namespace {
 
+constexpr std::size_t kMostQueries = 20000;    // of the field, on a whole mesh
 constexpr double kShare = 0.8;                 // of the memory
 constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/bench.md)
 
@@ -19,6 +21,20 @@ constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/ben
 
 double expected_triangles(std::span<const double> face_weight) {
   return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
+}
+
+std::vector<double> face_weights_on(const SurfaceMesh& mesh, const SizeField& field, FaceId n_faces) {
+  std::vector<double> weight(static_cast<std::size_t>(n_faces));
+  const auto step = static_cast<TriangleId>(1 + mesh.triangles.size() / kMostQueries);
+  int hint = 0;
+  for (TriangleId t = 0; t < mesh.n_triangles(); t += step) {
+    const NodeId* n = mesh.triangles[t].n;
+    const Vec3 a = mesh.node_xyz[n[0]], b = mesh.node_xyz[n[1]], c = mesh.node_xyz[n[2]];
+    const LocalSize size = field.local((a + b + c) / 3, hint);
+    const double area = 0.5 * norm(cross(squeezed(b - a, size.squeeze()), squeezed(c - a, size.squeeze())));
+    weight[mesh.triangle_face[t]] += static_cast<double>(step) * area / (size.length * size.length);
+  }
+  return weight;
 }
 
 void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,

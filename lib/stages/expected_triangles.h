@@ -3,14 +3,21 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/limits.h"
 #include "geometry/model/model.h"
+#include "mesh/surface_mesh.h"
+#include "sizing/size_field.h"
 
 namespace st {
 
 /// About this many triangles: equilateral ones of the local length. `face_weight`: see SizingArtifact.
 double expected_triangles(std::span<const double> face_weight);
+
+/// Weights of faces as in SizingArtifact, from a mesh of them and the sizes that a new one will have. Cost: at most
+/// some 40,000 queries of the field.
+std::vector<double> face_weights_on(const SurfaceMesh& mesh, const SizeField& field, FaceId n_faces);
 
 /// Throws Error(kUsage) when `faces` (empty: all) would have more triangles than a mesh can number or than fit
 /// 80 % of the memory: with the expected number, the face that asks for most, and what to do. Weights that are not one

@@ -253,7 +253,8 @@ StageSummary run_import(const ImportStageOptions& o) {
     return s.line + '\n' + s.json;
   };
   const LeftTemporaries left{o.check ? "" : o.output};
-  const std::string both = run_in_child(work, {time_limit(o)}, o.model);
+  const std::string folder = std::filesystem::absolute(o.output).parent_path().string();
+  const std::string both = run_in_child(work, {time_limit(o), o.check ? "" : folder}, o.model);
   const std::size_t line_end = both.find('\n');
   return {both.substr(0, line_end), both.substr(line_end + 1), ExitCode::kOk};
 }

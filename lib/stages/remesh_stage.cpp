@@ -316,12 +316,17 @@ StageSummary with_association(StageSummary summary, const std::optional<StageSum
   return summary;
 }
 
-/// Before anything is remeshed; faces that are kept count for nothing.
-void require_countable_sizes(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarkOptions& mark) {
+/// Before anything is remeshed; faces that are kept count for nothing. Local, on rank 0, which has the whole mesh: what
+/// the sizing says of its faces is not asked, because lengths on nodes may take its place, and a file may lie.
+void require_countable_sizes(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarkOptions& mark,
+                             const SizeField& field) {
   std::vector<FaceId> faces;
   for (FaceId f = 0; f < in.model.tables().n_faces(); ++f)
     if (mark.keep_face.empty() || !mark.keep_face[f]) faces.push_back(f);
-  if (!faces.empty()) require_countable_mesh(in.model.tables(), in.sizing.face_weight, faces, o.sizing);
+  if (faces.empty()) return;
+  const ModelTables& tables = in.model.tables();
+  require_countable_mesh(tables, face_weights_on(in.old.mesh, field, tables.n_faces()), faces,
+                         o.sizes_on_nodes.empty() ? o.sizing : o.sizes_on_nodes);
 }
 
 HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in) {
@@ -357,7 +362,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
-  if (!on_nodes) require_countable_sizes(o, in, mark);
+  if (comm.is_root()) require_countable_sizes(o, in, mark, field);
   const std::optional<StageSummary> association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);

@@ -198,6 +198,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   add_flow_domain(model, tables, domain, result.findings, path);
+  occt::require_sound_boxes(tables.tables.face_box, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;

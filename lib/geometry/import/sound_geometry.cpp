@@ -62,6 +62,13 @@ class PointCollector {
                   fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}) that is not finite; the file is damaged: "
                               "export it again from the CAD system",
                               path_, kind_, number_, p.X(), p.Y(), p.Z()));
+    if (const double largest = std::max({std::abs(p.X()), std::abs(p.Y()), std::abs(p.Z())});
+        largest > kLargestCoordinate)
+      throw Error(
+          ExitCode::kGeometry,
+          fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}) with a coordinate beyond {:g}; the file is "
+                      "damaged, or not in the unit it should be: export it again from the CAD system",
+                      path_, kind_, number_, p.X(), p.Y(), p.Z(), kLargestCoordinate));
     points_.push_back({{p.X(), p.Y(), p.Z()}, kind_, number_});
   }
 
@@ -143,6 +150,15 @@ void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) 
               fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}), {:.1g} times as far away as half of the "
                           "model's points ({:.3g}); the file is damaged, or that part is to be left out",
                           path, p.kind, p.number, p.xyz[0], p.xyz[1], p.xyz[2], *farthest / usual, usual));
+}
+
+void require_sound_boxes(std::span<const Box3> face_box, const std::string& path) {
+  for (std::size_t f = 0; f < face_box.size(); ++f)
+    for (const Vec3& x : {face_box[f].lo, face_box[f].hi})
+      if (!(std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) <= kLargestCoordinate))
+        throw Error(ExitCode::kGeometry, fmt::format("{}: face {} reaches to ({:.3g}, {:.3g}, {:.3g}), beyond {:g}; "
+                                                     "the file is damaged: export it again from the CAD system",
+                                                     path, f + 1, x.x, x.y, x.z, kLargestCoordinate));
 }
 
 }  // namespace st::occt

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <TopoDS_Shape.hxx>
+#include <span>
 #include <string>
+
+#include "base/vec.h"
 
 namespace st::occt {
 
@@ -10,9 +13,17 @@ namespace st::occt {
 /// of a thousand bodies' lengths around details of a thousandth is just within it.
 inline constexpr double kFarthestPoint = 1e6;
 
+/// Coordinates may be this large, in the unit of reading: a million kilometres in mm. Squares of much larger ones pass
+/// the numbers there are.
+inline constexpr double kLargestCoordinate = 1e12;
+
 /// Throws Error(kGeometry) naming the face or edge and the point when a vertex, a control point or a weight of a
-/// spline of `shape` is not finite, or farther away than kFarthestPoint: no stage behind could end on it. Linear in
-/// the number of points.
+/// spline of `shape` is not finite, beyond kLargestCoordinate, or farther away than kFarthestPoint: no stage behind
+/// could end on it. Linear in the number of points.
 void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path);
+
+/// The same for faces whose edges and surfaces have no control points: throws Error(kGeometry) when one of their boxes
+/// goes beyond kLargestCoordinate.
+void require_sound_boxes(std::span<const Box3> face_box, const std::string& path);
 
 }  // namespace st::occt

@@ -282,6 +282,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
 /// Local, on rank 0.
 void FaceRounds::take_face(FaceId f, FaceResult&& result) {
   FaceOutcome& o = outcomes_[f];
+  n_meshed_ += result.patch.triangles.size();
   result_.patches[f] = std::move(result.patch);
   o.cause = result.cause;
   o.error = std::move(result.error);

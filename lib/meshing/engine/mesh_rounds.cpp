@@ -9,8 +9,9 @@ namespace st {
 namespace {
 
 constexpr double kLoopFloor = 1.0 / 16;  // of the requested length: refining loops, folds and narrow parts ends there
-constexpr std::uint64_t kFewCrossings = 200;  // places
-constexpr double kPromising = 0.8;            // of the places before: as many or less is getting better
+constexpr std::uint64_t kFewCrossings = 200;                         // places
+constexpr std::uint64_t kMostRepeated = 30, kFewTriangles = 200000;  // meshed in all rounds, by those of the first one
+constexpr double kPromising = 0.8;  // of the places before: as many or less is getting better
 
 /// Adds the seconds of its life.
 class TimeAdder {
@@ -35,22 +36,36 @@ auto timed(double& total, const Step& step) {
 
 void MeshRounds::run() {
   MeshTimes& times = result_.times;
-  std::uint64_t n_last = 0;  // places of the last search for crossings
+  std::uint64_t n_first = 0;  // triangles of the first round
+  std::uint64_t n_last = 0;   // places of the last search for crossings
   for (int n_rounds = 1, n_crossing_rounds = 0;; ++n_rounds) {
     timed(times.edges, [&] { mesh_edges(); });
     const Places wanted = timed(times.faces, [&] { return mesh_regions(); });
     ++result_.n_rounds;
-    if (n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
+    if (n_rounds == 1) n_first = n_meshed_;
+    const bool is_last = runs_away(n_first);
+    if (!is_last && n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
     timed(times.join, [&] { join(); });
     const Places crossings = timed(times.crossing, [&] { return find_crossings(); });
     std::uint64_t n = crossings.size();
     share(executor_, n);
     const bool is_promising = n <= kFewCrossings || static_cast<double>(n) < kPromising * static_cast<double>(n_last);
-    if (n == 0 || n_crossing_rounds++ >= (is_promising ? limits_.max_promising_rounds : limits_.max_crossing_rounds))
+    if (is_last || n == 0 ||
+        n_crossing_rounds++ >= (is_promising ? limits_.max_promising_rounds : limits_.max_crossing_rounds))
       return;
     n_last = n;
     if (!refine(crossings, is_promising ? limits_.promising_floor : kCrossingFloor)) return;
   }
+}
+
+/// Collective. Whether more was meshed again than refining can be worth, as on surfaces that are damaged.
+bool MeshRounds::runs_away(std::uint64_t n_first) {
+  char is_over = n_meshed_ > kMostRepeated * n_first + kFewTriangles;
+  share(executor_, is_over);
+  if (is_over && executor_.is_root())
+    log_warning("refining was ended after " + std::to_string(n_meshed_) + " triangles instead of " +
+                std::to_string(n_first) + "; folds and crossings stay: the surfaces are damaged");
+  return is_over != 0;
 }
 
 /// Collective. Rank 0's places become part of the field, no finer than `floor` times the request. False when none

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/executor.h"
@@ -38,7 +39,8 @@ class MeshRounds {
   const SizeField& field_;
   const Executor& executor_;
   MeshResult& result_;
-  Refinements refinements_;  // the same on every rank
+  Refinements refinements_;     // the same on every rank
+  std::uint64_t n_meshed_ = 0;  // triangles on rank 0, those that were meshed again included
 
  private:
   using Places = std::vector<RefinementPoint>;
@@ -55,6 +57,7 @@ class MeshRounds {
   virtual void choose_again(std::size_t first_refinement) = 0;
 
   bool refine(const Places& places, double floor);
+  bool runs_away(std::uint64_t n_first);
 
   RoundLimits limits_;
 };

@@ -13,7 +13,7 @@ constexpr int kMaxDepth = 24;
 constexpr double kSamplesPerLength = 2.0;  // samples of the size along one requested length
 constexpr double kFullRadius = 0.4;        // of the length: circles from this radius on get segments of max_turning
 constexpr double kMostDense = 1.5;         // segments for one of such a circle, however small the radius
-constexpr std::uint64_t kMaxSegments = 100'000'000;  // of one edge between two corners
+constexpr std::uint64_t kMaxSegments = 10'000'000;  // of one edge between two corners: 1 GB
 constexpr double kCorner = 0.01;       // of the length: what turns by more than max_turning within this is a corner
 constexpr double kCornerReach = 0.25;  // lengths: a corner nearer to an end or another corner has no node of its own
 

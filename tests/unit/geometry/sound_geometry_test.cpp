@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS_Face.hxx>
 #include <limits>
+#include <vector>
 
 #include "unit/io/temporary_directory.h"
 
@@ -34,7 +36,19 @@ TEST(SoundGeometry, refuses_points_that_are_not_finite_or_absurdly_far) {
   EXPECT_ERROR(occt::require_sound_geometry(patch(-kInfinity), "a.step"), kGeometry, "a.step: face 1 has a point");
   EXPECT_ERROR(occt::require_sound_geometry(patch(std::numeric_limits<double>::quiet_NaN()), "a.step"), kGeometry,
                "not finite");
-  EXPECT_ERROR(occt::require_sound_geometry(patch(9.2e18), "a.step"), kGeometry, "times as far away");
+  EXPECT_ERROR(occt::require_sound_geometry(patch(9.2e11), "a.step"), kGeometry, "times as far away");
+  EXPECT_ERROR(occt::require_sound_geometry(patch(9.2e18), "a.step"), kGeometry, "a coordinate beyond 1e+12");
+  gp_Trsf large;
+  large.SetScale(gp_Pnt(), 1e307);
+  EXPECT_ERROR(occt::require_sound_geometry(BRepBuilderAPI_Transform(patch(1), large, true).Shape(), "a.step"),
+               kGeometry, "a coordinate beyond 1e+12");
+}
+
+TEST(SoundGeometry, refuses_faces_that_reach_absurdly_far) {
+  const Box3 usual{{0, 0, 0}, {1, 1, 1}}, huge{{-1e307, 0, 0}, {1, 1, 1}};
+  EXPECT_NO_THROW(occt::require_sound_boxes(std::vector<Box3>{usual, usual}, "a.step"));
+  EXPECT_ERROR(occt::require_sound_boxes(std::vector<Box3>{usual, huge}, "a.step"), kGeometry,
+               "a.step: face 2 reaches to (-1e+307, 0, 0), beyond 1e+12");
 }
 
 }  // namespace

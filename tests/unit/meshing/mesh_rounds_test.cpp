@@ -23,6 +23,7 @@ class Scripted : public MeshRounds {
 
   std::string steps;
   std::vector<std::size_t> first_refinements;
+  std::uint64_t n_first = 0, n_later = 0;  // triangles of the first round, and of each later one
   double shortest() const {
     double length = 1;
     for (const Refinement& r : refinements_.all()) length = std::min(length, r.length);
@@ -33,6 +34,7 @@ class Scripted : public MeshRounds {
   void mesh_edges() override { steps += 'e'; }
   Places mesh_regions() override {
     steps += 'r';
+    n_meshed_ += n_regions_ == 0 ? n_first : n_later;
     return regions_(n_regions_++);
   }
   void join() override { steps += 'j'; }
@@ -130,6 +132,24 @@ TEST(MeshRounds, count_refinements_of_regions_apart_from_those_of_crossings) {
             "era"
             "erjca"
             "erjc");
+}
+
+TEST(MeshRounds, end_where_far_more_is_meshed_again_than_in_the_first_round) {
+  constexpr std::uint64_t kFirst = 1000, kMost = 30 * kFirst + 200000;
+  for (const auto& [n_later, steps] : {std::pair(kMost - kFirst, "eraeraeraerjc"), {kMost - kFirst + 1, "eraerjc"}}) {
+    MeshResult result;
+    Scripted rounds(
+        kLimits, result, [](int call) { return places(call, 2); }, [](int call) { return places(100 + call, 0); });
+    rounds.n_first = kFirst;
+    rounds.n_later = n_later / (steps == std::string("eraerjc") ? 1 : 3);
+    rounds.run();
+    EXPECT_EQ(rounds.steps, steps);
+  }
+  MeshResult result;
+  Scripted crossing(kLimits, result, kNothing, [](int call) { return places(call, 100); });
+  crossing.n_later = kMost;
+  crossing.run();
+  EXPECT_EQ(crossing.steps, "erjcaerjc") << "crossings are still counted";
 }
 
 }  // namespace

@@ -58,5 +58,31 @@ TEST_F(ExpectedTriangles, are_refused_by_default_where_sides_pass_32_bits_or_the
   EXPECT_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 1e300), {}, "s"), Error);
 }
 
+/// Edges four times as long along x.
+class Stretched : public UniformField {
+ public:
+  using UniformField::UniformField;
+  LocalSize local(Vec3 x, int& hint) const override { return {size(x, hint), 4 * size(x, hint), {1, 0, 0}}; }
+  bool is_stretched() const override { return true; }
+};
+
+TEST(ExpectedTrianglesOfAMesh, come_from_its_areas_and_the_lengths_of_the_field) {
+  SurfaceMesh mesh;
+  mesh.node_xyz = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 5}};
+  for (int i = 0; i < 50000; ++i) {
+    mesh.triangles.push_back({{0, 1, 2}});  // area 3
+    mesh.triangle_face.push_back(1);
+  }
+  mesh.triangles.push_back({{0, 2, 3}});
+  mesh.triangle_face.push_back(0);
+  const std::vector<double> weight = face_weights_on(mesh, UniformField(0.5), 3);
+  EXPECT_NEAR(weight[1], 50000 * 3 / 0.25, 50) << "from some of many triangles";
+  EXPECT_EQ(weight[2], 0);
+  EXPECT_NEAR(face_weights_on(mesh, Stretched(0.5), 3)[1], weight[1] / 4, 50);
+  mesh.triangles = {{{0, 2, 3}}};
+  mesh.triangle_face = {0};
+  EXPECT_DOUBLE_EQ(face_weights_on(mesh, UniformField(0.5), 1)[0], 7.5 / 0.25);
+}
+
 }  // namespace
 }  // namespace st
