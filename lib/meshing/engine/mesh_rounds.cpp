@@ -9,9 +9,10 @@ namespace st {
 namespace {
 
 constexpr double kLoopFloor = 1.0 / 16;  // of the requested length: refining loops, folds and narrow parts ends there
-constexpr std::uint64_t kFewCrossings = 200;                         // places
-constexpr std::uint64_t kMostRepeated = 30, kFewTriangles = 200000;  // meshed in all rounds, by those of the first one
-constexpr double kPromising = 0.8;  // of the places before: as many or less is getting better
+constexpr std::uint64_t kFewCrossings = 200;     // places
+constexpr std::uint64_t kMostRepeated = 30;      // triangles of all rounds, by those of the first one
+constexpr std::uint64_t kFewTriangles = 200000;  // that may be meshed again in any case
+constexpr double kPromising = 0.8;               // of the places before: as many or less is getting better
 
 /// Adds the seconds of its life.
 class TimeAdder {
