@@ -18,6 +18,7 @@
 #include "meshing/engine/mesh_regions.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
+#include "stages/same_inputs.h"
 #include "stages/stored_model.h"
 
 namespace st {
@@ -118,6 +119,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   if (comm.is_root()) require_writable(o.output);
   GeometryArtifact geometry = read_geometry(o.geometry);
   const MappedSizing sizing = map_sizing(o.sizing);
+  require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizing, sizing.header.content_hash}});
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   const Model model = stored_model(geometry, o.geometry);
   std::vector<FaceId> faces = select_faces(o, model.tables());

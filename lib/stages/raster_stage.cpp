@@ -33,6 +33,7 @@
 #include "stages/coarse_surface.h"
 #include "stages/common_octree.h"
 #include "stages/phase_times.h"
+#include "stages/same_inputs.h"
 #include "stages/size_tally.h"
 #include "stages/stored_model.h"
 
@@ -610,6 +611,7 @@ class RasterRun {
     const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
     rules_.insert(rules_.end(), sizes.rules.begin(), sizes.rules.end());
     sizes_hash_ = sizes.hash;
+    require_same_inputs(comm, {{o.geometry, geometry_.header.content_hash}, {o.sizes, sizes_hash_}});
   }
 
   StageSummary run() {

@@ -27,6 +27,7 @@
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
 #include "stages/patches_result.h"
+#include "stages/same_inputs.h"
 #include "stages/stored_model.h"
 
 namespace st {
@@ -356,6 +357,9 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
   if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
   const RemeshInput in = read_input(o, comm);
+  require_same_inputs(comm, {{o.mesh, in.old.header.content_hash},
+                             {o.geometry, in.geometry.content_hash},
+                             {o.sizing, in.sizing.header.content_hash}});
   const HoleMesh mesh(in.old.mesh, in.model.tables(), &in.model);
   if (comm.is_root()) require_no_gaps(o, mesh);
   const HoleMarkOptions mark = mark_options(o, in);

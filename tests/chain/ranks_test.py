@@ -1,10 +1,11 @@
 """The number of ranks changes nothing: the chain at np 1, 2 and 3 gives the same content, and twice the same bytes."""
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MODELS, ToolTest, content_hash, make_chain, must  # noqa: E402
+from chain import BIN, MISMATCH, MODELS, ToolTest, content_hash, make_chain, must  # noqa: E402
 
 ARTIFACTS = ["geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf", "mesh.hdf"]
 
@@ -40,6 +41,21 @@ class Ranks(ToolTest):
             hashes.add(content_hash(mesh))
         self.assertEqual(len(hashes), 1)
         self.assertNotEqual(hashes.pop(), content_hash(a / "mesh.hdf"))
+
+    def test_an_old_copy_of_an_input_on_another_rank_is_refused(self):
+        a, b = (make_chain(MODELS / "box.step", self.folder / name, raster_options=["--lmax", lmax])
+                for name, lmax in (("a", "10%"), ("b", "20%")))
+        stages = [("st-mesh", ["geometry.hdf", "sizing.hdf"], "sizing.hdf"),
+                  ("st-remesh", ["mesh.hdf", "geometry.hdf", "sizing.hdf"], "mesh.hdf")]
+        for tool, inputs, differs in stages:
+            words = ["mpirun", "--allow-run-as-root", "--oversubscribe"]
+            for i, folder in enumerate((a, b)):
+                words += [*([":"] if i else []), "-np", "1", BIN / tool, *(folder / name for name in inputs), "-o",
+                          self.folder / "p.hdf"]
+            done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, MISMATCH, done)
+            self.assertIn(f"{a / differs}: rank 1 on ", done.stderr)
+            self.assertFalse((self.folder / "p.hdf").exists())
 
     def test_two_runs_give_the_same_bytes(self):
         a, b = (make_chain(MODELS / "cone.brep", self.folder / name) for name in "ab")
