@@ -116,17 +116,17 @@ def kill(stages, rng, folder):
     if code == 0 and not output.exists():
         return what, "success without an output"
     deadline = time.monotonic() + 10
-    while time.monotonic() < deadline and any(tool in (p / "comm").read_text() and str(output) in
-                                              (p / "cmdline").read_text() for p in processes()):
+    while time.monotonic() < deadline and any(tool in comm and str(output) in line for comm, line in processes()):
         time.sleep(0.1)
     return what, stages.wrong_after_repeat(tool, output)
 
 
 def processes():
+    """Name and command line of each; a process may end while it is asked."""
     for p in Path("/proc").iterdir():
         try:
-            if p.name.isdigit() and (p / "comm").read_text() and (p / "cmdline").read_text():
-                yield p
+            if p.name.isdigit():
+                yield (p / "comm").read_text(), (p / "cmdline").read_text()
         except OSError:
             pass
 

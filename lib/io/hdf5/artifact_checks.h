@@ -60,6 +60,13 @@ void require_lengths(const Hdf5Reader& reader, const std::string& name, const st
                      [](T x) { return is_finite(x) & (x >= 0); });
 }
 
+/// Pairs of a least and a largest parameter: finite, and not the wrong way round.
+inline void require_ranges(const Hdf5Reader& reader, const std::string& name, const std::vector<double>& ends) {
+  require_finite(reader, name, ends);
+  for (std::size_t i = 1; i < ends.size(); i += 2)
+    if (ends[i] < ends[i - 1]) reader.fail(name, "value " + std::to_string(i) + " is less than the one before it");
+}
+
 /// Ids are in [lowest, n). Throws Error(kInput) naming the dataset.
 inline void require_ids(const Hdf5Reader& reader, const std::string& name, std::span<const std::int32_t> ids,
                         std::size_t n, std::int32_t lowest = 0) {

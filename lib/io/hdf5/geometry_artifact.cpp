@@ -87,7 +87,7 @@ void read_vertices_and_edges(const Hdf5Reader& r, ModelTables& t) {
   require_lengths(r, "/st/vertex/tolerance", t.vertex_tolerance);
   require_lengths(r, "/st/edge/length", t.edge_length);
   require_lengths(r, "/st/edge/tolerance", t.edge_tolerance);
-  require_finite(r, "/st/edge/range", t.edge_range);
+  require_ranges(r, "/st/edge/range", t.edge_range);
 }
 
 void read_loops(const Hdf5Reader& r, ModelTables& t, std::size_t n_faces) {
@@ -122,7 +122,7 @@ void read_faces(const Hdf5Reader& r, ModelTables& t) {
     for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
   }
   t.face_box = r.read_rows<Box3>("/st/face/box", n);
-  require_finite(r, "/st/face/uv_bounds", t.face_uv_bounds);
+  require_ranges(r, "/st/face/uv_bounds", t.face_uv_bounds);
   require_lengths(r, "/st/face/tolerance", t.face_tolerance);
   require_finite(r, "/st/face/area", t.face_area);
   require_lengths(r, "/st/face/width", t.face_width);

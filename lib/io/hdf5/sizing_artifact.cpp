@@ -94,6 +94,8 @@ SizingNumbers read_numbers(const Hdf5Reader& file) {
   const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong);
   for (const char* name : {"min_length", "max_length", "far_length", "alpha_deg", "cell_per_length", "diagonal"})
     if (!is_finite(get(name)) || get(name) < 0) file.fail(std::string(kSizing) + "@" + name, "is no length");
+  for (const char* name : {"max_length", "far_length"})
+    if (get(name) == 0) file.fail(std::string(kSizing) + "@" + name, "is no length > 0");
   return {get("min_length"),
           get("max_length"),
           get("far_length"),

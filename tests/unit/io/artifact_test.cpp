@@ -462,6 +462,8 @@ TEST(Artifacts, of_geometries_with_numbers_that_are_none_are_refused) {
   const std::vector<std::pair<const char*, std::function<void(ModelTables&)>>> breaks = {
       {"vertex/xyz", [](auto& t) { t.vertex_xyz[0].z = std::nan(""); }},
       {"uv_bounds", [](auto& t) { t.face_uv_bounds[0] = std::numeric_limits<double>::infinity(); }},
+      {"uv_bounds", [](auto& t) { std::swap(t.face_uv_bounds[2], t.face_uv_bounds[3]); }},
+      {"edge/range", [](auto& t) { t.edge_range[1] = t.edge_range[0] - 1; }},
       {"edge/length", [](auto& t) { t.edge_length[0] = -1; }},
       {"edge/range", [](auto& t) { t.edge_range[0] = std::nan(""); }},
       {"n_shells", [](auto& t) { t.n_shells = 1 << 30; }},

@@ -246,6 +246,8 @@ TEST_F(SizingArtifacts, a_raster_whose_links_or_numbers_are_wrong_is_refused) {
       {"cell_plane", [&](auto& r) { r.faces.plane[1].normal[0] = nan; }},
       {"sample/point", [&](auto& r) { r.samples[1].xyz[0] = nan; }},
       {"sample/length", [](auto& r) { r.samples[1].length = -1; }},
+      {"max_length", [](auto& r) { r.numbers.max_length = 0; }},
+      {"far_length", [](auto& r) { r.numbers.far_length = 0; }},
       {"far_length", [](auto& r) { r.numbers.far_length = -1; }}};
   for (const auto& [name, break_it] : breaks) {
     RasterArtifact raster = sample_raster();
