@@ -5,8 +5,10 @@
 #include <cstdint>
 
 #include "base/face_labels.h"
+#include "base/log.h"
 #include "io/export/export.h"
 #include "io/export/export_formats.h"
+#include "io/export/hole_points.h"
 
 namespace st {
 namespace {
@@ -210,7 +212,8 @@ void export_off(Output& out, const ExportTask& task) {
   text.flush();
 }
 
-/// TetGen's .smesh and .poly: facets with the group as boundary marker, no holes, no regions.
+/// TetGen's .smesh and .poly: facets with the group as boundary marker, a hole for each body that is no flow, no
+/// regions.
 static void write_tetgen(Output& out, const SurfaceMesh& m, std::string_view facet) {
   TextBuffer text(out);
   for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
@@ -228,8 +231,14 @@ static void write_tetgen(Output& out, const SurfaceMesh& m, std::string_view fac
     if (!has_header) text << " " << group_number(m, i);
     text << "\n";
   }
-  text << "0\n0\n";
+  const HolePoints holes = find_hole_points(m);
+  text << static_cast<std::int64_t>(holes.points.size()) << "\n";
+  number = 1;
+  for (const Vec3& p : holes.points) text << number++ << " " << p.x << " " << p.y << " " << p.z << "\n";
+  text << "0\n";
   text.flush();
+  if (holes.n_not_found > 0)
+    log_warning(std::to_string(holes.n_not_found) + " bodies have no hole point: TetGen will fill them");
 }
 
 void export_smesh(Output& out, const ExportTask& task) { write_tetgen(out, task.mesh, ""); }
