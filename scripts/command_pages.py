@@ -24,13 +24,15 @@ class Tool:
         head, _, rest = text.partition("\nUsage: ")
         self.description = " ".join(head.split())
         self.usage, _, rest = rest.partition("\n")
-        self.positionals, self.options, self.notes = [], [], []
+        self.positionals, self.options, self.notes, self.examples = [], [], [], []
         section = self.notes
         for line in rest.splitlines():
             if line == "Positionals:":
                 section = self.positionals
             elif line == "Options:":
                 section = self.options
+            elif line == "Examples:":
+                section = self.examples
             elif line.startswith("      ") and section and section is not self.notes:
                 section[-1] = (section[-1][0], (section[-1][1] + " " + line.strip()).strip())
             elif line.startswith("  "):
@@ -66,6 +68,8 @@ def man_page(tool):
             lines.append(f".SH {title}")
         for head, help_text in entries:
             lines += [".TP", f".B {roff(head)}", roff(help_text)]
+    if tool.examples:
+        lines += [".SH EXAMPLES", ".nf", *(roff(" ".join(entry).rstrip()) for entry in tool.examples), ".fi"]
     if tool.notes:
         lines.append(".SH NOTES")
         for line, _ in tool.notes:

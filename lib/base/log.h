@@ -1,4 +1,4 @@
-// Messages and progress to stderr, decided by one verbosity of the process. The library never prints elsewhere.
+// Messages to stderr, decided by one verbosity of the process. The library prints nowhere else, progress apart.
 #pragma once
 
 #include <chrono>
@@ -18,23 +18,6 @@ void log_warning(const std::string& text);
 void log_report(const std::string& text);
 /// One information line on stderr, shown when verbose.
 void log_info(const std::string& text);
-
-/// A progress line on a terminal (nothing when stderr is none, or quiet).
-class Progress {
- public:
-  Progress(std::string label, double total);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  /// `done` in [0, total]; redraws at most ten times a second.
-  void update(double done);
-
- private:
-  std::string label_;
-  double total_;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point last_{};
-};
 
 /// Wall-clock seconds since construction.
 class Timer {

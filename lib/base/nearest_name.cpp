@@ -37,4 +37,9 @@ std::string nearest_name(const std::string& name, std::span<const std::string> n
   return nearest;
 }
 
+std::string did_you_mean(const std::string& name, std::span<const std::string> names) {
+  const std::string nearest = nearest_name(name, names);
+  return nearest.empty() ? "" : ", did you mean '" + nearest + "'";
+}
+
 }  // namespace st

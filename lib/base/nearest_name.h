@@ -10,4 +10,7 @@ namespace st {
 /// than a third of its letters.
 std::string nearest_name(const std::string& name, std::span<const std::string> names);
 
+/// ", did you mean 'flap'" for a message; empty where nothing is near.
+std::string did_you_mean(const std::string& name, std::span<const std::string> names);
+
 }  // namespace st

@@ -1,12 +1,13 @@
 #include "stages/check_report.h"
 
-#include "io/file/json_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "io/file/json_text.h"
+#include "stages/text_table.h"
 
 namespace st {
 
@@ -37,6 +38,46 @@ std::string check_line(const SurfaceMesh& mesh, const Check& c) {
       c.defects.first[0].face_a == kNone ? "" : ", first at " + place_text(mesh, c.defects.first[0]);
   return fmt::format("  {:<20} {} {} {}{}{}\n", c.name, c.fails() ? "FAILS" : "note:", c.defects.count, c.what, where,
                      note);
+}
+
+/// Deviation of the faces of each group.
+std::vector<DeviationStats> deviation_by_group(const Findings& f) {
+  std::vector<DeviationStats> groups(f.quality.groups.size());
+  if (!f.deviation) return groups;
+  for (std::size_t i = 0; i < f.deviation->faces.size(); ++i)
+    if (static_cast<std::size_t>(f.face_group[i]) < groups.size()) groups[f.face_group[i]].add(f.deviation->faces[i]);
+  return groups;
+}
+
+/// A line for each group of triangles, aligned below a heading; none where there is one group.
+std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
+  constexpr std::size_t kMostGroups = 30;
+  const std::vector<QualityStats>& groups = f.quality.groups;
+  if (groups.size() < 2) return "";
+  const std::vector<DeviationStats> deviation = deviation_by_group(f);
+  std::vector<TableRow> rows{{"group", "triangles", "mean quality", "least", "below 0.3", "angles, deg"}};
+  if (f.conformity) rows[0].emplace_back("of the size asked");
+  if (f.deviation) rows[0].emplace_back("off the surface");
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const QualityStats& q = groups[g];
+    if (q.n_triangles == 0) continue;
+    TableRow row{g < mesh.labels.group_name.size() ? mesh.labels.group_name[g] : "",
+                 std::to_string(q.n_triangles),
+                 fmt::format("{:.3f}", q.mean),
+                 fmt::format("{:.3f}", q.min),
+                 std::to_string(q.n_below_03),
+                 fmt::format("{:.1f} to {:.1f}", q.min_angle_deg, q.max_angle_deg)};
+    if (f.conformity)
+      row.push_back(g < f.conformity->groups.size() ? fmt::format("{:.1f} %", 100 * f.conformity->groups[g].share())
+                                                    : "");
+    if (f.deviation) row.push_back(fmt::format("{:.3g}", deviation[g].max_distance));
+    rows.push_back(std::move(row));
+  }
+  const std::size_t n_more = rows.size() > kMostGroups + 1 ? rows.size() - kMostGroups - 1 : 0;
+  rows.resize(rows.size() - n_more);
+  std::string text;
+  for (const std::string& line : aligned_columns(rows, rows[0].size() - 1)) text += line + "\n";
+  return n_more ? text + fmt::format("  and {} more: see --json\n", n_more) : text;
 }
 
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool is_stretched) {
@@ -229,15 +270,6 @@ json causes_json(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_sizes) 
   return j;
 }
 
-/// Deviation of the faces of each group.
-std::vector<DeviationStats> deviation_by_group(const Findings& f) {
-  std::vector<DeviationStats> groups(f.quality.groups.size());
-  if (!f.deviation) return groups;
-  for (std::size_t i = 0; i < f.deviation->faces.size(); ++i)
-    if (static_cast<std::size_t>(f.face_group[i]) < groups.size()) groups[f.face_group[i]].add(f.deviation->faces[i]);
-  return groups;
-}
-
 json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail) {
   json groups = json::array();
   const std::vector<DeviationStats> deviation = deviation_by_group(f);
@@ -297,7 +329,10 @@ json bins_json() {
 
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string text;
-  for (const Check& c : f.checks) text += check_line(mesh, c);
+  for (const bool fails : {true, false})
+    for (const Check& c : f.checks)
+      if (c.fails() == fails) text += check_line(mesh, c);
+  text += group_table(mesh, f);
   text += quality_lines(mesh, f.quality, f.is_stretched);
   if (f.conformity) text += conformity_lines(*f.conformity);
   if (f.deviation) text += deviation_line(mesh, *f.deviation);

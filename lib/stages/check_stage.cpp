@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/threads.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
@@ -248,13 +249,14 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
   return {
       check_complete(artifact),
       {"closed", "open edges", f.topology.boundary_edges, true, open},
-      {"manifold", "non-manifold edges", f.topology.nonmanifold_edges, true, nonmanifold},
-      {"oriented", "misoriented edges", f.topology.misoriented_edges, true, ""},
+      {"manifold", "edges with more than two triangles (non-manifold)", f.topology.nonmanifold_edges, true,
+       nonmanifold},
+      {"oriented", "edges whose two triangles face opposite ways", f.topology.misoriented_edges, true, ""},
       {"repeated-nodes", "triangles with the same node twice", f.topology.repeated_nodes, true, ""},
       {"zero-area", "triangles without area", f.shape.zero_area, true, ""},
       {"duplicate-triangles", "triangles that occur twice", f.topology.duplicate_triangles, true, ""},
       {"duplicate-nodes", "nodes at the same place as another node", f.shape.duplicate_nodes, true, ""},
-      {"folds", "folds", f.shape.folds, true, "", allow.max_folds},
+      {"folds", "folds: neighbouring triangles turned back on each other", f.shape.folds, true, "", allow.max_folds},
       {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
       {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
        std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
@@ -267,7 +269,7 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
 
 /// Everything that is measured: jobs that do not depend on each other, the longest first. `cad`, `field`: may be null.
 void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadSide* cad, const SizeField* field,
-             Findings& f) {
+             Progress& progress, Findings& f) {
   const EdgeTable edges = edges_of(mesh);
   std::vector<std::function<void()>> jobs;
   jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
@@ -281,6 +283,12 @@ void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadS
   jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
   jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
   jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
+  constexpr double kShare = 0.8;  // of the whole check
+  for (auto& job : jobs)
+    job = [&progress, work = std::move(job), part = kShare / static_cast<double>(jobs.size())] {
+      work();
+      progress.advance(part);
+    };
   run_jobs(jobs);
   f.is_stretched = corners.is_stretched();
 }
@@ -481,13 +489,17 @@ void CheckStageOptions::validate() const {
 StageSummary run_check(const CheckStageOptions& options) {
   options.validate();
   const Timer timer;
+  Progress progress("checking", 1);
+  progress.step("reading", 0);
   std::unique_ptr<CadSide> cad;
   const MeshArtifact artifact = read_checked_mesh(options, cad);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
   const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
-  measure(artifact.mesh, corners, cad.get(), field.get(), f);
+  progress.step("measuring", 0.1);
+  measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
+  progress.step("causes", 0.9);
   f.checks = list_mesh_checks(artifact, options.thresholds, f);
   if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
   if (cad)

@@ -49,11 +49,9 @@ void select_item(const std::string& item, const ModelTables& t, const std::strin
   }
   const std::vector<std::uint8_t> named = faces_named(item, t);
   if (named.empty()) {
-    const std::string nearest = nearest_name(item, all_names(t));
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("{} '{}': no group, part or face has this name{}{}; st-info --groups lists them", option, item,
-                    say_other_kind(item, t.labels), nearest.empty() ? "" : ", did you mean '" + nearest + "'"));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} '{}': no group, part or face has this name{}{}; st-info --groups lists them", option,
+                            item, say_other_kind(item, t.labels), did_you_mean(item, all_names(t))));
   }
   for (std::size_t f = 0; f < named.size(); ++f) chosen[f] |= named[f];
 }

@@ -107,16 +107,16 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
                     {"length", w.length},
                     {"angle", degrees(w.angle)},
                     {"size", w.size}});
-  if (!edges.empty()) log_info(fmt::format("  {} trailing and leading edges:", edges.size()));
+  if (!edges.empty()) log_report(fmt::format("  {} trailing and leading edges:", edges.size()));
   for (std::size_t i = 0; i < edges.size() && i < kFindingsShown; ++i) {
     const WingEdge& w = edges[i];
-    log_info(fmt::format(
+    log_report(fmt::format(
         "  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}, angle {:.3g} deg{}", t.edge_label(w.edge),
         name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, degrees(w.angle),
         w.size > 0 ? fmt::format(", {} {:.4g}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size) : ""));
   }
   if (edges.size() > kFindingsShown)
-    log_info(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
+    log_report(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
   return list;
 }
 
@@ -134,8 +134,9 @@ std::string repairs_in_words(const ImportResult& r) {
   return text;
 }
 
-/// The first findings as text; the rest is counted.
-void say(const std::string& model, const ImportResult& r) {
+/// The first findings as text, where they are asked for; the rest is counted.
+void say(const ImportStageOptions& o, const ImportResult& r) {
+  const std::string& model = o.model;
   if (!r.is_closed && r.n_free_edges == 0)
     log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
@@ -144,14 +145,16 @@ void say(const std::string& model, const ImportResult& r) {
                     "further apart)",
                     model, r.n_free_edges));
   if (r.n_repairs > 0)
-    log_warning(fmt::format("{}: repaired: {}; -v lists places and sizes", model, repairs_in_words(r)));
+    log_warning(
+        fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
+  const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
-    log_info(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what(),
+    say_line(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what(),
                          f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size));
   }
-  if (n > shown) log_info(fmt::format("  ... and {} more: see --json", n - shown));
+  if (n > shown) say_line(fmt::format("  ... and {} more: see --json", n - shown));
 }
 
 /// "box 37.8 x 18.9 x 4.1 m, area 520 m^2, volume 402 m^3".
@@ -186,7 +189,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.require_closed = o.require_closed;
   options.groups = groups.rules;
   ImportResult r = import_model(o.model, options);
-  say(o.model, r);
+  say(o, r);
   nlohmann::json json = report(o.model, r);
   if (o.check) json["wing_edges"] = list_wing_edges(r);
   const ModelTables& t = r.tables;

@@ -11,6 +11,7 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "io/export/export.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -191,16 +192,21 @@ StageSummary run_merge(const MergeStageOptions& options) {
   const Timer timer;
   keep_freed_memory();
   require_outputs(options);
+  Progress progress("merging", 1);
+  progress.step("reading", 0);
   std::vector<InputRef> inputs;
   PatchesArtifact patches = read_parts(options.patches, inputs);
   require_complete(patches, options);
   OrientationReport orientation;
+  progress.step("nodes", 0.2);
   const MeshArtifact artifact = make_artifact(patches, options, std::move(inputs), orientation);
   patches = {};
   warn_of_changes(orientation);
 
   const SurfaceMesh& mesh = artifact.mesh;
+  progress.step("checking", 0.5);
   const TopologyReport topology = check_topology(mesh, edges_of(mesh));
+  progress.step("writing", 0.8);
   const std::string hash = write_mesh(options.output, artifact);
   for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
 

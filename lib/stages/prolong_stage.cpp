@@ -12,6 +12,7 @@
 
 #include "base/limits.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
@@ -42,6 +43,10 @@ void require_valid(const ProlongStageOptions& o) {
   if (o.no_blank && !o.blank.empty())
     throw Error(ExitCode::kUsage, "--no-blank and --blank exclude each other: leave out one");
   parse_slopes(o.slope_of);
+  if (!o.transform.empty() && o.sources.empty() && o.background.empty())
+    log_warning("--transform has no effect without --sources or --background");
+  if (o.blank_side != ProlongStageOptions().blank_side && o.blank.empty())
+    log_warning("--blank-side has no effect without --blank");
   if (o.target_triangles && o.scale != 1)
     throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
@@ -147,7 +152,7 @@ std::vector<float> cell_slopes(const ProlongStageOptions& o, const std::optional
 }
 
 /// Prolongs what the raster and `input` ask for; `sizing` gets shape, lengths, blanking and slope.
-void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier,
+void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier, Progress& progress,
                   RasterArtifact& raster, SizingArtifact& sizing) {
   std::optional<SlopeSeeds> slope_seeds;
   sizing.slope = o.slope;
@@ -162,12 +167,15 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
     raster.octree =
         refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length},
                       is_stretched ? &requests : nullptr);
+  progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
+  progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
   seed_and_blank(barrier, o.slope, neighbours, raster, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   ProlongOptions options{o.slope, raster.numbers.far_length};
   const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
   options.cell_slope = cell_slope;
+  progress.step("lengths", 0.4);
   sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
   if (is_stretched)
     sizing.stretched = prolong_stretch(neighbours, {raster.samples, requests}, raster.octree.stored_length,
@@ -189,7 +197,7 @@ struct ProlongedSizes {
   }
 };
 
-ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& raster) {
+ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, RasterArtifact&& raster) {
   const MovedGeometry moved = read_moved(o, raster.header);
   const Similarity to_octree = moved.motion.inverse();
   SourceInput input = read_sources(
@@ -201,7 +209,8 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, RasterArtifact&& ras
   sizing.numbers.max_aspect = std::max(sizing.numbers.max_aspect, input.max_aspect);
   const OctreeShape raster_shape = raster.octree.shape;
   const Barrier barrier = find_barrier(o, raster, to_octree);
-  make_lengths(o, input, barrier, raster, sizing);
+  make_lengths(o, input, barrier, progress, raster, sizing);
+  progress.step("expected triangles", 0.8);
   sizing.names = {std::move(raster.edge_name), raster.labels.face_name, std::move(input.names)};
   const OctreeField field(sizing.field_data(), nullptr);
   SizeTally tally = tally_by_group(raster);
@@ -240,8 +249,8 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
         n, kMaxTriangles));
   StageSummary summary;
   summary.line =
-      fmt::format("{}: {} cells{}{}, lengths {:.4g} to {:.4g}{}, slope {:g}, about {:.0f} triangles, {:.2f} s",
-                  o.output, sizing.lengths.cells.size(), blanked, sources, lo, hi, scaled, o.slope, n, seconds);
+      fmt::format("{}: {} cells{}{}{}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
+                  sizing.lengths.cells.size(), blanked, sources, range_text(groups), scaled, o.slope, n, seconds);
   summary.json = json_text(Json{{"tool", "st-prolong"},
                                 {"output", o.output},
                                 {"cells", sizing.lengths.cells.size()},
@@ -276,6 +285,14 @@ void write_member(ProlongStageOptions o, const std::string& path, double scale, 
   log_info(fmt::format("  {}: scale {:.4g}", path, scale));
 }
 
+ProlongedSizes read_and_prolong(const ProlongStageOptions& o) {
+  Progress progress("prolonging", 1);
+  progress.step("reading", 0);
+  RasterArtifact raster = read_raster(o.raster);
+  require_complete(o, raster);
+  return prolong_raster(o, progress, std::move(raster));
+}
+
 }  // namespace
 
 StageSummary run_prolong(const ProlongStageOptions& o) {
@@ -285,9 +302,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   const std::string coarse = family_member(o.output, "coarse"), fine = family_member(o.output, "fine");
   if (o.family) require_writable(coarse), require_writable(fine);
   if (!o.sample.empty()) require_writable(o.sample_output);
-  RasterArtifact raster = read_raster(o.raster);
-  require_complete(o, raster);
-  ProlongedSizes sizes = prolong_raster(o, std::move(raster));
+  ProlongedSizes sizes = read_and_prolong(o);
   SizingArtifact& sizing = sizes.sizing;
   if (!o.sample.empty()) {
     sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,

@@ -13,6 +13,7 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/share.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
@@ -365,6 +366,8 @@ std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t 
   const auto n_tasks = static_cast<std::int32_t>((patches.size() + kPatchesPerTask - 1) / kPatchesPerTask);
   std::size_t n_boxes = 0;
   std::mutex mutex;
+  Progress progress("looking for gaps", n_tasks);
+  std::int32_t n_done = 0;
   comm.run_tasks(
       n_tasks, heaviest_first(std::vector<double>(static_cast<std::size_t>(n_tasks), 1.0)),
       [&](std::int32_t task) {
@@ -381,6 +384,7 @@ std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t 
         std::uint64_t n = 0;
         Unpacker(result).get(n);
         require_samples(n_boxes += n, max_samples);
+        progress.update(++n_done);
       });
   return n_boxes;
 }
@@ -439,6 +443,8 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
                        const Communicator& comm) {
   const ModelTables& t = model.tables();
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
+  Progress progress("locating faces", t.n_faces());
+  std::int32_t n_done = 0;
   comm.run_tasks(
       t.n_faces(), heaviest_first(t.face_area),
       [&](std::int32_t f) {
@@ -451,7 +457,10 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
         }
         return packer.take();
       },
-      [&](std::int32_t f, Bytes&& result) { Unpacker(result).get(by_face[f]); });
+      [&](std::int32_t f, Bytes&& result) {
+        Unpacker(result).get(by_face[f]);
+        progress.update(++n_done);
+      });
   FaceCells faces;
   for (const std::vector<CellArea>& cells : by_face) faces.append_face(cells);
   return faces;
@@ -510,10 +519,26 @@ nlohmann::json wings_json(const Wings& wings) {
   return list;
 }
 
+/// Options of lifting surfaces that were set, by a preset perhaps, for nothing.
+void say_no_wing(const RasterStageOptions& o) {
+  const RasterStageOptions defaults;
+  std::string set;
+  const auto add = [&](bool is_set, const std::string& flag) {
+    if (is_set) set += (set.empty() ? "" : ", ") + flag;
+  };
+  add(o.edge_size != defaults.edge_size && o.edge_size != "none", "--edge-size");
+  add(o.base_cells != defaults.base_cells, "--base-cells");
+  add(o.chord_cells != defaults.chord_cells, "--chord-cells");
+  if (set.empty())
+    log_info("no lifting surface found: --edge-size has no effect");
+  else
+    log_report("  no lifting surface found: without effect are " + set);
+}
+
 /// One line for each lifting surface, or one that there is none.
 void report_wings(const RasterStageOptions& o, const Wings& wings) {
   const std::size_t n = wings.aircraft.wings.size();
-  if (n == 0) log_info("no lifting surface found: --edge-size has no effect");
+  if (n == 0) say_no_wing(o);
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i) {
     const LiftingSurface& wing = wings.aircraft.wings[i];
     log_report(
@@ -563,8 +588,8 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
   StageSummary summary;
   summary.code = code_of(o, counts);
   summary.line = fmt::format(
-      "{}: {} samples, {} cells, lengths {:.4g} to {:.4g}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes,
-      n_cells, a.numbers.min_length, a.numbers.max_length, wings.aircraft.wings.size(),
+      "{}: {} samples, {} cells{}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
+      range_text(groups), wings.aircraft.wings.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = json_text(nlohmann::ordered_json{{"tool", "st-raster"},
                                                   {"output", o.output},

@@ -9,45 +9,18 @@
 
 #include "sizing/size_field.h"
 #include "stages/expected_triangles.h"
+#include "stages/text_table.h"
 
 namespace st {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Cells of a line of a table.
-using Row = std::vector<std::string>;
-
-/// Characters of UTF-8 text.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-/// Pads the columns: the first is aligned left, the next `n_numbers` right, a further one stays as it is.
-std::vector<std::string> aligned(const std::vector<Row>& rows, std::size_t n_numbers) {
-  std::vector<std::size_t> width(1 + n_numbers, 0);
-  for (const Row& row : rows)
-    for (std::size_t c = 0; c < width.size(); ++c) width[c] = std::max(width[c], width_of(row[c]));
-  std::vector<std::string> lines;
-  for (const Row& row : rows) {
-    std::string line = "  ";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string blanks(c < width.size() ? width[c] - width_of(row[c]) : 0, ' ');
-      if (c > 0) line += "  ";
-      line += c == 0 ? row[c] + blanks : blanks + row[c];
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 std::vector<std::string> table_of(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
                                   bool has_triangles) {
-  std::vector<Row> rows{{"group", "triangles", "least length", "median", "most because of"}};
+  std::vector<TableRow> rows{{"group", "triangles", "least length", "median", "most because of"}};
   for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
     const GroupSizes& g = groups[i];
     rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
@@ -55,8 +28,8 @@ std::vector<std::string> table_of(const std::vector<GroupSizes>& groups, const C
                     fmt::format("{} ({})", cause_text(names, g.causes[0].cause), percent(g.share(g.causes[0])))});
   }
   if (!has_triangles)
-    for (Row& row : rows) row.erase(row.begin() + 1);
-  std::vector<std::string> lines = aligned(rows, has_triangles ? 3 : 2);
+    for (TableRow& row : rows) row.erase(row.begin() + 1);
+  std::vector<std::string> lines = aligned_columns(rows, has_triangles ? 3 : 2);
   if (groups.size() > most) lines.push_back(fmt::format("  and {} more", groups.size() - most));
   return lines;
 }
@@ -99,6 +72,8 @@ GroupSizes SizeTally::sizes_of(const Group& group, double scale, double unit) {
     sizes.least = std::min(sizes.least, sizes.causes.back().least);
   }
   sizes.median = std::max(sizes.least, scale * unit * median(group.lengths));
+  for (const LengthOnArea& l : group.lengths)
+    sizes.largest = std::max(sizes.largest, scale * unit * static_cast<double>(l.length));
   std::stable_sort(sizes.causes.begin(), sizes.causes.end(),
                    [](const CauseShare& a, const CauseShare& b) { return a.triangles > b.triangles; });
   return sizes;
@@ -116,11 +91,21 @@ std::vector<GroupSizes> SizeTally::groups(double scale, double unit) const {
 SizeTally tally_by_group(const RasterArtifact& raster) {
   const FaceLabels& labels = raster.labels;
   if (labels.group_name.size() > 1) return {labels.group_name, labels.face_group};
-  return {{"model"}, std::vector<std::int32_t>(static_cast<std::size_t>(raster.faces.n_faces()), 0)};
+  const std::string name = labels.group_name.empty() ? "model" : labels.group_name.front();
+  return {{name}, std::vector<std::int32_t>(static_cast<std::size_t>(raster.faces.n_faces()), 0)};
 }
 
 std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most) {
   return table_of(groups, names, most, true);
+}
+
+std::string range_text(const std::vector<GroupSizes>& groups) {
+  if (groups.empty()) return "";
+  const auto least = std::min_element(groups.begin(), groups.end(),
+                                      [](const GroupSizes& a, const GroupSizes& b) { return a.least < b.least; });
+  const auto largest = std::max_element(groups.begin(), groups.end(),
+                                        [](const GroupSizes& a, const GroupSizes& b) { return a.largest < b.largest; });
+  return fmt::format(", lengths {:.4g} to {:.4g} on the faces", least->least, largest->largest);
 }
 
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
@@ -170,7 +155,7 @@ Json causes_json(const GroupSizes& group, const CauseNames& names) {
 }
 
 std::vector<std::string> cause_lines(const GroupSizes& group, const CauseNames& names, std::size_t most) {
-  std::vector<Row> rows{{"cause", "triangles", "share", "least length"}};
+  std::vector<TableRow> rows{{"cause", "triangles", "share", "least length"}};
   const auto add = [&](const std::string& name, const CauseShare& c) {
     rows.push_back({name, fmt::format("{:.0f}", c.triangles), fmt::format("{:.1f} %", 100 * group.share(c)),
                     fmt::format("{:.4g}", c.least)});
@@ -186,7 +171,7 @@ std::vector<std::string> cause_lines(const GroupSizes& group, const CauseNames& 
     }
   }
   if (group.causes.size() > most) add(fmt::format("{} more", group.causes.size() - most), rest);
-  return aligned(rows, 3);
+  return aligned_columns(rows, 3);
 }
 
 }  // namespace st

@@ -24,6 +24,7 @@ struct GroupSizes {
   double triangles = 0;            ///< expected, > 0
   double least = 0, median = 0;    ///< requested lengths, by area, model unit
   std::vector<CauseShare> causes;  ///< most triangles first, then by cause; never empty
+  double largest = 0;              ///< of the requested lengths
 
   double share(const CauseShare& cause) const { return cause.triangles / triangles; }
 };
@@ -63,7 +64,7 @@ class SizeTally {
 /// Groups that a table shows.
 inline constexpr std::size_t kMostGroups = 12;
 
-/// A tally by the main groups of the raster; one of all faces, "model", where there is one group at most.
+/// A tally by the main groups of the raster; one of all faces, "model", where there is none.
 SizeTally tally_by_group(const RasterArtifact& raster);
 
 /// One line per group, aligned, below a heading; at most `most` of them, then how many more there are.
@@ -72,6 +73,9 @@ std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, cons
 /// What the samples of the raster require of its main groups, in the cells that their faces pass through and that hold
 /// a sample. Growth is not limited yet, so the triangles are none that a mesh would have.
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster);
+
+/// ", lengths 0.87 to 6.59 on the faces", of all groups; empty without one.
+std::string range_text(const std::vector<GroupSizes>& groups);
 
 /// The same lines without triangles, for sampled_groups().
 std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names,

@@ -1,5 +1,6 @@
 """The command lines of the tools: help, versions, options, option files, summaries."""
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -116,6 +117,19 @@ class Help(ToolTest):
             bounded = {option for option, (head, _) in options_in_help(tool).items() if re.search(r":[\[(].*,", head)}
             self.assertLessEqual(bounded, set(REFUSED.get(tool, {})), tool)
 
+    def test_help_ends_with_examples_that_the_tool_takes_and_with_its_page(self):
+        root = Path(__file__).resolve().parents[2]
+        for tool in TOOLS:
+            examples, _, page = must(tool, "--help").out.partition("Examples:\n")[2].partition("\n\n")
+            self.assertTrue(examples, tool)
+            for line in examples.split("\n"):
+                name, *words = shlex.split(line)
+                self.assertEqual(name, tool)
+                must(tool, *words, "--print-inputs", cwd=self.folder)
+            named, installed = re.fullmatch(r"More: (\S+), installed as (\S+)\s*", page).groups()
+            self.assertTrue((root / named).is_file(), named)
+            self.assertEqual(installed, f"/usr/share/doc/st/{named}")
+
     def test_version_names_the_tool(self):
         for tool in TOOLS:
             self.assertRegex(must(tool, "--version").out, rf"^{tool} \d+\.\d+\.\d+\n$")
@@ -144,6 +158,15 @@ class Usage(ToolTest):
     def test_unknown_option_is_2(self):
         for tool in TOOLS:
             self.expect_error(USAGE, tool, *inputs(tool), "--no-such-option", says="--no-such-option", cwd=self.folder)
+
+    def test_misspelt_option_names_the_one_that_was_meant(self):
+        for tool, wrong, meant in (("st-raster", "--lmn", "--lmin"), ("st-check", "--max_folds", "--max-folds"),
+                                   ("st-mesh", "--enhance-round=2", "--enhance-rounds"),
+                                   ("st-import", "--verbos", "--verbose")):
+            self.expect_error(USAGE, tool, *inputs(tool), wrong, says=[wrong, f"did you mean '{meant}'"],
+                              cwd=self.folder)
+        run = Run("st-raster", "g.hdf", "--quite-another")
+        self.assertNotIn("did you mean", run.err)
 
     def test_abbreviated_option_is_2(self):
         self.expect_error(USAGE, "st-raster", "g.hdf", "--alph", "5", says="--alph")
@@ -205,7 +228,7 @@ class OptionFile(ToolTest):
             self.assertIn(line, text)
 
     def test_unknown_key_is_2_with_file_and_line(self):
-        self.raster("alpha = 5\nalpa = 5\n", USAGE, says=["o.toml:2", "'alpa'", "alpha"])
+        self.raster("alpha = 5\nalpa = 5\n", USAGE, says=["o.toml:2", "'alpa'", "did you mean 'alpha'"])
 
     def test_bad_toml_is_2_with_file_and_line(self):
         self.raster("alpha = 5\nlmin = \n", USAGE, says="o.toml:2")

@@ -13,13 +13,14 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "io/toml/option_file_lists.h"
 
 namespace st {
 namespace {
 
-const std::set<std::string> kTools = {"st-import", "st-edit",  "st-raster", "st-prolong", "st-mesh",  "st-remesh",
-                                      "st-merge",  "st-check", "st-info",   "st-diff",    "st-export"};
+const std::set<std::string> kTools = {"st-import", "st-edit",  "st-raster", "st-prolong", "st-mesh",   "st-remesh",
+                                      "st-merge",  "st-check", "st-info",   "st-diff",    "st-export", "st-report"};
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
 const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
 
@@ -81,19 +82,27 @@ std::vector<std::string> values_of(const toml::node& node, const std::string& wh
   return values;
 }
 
-std::string known_keys(const CLI::App& app) {
-  std::string keys;
+std::vector<std::string> known_keys(const CLI::App& app) {
+  std::vector<std::string> keys;
   for (const CLI::Option* o : app.get_options())
     for (const std::string& name : o->get_lnames())
-      if (!kCommandLineOnly.contains(name)) keys += (keys.empty() ? "" : ", ") + name;
+      if (!kCommandLineOnly.contains(name)) keys.push_back(name);
   return keys;
+}
+
+[[noreturn]] void refuse_key(const std::string& where, const std::string& key, const std::string& tool,
+                             const CLI::App& app) {
+  const std::vector<std::string> known = known_keys(app);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  fail(where, "unknown option '" + key + "'" + did_you_mean(key, known) + "; " + tool + " knows " + list);
 }
 
 void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool,
            CLI::App& app) {
   const std::string where = position(path, node.source());
   CLI::Option* option = kCommandLineOnly.contains(key) ? nullptr : app.get_option_no_throw("--" + key);
-  if (!option) fail(where, "unknown option '" + key + "'; " + tool + " knows " + known_keys(app));
+  if (!option) refuse_key(where, key, tool, app);
   if (option->count() > 0) return;
   for (const std::string& value : values_of(node, where, key)) option->add_result(value);
   if (option->count() == 0) return;
@@ -130,10 +139,11 @@ void collect(const toml::table& table, Settings& settings) {
 Settings settings_for(const std::string& tool, const toml::table& file, const std::string& path) {
   Settings settings;
   collect(file, settings);
+  const std::vector<std::string> tools(kTools.begin(), kTools.end());
   for (const auto& [key, node] : file)
-    if (node.is_table() && !kTools.contains(std::string(key.str())))
-      fail(position(path, node.source()),
-           "unknown table [" + std::string(key.str()) + "]; a table is named after a tool, such as [" + tool + "]");
+    if (const std::string name(key.str()); node.is_table() && !kTools.contains(name))
+      fail(position(path, node.source()), "unknown table [" + name + "]" + did_you_mean(name, tools) +
+                                              "; a table is named after a tool, such as [" + tool + "]");
   if (const toml::table* own = file[tool].as_table()) {
     collect(*own, settings);
     for (const auto& [key, node] : *own)

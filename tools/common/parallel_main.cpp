@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/threads.h"
 #include "comm/communicator.h"
 #include "common/tool_main.h"
@@ -37,6 +38,7 @@ void wait_for_lower_ranks(int rank) {
 
 /// What ranks say, as it comes.
 void print_error_text(const std::string& text) {
+  if (relay_progress(text)) return;
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
@@ -44,6 +46,7 @@ void print_error_text(const std::string& text) {
 }  // namespace
 
 std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& arguments) const {
+  if (n_ranks_ > 1) offer_progress_relay();
   try {
     return run_under_mpirun(n_ranks_, arguments, print_error_text);
   } catch (const Error&) {

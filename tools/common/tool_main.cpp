@@ -16,6 +16,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "base/mapped_file.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "common/option_file.h"
@@ -32,6 +33,8 @@ constexpr const char* kFooter =
     "Lengths: 3 (model unit), 0.25mm, 2in, 0.1% (of the model's diagonal).\n"
     "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong "
     "together, 70 internal.";
+/// Where the package puts the pages.
+constexpr const char* kPages = "/usr/share/doc/st/docs/";
 
 const char* g_name = "st";  // of the tool, for messages of signal handlers
 
@@ -117,6 +120,17 @@ std::string usage_message(const CLI::ParseError& e, const std::string& tool) {
     if (c == '\n') c = ' ';
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
   return text + "; see " + tool + " --help";
+}
+
+/// "--lmn=3" -> ", did you mean '--lmin'"; empty for what is no option, and where nothing is near.
+std::string near_option(const std::string& argument, const CLI::App& app) {
+  if (!argument.starts_with("-")) return "";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  const std::string word = argument.substr(0, argument.find('='));
+  const std::string nearest = nearest_name(word.substr(std::min(word.find_first_not_of('-'), word.size())), names);
+  return nearest.empty() ? "" : ", did you mean '--" + nearest + "'";
 }
 
 }  // namespace
@@ -230,6 +244,12 @@ void ToolMain::preset() {
        "settings for a purpose, which all other options override (docs/presets.md): " + preset_names());
 }
 
+void ToolMain::examples(const std::vector<std::string>& command_lines) {
+  std::string footer = kFooter + std::string("\n\nExamples:");
+  for (const std::string& line : command_lines) footer += "\n  " + line;
+  app_.footer(footer + "\n\nMore: docs/" + name_ + ".md, installed as " + kPages + name_ + ".md");
+}
+
 void ToolMain::begin(int argc, char** argv) {
   g_name = name_.c_str();
   occupy_standard_streams();
@@ -249,7 +269,9 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return std::string(e.what()) + "\n";
   } catch (const CLI::ExtrasError&) {
-    throw Error(ExitCode::kUsage, "unexpected argument '" + app_.remaining().front() + "'; see " + name_ + " --help");
+    const std::string argument = app_.remaining().front();
+    throw Error(ExitCode::kUsage,
+                "unexpected argument '" + argument + "'" + near_option(argument, app_) + "; see " + name_ + " --help");
   } catch (const CLI::ParseError& e) {
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }

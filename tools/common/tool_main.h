@@ -68,6 +68,8 @@ class ToolMain {
   void flag(const std::string& flag, bool& value, const std::string& help);
   /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
   void preset();
+  /// Command lines that stand at the end of --help.
+  void examples(const std::vector<std::string>& command_lines);
 
   /// --threads; run_parallel has it by itself.
   void threads();

@@ -31,5 +31,7 @@ int main(int argc, char** argv) {
       "largest distance accepted of a triangle's centroid from its surface; needs --geometry; default: not checked");
   tool.number(t.kMaxNormalDeviation, t.max_normal_deviation_deg);
   tool.threads();
+  tool.examples(
+      {"st-check mesh.hdf", "st-check mesh.hdf --geometry geometry.hdf --sizing sizing.hdf --report report.json"});
   return tool.run(argc, argv, [&] { return st::run_check(o); });
 }

@@ -9,5 +9,6 @@ int main(int argc, char** argv) {
   tool.input("a", o.a, "first artifact");
   tool.input("b", o.b, "second artifact, of the same kind");
   tool.number(o.kTolerance, o.tolerance);
+  tool.examples({"st-diff mesh.hdf other_mesh.hdf"});
   return tool.run(argc, argv, [&] { return st::run_diff(o); });
 }

@@ -20,5 +20,7 @@ int main(int argc, char** argv) {
              "groups, parts or faces that the --transform in the same place of the order moves; repeatable; default: "
              "everything");
   tool.flag("--require-valid", o.require_valid, "end with exit code 4 when the result is open or its parts cross");
+  tool.examples({"st-edit geometry.hdf -o there.hdf --transform 'rotate 0 1 0 3; translate 0 0 2'",
+                 "st-edit geometry.hdf -o wing.hdf --extract WING"});
   return tool.run(argc, argv, [&] { return st::run_edit(o); });
 }

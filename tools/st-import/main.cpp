@@ -20,5 +20,7 @@ int main(int argc, char** argv) {
   tool.number(o.kTimeLimit, o.time_limit);
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
   tool.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
+  tool.examples({"st-import wing.step", "st-import aircraft.step --symmetry y=0 --farfield sphere:50 -o geometry.hdf",
+                 "st-import wing.step --check"});
   return tool.run(argc, argv, [&] { return st::run_import(o); });
 }

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
             "print what causes most triangles on the faces of this group, part or face name, for a sizing artifact");
   tool.optional_input("--raster", raster,
                       "raster of the sizing, for --why; default: the one in the folder of the sizing");
+  tool.examples({"st-info mesh.hdf", "st-info sizing.hdf --why WING"});
   return tool.run(argc, argv, [&] {
     if (!why.empty()) return st::run_size_why(artifact, why, raster);
     if (!raster.empty()) throw st::Error(st::ExitCode::kUsage, "--raster is for --why: add --why GROUP");

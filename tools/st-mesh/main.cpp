@@ -17,5 +17,6 @@ int main(int argc, char** argv) {
   tool.number(o.kMergeBelow, o.merge_below);
   tool.number(o.kMaxTurning, o.max_turning_deg);
   tool.number(o.kTile, o.tile_triangles);
+  tool.examples({"st-mesh geometry.hdf sizing.hdf --np 8", "st-mesh geometry.hdf sizing.hdf --group WING -o wing.hdf"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
 }

@@ -23,5 +23,6 @@ int main(int argc, char** argv) {
                       "sizing artifact that the mesh of another program was made for; default: sizes are measured");
   tool.flag("--moved", o.moved, "move the mesh onto a changed geometry of the same topology");
   tool.flag("--dry-run", o.dry_run, "print how much would change and write nothing");
+  tool.examples({"st-remesh mesh.hdf geometry.hdf new_sizing.hdf --merged remeshed.hdf --np 8"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
 }

@@ -10,5 +10,6 @@ int main(int argc, char** argv) {
   tool.optional_input("--geometry", o.geometry, "geometry artifact: findings by cause, distance from the CAD");
   tool.optional_input("--sizing", o.sizing, "sizing artifact: lengths compared with the requested ones");
   tool.output(o.output, "HTML file to write");
+  tool.examples({"st-report mesh.hdf --geometry geometry.hdf --sizing sizing.hdf -o report.html"});
   return tool.run(argc, argv, [&] { return st::run_report(o); });
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/nearest_name.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
 
@@ -63,7 +64,8 @@ class EntryReader : TomlEntry {
       if (contains(kKeys[kind], key))
         fail(node, key + ": is not a key of a group of " + kKinds[own] + " but of " + kKinds[kind] + "; allowed are " +
                        joined(kKeys[own]) + "; of = \"edges\" or \"vertices\" makes a group of these");
-    fail(node, "unknown key '" + key + "' of a [[group]]; allowed are " + joined(kKeys[own]));
+    fail(node, "unknown key '" + key + "' of a [[group]]" + did_you_mean(key, kKeys[own]) + "; allowed are " +
+                   joined(kKeys[own]));
   }
 
   void read(const std::string& key, const toml::node& node) {
@@ -113,7 +115,7 @@ class EntryReader : TomlEntry {
   std::string one_of(const std::string& key, const toml::node& node, const std::vector<std::string>& allowed) const {
     const std::string word = node.value_or(std::string());
     if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
-      fail(node, key + ": '" + word + "' is unknown; write " + joined(allowed));
+      fail(node, key + ": '" + word + "' is unknown" + did_you_mean(word, allowed) + "; write " + joined(allowed));
     return word;
   }
 

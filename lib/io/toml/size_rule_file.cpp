@@ -1,6 +1,7 @@
 #include "io/toml/size_rule_file.h"
 
 #include "base/hash.h"
+#include "base/nearest_name.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
 #include "sizing/size_options.h"
@@ -8,9 +9,15 @@
 namespace st {
 namespace {
 
-constexpr const char* kKeys =
-    "groups, faces, edges, between, detected, for, sample, lmin, lmax, alpha, chord, gap_cells, wall_cells, "
-    "edge_cells, max_aspect";
+const std::vector<std::string> kKeys = {"groups", "faces",     "edges",      "between",    "detected",
+                                        "for",    "sample",    "lmin",       "lmax",       "alpha",
+                                        "chord",  "gap_cells", "wall_cells", "edge_cells", "max_aspect"};
+
+std::string all_keys() {
+  std::string text;
+  for (const std::string& key : kKeys) text += (text.empty() ? "" : ", ") + key;
+  return text;
+}
 
 /// One table [[size]].
 class RuleReader : TomlEntry {
@@ -61,7 +68,7 @@ class RuleReader : TomlEntry {
     else if (key == "max_aspect")
       rule_.max_aspect = number(key, node, SizeOptions::kMaxAspect);
     else
-      fail(node, "unknown key '" + key + "' of a [[size]]; allowed are " + kKeys);
+      fail(node, "unknown key '" + key + "' of a [[size]]" + did_you_mean(key, kKeys) + "; allowed are " + all_keys());
   }
 
   void read_between(const toml::node& node) {

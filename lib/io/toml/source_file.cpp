@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/eigen.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
@@ -294,10 +295,12 @@ class SourceTable {
     for (const toml::node& v : *list) values.push_back(length(key, v, may_be_zero));
     return values;
   }
-  void require_known(std::initializer_list<std::string_view> keys) const {
+  void require_known(const std::vector<std::string>& keys) const {
     for (const auto& [key, node] : table_)
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
-        fail("unknown key '" + std::string(key.str()) + "' of a source", &node);
+      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
+        const std::string name(key.str());
+        fail("unknown key '" + name + "' of a source" + did_you_mean(name, keys), &node);
+      }
   }
 
  private:

@@ -1,9 +1,11 @@
 #include "meshing/engine/face_rounds.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/share.h"
 #include "features/strip.h"
 #include "meshing/engine/curve_tasks.h"
@@ -206,8 +208,9 @@ void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) 
   std::vector<double> weight;
   for (const FaceId f : whole) weight.push_back(expected_.empty() ? tables_.face_area[f] : expected_[f]);
   for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) weight.push_back(tiled.weight(t));
-  Progress progress("meshing", n);
-  std::int32_t n_done = 0;
+  Progress progress("meshing", std::accumulate(weight.begin(), weight.end(), 0.0),
+                    expected_.empty() ? "" : "triangles");
+  double done = 0;
   executor_.run_tasks(
       n, heaviest_first(weight),
       [&](std::int32_t task) {
@@ -221,7 +224,7 @@ void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) 
         } else {
           tiled.take(task - n_whole, bytes);
         }
-        progress.update(++n_done);
+        progress.update(done += weight[task]);
       });
 }
 

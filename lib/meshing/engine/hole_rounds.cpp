@@ -1,9 +1,11 @@
 #include "meshing/engine/hole_rounds.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/share.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/curve_tasks.h"
@@ -114,10 +116,15 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   share(executor_, weight);
   std::vector<HoleFill> fills(rims.size());
   std::vector<std::int32_t> failed;
+  Progress progress("filling holes", std::accumulate(weight.begin(), weight.end(), 0.0));
+  double done = 0;
   executor_.run_tasks(
       static_cast<std::int32_t>(rims.size()), heaviest_first(weight),
       [&](std::int32_t task) { return packed(fill_hole(rims[task])); },
-      [&](std::int32_t task, Bytes&& result) { unpack(result, fills[task]); });
+      [&](std::int32_t task, Bytes&& result) {
+        unpack(result, fills[task]);
+        progress.update(done += weight[task]);
+      });
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
     if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));

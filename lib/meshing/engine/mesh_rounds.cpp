@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/share.h"
 
 namespace st {
@@ -46,8 +47,7 @@ void MeshRounds::run() {
     if (n_rounds == 1) n_first = n_meshed_;
     const bool is_last = runs_away(n_first);
     if (!is_last && n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
-    timed(times.join, [&] { join(); });
-    const Places crossings = timed(times.crossing, [&] { return find_crossings(); });
+    const Places crossings = join_and_check();
     std::uint64_t n = crossings.size();
     share(executor_, n);
     const bool is_promising = n <= kFewCrossings || static_cast<double>(n) < kPromising * static_cast<double>(n_last);
@@ -67,6 +67,15 @@ bool MeshRounds::runs_away(std::uint64_t n_first) {
     log_warning("refining was ended after " + std::to_string(n_meshed_) + " triangles instead of " +
                 std::to_string(n_first) + "; folds and crossings stay: the surfaces are damaged");
   return is_over != 0;
+}
+
+/// Collective. Where facets cross in the joined mesh; on rank 0.
+MeshRounds::Places MeshRounds::join_and_check() {
+  Progress progress("joining", 2);
+  progress.step("nodes", 0);
+  timed(result_.times.join, [&] { join(); });
+  progress.step("crossing facets", 1);
+  return timed(result_.times.crossing, [&] { return find_crossings(); });
 }
 
 /// Collective. Rank 0's places become part of the field, no finer than `floor` times the request. False when none

@@ -56,6 +56,7 @@ class MeshRounds {
   /// What is meshed in the next round, since refinements from this one on were added.
   virtual void choose_again(std::size_t first_refinement) = 0;
 
+  Places join_and_check();
   bool refine(const Places& places, double floor);
   bool runs_away(std::uint64_t n_first);
 

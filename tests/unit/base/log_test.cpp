@@ -35,13 +35,5 @@ TEST(Log, information_shows_only_when_verbose) {
   EXPECT_EQ(said_at(Verbosity::kVerbose, inform), "i\n");
 }
 
-TEST(Progress, writes_nothing_where_there_is_no_terminal) {
-  const auto work = [] {
-    Progress progress("faces", 10);
-    progress.update(5);
-  };
-  EXPECT_EQ(said_at(Verbosity::kVerbose, work), "");
-}
-
 }  // namespace
 }  // namespace st

@@ -59,7 +59,7 @@ table = "main"
 
 TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
   const std::pair<const char*, const char*> cases[] = {
-      {"nmae = \"x\"", "unknown key 'nmae'"},
+      {"nmae = \"x\"", "unknown key 'nmae' of a [[group]], did you mean 'name'"},
       {"name = \"\"", "name: takes a string"},
       {"name = \"a\\nb\"", "name: contains a control character"},
       {"faces = 3", "name: is missing"},
@@ -74,7 +74,7 @@ TEST(GroupsFile, refuses_what_it_does_not_understand_with_line_and_key) {
       {"name = \"x\"\ninside = [1, 0, 0, 0, 1, 1]", "the lower corner comes first"},
       {"name = \"x\"\ntouching = [0, 0, 0, \"3parsec\", 1, 1]", "touching: takes coordinates"},
       {"name = \"x\"\ntouching = [0, 0, nan, 1, 1, 1]", "touching: takes coordinates"},
-      {"name = \"x\"\nrole = \"wal\"", "role: 'wal' is unknown; write wall, symmetry"},
+      {"name = \"x\"\nrole = \"wal\"", "role: 'wal' is unknown, did you mean 'wall'; write wall, symmetry"},
       {"name = \"x\"\ntolerance = -1", "tolerance: must be positive"},
       {"name = \"x\"\noptional = 1", "optional: takes true or false"},
       {"name = \"x\"\nattributes = 1", "attributes: takes a table"},

@@ -61,7 +61,7 @@ TEST_F(SizeRuleFiles, take_numbers_within_the_ranges_of_the_options_alone) {
 
 TEST_F(SizeRuleFiles, refuse_rules_that_set_nothing_and_keys_that_they_do_not_know) {
   EXPECT_NE(refusal("groups = \"WING\"").find("sets nothing"), std::string::npos);
-  EXPECT_NE(refusal("lmim = 2").find("unknown key 'lmim'"), std::string::npos);
+  EXPECT_NE(refusal("lmim = 2").find("unknown key 'lmim' of a [[size]], did you mean 'lmin'"), std::string::npos);
   EXPECT_NE(refusal("between = [\"A\"]\nlmax = 1").find("two names"), std::string::npos);
 }
 

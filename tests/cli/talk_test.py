@@ -1,0 +1,134 @@
+"""How the tools talk: progress on terminals and in logs, failures first, findings where they are asked for."""
+import os
+import pty
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import BIN, INCOMPLETE, MODELS, Run, ToolTest, artifacts_of, must  # noqa: E402
+
+REDRAWN = "\r\033[K"
+
+
+def on_terminal(tool, *arguments):
+    """What a tool writes to stderr when that is a terminal."""
+    master, slave = pty.openpty()
+    process = subprocess.Popen([str(BIN / tool), *map(str, arguments)], stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=slave)
+    os.close(slave)
+    text = b""
+    while True:
+        try:
+            part = os.read(master, 65536)
+        except OSError:  # its last writer is gone
+            break
+        if not part:
+            break
+        text += part
+    os.close(master)
+    if process.wait(timeout=120) != 0:
+        raise AssertionError(text.decode())
+    return text.decode()
+
+
+class ProgressOnTerminals(ToolTest):
+    def mesh(self, *options):
+        made = artifacts_of("sphere")
+        return on_terminal("st-mesh", made / "geometry.hdf", made / "sizing.hdf", "-o", self.folder / "p.hdf", *options)
+
+    def test_the_line_is_redrawn_and_cleared_at_every_number_of_ranks(self):
+        for options in ([], ["--np", 2]):
+            said = self.mesh(*options)
+            self.assertRegex(said, re.escape(REDRAWN) + r"joining: crossing facets \d+ %", options)
+            self.assertTrue(said.rstrip("\r\n").endswith(REDRAWN.rstrip("\r\n")), (options, said))
+            left = [line.split(REDRAWN)[-1] for line in said.replace("\r\n", "\n").split("\n")]
+            self.assertEqual([line for line in left if "%" in line], [], "progress stays on the screen")
+
+    def test_quiet_runs_show_none(self):
+        for options in (["-q"], ["-q", "--np", 2]):
+            self.assertEqual(self.mesh(*options), "", options)
+
+    def test_every_stage_shows_its_steps(self):
+        made = artifacts_of("sphere")
+        for tool, arguments, label in (
+                ("st-raster", [made / "geometry.hdf", "-o", self.folder / "r.hdf"], "joining: crossing facets"),
+                ("st-prolong", [made / "raster.hdf", "-o", self.folder / "s.hdf"], "prolonging: blanking"),
+                ("st-merge", [made / "patches.hdf", "-o", self.folder / "m.hdf"], "merging: nodes"),
+                ("st-check", [made / "mesh.hdf", "--geometry", made / "geometry.hdf"], "checking: measuring")):
+            self.assertIn(REDRAWN + label, on_terminal(tool, *arguments))
+
+
+class InLogs(ToolTest):
+    def test_short_work_leaves_no_progress_and_verbose_tells_its_time(self):
+        made = artifacts_of("sphere")
+        arguments = [made / "geometry.hdf", made / "sizing.hdf", "-o", self.folder / "p.hdf"]
+        self.assertNotIn("%", must("st-mesh", *arguments).err)
+        self.assertRegex(must("st-mesh", *arguments, "-v").err, r"(?m)^  joining: \d+\.\d\d s$")
+
+
+class Check(ToolTest):
+    def test_failures_stand_first_and_the_verdict_last(self):
+        made = artifacts_of("box")
+        run = Run("st-check", made / "mesh.hdf", "--min-quality", 1)
+        self.assertEqual(run.code, INCOMPLETE, run)
+        lines = run.out.rstrip("\n").split("\n")
+        self.assertRegex(lines[0], r"^  min-quality +FAILS \d+ triangles of quality below 1, first at \(")
+        self.assertEqual([line for line in lines[1:-1] if "FAILS" in line], [])
+        self.assertIn("FAILS", lines[-1])
+
+    def test_groups_have_a_line_each(self):
+        made = artifacts_of("assembly")
+        groups = must("st-check", made / "mesh.hdf", "--json").json()["groups"]
+        out = must("st-check", made / "mesh.hdf", "--geometry", made / "geometry.hdf").out
+        self.assertRegex(out, r"(?m)^  group +triangles +mean quality")
+        for group in groups:
+            self.assertRegex(out, rf"(?m)^  {re.escape(group['name'])} +{group['quality']['triangles']} ")
+
+
+class ImportCheck(ToolTest):
+    def test_it_lists_its_findings_without_being_verbose(self):
+        run = must("st-import", MODELS / "plate_with_hole.brep", "--check")
+        self.assertEqual(len(re.findall(r"(?m)^  free edge .* at \(", run.err)), 5, run)
+        silent = must("st-import", MODELS / "plate_with_hole.brep", "--check", "-q")
+        self.assertEqual(silent.err, "")
+        other = must("st-import", MODELS / "plate_with_hole.brep", "-o", self.folder / "g.hdf")
+        self.assertNotIn("  free edge", other.err)
+
+
+class Sizes(ToolTest):
+    def range_of(self, tool, *arguments):
+        low, high = re.search(r", lengths (\S+) to (\S+) on the faces", must(tool, *arguments).out).groups()
+        return float(low), float(high)
+
+    def test_ranges_of_raster_and_sizing_mean_the_lengths_on_the_faces(self):
+        made = artifacts_of("sphere")
+        raster = self.range_of("st-raster", made / "geometry.hdf", "-o", self.folder / "r.hdf")
+        sizing = self.range_of("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf")
+        for low, high in (raster, sizing):
+            self.assertLessEqual(low, high)
+        self.assertAlmostEqual(raster[0], sizing[0], delta=0.02 * raster[0])
+        doubled = self.range_of("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf", "--scale", 2)
+        self.assertAlmostEqual(doubled[0], 2 * sizing[0], delta=1e-3 * doubled[0])
+        self.assertAlmostEqual(doubled[1], 2 * sizing[1], delta=1e-3 * doubled[1])
+
+    def test_one_group_has_its_name_in_the_table_and_in_questions(self):
+        made = artifacts_of("sphere")
+        err = must("st-prolong", made / "raster.hdf", "-o", self.folder / "s.hdf").err
+        name = err.split("\n")[1].split()[0]
+        must("st-info", self.folder / "s.hdf", "--why", name, "--raster", made / "raster.hdf")
+
+    def test_settings_without_effect_are_said(self):
+        made = artifacts_of("sphere")
+        prolong = [made / "raster.hdf", "-o", self.folder / "s.hdf"]
+        self.assertIn("warning: --transform has no effect", must("st-prolong", *prolong, "--transform", "scale 2").err)
+        self.assertIn("warning: --blank-side has no effect", must("st-prolong", *prolong, "--blank-side", "inside").err)
+        raster = [made / "geometry.hdf", "-o", self.folder / "r.hdf"]
+        self.assertIn("without effect are --base-cells", must("st-raster", *raster, "--base-cells", 3).err)
+        self.assertNotIn("effect", must("st-raster", *raster).err)
+
+
+if __name__ == "__main__":
+    unittest.main()
