@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,8 +21,10 @@
 #include "judge/surface_deviation.h"
 #include "stages/check_stage.h"
 #include "stages/inspect_stage.h"
+#include "stages/merge_stage.h"
 #include "stages/mesh_export.h"
 #include "stages/report_page.h"
+#include "stages/report_sizes.h"
 #include "stages/stored_model.h"
 
 namespace st {
@@ -27,18 +32,48 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostCells = 100000;  // of a slice: 2 MB of the page
+
+/// The files of one run, by kind; empty: not given.
+struct RunFiles {
+  std::string mesh, patches, geometry, sizing;
+};
+
+/// Throws Error(kUsage) for two artifacts of one kind, and without a mesh or patches.
+RunFiles sort_files(const ReportStageOptions& o) {
+  RunFiles files;
+  const auto take = [](std::string& place, const std::string& path, const char* kind) {
+    if (!place.empty())
+      throw Error(ExitCode::kUsage, fmt::format("{} and {}: both are a {}; give one of each kind", place, path, kind));
+    place = path;
+  };
+  for (const std::string& path : o.artifacts) {
+    const std::string kind = read_header(path).schema;
+    if (kind == "mesh") take(files.mesh, path, "mesh");
+    if (kind == "patches") take(files.patches, path, "patches artifact");
+    if (kind == "geometry") take(files.geometry, path, "geometry");
+    if (kind == "sizing") take(files.sizing, path, "sizing");
+  }
+  if (!o.geometry.empty()) take(files.geometry, o.geometry, "geometry");
+  if (!o.sizing.empty()) take(files.sizing, o.sizing, "sizing");
+  if (files.mesh.empty() && files.patches.empty())
+    throw Error(ExitCode::kUsage,
+                "none of these artifacts is a mesh; give mesh.hdf, or patches.hdf of a run that failed");
+  return files;
+}
+
 /// What st-check reports, and its verdict.
 struct Verdict {
   std::string json;
   bool passes;
 };
 
-Verdict check(const ReportStageOptions& o) {
+Verdict check(const ReportStageOptions& o, const RunFiles& files) {
   const TemporaryFile file(o.output + ".check");
   CheckStageOptions options;
-  options.mesh = o.mesh;
-  options.geometry = o.geometry;
-  options.sizing = o.sizing;
+  options.mesh = files.mesh;
+  options.geometry = files.geometry;
+  options.sizing = files.sizing;
   options.reports = {file.name()};
   const bool passes = run_check(options).code == ExitCode::kOk;
   return {read_text_file(file.name()), passes};
@@ -46,17 +81,16 @@ Verdict check(const ReportStageOptions& o) {
 
 /// Quality, length over requested length; after st-remesh 1 where a triangle is new; with the geometry, distance from
 /// the CAD. [n_triangles] each
-std::vector<TriangleValues> values_to_show(const ReportStageOptions& o, const MeshArtifact& mesh) {
+std::vector<TriangleValues> values_to_show(GeometryArtifact* geometry, const RunFiles& files,
+                                           const MeshArtifact& mesh) {
   std::vector<TriangleValues> values = measured_values(mesh.mesh);
   if (!mesh.mesh.triangle_previous.empty()) {
     TriangleValues is_new{"is_new", {}};
     for (const TriangleId t : mesh.mesh.triangle_previous) is_new.of_triangle.push_back(t == kNone ? 1.0F : 0.0F);
     values.push_back(is_new);
   }
-  if (!o.geometry.empty()) {
-    GeometryArtifact geometry = read_geometry(o.geometry);
-    values.push_back({"deviation", triangle_deviations(stored_model(geometry, o.geometry), mesh.mesh)});
-  }
+  if (geometry)
+    values.push_back({"deviation", triangle_deviations(stored_model(*geometry, files.geometry), mesh.mesh)});
   return values;
 }
 
@@ -166,29 +200,128 @@ std::string fill(std::string_view page, std::span<const std::pair<std::string, s
   return text += page.substr(at);
 }
 
+/// Findings of the import, repairs among them.
+Json import_findings(const GeometryArtifact* geometry) {
+  Json list = Json::array();
+  if (!geometry) return list;
+  for (const ImportFinding& f : geometry->findings)
+    list.push_back({{"words", f.what() + (f.entity.empty() ? "" : ", " + f.entity)},
+                    {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}},
+                    {"repair", f.is_repair}});
+  return list;
+}
+
+Json unmeshed_faces(const std::vector<FaceFailure>& failures, const FaceLabels& labels) {
+  Json list = Json::array();
+  for (const FaceFailure& f : failures)
+    list.push_back({{"face", f.face + 1},
+                    {"name", labels.face_name[f.face]},
+                    {"cause", f.cause},
+                    {"remedy", f.remedy},
+                    {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}});
+  return list;
+}
+
+/// [[stage, seconds], ...] in the order of the chain, of the files <stage>.seconds in a folder.
+Json stage_times(const std::string& folder) {
+  Json list = Json::array();
+  if (folder.empty()) return list;
+  for (const char* stage : {"st-import", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check"}) {
+    std::ifstream file(std::filesystem::path(folder) / (std::string(stage) + ".seconds"));
+    if (double seconds = 0; file >> seconds) list.push_back({stage, seconds});
+  }
+  if (list.empty())
+    throw Error(ExitCode::kInput, folder + ": has no files such as st-mesh.seconds; give the folder OUT/log of make");
+  return list;
+}
+
+/// What is known of the sizes, as parts of the page.
+struct SizePart {
+  Json meta;
+  SliceCells cells;
+  std::vector<std::uint16_t> cause;  ///< by triangle, in their order on the page
+};
+
+SizePart sizes_to_show(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleId> order) {
+  SizePart part;
+  if (path.empty()) return part;
+  const SizingArtifact sizing = read_sizing(path);
+  const TriangleCauses causes = triangle_causes(sizing, mesh);
+  part.meta = {{"frame", slice_frame(sizing)}, {"causes", causes.list}};
+  part.cells = slice_cells(sizing, kMostCells);
+  for (const TriangleId t : order) part.cause.push_back(causes.index[t]);
+  return part;
+}
+
+/// Patches of which no mesh was made: what there is, as a mesh that is flagged incomplete.
+void merge_what_there_is(const std::string& patches, const std::string& output) {
+  MergeStageOptions options;
+  options.patches = {patches};
+  options.output = output;
+  options.allow_incomplete = true;
+  run_merge(options);
+}
+
+/// The page, and whether the mesh passes.
+struct FilledPage {
+  std::string text;
+  bool passes;
+};
+
+FilledPage make_page(const ReportStageOptions& o, const RunFiles& files, const std::string& shown_as) {
+  const Verdict verdict = check(o, files);
+  const MeshArtifact artifact = read_mesh(files.mesh);
+  std::optional<GeometryArtifact> geometry;
+  if (!files.geometry.empty()) geometry = read_geometry(files.geometry);
+  const Json findings = import_findings(geometry ? &*geometry : nullptr);
+  const std::vector<TriangleValues> values = values_to_show(geometry ? &*geometry : nullptr, files, artifact);
+  const std::vector<TriangleId> order = by_group(artifact.mesh);
+  const Box box = box_of(artifact.mesh);
+  const SizePart sizes = sizes_to_show(files.sizing, artifact.mesh, order);
+  Json meta = describe(artifact, box, values);
+  meta["title"] = shown_as;
+  meta["import"] = findings;
+  meta["unmeshed"] = Json::array();
+  if (!files.patches.empty()) {
+    const PatchesArtifact patches = read_patches(files.patches);
+    require_same_geometry(files.mesh, artifact.header, files.patches, patches.header);
+    meta["unmeshed"] = unmeshed_faces(patches.failures, patches.labels);
+  }
+  meta["times"] = stage_times(o.times);
+  meta["sizes"] = sizes.meta;
+  const std::vector<std::pair<std::string, std::string>> places = {
+      {"META", script_text(json_text(meta))},
+      {"CHECK", script_text(verdict.json)},
+      {"INFO", script_text(run_info(files.mesh).json)},
+      {"NODES", encoded_nodes(artifact.mesh, box.middle())},
+      {"CORNERS", encoded_corners(artifact.mesh, order)},
+      {"VALUES", encoded_values(values, order)},
+      {"CAUSES", encoded(sizes.cause)},
+      {"CELLS", encoded(sizes.cells.corner)},
+      {"LEVELS", encoded(sizes.cells.level)},
+      {"LENGTHS", encoded(sizes.cells.length)}};
+  return {fill(report_page(), places), verdict.passes};
+}
+
 }  // namespace
 
 StageSummary run_report(const ReportStageOptions& o) {
   const Timer timer;
   require_writable(o.output);
-  const Verdict verdict = check(o);
-  const MeshArtifact artifact = read_mesh(o.mesh);
-  const std::vector<TriangleValues> values = values_to_show(o, artifact);
-  const std::vector<TriangleId> order = by_group(artifact.mesh);
-  const Box box = box_of(artifact.mesh);
-  const std::vector<std::pair<std::string, std::string>> places = {
-      {"META", script_text(json_text(describe(artifact, box, values)))},
-      {"CHECK", script_text(verdict.json)},
-      {"INFO", script_text(run_info(o.mesh).json)},
-      {"NODES", encoded_nodes(artifact.mesh, box.middle())},
-      {"CORNERS", encoded_corners(artifact.mesh, order)},
-      {"VALUES", encoded_values(values, order)}};
-  const std::string page = fill(report_page(), places);
-  write_text_file(o.output, page);
-  const Json summary = {{"tool", "st-report"},      {"mesh", o.mesh},       {"output", o.output},
-                        {"passes", verdict.passes}, {"bytes", page.size()}, {"seconds", timer.seconds()}};
-  return {fmt::format("{}: {} {}, {:.1f} MB, {:.1f} s", o.output, o.mesh, verdict.passes ? "passes" : "does not pass",
-                      1e-6 * static_cast<double>(page.size()), timer.seconds()),
+  RunFiles files = sort_files(o);
+  const std::string shown_as = files.mesh.empty() ? files.patches : files.mesh;
+  std::optional<TemporaryFile> merged;
+  if (files.mesh.empty()) {
+    merged.emplace(o.output + ".mesh");
+    files.mesh = merged->name();
+    merge_what_there_is(files.patches, files.mesh);
+  }
+  const FilledPage page = make_page(o, files, shown_as);
+  write_text_file(o.output, page.text);
+  const Json summary = {{"tool", "st-report"},   {"mesh", shown_as},          {"output", o.output},
+                        {"passes", page.passes}, {"bytes", page.text.size()}, {"seconds", timer.seconds()}};
+  return {fmt::format("{}: {} {}, {:.1f} MB, {:.1f} s", o.output, shown_as, page.passes ? "passes" : "does not pass",
+                      1e-6 * static_cast<double>(page.text.size()), timer.seconds()),
           json_text(summary)};
 }
 

@@ -2,19 +2,22 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "stages/summary.h"
 
 namespace st {
 
 struct ReportStageOptions {
-  std::string mesh;                    ///< mesh artifact
+  std::vector<std::string> artifacts;  ///< of one run, in any order: a mesh, or patches in its place, and the others
   std::string geometry;                ///< optional: findings by cause, deviation from the CAD
-  std::string sizing;                  ///< optional: lengths compared with the requested ones
+  std::string sizing;                  ///< optional: lengths compared with the requested ones, slice, causes of sizes
+  std::string times;                   ///< optional: folder of <stage>.seconds, as the workflow writes them
   std::string output = "report.html";  ///< self-contained: page, mesh and figures
 };
 
-/// Checks the mesh as st-check does and writes the page. Local; code kOk whatever the verdict. Throws Error.
+/// Checks the mesh as st-check does and writes the page. Of patches without a mesh, what there is is merged first.
+/// Local; code kOk whatever the verdict. Throws Error.
 StageSummary run_report(const ReportStageOptions& options);
 
 }  // namespace st

@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import USAGE, ToolTest, artifacts_of, must  # noqa: E402
+from chain import INCOMPLETE, INPUT, MODELS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 # What a person does, and what the page must then show; printed into its title, which --dump-dom gives.
 PROBE = """<script>
@@ -37,10 +37,21 @@ setTimeout(() => {
     const half = camera.half, yaw = camera.yaw;
     canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
     said.turned = camera.yaw !== yaw;
+    if (meta.sizes) {
+      $("by").value = "cause"; $("by").onchange();
+      said.causes = $("legend").textContent;
+      const before = coloured();
+      $("sliced").checked = true; $("axis").value = "z"; $("axis").onchange();
+      said.cells = slice.count / 6;
+      said.plane = $("at").textContent;
+      said.covered = coloured() - before;
+      $("sliced").checked = false; $("sliced").onchange();
+      said.cleared = coloured() - before;
+    }
     const button = document.querySelector("#findings button");
     if (button) button.click();
     setTimeout(() => {
-      said.flown = !button || camera.half < half;
+      said.flown = !button || camera.half !== half;
       said.near = coloured();
       document.title = JSON.stringify(said);
     }, 1500);
@@ -114,6 +125,11 @@ class Report(ToolTest):
         self.assertIn("Quality", said["legend"])
         self.assertTrue(said["turned"] and said["flown"], said)
         self.assertGreater(said["near"], 0.05, said)
+        self.assertIn("the largest length", said["causes"])
+        self.assertGreater(said["cells"], 10, said)
+        self.assertRegex(said["plane"], r"^z = \S+ mm$")
+        self.assertGreater(said["covered"], 0.02, said)
+        self.assertAlmostEqual(said["cleared"], 0, delta=0.001)
 
     def test_a_mesh_that_fails_gets_its_report(self):
         _, file = self.report("plate_with_hole")
@@ -151,6 +167,54 @@ class Report(ToolTest):
         if said is not None:
             self.assertNotIn("error", said)
             self.assertIn("faces are missing", said["verdict"])
+
+    def test_a_run_without_a_mesh_names_the_faces_that_failed(self):
+        model = MODELS / "crossed_loop.brep"
+        must("st-import", model, "-o", "geometry.hdf", cwd=self.folder)
+        must("st-raster", "geometry.hdf", "--allow-incomplete", cwd=self.folder)
+        must("st-prolong", "raster.hdf", "--allow-incomplete", cwd=self.folder)
+        run = Run("st-mesh", "geometry.hdf", "sizing.hdf", cwd=self.folder)
+        self.assertEqual(run.code, INCOMPLETE, run)
+        must("st-report", "patches.hdf", "geometry.hdf", "sizing.hdf", "raster.hdf", cwd=self.folder)
+        file = self.folder / "report.html"
+        unmeshed = json.loads(script(file.read_text(encoding="utf-8"), "meta"))["unmeshed"]
+        self.assertTrue(unmeshed and all(f["cause"] and len(f["xyz"]) == 3 for f in unmeshed), unmeshed)
+        self.expect_nothing_left(self.folder, "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf",
+                                 "patches.failures.hdf", "report.html")
+        said = self.browse(file)
+        if said is not None:
+            self.assertNotIn("error", said)
+            self.assertIn("could not be meshed", said["verdict"])
+            self.assertTrue(said["flown"], said)
+
+    def test_artifacts_come_in_any_order_and_one_of_each_kind(self):
+        made = artifacts_of("two_boxes")
+        pages = []
+        for files in (["mesh", "geometry", "sizing"], ["sizing", "raster", "geometry", "patches", "mesh"]):
+            must("st-report", *[made / f"{name}.hdf" for name in files], "-o", "report.html", cwd=self.folder)
+            page = (self.folder / "report.html").read_text(encoding="utf-8")
+            arrays = ("meta", "nodes", "values", "causes", "cells", "lengths")
+            pages.append({name: script(page, name) for name in arrays})
+        self.assertEqual(pages[0], pages[1])
+        n_triangles = len(base64.b64decode(pages[0]["values"])) // 12
+        self.assertEqual(len(base64.b64decode(pages[0]["causes"])), 2 * n_triangles)
+        cells = base64.b64decode(pages[0]["cells"])
+        self.assertEqual(len(cells), 3 * len(base64.b64decode(pages[0]["lengths"])))
+        self.expect_error(USAGE, "st-report", made / "geometry.hdf", "-o", "r.html", says="give mesh.hdf",
+                          cwd=self.folder)
+        self.expect_error(USAGE, "st-report", made / "mesh.hdf", made / "mesh.hdf", "-o", "r.html",
+                          says="one of each kind", cwd=self.folder)
+
+    def test_times_are_those_that_make_wrote(self):
+        made = artifacts_of("two_boxes")
+        (self.folder / "st-mesh.seconds").write_text("1.250\n")
+        (self.folder / "st-import.seconds").write_text("0.5\n")
+        _, file = self.report("two_boxes", "--times", self.folder)
+        self.assertEqual(json.loads(script(file.read_text(encoding="utf-8"), "meta"))["times"],
+                         [["st-import", 0.5], ["st-mesh", 1.25]])
+        (self.folder / "none").mkdir()
+        self.expect_error(INPUT, "st-report", made / "mesh.hdf", "-o", self.folder / "r.html", "--times",
+                          self.folder / "none", says="st-mesh.seconds")
 
     def test_output_must_not_be_an_input(self):
         made = artifacts_of("two_boxes")

@@ -40,9 +40,9 @@ MeshArtifact tetrahedron(int n_faces) {
 
 std::string page_of(int n_faces, ExitCode& code) {
   ReportStageOptions o;
-  o.mesh = in_temp("report_mesh.hdf");
+  o.artifacts = {in_temp("report_mesh.hdf")};
   o.output = in_temp("report.html");
-  write_mesh(o.mesh, tetrahedron(n_faces));
+  write_mesh(o.artifacts[0], tetrahedron(n_faces));
   code = run_report(o).code;
   return read_text_file(o.output);
 }
@@ -51,7 +51,8 @@ TEST(Report, is_one_page_without_a_place_left_empty) {
   ExitCode code;
   const std::string page = page_of(4, code);
   EXPECT_EQ(code, ExitCode::kOk);
-  for (const char* place : {"@META@", "@CHECK@", "@INFO@", "@NODES@", "@CORNERS@", "@VALUES@"}) {
+  for (const char* place : {"@META@", "@CHECK@", "@INFO@", "@NODES@", "@CORNERS@", "@VALUES@", "@CAUSES@", "@CELLS@",
+                            "@LEVELS@", "@LENGTHS@"}) {
     EXPECT_NE(report_page().find(place), std::string::npos) << place;
     EXPECT_EQ(page.find(place), std::string::npos) << place;
   }
