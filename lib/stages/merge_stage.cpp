@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/threads.h"
 #include "io/export/export.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -204,10 +205,11 @@ StageSummary run_merge(const MergeStageOptions& options) {
   warn_of_changes(orientation);
 
   const SurfaceMesh& mesh = artifact.mesh;
-  progress.step("checking", 0.5);
-  const TopologyReport topology = check_topology(mesh, edges_of(mesh));
-  progress.step("writing", 0.8);
-  const std::string hash = write_mesh(options.output, artifact);
+  progress.step("checking and writing", 0.5);
+  TopologyReport topology;
+  std::string hash;
+  run_jobs(
+      {[&] { hash = write_mesh(options.output, artifact); }, [&] { topology = check_topology(mesh, edges_of(mesh)); }});
   for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
 
   return summarize(options, artifact, hash, topology, orientation, timer.seconds());

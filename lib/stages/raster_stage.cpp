@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/current_work.h"
 #include "base/length.h"
 #include "base/limits.h"
 #include "base/log.h"
@@ -268,6 +269,7 @@ class RasterTasks {
   }
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
+    const CurrentWork at_face("face", f + 1);
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
     const bool is_reversed = model_.tables().face_is_reversed[f] != 0;

@@ -2,13 +2,16 @@
 meshed."""
 import math
 import re
+import signal
 import struct
+import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
+from chain import BIN, INCOMPLETE, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
 
 
 VTK_LINE = 3
@@ -86,6 +89,26 @@ class Failures(ToolTest):
         self.sizes_of("box.brep")
         self.assertEqual(self.mesh().code, OK)
         self.expect_nothing_left(self.folder, "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf")
+
+
+class Crash(ToolTest):
+    def test_names_the_face_and_leaves_nothing(self):
+        must("st-import", MODELS / "sphere.brep", "-o", self.folder / "g.hdf")
+        must("st-raster", self.folder / "g.hdf", "-o", self.folder / "r.hdf", "--lmax", "0.1%")
+        must("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf")
+        out = self.folder / "out"
+        out.mkdir()
+        words = [BIN / "st-mesh", self.folder / "g.hdf", self.folder / "s.hdf", "-o", out / "p.hdf", "--tile", "0"]
+        for _ in range(20):  # the signal may come before the face is begun
+            run = subprocess.Popen(words, stderr=subprocess.PIPE, text=True)
+            time.sleep(0.7)
+            run.send_signal(signal.SIGSEGV)
+            error = run.communicate(timeout=60)[1]
+            self.assertEqual(run.returncode, -signal.SIGSEGV, error)
+            self.assertEqual(list(out.iterdir()), [])
+            if error:
+                break
+        self.assertIn("st-mesh: error: face 1: crashed there", error)
 
 
 if __name__ == "__main__":

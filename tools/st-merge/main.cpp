@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   tool.outputs("--export", o.exports, "also write the mesh to this file: a suffix that st-export knows; repeatable");
   tool.flag("--allow-incomplete", o.allow_incomplete,
             "merge even when faces are missing; the mesh is marked incomplete");
+  tool.threads();
   tool.examples({"st-merge patches.hdf", "st-merge wing.hdf body.hdf -o mesh.hdf --export mesh.stl"});
   return tool.run(argc, argv, [&] { return st::run_merge(o); });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/current_work.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -167,6 +168,7 @@ void FaceRounds::end_at_vertices(EdgeId e, EdgeMesh& nodes) const {
 }
 
 EdgeMesh FaceRounds::make_edge(EdgeId e) const {
+  const CurrentWork at_edge("edge", e + 1);
   const auto curve = model_.curve(e);
   const RefinedField field(field_, refinements_.near(box_of(*curve)));
   EdgeMesh nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
@@ -260,6 +262,7 @@ FaceRounds::FaceResult FaceRounds::mesh_whole(FaceId f) const {
 
 /// From the mesh to the patch, or to what is to be known of a failure.
 FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh) const {
+  const CurrentWork at_face("face", f + 1);
   FaceMesh mesh;
   FaceResult result;
   FaceBoundary boundary;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/current_work.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -92,6 +93,7 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
 }
 
 HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
+  const CurrentWork at_face("face", rim.face + 1);
   HoleFill fill;
   try {
     const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
