@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Time and memory per triangle over the number of triangles: one model, one rank, the same sizes scaled as a whole.
+"""Time and memory per triangle over the number of triangles: one model, one thread, the same sizes scaled as a whole.
 
 usage: bench/scaling.py MODEL [--bin DIR] [--triangles 100000,1000000,5000000] [--runs N] [--work DIR]
 
@@ -48,9 +48,11 @@ def measure_size(bin_dir, work, n_wanted, runs):
     tool = lambda name: bin_dir / f"st-{name}"  # noqa: E731
     measure([tool("prolong"), work / "raster.hdf", "-o", work / "sizing.hdf", "--target-triangles", n_wanted])
     cad = ["--geometry", work / "geometry.hdf", "--sizing", work / "sizing.hdf"]
-    row = {"mesh": best([tool("mesh"), work / "geometry.hdf", work / "sizing.hdf", "-o", work / "patches.hdf"], runs),
-           "merge": best([tool("merge"), work / "patches.hdf", "-o", work / "mesh.hdf"], runs),
-           "check": best([tool("check"), work / "mesh.hdf", *cad], runs)}
+    one = ["--threads", 1]
+    mesh = [tool("mesh"), work / "geometry.hdf", work / "sizing.hdf", "-o", work / "patches.hdf", *one]
+    row = {"mesh": best(mesh, runs),
+           "merge": best([tool("merge"), work / "patches.hdf", "-o", work / "mesh.hdf", *one], runs),
+           "check": best([tool("check"), work / "mesh.hdf", *cad, *one], runs)}
     row["triangles"] = row["check"][3]["triangles"]
     row["passes"] = row["check"][3]["passes"]
     return row
