@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-THREADED = {"raster", "mesh", "merge", "check"}
+THREADED = {"raster", "prolong", "mesh", "merge", "check"}
 
 
 def chain(folder, model, n_triangles):

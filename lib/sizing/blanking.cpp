@@ -10,6 +10,7 @@
 
 #include "base/limits.h"
 #include "base/predicates.h"
+#include "base/threads.h"
 #include "mesh/adjacency.h"
 
 namespace st {
@@ -19,6 +20,7 @@ constexpr int kSamples = 9;  // points of a cell that tell its parts apart: near
 // Of the half edge; irregular, so that surfaces aligned with the cells rarely hit them.
 constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampleCentre = 0.0137;
 constexpr std::int8_t kNoFlow = -1;
+constexpr std::size_t kCellsPerPiece = 8'192;
 constexpr double kSheetCosine = 0.8;  // of triangles with their mean normal: no two of them face each other
 
 /// A leaf as a cube.
@@ -54,6 +56,19 @@ struct Piece {
   TriangleId triangle = kNone;
   ClippedTriangle polygon;
   Vec3 middle, area;  // area: towards the flow
+};
+
+/// What a thread needs for the cells at hand.
+struct Scratch {
+  std::vector<Piece> pieces;
+  std::unordered_map<std::int32_t, CellParts> sheet_parts;  // by cut cell, once they are asked for
+  std::unordered_map<std::uint64_t, bool> ways;             // by two cells and their parts
+};
+
+/// Links of some sites, in order.
+struct LinkRows {
+  std::vector<std::int32_t> site;
+  std::vector<OpenLinks> links;
 };
 
 class Blanker {
@@ -117,24 +132,28 @@ class Blanker {
 
   /// One ray for each region of uncut cells, and its colour for all of them.
   void colour_the_rest() {
-    std::vector<std::uint8_t> is_known(octree_.leaf_keys.size(), 0);
-    std::vector<std::int32_t> front;
+    std::vector<std::int32_t> region(octree_.leaf_keys.size(), kNone), seeds, front;
     for (std::int32_t seed = 0; seed < octree_.n_leaves(); ++seed) {
-      if (is_cut(seed) || is_known[seed]) continue;
-      const CellColour colour = colour_at(octree_.leaf_center(seed));
+      if (is_cut(seed) || region[seed] != kNone) continue;
+      const auto own = static_cast<std::int32_t>(seeds.size());
+      seeds.push_back(seed);
       front.assign(1, seed);
-      is_known[seed] = 1;
+      region[seed] = own;
       while (!front.empty()) {
         const std::int32_t leaf = front.back();
         front.pop_back();
-        result_.colour[leaf] = colour;
         neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
-          if (is_cut(other) || is_known[other]) return;
-          is_known[other] = 1;
+          if (is_cut(other) || region[other] != kNone) return;
+          region[other] = own;
           front.push_back(other);
         });
       }
     }
+    std::vector<CellColour> colour(seeds.size());
+    parallel_for(seeds.size(), 1,
+                 [&](std::size_t i, std::size_t) { colour[i] = colour_at(octree_.leaf_center(seeds[i])); });
+    for (std::size_t leaf = 0; leaf < region.size(); ++leaf)
+      if (region[leaf] != kNone) result_.colour[leaf] = colour[region[leaf]];
   }
 
   /// Boxes of the triangles in cut cells, one after the other: most are passed over by them.
@@ -142,13 +161,15 @@ class Blanker {
     constexpr float kBig = std::numeric_limits<float>::max();
     const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kBig); };
     const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kBig); };
-    boxes_.reserve(cut_.triangle.size());
-    for (const TriangleId t : cut_.triangle) {
-      Box3 box;
-      for (int k = 0; k < 3; ++k) box.add(surface_.corner(t, k));
-      boxes_.push_back(
-          {below(box.lo.x), below(box.lo.y), below(box.lo.z), above(box.hi.x), above(box.hi.y), above(box.hi.z)});
-    }
+    boxes_.resize(cut_.triangle.size());
+    parallel_for(boxes_.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Box3 box;
+        for (int k = 0; k < 3; ++k) box.add(surface_.corner(cut_.triangle[i], k));
+        boxes_[i] = {below(box.lo.x), below(box.lo.y), below(box.lo.z),
+                     above(box.hi.x), above(box.hi.y), above(box.hi.z)};
+      }
+    });
   }
 
   /// Whether no triangle of the leaf meets the segment pq.
@@ -221,30 +242,46 @@ class Blanker {
   // --- parts of cut cells ---
 
   void find_parts() {
-    parts_.resize(cut_.leaf.size());
-    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
-      if (is_sheet(i)) continue;  // see parts()
-      parts_[i] = parts_of(i);
-      if (!parts_[i].has(1)) continue;
-      result_.split_leaf.push_back(cut_.leaf[i]);
-      result_.split.push_back(split_cell(i));
+    struct SplitCells {
+      std::vector<std::int32_t> leaf;
+      std::vector<CellSplit> split;
+    };
+    const auto n = static_cast<std::size_t>(cut_.n_cut());
+    parts_.resize(n);
+    std::vector<SplitCells> pieces((n + kCellsPerPiece - 1) / kCellsPerPiece);
+    parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch;
+      SplitCells& own = pieces[begin / kCellsPerPiece];
+      for (auto i = static_cast<std::int32_t>(begin); i < static_cast<std::int32_t>(end); ++i) {
+        if (is_sheet(i)) continue;  // see parts()
+        parts_[i] = parts_of(i, scratch.pieces);
+        if (!parts_[i].has(1)) continue;
+        own.leaf.push_back(cut_.leaf[i]);
+        own.split.push_back(split_cell(i, scratch.pieces));
+      }
+    });
+    for (const SplitCells& own : pieces) {
+      result_.split_leaf.insert(result_.split_leaf.end(), own.leaf.begin(), own.leaf.end());
+      result_.split.insert(result_.split.end(), own.split.begin(), own.split.end());
     }
   }
 
   /// Those of sheets are found when they are asked for.
-  const CellParts& parts(std::int32_t cut) {
-    CellParts& own = parts_[cut];
-    if (is_sheet(cut) && !own.has(0)) own = parts_of(cut);
-    return own;
+  const CellParts& parts(std::int32_t cut, Scratch& scratch) const {
+    if (!is_sheet(cut)) return parts_[cut];
+    const auto [it, is_new] = scratch.sheet_parts.try_emplace(cut);
+    if (is_new) it->second = parts_of(cut, scratch.pieces);
+    return it->second;
   }
 
-  CellParts parts_of(std::int32_t i) {
+  /// Leaves the surface in the cell in `pieces`.
+  CellParts parts_of(std::int32_t i, std::vector<Piece>& pieces) const {
     const Cube cell = cube(cut_.leaf[i]);
-    clip(i, cell);
+    clip(i, cell, pieces);
     const std::array<int, kSamples> group = connect_samples(cell, cut_.leaf[i]);
     std::array<int, kSamples> vote{}, count{};
     for (int s = 0; s < kSamples; ++s) {
-      vote[group[s]] += sign_at(cell.sample(s));
+      vote[group[s]] += sign_at(cell.sample(s), pieces);
       ++count[group[s]];
     }
     std::array<int, 2> largest{kNone, kNone};  // groups of flow
@@ -263,15 +300,15 @@ class Blanker {
       parts.part[s] = vote[g] <= 0 ? kNoFlow : g == largest[1] ? 1 : 0;
     }
     if (largest[0] == kNone)
-      set_spare(cell, find_largest_piece([](const Piece&) { return true; }), 0, parts);
+      set_spare(cell, find_largest_piece(pieces, [](const Piece&) { return true; }), 0, parts);
     else if (largest[1] == kNone && !is_sheet(i))
-      set_hidden_part(cell, parts);
+      set_hidden_part(cell, pieces, parts);
     return parts;
   }
 
   /// Triangles of the cell, cut off at its sides.
-  void clip(std::int32_t i, const Cube& cell) {
-    pieces_.clear();
+  void clip(std::int32_t i, const Cube& cell, std::vector<Piece>& pieces) const {
+    pieces.clear();
     for (const TriangleId t : cut_.triangles(i)) {
       const Vec3 a = surface_.corner(t, 0), b = surface_.corner(t, 1), c = surface_.corner(t, 2);
       const ClippedTriangle polygon = clip_triangle(a, b, c, cell.center, cell.half);
@@ -279,7 +316,7 @@ class Blanker {
       Vec3 area;
       for (int k = 1; k + 1 < polygon.n; ++k)
         area += 0.5 * cross(polygon.corner[k] - polygon.corner[0], polygon.corner[k + 1] - polygon.corner[0]);
-      if (norm2(area) > 0) pieces_.push_back({t, polygon, polygon.middle(), flow_sign_ * area});
+      if (norm2(area) > 0) pieces.push_back({t, polygon, polygon.middle(), flow_sign_ * area});
     }
   }
 
@@ -303,14 +340,14 @@ class Blanker {
 
   /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface
   /// decides.
-  int sign_at(Vec3 x) const {
+  int sign_at(Vec3 x, const std::vector<Piece>& pieces) const {
     const Piece* nearest = nullptr;
-    for (const Piece& piece : pieces_)
+    for (const Piece& piece : pieces)
       if (!nearest || norm2(piece.middle - x) < norm2(nearest->middle - x)) nearest = &piece;
     if (!nearest) return 0;
     double first = std::numeric_limits<double>::infinity();
     int sign = 0;
-    for (const Piece& piece : pieces_) {
+    for (const Piece& piece : pieces) {
       const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1),
                  c = surface_.corner(piece.triangle, 2);
       if (&piece != nearest && !segment_meets_triangle(x, nearest->middle, a, b, c)) continue;
@@ -325,16 +362,16 @@ class Blanker {
 
   /// Null: none is wanted.
   template <class IsWanted>
-  const Piece* find_largest_piece(const IsWanted& is_wanted) const {
+  static const Piece* find_largest_piece(const std::vector<Piece>& pieces, const IsWanted& is_wanted) {
     const Piece* largest = nullptr;
-    for (const Piece& piece : pieces_)
+    for (const Piece& piece : pieces)
       if (is_wanted(piece) && (!largest || norm2(piece.area) > norm2(largest->area))) largest = &piece;
     return largest;
   }
 
   /// A surface that turns its back to all samples of the flow bounds a part of its own, too thin for a sample.
-  void set_hidden_part(const Cube& cell, CellParts& parts) const {
-    const Piece* hidden = find_largest_piece([&](const Piece& piece) {
+  static void set_hidden_part(const Cube& cell, const std::vector<Piece>& pieces, CellParts& parts) {
+    const Piece* hidden = find_largest_piece(pieces, [&](const Piece& piece) {
       for (int s = 0; s < kSamples; ++s)
         if (parts.part[s] == 0 && dot(piece.area, cell.sample(s) - piece.middle) > 0) return false;
       return true;
@@ -350,7 +387,7 @@ class Blanker {
   }
 
   /// The plane between the surface that looks to the first part and the one that looks to the second.
-  CellSplit split_cell(std::int32_t i) const {
+  CellSplit split_cell(std::int32_t i, const std::vector<Piece>& pieces) const {
     const Cube cell = cube(cut_.leaf[i]);
     std::array<Vec3, 2> sum;
     std::array<int, 2> count{};
@@ -363,10 +400,10 @@ class Blanker {
     add(parts_[i].spare_part, parts_[i].spare);
     const Vec3 across = sum[0] / count[0] - sum[1] / count[1];
     Vec3 normal;
-    for (const Piece& piece : pieces_) normal += (dot(piece.area, across) < 0 ? -1.0 : 1.0) * piece.area;
+    for (const Piece& piece : pieces) normal += (dot(piece.area, across) < 0 ? -1.0 : 1.0) * piece.area;
     normal = norm2(normal) > 0 ? normalized(normal) : normalized(across);
     double lowest_first = std::numeric_limits<double>::infinity(), highest_second = -lowest_first;
-    for (const Piece& piece : pieces_)
+    for (const Piece& piece : pieces)
       for (int k = 0; k < piece.polygon.n; ++k) {
         const double height = dot(normal, piece.polygon.corner[k] - cell.center);
         if (dot(piece.area, normal) > 0)
@@ -394,55 +431,73 @@ class Blanker {
       is_near[leaf] = 1;
       neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { is_near[other] = 1; });
     }
+    std::vector<std::int32_t> near;
     for (std::int32_t leaf = 0; leaf < n; ++leaf)
-      if (is_near[leaf]) add_row(leaf, leaf, 0);
-    for (std::int32_t k = 0; k < n_split; ++k) add_row(n + k, result_.split_leaf[k], 1);
+      if (is_near[leaf]) near.push_back(leaf);
+    const std::size_t n_rows = near.size() + static_cast<std::size_t>(n_split);
+    std::vector<LinkRows> pieces((n_rows + kCellsPerPiece - 1) / kCellsPerPiece);
+    parallel_for(n_rows, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch;
+      LinkRows& rows = pieces[begin / kCellsPerPiece];
+      for (std::size_t i = begin; i < end; ++i)
+        if (i < near.size())
+          add_row(near[i], near[i], 0, scratch, rows);
+        else
+          add_row(n + static_cast<std::int32_t>(i - near.size()), result_.split_leaf[i - near.size()], 1, scratch,
+                  rows);
+    });
+    for (const LinkRows& rows : pieces)
+      for (std::size_t i = 0; i < rows.site.size(); ++i) {
+        result_.site_links[rows.site[i]] = static_cast<std::int32_t>(result_.links.size());
+        result_.links.push_back(rows.links[i]);
+      }
   }
 
-  void add_row(std::int32_t site, std::int32_t leaf, int part) {
+  void add_row(std::int32_t site, std::int32_t leaf, int part, Scratch& scratch, LinkRows& rows) const {
     OpenLinks open;
     std::uint64_t bit = 1;
     std::int32_t last = kNone;
     std::array<bool, 2> last_open{};
     neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
-      if (other != last) last_open = {passes(leaf, part, other, 0), passes(leaf, part, other, 1)};
+      if (other != last) last_open = {passes(leaf, part, other, 0, scratch), passes(leaf, part, other, 1, scratch)};
       last = other;
       if (last_open[0]) open.to_first |= bit;
       if (last_open[1]) open.to_second |= bit;
       bit <<= 1;
     });
-    result_.site_links[site] = static_cast<std::int32_t>(result_.links.size());
-    result_.links.push_back(open);
+    rows.site.push_back(site);
+    rows.links.push_back(open);
   }
 
-  bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part) {
+  bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part, Scratch& scratch) const {
     if (to_part == 1 && !(is_cut(to) && !is_sheet(cut_index_[to]) && parts_[cut_index_[to]].has(1))) return false;
     if (result_.colour[to] == CellColour::kBlanked) return true;
     if (result_.colour[from] == CellColour::kBlanked) return false;
     if (!is_cut(from) && !is_cut(to)) return true;
     if (from_part == 0 && to_part == 0 && is_one_side(from, to)) return true;
-    return from < to ? is_open_way(from, from_part, to, to_part) : is_open_way(to, to_part, from, from_part);
+    return from < to ? is_open_way(from, from_part, to, to_part, scratch)
+                     : is_open_way(to, to_part, from, from_part, scratch);
   }
 
   /// sees(), which is the same both ways: found for one row, kept until the other asks.
-  bool is_open_way(std::int32_t a, int part_a, std::int32_t b, int part_b) {
+  bool is_open_way(std::int32_t a, int part_a, std::int32_t b, int part_b, Scratch& scratch) const {
     const auto key = static_cast<std::uint64_t>(2 * static_cast<std::int64_t>(a) + part_a) << 32 |
                      static_cast<std::uint64_t>(2 * static_cast<std::int64_t>(b) + part_b);
-    const auto [it, is_new] = ways_.try_emplace(key, false);
-    if (is_new) return it->second = sees(a, part_a, b, part_b);
+    const auto [it, is_new] = scratch.ways.try_emplace(key, false);
+    if (is_new) return it->second = sees(a, part_a, b, part_b, scratch);
     const bool is_open = it->second;
-    ways_.erase(it);
+    scratch.ways.erase(it);
     return is_open;
   }
 
   /// Whether the surface leaves a way between two parts: tried between their points that are nearest to the other, and
   /// once more.
-  bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b) {
+  bool sees(std::int32_t a, int part_a, std::int32_t b, int part_b, Scratch& scratch) const {
     const Cube cube_a = cube(a), cube_b = cube(b);
     const auto near_a = [&](Vec3 x, const Vec3* without = nullptr) {
-      return nearest_point(a, part_a, cube_a, x, without);
+      return nearest_point({a, part_a}, cube_a, x, without, scratch);
     };
-    const auto near_b = [&](Vec3 x) { return nearest_point(b, part_b, cube_b, x, nullptr); };
+    const auto near_b = [&](Vec3 x) { return nearest_point({b, part_b}, cube_b, x, nullptr, scratch); };
     const Vec3 from_a = near_a(cube_b.center), to_b = near_b(from_a);
     if (is_way(a, from_a, b, to_b, cube_a, cube_b)) return true;
     const Vec3 from_b = near_b(cube_a.center), to_a = near_a(from_b);
@@ -458,9 +513,14 @@ class Blanker {
   }
 
   /// Of the samples of a part, but `without`, the one nearest to x; in an uncut cell any point.
-  Vec3 nearest_point(std::int32_t leaf, int part, const Cube& own, Vec3 x, const Vec3* without) {
+  struct LeafPart {
+    std::int32_t leaf;
+    int part;
+  };
+  Vec3 nearest_point(LeafPart at, const Cube& own, Vec3 x, const Vec3* without, Scratch& scratch) const {
+    const auto [leaf, part] = at;
     if (!is_cut(leaf)) return own.nearest(x);
-    const CellParts& parts = this->parts(cut_index_[leaf]);
+    const CellParts& parts = this->parts(cut_index_[leaf], scratch);
     if (parts.spare_part == part) return parts.spare;
     Vec3 nearest = without ? *without : own.center;
     double least = std::numeric_limits<double>::infinity();
@@ -488,8 +548,6 @@ class Blanker {
   std::vector<std::int32_t> cut_index_;  // [n_leaves] kNone: not cut
   std::vector<Vec3> sheet_;              // [n_cut] unit, into the flow, where the cell meets one sheet; else zero
   std::vector<CellParts> parts_;         // [n_cut]
-  std::vector<Piece> pieces_;            // of the cell at hand
-  std::unordered_map<std::uint64_t, bool> ways_;  // by two cells and their parts
   Blanking result_;
 };
 

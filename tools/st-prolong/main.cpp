@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   tool.output_option("--sample-output", o.sample_output, "CSV file that --sample writes");
   tool.flag("--allow-incomplete", o.allow_incomplete, "accept a raster with parts that could not be sampled");
   tool.preset();
+  tool.threads();
   tool.examples(
       {"st-prolong raster.hdf", "st-prolong raster.hdf --slope 0.15 --sources wake.toml --target-triangles 500000"});
   return tool.run(argc, argv, [&] { return st::run_prolong(o); });
