@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "base/ids.h"
 #include "base/number_option.h"
 #include "comm/communicator.h"
 #include "stages/summary.h"
@@ -16,6 +18,7 @@ struct MeshStageOptions {
   std::string faces;  ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
   std::string group;  ///< mesh the faces of this group only; empty: all
   std::string edges;  ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
+  std::vector<FaceId> crashed_faces;  ///< ascending: left out and reported, for an earlier try crashed there
   int enhance_rounds = 5;
   static constexpr NumberOption kEnhanceRounds{"--enhance-rounds", "N", "[0, 10]",
                                                "rounds of mesh improvement: swaps, smoothing, collapses"};

@@ -92,23 +92,47 @@ class Failures(ToolTest):
 
 
 class Crash(ToolTest):
-    def test_names_the_face_and_leaves_nothing(self):
-        must("st-import", MODELS / "sphere.brep", "-o", self.folder / "g.hdf")
-        must("st-raster", self.folder / "g.hdf", "-o", self.folder / "r.hdf", "--lmax", "0.1%")
-        must("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf")
-        out = self.folder / "out"
-        out.mkdir()
-        words = [BIN / "st-mesh", self.folder / "g.hdf", self.folder / "s.hdf", "-o", out / "p.hdf", "--tile", "0"]
-        for _ in range(20):  # the signal may come before the face is begun
-            run = subprocess.Popen(words, stderr=subprocess.PIPE, text=True)
-            time.sleep(0.7)
+    """A crash is planted by its signal, while the main thread is at a face."""
+
+    def setUp(self):
+        super().setUp()
+        self.chain = self.folder / "chain"
+        self.chain.mkdir()
+        must("st-import", MODELS / "assembly.step", "-o", self.chain / "g.hdf")
+        self.out = self.folder / "out"
+        self.out.mkdir()
+
+    def crash(self, *words):
+        """Exit code and stderr of a run that was at a face."""
+        error = ""
+        for attempt in range(40):
+            run = subprocess.Popen(words, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+            time.sleep(0.1 + 0.05 * (attempt % 10))
             run.send_signal(signal.SIGSEGV)
-            error = run.communicate(timeout=60)[1]
-            self.assertEqual(run.returncode, -signal.SIGSEGV, error)
-            self.assertEqual(list(out.iterdir()), [])
-            if error:
+            error = run.communicate(timeout=120)[1]
+            if "crashed there" in error:
                 break
-        self.assertIn("st-mesh: error: face 1: crashed there", error)
+        self.assertIn("crashed there", error)
+        return run.returncode, error
+
+    def test_of_the_mesher_leaves_out_the_face_and_reports_it(self):
+        must("st-raster", self.chain / "g.hdf", "-o", self.chain / "r.hdf", "--lmax", "0.25%", "--lmin", "0.2%")
+        must("st-prolong", self.chain / "r.hdf", "-o", self.chain / "s.hdf")
+        patches = self.out / "p.hdf"
+        code, error = self.crash(BIN / "st-mesh", self.chain / "g.hdf", self.chain / "s.hdf", "-o", patches)
+        face = int(re.search(r"st-mesh: warning: face (\d+): crashed there", error)[1])
+        self.assertEqual(code, INCOMPLETE, error)
+        info = must("st-info", patches, "--json").json()
+        self.assertEqual((info["counts"]["failures"], info["properties"]["is_complete"]), (1, False))
+        self.assertRegex(error, rf"face {face}\b.*: the mesher crashed here")
+        must("st-merge", patches, "-o", self.out / "m.hdf", "--allow-incomplete")
+
+    def test_of_another_stage_names_the_face_and_leaves_nothing(self):
+        code, error = self.crash(BIN / "st-raster", self.chain / "g.hdf", "-o", self.out / "r.hdf", "--lmax", "0.05%",
+                                 "--max-cells", "1000000000")
+        self.assertEqual(code, -signal.SIGSEGV, error)
+        self.assertRegex(error, r"st-raster: error: face \d+: crashed there")
+        self.assertEqual(list(self.out.iterdir()), [])
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/threads.h"
 #include "comm/communicator.h"
+#include "common/crash_handler.h"
 #include "common/tool_main.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
@@ -86,6 +87,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
       return ExitCode::kOk;
     }
     set_thread_count(n_threads_.value_or(comm->size() > 1 ? 1 : processor_count()));
+    if (restarts_after_crash_ && comm->size() == 1) restart_after_crashes(argv);
     const StageSummary summary = stage(*comm);
     if (comm->is_root()) print_summary(summary);
     return summary.code;

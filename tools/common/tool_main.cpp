@@ -13,13 +13,13 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "base/current_work.h"
 #include "base/length.h"
 #include "base/log.h"
 #include "base/mapped_file.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "common/crash_handler.h"
 #include "common/option_file.h"
 #include "common/presets.h"
 #include "io/file/json_text.h"
@@ -63,20 +63,6 @@ extern "C" void end_on_lost_page(int signal, siginfo_t* info, void*) {
   _exit(static_cast<int>(ExitCode::kInput));
 }
 
-/// A defect: says at which face or edge, where that is known; then the signal ends the program as it would have.
-extern "C" void end_on_crash(int signal) {
-  char work[64];
-  remove_temporaries();
-  if (describe_current_work(work, sizeof work)) {
-    print(g_name);
-    print(": error: ");
-    print(work);
-    print(": crashed there, a defect: please report it with the CAD file; for st-mesh, --faces can leave it out\n");
-  }
-  std::signal(signal, SIG_DFL);
-  raise(signal);
-}
-
 /// Type of an option that names an array in a file.
 constexpr const char* kArrayType = "FILE:ARRAY";
 
@@ -93,11 +79,6 @@ void install_signal_handlers() {
   lost.sa_sigaction = end_on_lost_page;
   lost.sa_flags = SA_SIGINFO;
   sigaction(SIGBUS, &lost, nullptr);
-  for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) {
-    struct sigaction old {};
-    sigaction(signal, nullptr, &old);
-    if (old.sa_handler == SIG_DFL) std::signal(signal, end_on_crash);  // not over that of a sanitizer
-  }
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size: the write fails and says so
 }
 
@@ -272,6 +253,7 @@ void ToolMain::examples(const std::vector<std::string>& command_lines) {
 
 void ToolMain::begin(int argc, char** argv) {
   g_name = name_.c_str();
+  install_crash_handler(g_name);
   occupy_standard_streams();
   install_signal_handlers();
   json_ = has_argument(argc, argv, "--json");

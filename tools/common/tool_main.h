@@ -71,6 +71,8 @@ class ToolMain {
   /// Command lines that stand at the end of --help.
   void examples(const std::vector<std::string>& command_lines);
 
+  /// On one rank a crash at a face starts the tool again without this face: see crashed_faces() of crash_handler.h.
+  void restart_after_crash() { restarts_after_crash_ = true; }
   /// --threads; run_parallel has it by itself.
   void threads();
 
@@ -112,7 +114,7 @@ class ToolMain {
   std::string options_file_, preset_;
   int n_ranks_ = 1;
   std::optional<int> n_threads_;
-  bool quiet_ = false, verbose_ = false, json_ = false;
+  bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;
   std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage
 };

@@ -1,4 +1,5 @@
 // st-mesh: curve discretisation, then one advancing-front patch per face.
+#include "common/crash_handler.h"
 #include "common/tool_main.h"
 #include "stages/mesh_stage.h"
 
@@ -17,6 +18,8 @@ int main(int argc, char** argv) {
   tool.number(o.kMergeBelow, o.merge_below);
   tool.number(o.kMaxTurning, o.max_turning_deg);
   tool.number(o.kTile, o.tile_triangles);
+  tool.restart_after_crash();
+  o.crashed_faces = st::crashed_faces();
   tool.examples({"st-mesh geometry.hdf sizing.hdf --np 8", "st-mesh geometry.hdf sizing.hdf --group WING -o wing.hdf"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
 }

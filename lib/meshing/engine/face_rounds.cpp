@@ -189,7 +189,7 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options());
   if (options_.tile_triangles > 0 && !expected_.empty())
-    tiled.cut(dirty_faces_, expected_, options_.tile_triangles, executor_);
+    tiled.cut(without_crashed(dirty_faces_), expected_, options_.tile_triangles, executor_);
   std::vector<FaceId> whole;
   std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
                [&](FaceId f) { return !tiled.is_cut(f); });
@@ -202,6 +202,15 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
+}
+
+bool FaceRounds::has_crashed(FaceId f) const {
+  return std::binary_search(options_.crashed_faces.begin(), options_.crashed_faces.end(), f);
+}
+
+std::vector<FaceId> FaceRounds::without_crashed(std::vector<FaceId> faces) const {
+  std::erase_if(faces, [&](FaceId f) { return has_crashed(f); });
+  return faces;
 }
 
 /// Tasks: `whole`, then the tiles.
@@ -268,6 +277,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   FaceBoundary boundary;
   result.patch.face = f;
   try {
+    if (has_crashed(f)) throw Error(ExitCode::kInternal, "the mesher crashed here, a defect");
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
     const FaceField field(field_, refinements_, tables_.face_box[f]);

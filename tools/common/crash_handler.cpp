@@ -1,0 +1,112 @@
+#include "common/crash_handler.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "base/current_work.h"
+#include "io/file/temporary_file.h"
+
+namespace st {
+namespace {
+
+constexpr char kVariable[] = "ST_CRASHED_FACES=";  // numbers from 1, a comma behind each
+constexpr int kMostTries = 8;
+constexpr std::size_t kAltStack = 65'536;
+
+const char* g_tool = "st";
+std::atomic_flag g_is_crashing = ATOMIC_FLAG_INIT;
+char g_alt_stack[kAltStack];  // of the main thread: its own may be what overflowed
+
+// What the handler needs to start again, made ready ahead: it may not allocate.
+bool g_may_restart = false;
+char g_program[4096];
+char g_faces[256];  // an entry of the environment
+char** g_argv = nullptr;
+std::vector<char*> g_environment;
+
+void print(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
+void print_line(const char* kind, const char* work, const char* end) {
+  for (const char* text : {g_tool, kind, work, end}) print(text);
+}
+
+/// Does not come back where it succeeds. `work`: "face 12".
+void start_again(const char* work, int signal) {
+  const char* number = work + std::strlen("face ");
+  if (std::strlen(g_faces) + std::strlen(number) + 2 > sizeof g_faces) return;
+  print_line(": warning: ", work, ": crashed there, a defect: please report it with the CAD file; again without it\n");
+  std::strcat(std::strcat(g_faces, number), ",");
+  sigset_t crash;
+  sigemptyset(&crash);
+  sigaddset(&crash, signal);
+  pthread_sigmask(SIG_UNBLOCK, &crash, nullptr);  // the mask would stay
+  execve(g_program, g_argv, g_environment.data());
+}
+
+extern "C" void end_on_crash(int signal) {
+  if (g_is_crashing.test_and_set())  // another thread is at it
+    for (;;) pause();
+  char work[64];
+  remove_temporaries();
+  if (describe_current_work(work, sizeof work)) {
+    if (g_may_restart && std::strncmp(work, "face ", 5) == 0) start_again(work, signal);
+    print_line(": error: ", work, ": crashed there, a defect: please report it with the CAD file\n");
+  }
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+}  // namespace
+
+void install_crash_handler(const char* tool) {
+  g_tool = tool;
+  stack_t stack{};
+  stack.ss_sp = g_alt_stack;
+  stack.ss_size = sizeof g_alt_stack;
+  sigaltstack(&stack, nullptr);
+  for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction old {};
+    sigaction(signal, nullptr, &old);
+    if (old.sa_handler != SIG_DFL) continue;
+    struct sigaction action {};
+    action.sa_handler = end_on_crash;
+    action.sa_flags = SA_ONSTACK;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+void restart_after_crashes(char** argv) {
+  const ssize_t length = readlink("/proc/self/exe", g_program, sizeof g_program - 1);
+  if (length <= 0) return;
+  const char* before = std::getenv(std::string(kVariable, sizeof kVariable - 2).c_str());
+  const std::string faces = before ? before : "";
+  if (std::count(faces.begin(), faces.end(), ',') >= kMostTries || faces.size() + sizeof kVariable > sizeof g_faces)
+    return;
+  std::strcat(std::strcpy(g_faces, kVariable), faces.c_str());
+  for (char** entry = environ; *entry; ++entry)
+    if (std::strncmp(*entry, kVariable, sizeof kVariable - 1) != 0) g_environment.push_back(*entry);
+  g_environment.push_back(g_faces);
+  g_environment.push_back(nullptr);
+  g_argv = argv;
+  g_may_restart = true;
+}
+
+std::vector<std::int32_t> crashed_faces() {
+  std::vector<std::int32_t> faces;
+  const char* text = std::getenv(std::string(kVariable, sizeof kVariable - 2).c_str());
+  char* end = nullptr;
+  for (long face = 0; text && *text && (face = std::strtol(text, &end, 10)) > 0 && *end == ','; text = end + 1)
+    faces.push_back(static_cast<std::int32_t>(face - 1));
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+}  // namespace st
