@@ -1,5 +1,8 @@
 #include "base/current_work.h"
 
+#include <csignal>
+#include <ctime>
+#include <mutex>
 #include <utility>
 
 namespace st {
@@ -7,13 +10,33 @@ namespace {
 
 thread_local const char* t_kind = nullptr;
 thread_local std::int64_t t_number = 0;
+thread_local double t_deadline = std::numeric_limits<double>::infinity();
+
+std::mutex g_mutex;
+std::list<LateWatch> g_watches;
+
+double now() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 }  // namespace
 
-CurrentWork::CurrentWork(const char* kind, std::int64_t number)
-    : kind_before_(std::exchange(t_kind, kind)), number_before_(std::exchange(t_number, number)) {}
+CurrentWork::CurrentWork(const char* kind, std::int64_t number, double seconds)
+    : kind_before_(std::exchange(t_kind, kind)),
+      number_before_(std::exchange(t_number, number)),
+      deadline_before_(std::exchange(t_deadline, now() + seconds)) {
+  const std::lock_guard lock(g_mutex);
+  watch_ = g_watches.insert(g_watches.end(), {pthread_self(), t_deadline});
+}
 
 CurrentWork::~CurrentWork() {
+  {
+    const std::lock_guard lock(g_mutex);
+    g_watches.erase(watch_);
+  }
+  t_deadline = deadline_before_;
   t_kind = kind_before_;
   t_number = number_before_;
 }
@@ -30,6 +53,14 @@ bool describe_current_work(char* text, int size) {
   while (n_digits > 0 && n < size - 1) text[n++] = digits[--n_digits];
   text[n] = '\0';
   return true;
+}
+
+bool is_current_work_late() { return now() > t_deadline; }
+
+void signal_late_work(int signal) {
+  const std::lock_guard lock(g_mutex);
+  for (const LateWatch& watch : g_watches)
+    if (now() > watch.deadline) pthread_kill(watch.thread, signal);
 }
 
 }  // namespace st

@@ -129,9 +129,9 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshResult result =
-      mesh_regions(model, topology, *sizing.field, std::move(plan),
-                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, o.crashed_faces}, comm);
+  MeshResult result = mesh_regions(
+      model, topology, *sizing.field, std::move(plan),
+      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, o.crashed_faces, o.time_limit}, comm);
   if (!comm.is_root()) return {};
   return write_patches_result(o.output, model.tables(), geometry.header,
                               output_header(o, geometry.header, sizing.header), topology, std::move(result),

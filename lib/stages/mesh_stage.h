@@ -1,6 +1,7 @@
 // st-mesh: curve discretisation, then one advancing-front patch per face.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct MeshStageOptions {
   static constexpr NumberOption kTile{
       "--tile", "N", "[0, 1e9]",
       "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none"};
+  std::optional<double> time_limit;
+  static constexpr NumberOption kTimeLimit{
+      "--time-limit", "SECONDS", "[0.1, 1e9]",
+      "leave out a face that takes longer; default: 600 and 50 times what its triangles need"};
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import BIN, INCOMPLETE, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
+from chain import BIN, INCOMPLETE, INTERNAL, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
 
 
 VTK_LINE = 3
@@ -124,8 +124,22 @@ class Crash(ToolTest):
         self.assertEqual(code, INCOMPLETE, error)
         info = must("st-info", patches, "--json").json()
         self.assertEqual((info["counts"]["failures"], info["properties"]["is_complete"]), (1, False))
-        self.assertRegex(error, rf"face {face}\b.*: the mesher crashed here")
+        self.assertRegex(error, rf"face {face} not meshed: the mesher crashed")
         must("st-merge", patches, "-o", self.out / "m.hdf", "--allow-incomplete")
+
+    def test_a_face_that_takes_too_long_is_left_out_and_reported(self):
+        must("st-import", MODELS / "plate_with_hole.brep", "-o", self.chain / "g.hdf")
+        (self.chain / "size.toml").write_text('[[size]]\nlmax = "5%"\n[[size]]\nfaces = 1\nlmax = "0.12%"\n')
+        must("st-raster", self.chain / "g.hdf", "-o", self.chain / "r.hdf", "--sizes", self.chain / "size.toml")
+        must("st-prolong", self.chain / "r.hdf", "-o", self.chain / "s.hdf", "--slope", "2")
+        inputs = [self.chain / "g.hdf", self.chain / "s.hdf", "-o", self.out / "p.hdf", "--tile", "0"]
+        run = Run("st-mesh", *inputs, "--time-limit", "0.1")
+        self.assertEqual(run.code, INCOMPLETE, run)
+        self.assertIn("st-mesh: warning: face 1: takes too long", run.err)
+        self.assertEqual(must("st-info", self.out / "p.hdf", "--json").json()["counts"]["failures"], 1)
+        run = Run("st-mesh", *inputs, "--time-limit", "0.1", "--np", "2")
+        self.assertEqual(run.code, INTERNAL, run)
+        self.assertIn("st-mesh: error: face 1: takes too long", run.err)
 
     def test_of_another_stage_names_the_face_and_leaves_nothing(self):
         code, error = self.crash(BIN / "st-raster", self.chain / "g.hdf", "-o", self.out / "r.hdf", "--lmax", "0.05%",

@@ -4,18 +4,24 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "base/current_work.h"
+#include "base/error.h"
 #include "io/file/temporary_file.h"
 
 namespace st {
 namespace {
 
 constexpr char kVariable[] = "ST_CRASHED_FACES=";  // numbers from 1, a comma behind each
+constexpr char kCrashed[] = ": crashed there, a defect: please report it with the CAD file";
+constexpr char kDidNotEnd[] = ": takes too long, probably a defect: please report it with the CAD file";
+constexpr int kLate = SIGUSR1;
 constexpr int kMostTries = 8;
 constexpr std::size_t kAltStack = 65'536;
 
@@ -42,7 +48,8 @@ void print_line(const char* kind, const char* work, const char* end) {
 void start_again(const char* work, int signal) {
   const char* number = work + std::strlen("face ");
   if (std::strlen(g_faces) + std::strlen(number) + 2 > sizeof g_faces) return;
-  print_line(": warning: ", work, ": crashed there, a defect: please report it with the CAD file; again without it\n");
+  print_line(": warning: ", work, signal == kLate ? kDidNotEnd : kCrashed);
+  print("; again without it\n");
   std::strcat(std::strcat(g_faces, number), ",");
   sigset_t crash;
   sigemptyset(&crash);
@@ -52,14 +59,18 @@ void start_again(const char* work, int signal) {
 }
 
 extern "C" void end_on_crash(int signal) {
-  if (g_is_crashing.test_and_set())  // another thread is at it
+  const bool is_late = signal == kLate;
+  if (is_late && !is_current_work_late()) return;  // it has ended meanwhile
+  if (g_is_crashing.test_and_set())                // another thread is at it
     for (;;) pause();
   char work[64];
   remove_temporaries();
   if (describe_current_work(work, sizeof work)) {
     if (g_may_restart && std::strncmp(work, "face ", 5) == 0) start_again(work, signal);
-    print_line(": error: ", work, ": crashed there, a defect: please report it with the CAD file\n");
+    print_line(": error: ", work, is_late ? kDidNotEnd : kCrashed);
+    print("\n");
   }
+  if (is_late) _exit(static_cast<int>(ExitCode::kInternal));
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -81,6 +92,19 @@ void install_crash_handler(const char* tool) {
     action.sa_flags = SA_ONSTACK;
     sigaction(signal, &action, nullptr);
   }
+}
+
+void watch_late_work() {
+  struct sigaction action {};
+  action.sa_handler = end_on_crash;
+  action.sa_flags = SA_ONSTACK | SA_RESTART;
+  sigaction(kLate, &action, nullptr);
+  std::thread([] {
+    for (;;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      signal_late_work(kLate);
+    }
+  }).detach();
 }
 
 void restart_after_crashes(char** argv) {

@@ -1,4 +1,4 @@
-// What happens when the program crashes: the face is named, and left out of another try.
+// What happens when the program crashes or does not end: the face is named, and left out of another try.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,9 @@ namespace st {
 /// A crash says at which face or edge it happened, where that is known (CurrentWork); temporaries are removed, and the
 /// signal ends the program. `tool` outlives the program. A sanitizer's own handler stays.
 void install_crash_handler(const char* tool);
+
+/// From now on work that is late (CurrentWork) counts as a crash: looked for once in a while, by a thread of its own.
+void watch_late_work();
 
 /// From now on a crash at a face starts the program again, in the same process, with this face among crashed_faces().
 /// After several faces a crash ends it. `argv`: of main. Not for ranks: the others would wait.

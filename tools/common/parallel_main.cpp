@@ -87,6 +87,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
       return ExitCode::kOk;
     }
     set_thread_count(n_threads_.value_or(comm->size() > 1 ? 1 : processor_count()));
+    if (restarts_after_crash_) watch_late_work();
     if (restarts_after_crash_ && comm->size() == 1) restart_after_crashes(argv);
     const StageSummary summary = stage(*comm);
     if (comm->is_root()) print_summary(summary);

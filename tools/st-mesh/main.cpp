@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   tool.number(o.kMergeBelow, o.merge_below);
   tool.number(o.kMaxTurning, o.max_turning_deg);
   tool.number(o.kTile, o.tile_triangles);
+  tool.number(o.kTimeLimit, o.time_limit);
   tool.restart_after_crash();
   o.crashed_faces = st::crashed_faces();
   tool.examples({"st-mesh geometry.hdf sizing.hdf --np 8", "st-mesh geometry.hdf sizing.hdf --group WING -o wing.hdf"});

@@ -187,7 +187,8 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 
 /// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
-  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options());
+  const double tile_seconds = time_limit(options_.tile_triangles);
+  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
   if (options_.tile_triangles > 0 && !expected_.empty())
     tiled.cut(without_crashed(dirty_faces_), expected_, options_.tile_triangles, executor_);
   std::vector<FaceId> whole;
@@ -197,11 +198,17 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   run_tasks(whole, tiled);
   std::vector<FaceId> failed = join(tiled);
   share(executor_, failed);
-  TiledFaces none(model_, *numbering_, field_, refinements_, face_options());
+  TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
   if (!failed.empty()) run_tasks(failed, none);
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
+}
+
+/// Seconds after which something must be wrong with so many triangles.
+double FaceRounds::time_limit(double n_triangles) const {
+  constexpr double kAlways = 600, kPerTriangle = 50 * 3e-6;
+  return options_.time_limit.value_or(kAlways + kPerTriangle * n_triangles);
 }
 
 bool FaceRounds::has_crashed(FaceId f) const {
@@ -271,13 +278,13 @@ FaceRounds::FaceResult FaceRounds::mesh_whole(FaceId f) const {
 
 /// From the mesh to the patch, or to what is to be known of a failure.
 FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh) const {
-  const CurrentWork at_face("face", f + 1);
+  const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
   FaceMesh mesh;
   FaceResult result;
   FaceBoundary boundary;
   result.patch.face = f;
   try {
-    if (has_crashed(f)) throw Error(ExitCode::kInternal, "the mesher crashed here, a defect");
+    if (has_crashed(f)) throw Error(ExitCode::kInternal, "the mesher crashed or did not end here, a defect");
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
     const FaceField field(field_, refinements_, tables_.face_box[f]);

@@ -69,6 +69,7 @@ class FaceRounds : public MeshRounds {
   FaceMeshOptions face_options() const;
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
   FaceResult mesh_whole(FaceId f) const;
+  double time_limit(double n_triangles) const;
   bool has_crashed(FaceId f) const;
   std::vector<FaceId> without_crashed(std::vector<FaceId> faces) const;
   void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);

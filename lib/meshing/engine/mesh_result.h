@@ -1,6 +1,7 @@
 // What st-mesh and st-remesh make: edges, patches, failures, counts and times.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mesh/failed_face.h"
@@ -16,6 +17,7 @@ struct MeshOptions {
   double merge_below = 0.05;          ///< of the requested length, see find_merged_features(); 0: nothing is merged
   double tile_triangles = 100'000;    ///< faces that expect one and a half times as many are cut; 0: none is
   std::vector<FaceId> crashed_faces;  ///< ascending: they fail, for meshing them ended an earlier try
+  std::optional<double> time_limit;   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
 };
 
 /// Where the time went, seconds on rank 0.

@@ -34,10 +34,15 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
 /// The faces of one round that are cut. All tasks are pure functions of the boundary and the sizes.
 class TiledFaces {
  public:
-  /// All references outlive the object.
+  /// All references outlive the object. `seconds`: after which a tile is late, see CurrentWork.
   TiledFaces(const Model& model, const BoundaryNumbering& numbering, const SizeField& field,
-             const Refinements& refinements, const FaceMeshOptions& options)
-      : model_(model), numbering_(numbering), field_(field), refinements_(refinements), options_(options) {}
+             const Refinements& refinements, const FaceMeshOptions& options, double seconds)
+      : model_(model),
+        numbering_(numbering),
+        field_(field),
+        refinements_(refinements),
+        options_(options),
+        seconds_(seconds) {}
 
   /// Collective. Cuts those of `faces` that expect more than one and a half tiles; `expected`: triangles by face,
   /// [n_faces]. Where a face cannot be cut it stays whole.
@@ -69,6 +74,7 @@ class TiledFaces {
   const SizeField& field_;
   const Refinements& refinements_;
   const FaceMeshOptions options_;
+  const double seconds_;
   std::map<FaceId, TileCut> cuts_;
   std::vector<TileOf> tiles_;
   std::map<FaceId, std::vector<FaceMesh>> meshes_;  // on rank 0

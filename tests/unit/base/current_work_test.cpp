@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <string>
 #include <thread>
 
@@ -22,6 +23,28 @@ TEST(CurrentWork, is_the_innermost_one_of_this_thread) {
     std::thread([] { EXPECT_EQ(current(), "nothing"); }).join();
   }
   EXPECT_EQ(current(), "face 12");
+}
+
+int g_n_signals = 0;  // of late work, counted by the thread that is late
+
+TEST(CurrentWork, is_late_after_its_seconds_and_its_thread_is_signalled) {
+  g_n_signals = 0;
+  const auto old = std::signal(SIGUSR1, [](int) { g_n_signals += is_current_work_late(); });
+  {
+    const CurrentWork in_time("face", 1, 1000), without_limit("edge", 2);
+    signal_late_work(SIGUSR1);
+    EXPECT_FALSE(is_current_work_late());
+    EXPECT_EQ(g_n_signals, 0);
+    const CurrentWork late("face", 3, 1e-9);
+    signal_late_work(SIGUSR1);
+    EXPECT_TRUE(is_current_work_late());
+    EXPECT_EQ(g_n_signals, 1);
+    std::thread([] { EXPECT_FALSE(is_current_work_late()); }).join();
+  }
+  EXPECT_FALSE(is_current_work_late());
+  signal_late_work(SIGUSR1);
+  EXPECT_EQ(g_n_signals, 1);
+  std::signal(SIGUSR1, old);
 }
 
 TEST(CurrentWork, fits_into_the_text_that_is_given) {
