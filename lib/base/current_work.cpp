@@ -13,7 +13,12 @@ thread_local std::int64_t t_number = 0;
 thread_local double t_deadline = std::numeric_limits<double>::infinity();
 
 std::mutex g_mutex;
-std::list<LateWatch> g_watches;
+
+/// Never destroyed: a watching thread may look at it while the program ends.
+std::list<LateWatch>& watches() {
+  static auto& list = *new std::list<LateWatch>;
+  return list;
+}
 
 double now() {
   timespec t{};
@@ -28,13 +33,13 @@ CurrentWork::CurrentWork(const char* kind, std::int64_t number, double seconds)
       number_before_(std::exchange(t_number, number)),
       deadline_before_(std::exchange(t_deadline, now() + seconds)) {
   const std::lock_guard lock(g_mutex);
-  watch_ = g_watches.insert(g_watches.end(), {pthread_self(), t_deadline});
+  watch_ = watches().insert(watches().end(), {pthread_self(), t_deadline});
 }
 
 CurrentWork::~CurrentWork() {
   {
     const std::lock_guard lock(g_mutex);
-    g_watches.erase(watch_);
+    watches().erase(watch_);
   }
   t_deadline = deadline_before_;
   t_kind = kind_before_;
@@ -59,7 +64,7 @@ bool is_current_work_late() { return now() > t_deadline; }
 
 void signal_late_work(int signal) {
   const std::lock_guard lock(g_mutex);
-  for (const LateWatch& watch : g_watches)
+  for (const LateWatch& watch : watches())
     if (now() > watch.deadline) pthread_kill(watch.thread, signal);
 }
 

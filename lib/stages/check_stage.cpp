@@ -473,6 +473,21 @@ std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* fie
   return squeeze;
 }
 
+/// What the measures mean.
+void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
+           Findings& f) {
+  f.checks = list_mesh_checks(artifact, o.thresholds, f);
+  if (cad) {
+    run_cad_checks(artifact.mesh, *cad, o.area_tolerance, f);
+    f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
+                                 o.list_below_deg);
+  }
+  check_quality(artifact.mesh, corners, o.thresholds, f);
+  check_causes(o.thresholds, f);
+  check_sizes(o.thresholds, f);
+  if (cad) check_deviation(o.thresholds, cad->model.tables(), f);
+}
+
 }  // namespace
 
 void CheckStageOptions::validate() const {
@@ -500,16 +515,7 @@ StageSummary run_check(const CheckStageOptions& options) {
   progress.step("measuring", 0.1);
   measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
   progress.step("causes", 0.9);
-  f.checks = list_mesh_checks(artifact, options.thresholds, f);
-  if (cad) run_cad_checks(artifact.mesh, *cad, options.area_tolerance, f);
-  if (cad)
-    f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
-                                 options.list_below_deg);
-  check_quality(artifact.mesh, corners, options.thresholds, f);
-  check_causes(options.thresholds, f);
-  check_sizes(options.thresholds, f);
-  if (cad) check_deviation(options.thresholds, cad->model.tables(), f);
-
+  judge(options, artifact, corners, cad.get(), f);
   const double seconds = timer.seconds();
   for (const std::string& path : options.reports)
     write_text_file(path, check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n");
