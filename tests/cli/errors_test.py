@@ -98,7 +98,7 @@ class BadInput(ToolTest):
 
     def test_artifact_of_the_wrong_kind(self):
         for tool, paths, position in self.each_input():
-            if tool in ("st-info", "st-diff", "st-export"):
+            if tool in ("st-info", "st-diff", "st-export", "st-report"):  # these take every kind
                 continue
             for wrong in set(ARTIFACTS) - {paths[position].name}:
                 changed = list(paths)
@@ -294,8 +294,8 @@ class Interrupted(ToolTest):
             if not any(out.glob(".*")):
                 break
             time.sleep(0.1)
-        # mpirun was slower to pass the signal on than the last bytes to be written
-        if "--np" in options and (out / "x.hdf").exists():
+        # the signal came later than the last bytes were written
+        if ("--np" in options or code == OK) and (out / "x.hdf").exists():
             must("st-info", out / "x.hdf")
             (out / "x.hdf").unlink()
         self.expect_nothing_left(out)
@@ -306,7 +306,8 @@ class Interrupted(ToolTest):
             self.assertEqual(self.interrupt(number, "computing"), 128 + number)
 
     def test_signal_while_writing_leaves_nothing(self):
-        self.assertEqual(self.interrupt(signal.SIGTERM, "writing"), 128 + signal.SIGTERM)
+        codes = (self.interrupt(signal.SIGTERM, "writing") for _ in range(5))
+        self.assertEqual(next((code for code in codes if code != OK), OK), 128 + signal.SIGTERM)
 
     def test_signal_to_a_parallel_run_leaves_nothing_or_all(self):
         for when in ("computing", "writing"):

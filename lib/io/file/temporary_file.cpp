@@ -14,7 +14,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 
 #include "base/error.h"
@@ -102,7 +101,8 @@ pid_t maker_of(const std::string& name, const std::string& base) {
 bool is_running(pid_t process) {
   if (kill(process, 0) != 0 && errno == ESRCH) return false;
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string text;
+  std::getline(file, text);  // nothing, and no exception, where the process ends between opening and reading
   const std::size_t end_of_name = text.rfind(')');  // "17 (name) S ..."
   return end_of_name == std::string::npos || end_of_name + 2 >= text.size() || text[end_of_name + 2] != 'Z';
 }
