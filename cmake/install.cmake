@@ -5,16 +5,21 @@ include(CMakePackageConfigHelpers)
 # --- runtime ---
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/st COMPONENT runtime)
 install(DIRECTORY docs DESTINATION share/doc/st COMPONENT runtime FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
-install(DIRECTORY examples DESTINATION share/doc/st COMPONENT runtime PATTERN "CMakeLists.txt" EXCLUDE
-        PATTERN "aircraft" EXCLUDE)
-install(FILES examples/volume_mesher/CMakeLists.txt DESTINATION share/doc/st/examples/volume_mesher COMPONENT runtime)
+# Examples lie beside the scripts and the workflow that they use, as in the sources; their place in Debian is a link.
+install(DIRECTORY examples DESTINATION share/st COMPONENT runtime USE_SOURCE_PERMISSIONS
+        PATTERN "CMakeLists.txt" EXCLUDE PATTERN "aircraft" EXCLUDE)
+install(FILES examples/volume_mesher/CMakeLists.txt DESTINATION share/st/examples/volume_mesher COMPONENT runtime)
+install(FILES scripts/render_common.py DESTINATION share/st/scripts COMPONENT runtime)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/installed_links)
+file(CREATE_LINK ../../st/examples ${CMAKE_BINARY_DIR}/installed_links/examples SYMBOLIC)
+install(FILES ${CMAKE_BINARY_DIR}/installed_links/examples DESTINATION share/doc/st COMPONENT runtime)
 install(DIRECTORY python/st DESTINATION lib/python3/dist-packages COMPONENT runtime FILES_MATCHING PATTERN "*.py")
 install(FILES Makefile.workflow DESTINATION share/st COMPONENT runtime)
 file(GLOB workflow_scripts scripts/workflow_*.sh scripts/run_stage.sh scripts/replace_if_changed.sh
      scripts/nearest_word.sh scripts/make_example.sh)
 install(PROGRAMS ${workflow_scripts} DESTINATION share/st/scripts COMPONENT runtime)
 install(PROGRAMS packaging/st-workflow DESTINATION bin COMPONENT runtime)
-install(TARGETS make_aircraft RUNTIME DESTINATION lib/st COMPONENT runtime)
+install(TARGETS make_aircraft RUNTIME DESTINATION bin COMPONENT runtime)
 
 # Man pages and completions say what --help says; they are made where there is a Python.
 find_program(ST_PYTHON python3)
@@ -23,8 +28,10 @@ if(ST_PYTHON)
   add_custom_command(OUTPUT ${pages}/made COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
                      COMMAND ${ST_PYTHON} -B ${CMAKE_SOURCE_DIR}/scripts/command_pages.py ${CMAKE_BINARY_DIR}/bin ${pages}
                              ${CMAKE_SOURCE_DIR}/packaging/st-workflow.1
+                             ${CMAKE_SOURCE_DIR}/packaging/make_aircraft.1
                      COMMAND ${CMAKE_COMMAND} -E touch ${pages}/made
-                     DEPENDS ${tools} scripts/command_pages.py packaging/st-workflow.1 VERBATIM)
+                     DEPENDS ${tools} scripts/command_pages.py packaging/st-workflow.1
+                             packaging/make_aircraft.1 VERBATIM)
   add_custom_target(st_command_pages ALL DEPENDS ${pages}/made)
   install(DIRECTORY ${pages}/man1 DESTINATION share/man COMPONENT runtime)
   install(DIRECTORY ${pages}/bash/ DESTINATION share/bash-completion/completions COMPONENT runtime)

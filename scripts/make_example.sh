@@ -3,7 +3,6 @@
 # usage: scripts/make_example.sh BIN_DIR OUT.step
 set -eu
 program=$1/make_aircraft
-if [ ! -x "$program" ]; then program=$1/../lib/st/make_aircraft; fi  # installed
 step=$2
 if [ "$step" -nt "$program" ]; then exit 0; fi
 [ -x "$program" ] || { echo "example: error: $program is missing; give MODEL=<CAD file>" >&2; exit 1; }

@@ -50,6 +50,33 @@ if "$work/example/count_tetrahedra" "$work/out/box/mesh.hdf" "$work/out/box/geom
   failed "count_tetrahedra takes a geometry for a sizing"
 fi
 
+# Examples run from where Debian has them, in an empty folder.
+examples=$prefix/share/doc/st/examples
+make_aircraft > "$work/said" 2>&1 || true
+grep -q "usage: make_aircraft" "$work/said" || failed "make_aircraft is not installed"
+for script in openfoam/volume.sh openfoam/flow.sh openfoam/pressure.sh; do
+  code=0
+  "$examples/$script" 2> "$work/said" || code=$?
+  { [ $code = 2 ] && grep -q "usage: $(basename "$script")" "$work/said"; } || failed "$script does not start: $code"
+done
+if /usr/bin/python3 -c 'import vtk' 2> /dev/null; then
+  "$examples/openfoam/draw_pressure.py" --help > "$work/said" || failed "draw_pressure.py does not start"
+fi
+mkdir "$work/slurm"
+cat > "$work/slurm/sbatch" << 'EOF'
+#!/bin/sh
+for word; do case $word in */Makefile.workflow) test -f "$word" || exit 1 ;; esac; done
+echo 7
+EOF
+chmod +x "$work/slurm/sbatch"
+PATH=$work/slurm:$PATH "$examples/cluster/submit.sh" MODEL=box.step > "$work/said" || failed "submit.sh"
+grep -q "st-merge: job 7 after 7" "$work/said" || failed "submit.sh"
+PATH=$prefix/bin:/usr/bin:/bin "$examples/flap/turn_flap.sh" "$build/test_models/wing_with_flap.step" "$work/flap" \
+  "$prefix/bin" > "$work/flap.log" 2>&1 || { tail -n 5 "$work/flap.log"; failed "turn_flap.sh"; }
+cp "$build/test_models/box.step" "$work/model.step"
+PYTHONPATH=$prefix/lib/python3/dist-packages /usr/bin/python3 -B "$examples/python/grid_family.py" "$work/model.step" \
+  "$work/family" 2 > "$work/said" 2>&1 || { cat "$work/said"; failed "grid_family.py"; }
+
 cmake -DMANIFEST="$work/manifest" -P "$source/cmake/uninstall.cmake" > /dev/null
 [ ! -e "$prefix" ] || { find "$prefix" | head; failed "uninstall left files"; }
 echo "installed, used and uninstalled"
