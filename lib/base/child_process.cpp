@@ -16,6 +16,7 @@
 
 #include "base/confinement.h"
 #include "base/error.h"
+#include "base/progress.h"
 
 namespace st {
 namespace {
@@ -103,6 +104,7 @@ std::string number(double x) {
 }
 
 [[noreturn]] void fail(const std::string& subject, int status, const ChildLimits& limits) {
+  erase_progress_of_child();
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
     throw Error(ExitCode::kInput, subject + ": not read within " + number(limits.cpu_seconds) +
                                       " s of processor time; the file is damaged, or give it more with --time-limit");

@@ -135,6 +135,10 @@ void hide_progress() {
   if (shown != ProgressSink::kNone) std::fprintf(stderr, "%s%s", kErase, shown == ProgressSink::kRelay ? "\n" : "");
 }
 
+void erase_progress_of_child() {
+  if (find_sink() == ProgressSink::kTerminal) std::fputs(kErase, stderr);
+}
+
 void offer_progress_relay() {
   if (isatty(STDERR_FILENO)) setenv(kRelayVariable, kRelayValue, 1);
 }

@@ -62,6 +62,9 @@ class Progress {
 /// Clears the redrawn line, so that other words may stand there; the next update draws it again.
 void hide_progress();
 
+/// On a terminal: removes the line that a child process left there when it was ended.
+void erase_progress_of_child();
+
 /// Tells processes that are started from now on to write progress as kRelay does, if stderr is a terminal.
 void offer_progress_relay();
 /// Text of a process that offer_progress_relay() told so: its progress redrawn on this process's terminal. False, and

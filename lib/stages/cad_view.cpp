@@ -66,8 +66,7 @@ struct FindingNumbers {
 
 void add_faces(const Model& model, const FindingNumbers& findings, CellAdder& cells) {
   const ModelTables& t = model.tables();
-  const Facets facets =
-      make_facets(model, std::vector<std::uint8_t>(t.n_faces(), 1), {.deflection = kDeflection * t.box().diagonal()});
+  const Facets facets = facets_to_see(model);
   const auto first = static_cast<std::int32_t>(cells.view.points.size());
   cells.view.points.insert(cells.view.points.end(), facets.xyz.begin(), facets.xyz.end());
   for (std::size_t i = 0; i < facets.triangle.size(); ++i) {
@@ -79,33 +78,14 @@ void add_faces(const Model& model, const FindingNumbers& findings, CellAdder& ce
   }
 }
 
-/// Points along a curve, so close that it turns little from one to the next.
-std::vector<Vec3> line_of(const Curve& curve) {
-  int n = 4;
-  for (const double turn = kTurn; n < kMaxSegments; n *= 2) {
-    double worst = 0;
-    Vec3 last = curve.evaluate(curve.t_min()).d1;
-    for (int i = 1; i <= n; ++i) {
-      const Vec3 d = curve.evaluate(curve.t_min() + i * (curve.t_max() - curve.t_min()) / n).d1;
-      worst = std::max(worst, angle_between(last, d));
-      last = d;
-    }
-    if (worst <= turn) break;
-  }
-  std::vector<Vec3> points;
-  for (int i = 0; i <= n; ++i) points.push_back(curve.point(curve.t_min() + i * (curve.t_max() - curve.t_min()) / n));
-  return points;
-}
-
 void add_edges(const Model& model, const FindingNumbers& findings, CellAdder& cells) {
   const ModelTables& t = model.tables();
   std::vector<std::int32_t> wing_edge(t.n_edges(), 0);
-  for (const WingEdge& w : find_wing_edges(model, face_roles(t), find_strips(model)))
-    wing_edge[w.edge] = w.kind == WingEdgeKind::kLeading ? 2 : 1;
+  for (const WingEdge& w : wing_edges_to_see(model)) wing_edge[w.edge] = w.kind == WingEdgeKind::kLeading ? 2 : 1;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     if (t.edge_is_degenerate[e]) continue;
     std::int32_t last = kNone;
-    for (const Vec3& x : line_of(*model.curve(e))) {
+    for (const Vec3& x : line_to_see(*model.curve(e))) {
       const std::array<std::int32_t, 2> nodes = {last, cells.add_point(x)};
       if (last != kNone) cells.add(kLine, nodes, {1, e + 1, 0, 0, wing_edge[e], findings.of("edge", e)});
       last = nodes[1];
@@ -114,6 +94,34 @@ void add_edges(const Model& model, const FindingNumbers& findings, CellAdder& ce
 }
 
 }  // namespace
+
+Facets facets_to_see(const Model& model) {
+  const ModelTables& t = model.tables();
+  return make_facets(model, std::vector<std::uint8_t>(t.n_faces(), 1),
+                     {.deflection = kDeflection * t.reference_diagonal()});
+}
+
+std::vector<Vec3> line_to_see(const Curve& curve) {
+  const auto place = [&](int i, int n) { return curve.t_min() + i * (curve.t_max() - curve.t_min()) / n; };
+  int n = 4;
+  for (; n < kMaxSegments; n *= 2) {
+    double worst = 0;
+    Vec3 last = curve.evaluate(curve.t_min()).d1;
+    for (int i = 1; i <= n; ++i) {
+      const Vec3 d = curve.evaluate(place(i, n)).d1;
+      worst = std::max(worst, angle_between(last, d));
+      last = d;
+    }
+    if (worst <= kTurn) break;
+  }
+  std::vector<Vec3> points;
+  for (int i = 0; i <= n; ++i) points.push_back(curve.point(place(i, n)));
+  return points;
+}
+
+std::vector<WingEdge> wing_edges_to_see(const Model& model) {
+  return find_wing_edges(model, face_roles(model.tables()), find_strips(model));
+}
 
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings) {
   const ModelTables& t = model.tables();

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "features/wing_edges.h"
+#include "geometry/model/facets.h"
 #include "geometry/model/finding.h"
 #include "geometry/model/model.h"
 #include "io/export/cell_view.h"
@@ -15,5 +18,12 @@ namespace st {
 /// face or edge that has it and at its place; 0: none). Names of faces, edges, groups, parts and kinds of findings.
 /// Faces that OpenCASCADE cannot triangulate are left out. Local; some microseconds per triangle.
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings);
+
+/// Facets that the eye takes for the faces, within 0.1 % of the diagonal. Local; some microseconds per facet.
+Facets facets_to_see(const Model& model);
+/// Points along a curve, so close that it turns by at most 5 degrees from one to the next, or 257 points.
+std::vector<Vec3> line_to_see(const Curve& curve);
+/// Leading and trailing edges as st-raster finds them.
+std::vector<WingEdge> wing_edges_to_see(const Model& model);
 
 }  // namespace st

@@ -10,6 +10,7 @@
 
 #include "base/length.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "geometry/flite/flite_writer.h"
 #include "io/export/cell_view.h"
 #include "io/export/export.h"
@@ -25,6 +26,7 @@
 #include "meshing/associate/curved_sides.h"
 #include "stages/cad_view.h"
 #include "stages/mesh_export.h"
+#include "stages/report_stage.h"
 #include "stages/stored_model.h"
 
 namespace st {
@@ -137,12 +139,16 @@ void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
   if (is_in_blocks) options.format = "vtu";
   require_export_format(o.output, options);
   require_writable(o.output);
+  Progress progress("exporting", 1);
+  progress.step("reading", 0);
   MeshArtifact artifact = read_mesh(o.artifact);
+  progress.step("measuring", 0.2);
   const QuadPairs elements = o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh);
   Additions added;
   if (shows_values(o.output)) added.values = measured_values(artifact.mesh);
   if (!o.geometry.empty()) use_geometry(o, elements, artifact, added);
   options.unit = change_unit(o, artifact, added);
+  progress.step("writing", 0.5);
   if (is_in_blocks)
     export_blocks(o.output, artifact.mesh, added.values, options);
   else if (o.split_groups)
@@ -169,6 +175,14 @@ void refuse_mesh_options(const ExportStageOptions& o, const std::string& schema)
                   fmt::format("{}: {} is for meshes; this is a {} artifact", o.artifact, flag, schema));
 }
 
+/// The CAD alone, as st-report shows it.
+void export_page(const std::string& geometry, const std::string& output) {
+  ReportStageOptions options;
+  options.artifacts = {geometry};
+  options.output = output;
+  run_report(options);
+}
+
 void export_artifact(const ExportStageOptions& o) {
   const auto& [artifact, output] = std::tie(o.artifact, o.output);
   const std::string schema = read_header(artifact).schema;
@@ -182,10 +196,14 @@ void export_artifact(const ExportStageOptions& o) {
     require_writable(output);
     export_failures(artifact, output);
   } else if (schema == "geometry") {
+    if (output.ends_with(".html")) return export_page(artifact, output);
     if (!output.ends_with(".vtu"))
-      throw Error(ExitCode::kInput,
-                  artifact + ": is a geometry artifact, which is exported as .vtu or FLITE .dat; give -o cad.vtu");
+      throw Error(
+          ExitCode::kInput,
+          artifact + ": is a geometry artifact, which is exported as .vtu, .html or FLITE .dat; give -o cad.vtu");
     require_writable(output);
+    Progress progress("exporting", 1);
+    progress.step("faces and edges", 0);
     GeometryArtifact geometry = read_geometry(artifact);
     write_cell_view(output, view_cad(stored_model(geometry, artifact), geometry.findings));
   } else {
@@ -204,6 +222,8 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   const double tolerance =
       resolve_length(parse_length(o.tolerance, "--tolerance"), {diagonal, geometry.tables.unit_in_m}, "--tolerance");
   require_writable(o.output);
+  Progress progress("exporting", 1);
+  progress.step("surfaces", 0);
   const FliteExport flite = make_flite(stored_model(geometry, o.artifact), tolerance);
   write_text_file(o.output, flite_text(flite.file));
   StageSummary summary;

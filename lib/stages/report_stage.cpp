@@ -14,6 +14,7 @@
 
 #include "base/base64.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -23,6 +24,7 @@
 #include "stages/inspect_stage.h"
 #include "stages/merge_stage.h"
 #include "stages/mesh_export.h"
+#include "stages/report_cad.h"
 #include "stages/report_page.h"
 #include "stages/report_sizes.h"
 #include "stages/stored_model.h"
@@ -39,7 +41,7 @@ struct RunFiles {
   std::string mesh, patches, geometry, sizing;
 };
 
-/// Throws Error(kUsage) for two artifacts of one kind, and without a mesh or patches.
+/// Throws Error(kUsage) for two artifacts of one kind, and without anything to look at.
 RunFiles sort_files(const ReportStageOptions& o) {
   RunFiles files;
   const auto take = [](std::string& place, const std::string& path, const char* kind) {
@@ -56,19 +58,21 @@ RunFiles sort_files(const ReportStageOptions& o) {
   }
   if (!o.geometry.empty()) take(files.geometry, o.geometry, "geometry");
   if (!o.sizing.empty()) take(files.sizing, o.sizing, "sizing");
-  if (files.mesh.empty() && files.patches.empty())
+  if (files.mesh.empty() && files.patches.empty() && files.geometry.empty())
     throw Error(ExitCode::kUsage,
-                "none of these artifacts is a mesh; give mesh.hdf, or patches.hdf of a run that failed");
+                "none of these artifacts can be looked at; give mesh.hdf, patches.hdf of a run that failed, or "
+                "geometry.hdf before meshing");
   return files;
 }
 
 /// What st-check reports, and its verdict.
 struct Verdict {
-  std::string json;
-  bool passes;
+  std::string json = "null";  ///< no mesh: no checks
+  std::optional<bool> passes;
 };
 
 Verdict check(const ReportStageOptions& o, const RunFiles& files) {
+  if (files.mesh.empty()) return {};
   const TemporaryFile file(o.output + ".check");
   CheckStageOptions options;
   options.mesh = files.mesh;
@@ -81,16 +85,14 @@ Verdict check(const ReportStageOptions& o, const RunFiles& files) {
 
 /// Quality, length over requested length; after st-remesh 1 where a triangle is new; with the geometry, distance from
 /// the CAD. [n_triangles] each
-std::vector<TriangleValues> values_to_show(GeometryArtifact* geometry, const RunFiles& files,
-                                           const MeshArtifact& mesh) {
+std::vector<TriangleValues> values_to_show(const Model* model, const MeshArtifact& mesh) {
   std::vector<TriangleValues> values = measured_values(mesh.mesh);
   if (!mesh.mesh.triangle_previous.empty()) {
     TriangleValues is_new{"is_new", {}};
     for (const TriangleId t : mesh.mesh.triangle_previous) is_new.of_triangle.push_back(t == kNone ? 1.0F : 0.0F);
     values.push_back(is_new);
   }
-  if (geometry)
-    values.push_back({"deviation", triangle_deviations(stored_model(*geometry, files.geometry), mesh.mesh)});
+  if (model) values.push_back({"deviation", triangle_deviations(*model, mesh.mesh)});
   return values;
 }
 
@@ -107,10 +109,10 @@ struct Box {
   Vec3 middle() const { return 0.5 * (low + high); }
 };
 
-Box box_of(const SurfaceMesh& mesh) {
-  if (mesh.node_xyz.empty()) return {};
-  Box box{mesh.node_xyz[0], mesh.node_xyz[0]};
-  for (const Vec3& p : mesh.node_xyz) {
+Box box_of(std::span<const Vec3> points) {
+  if (points.empty()) return {};
+  Box box{points[0], points[0]};
+  for (const Vec3& p : points) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
@@ -161,11 +163,11 @@ std::string encoded(const std::vector<T>& array) {
   return base64(std::as_bytes(std::span(array)));
 }
 
-std::string encoded_nodes(const SurfaceMesh& mesh, Vec3 middle) {
+std::string encoded_points(std::span<const Vec3> points, Vec3 middle) {
   std::vector<float> xyz;
-  xyz.reserve(3 * mesh.node_xyz.size());
-  for (const Vec3& node : mesh.node_xyz) {
-    const Vec3 p = node - middle;
+  xyz.reserve(3 * points.size());
+  for (const Vec3& point : points) {
+    const Vec3 p = point - middle;
     for (const double x : {p.x, p.y, p.z}) xyz.push_back(static_cast<float>(x));
   }
   return encoded(xyz);
@@ -201,10 +203,9 @@ std::string fill(std::string_view page, std::span<const std::pair<std::string, s
 }
 
 /// Findings of the import, repairs among them.
-Json import_findings(const GeometryArtifact* geometry) {
+Json import_findings(std::span<const ImportFinding> findings) {
   Json list = Json::array();
-  if (!geometry) return list;
-  for (const ImportFinding& f : geometry->findings)
+  for (const ImportFinding& f : findings)
     list.push_back({{"words", f.what() + (f.entity.empty() ? "" : ", " + f.entity)},
                     {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}},
                     {"repair", f.is_repair}});
@@ -242,14 +243,20 @@ struct SizePart {
   std::vector<std::uint16_t> cause;  ///< by triangle, in their order on the page
 };
 
-SizePart sizes_to_show(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleId> order) {
+SizePart sizes_to_show(const SizingArtifact& sizing, const SurfaceMesh& mesh, std::span<const TriangleId> order) {
   SizePart part;
-  if (path.empty()) return part;
-  const SizingArtifact sizing = read_sizing(path);
   const TriangleCauses causes = triangle_causes(sizing, mesh);
   part.meta = {{"frame", slice_frame(sizing)}, {"causes", causes.list}};
   part.cells = slice_cells(sizing, kMostCells);
   for (const TriangleId t : order) part.cause.push_back(causes.index[t]);
+  return part;
+}
+
+/// Before meshing: the plane alone, since facets are too coarse for causes.
+SizePart sizes_before_meshing(const SizingArtifact& sizing) {
+  SizePart part;
+  part.meta = {{"frame", slice_frame(sizing)}, {"causes", Json::array()}};
+  part.cells = slice_cells(sizing, kMostCells);
   return part;
 }
 
@@ -262,45 +269,108 @@ void merge_what_there_is(const std::string& patches, const std::string& output) 
   run_merge(options);
 }
 
-/// The page, and whether the mesh passes.
-struct FilledPage {
-  std::string text;
-  bool passes;
+/// What a page is made of, as it was read.
+struct Contents {
+  MeshArtifact mesh;  ///< before meshing: the faces as facets
+  std::optional<Model> model;
+  std::vector<ImportFinding> findings;
+  std::vector<FaceFailure> failures;
+  std::optional<SizingArtifact> sizing;
+  bool is_meshed = true, is_closed = false;  ///< closed: the CAD
 };
 
-FilledPage make_page(const ReportStageOptions& o, const RunFiles& files, const std::string& shown_as) {
-  const Verdict verdict = check(o, files);
-  const MeshArtifact artifact = read_mesh(files.mesh);
+/// Throws Error(kMismatch) for files of several models.
+Contents read_contents(const RunFiles& files) {
+  Contents c;
   std::optional<GeometryArtifact> geometry;
   if (!files.geometry.empty()) geometry = read_geometry(files.geometry);
-  const Json findings = import_findings(geometry ? &*geometry : nullptr);
-  const std::vector<TriangleValues> values = values_to_show(geometry ? &*geometry : nullptr, files, artifact);
-  const std::vector<TriangleId> order = by_group(artifact.mesh);
-  const Box box = box_of(artifact.mesh);
-  const SizePart sizes = sizes_to_show(files.sizing, artifact.mesh, order);
-  Json meta = describe(artifact, box, values);
-  meta["title"] = shown_as;
-  meta["import"] = findings;
-  meta["unmeshed"] = Json::array();
-  if (!files.patches.empty()) {
-    const PatchesArtifact patches = read_patches(files.patches);
-    require_same_geometry(files.mesh, artifact.header, files.patches, patches.header);
-    meta["unmeshed"] = unmeshed_faces(patches.failures, patches.labels);
+  if (!files.sizing.empty()) c.sizing = read_sizing(files.sizing);
+  c.is_meshed = !files.mesh.empty();
+  if (c.is_meshed) c.mesh = read_mesh(files.mesh);
+  if (geometry) {
+    c.findings = std::move(geometry->findings);
+    c.is_closed = geometry->is_closed;
+    c.model = stored_model(*geometry, files.geometry);
   }
+  if (!c.is_meshed) {
+    c.mesh.mesh = facet_mesh(*c.model);
+    c.mesh.header = geometry->header;
+    if (c.sizing) require_same_geometry(files.geometry, geometry->header, files.sizing, c.sizing->header);
+  }
+  if (!files.patches.empty()) {
+    PatchesArtifact patches = read_patches(files.patches);
+    require_same_geometry(files.mesh, c.mesh.header, files.patches, patches.header);
+    c.failures = std::move(patches.failures);
+  }
+  return c;
+}
+
+/// The CAD's edges, and which of them are drawn when: [[kind, group, number of lines], ...].
+struct LinePart {
+  Json meta = Json::array();
+  std::vector<Vec3> ends;
+};
+
+LinePart lines_to_show(const Contents& c) {
+  LinePart part;
+  if (!c.model) return part;
+  std::vector<FaceId> unmeshed;
+  for (const FaceFailure& f : c.failures) unmeshed.push_back(f.face);
+  CadLines lines = cad_lines(*c.model, unmeshed);
+  for (const LineRun& run : lines.runs) part.meta.push_back({static_cast<int>(run.kind), run.group, run.n_lines});
+  part.ends = std::move(lines.ends);
+  return part;
+}
+
+/// Before meshing: what the CAD is, for the page's first words.
+Json cad_in_words(const Contents& c) {
+  if (c.is_meshed) return nullptr;
+  const ModelTables& t = c.model->tables();
+  Json faces = Json::array();
+  std::vector<int> of_group(t.labels.group_name.size(), 0);
+  for (const std::int32_t g : t.labels.face_group) ++of_group[g];
+  for (const int n : of_group) faces.push_back(n);
+  return {{"faces", t.n_faces()}, {"edges", t.n_edges()}, {"closed", c.is_closed}, {"of_group", faces}};
+}
+
+std::string make_page(const ReportStageOptions& o, const RunFiles& files, const std::string& shown_as,
+                      const std::string& check_json) {
+  Progress progress("writing the report", 1);
+  progress.step("reading", 0);
+  const Contents c = read_contents(files);
+  const SurfaceMesh& mesh = c.mesh.mesh;
+  progress.step("values of triangles", 0.2);
+  std::vector<TriangleValues> values;
+  if (c.is_meshed) values = values_to_show(c.model ? &*c.model : nullptr, c.mesh);
+  const std::vector<TriangleId> order = by_group(mesh);
+  progress.step("causes of sizes", 0.5);
+  SizePart sizes;
+  if (c.sizing) sizes = c.is_meshed ? sizes_to_show(*c.sizing, mesh, order) : sizes_before_meshing(*c.sizing);
+  progress.step("edges of the CAD", 0.7);
+  const LinePart lines = lines_to_show(c);
+  progress.step("page", 0.8);
+  const Box box = box_of(mesh.node_xyz.empty() ? lines.ends : mesh.node_xyz);
+  Json meta = describe(c.mesh, box, values);
+  meta["title"] = shown_as;
+  meta["cad"] = cad_in_words(c);
+  meta["import"] = import_findings(c.findings);
+  meta["unmeshed"] = unmeshed_faces(c.failures, mesh.labels);
+  meta["lines"] = lines.meta;
   meta["times"] = stage_times(o.times);
   meta["sizes"] = sizes.meta;
   const std::vector<std::pair<std::string, std::string>> places = {
       {"META", script_text(json_text(meta))},
-      {"CHECK", script_text(verdict.json)},
-      {"INFO", script_text(run_info(files.mesh).json)},
-      {"NODES", encoded_nodes(artifact.mesh, box.middle())},
-      {"CORNERS", encoded_corners(artifact.mesh, order)},
+      {"CHECK", script_text(check_json)},
+      {"INFO", script_text(run_info(c.is_meshed ? files.mesh : files.geometry).json)},
+      {"NODES", encoded_points(mesh.node_xyz, box.middle())},
+      {"CORNERS", encoded_corners(mesh, order)},
       {"VALUES", encoded_values(values, order)},
       {"CAUSES", encoded(sizes.cause)},
       {"CELLS", encoded(sizes.cells.corner)},
       {"LEVELS", encoded(sizes.cells.level)},
-      {"LENGTHS", encoded(sizes.cells.length)}};
-  return {fill(report_page(), places), verdict.passes};
+      {"LENGTHS", encoded(sizes.cells.length)},
+      {"LINES", encoded_points(lines.ends, box.middle())}};
+  return fill(report_page(), places);
 }
 
 }  // namespace
@@ -309,19 +379,25 @@ StageSummary run_report(const ReportStageOptions& o) {
   const Timer timer;
   require_writable(o.output);
   RunFiles files = sort_files(o);
-  const std::string shown_as = files.mesh.empty() ? files.patches : files.mesh;
+  const std::string shown_as = !files.mesh.empty()      ? files.mesh
+                               : !files.patches.empty() ? files.patches
+                                                        : files.geometry;
   std::optional<TemporaryFile> merged;
-  if (files.mesh.empty()) {
+  if (files.mesh.empty() && !files.patches.empty()) {
     merged.emplace(o.output + ".mesh");
     files.mesh = merged->name();
     merge_what_there_is(files.patches, files.mesh);
   }
-  const FilledPage page = make_page(o, files, shown_as);
-  write_text_file(o.output, page.text);
-  const Json summary = {{"tool", "st-report"},   {"mesh", shown_as},          {"output", o.output},
-                        {"passes", page.passes}, {"bytes", page.text.size()}, {"seconds", timer.seconds()}};
-  return {fmt::format("{}: {} {}, {:.1f} MB, {:.1f} s", o.output, shown_as, page.passes ? "passes" : "does not pass",
-                      1e-6 * static_cast<double>(page.text.size()), timer.seconds()),
+  const Verdict verdict = check(o, files);
+  const std::string page = make_page(o, files, shown_as, verdict.json);
+  write_text_file(o.output, page);
+  Json summary = {{"tool", "st-report"}, {"mesh", shown_as}, {"output", o.output}};
+  if (verdict.passes) summary["passes"] = *verdict.passes;
+  summary["bytes"] = page.size();
+  summary["seconds"] = timer.seconds();
+  const std::string said = !verdict.passes ? "not meshed yet" : *verdict.passes ? "passes" : "does not pass";
+  return {fmt::format("{}: {} {}, {:.1f} MB, {:.1f} s", o.output, shown_as, said,
+                      1e-6 * static_cast<double>(page.size()), timer.seconds()),
           json_text(summary)};
 }
 

@@ -9,15 +9,15 @@
 namespace st {
 
 struct ReportStageOptions {
-  std::vector<std::string> artifacts;  ///< of one run, in any order: a mesh, or patches in its place, and the others
+  std::vector<std::string> artifacts;  ///< of one run, in any order: a mesh, patches or a geometry
   std::string geometry;                ///< optional: findings by cause, deviation from the CAD
   std::string sizing;                  ///< optional: lengths compared with the requested ones, slice, causes of sizes
   std::string times;                   ///< optional: folder of <stage>.seconds, as the workflow writes them
   std::string output = "report.html";  ///< self-contained: page, mesh and figures
 };
 
-/// Checks the mesh as st-check does and writes the page. Of patches without a mesh, what there is is merged first.
-/// Local; code kOk whatever the verdict. Throws Error.
+/// Checks the mesh as st-check does and writes the page. Of patches without a mesh, what there is is merged first. With
+/// a geometry alone the page shows the CAD, unchecked. Local; code kOk whatever the verdict. Throws Error.
 StageSummary run_report(const ReportStageOptions& options);
 
 }  // namespace st

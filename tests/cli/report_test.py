@@ -1,6 +1,7 @@
 """st-report: one file that holds everything, and, where Chromium is installed, a page whose controls work."""
 import base64
 import json
+import os
 import re
 import shutil
 import struct
@@ -28,17 +29,21 @@ setTimeout(() => {
   said.verdict = $("verdict").textContent;
   if (gl) {
     said.shown = coloured();
-    for (const box of document.querySelectorAll("#groups input")) box.click();
+    const seen = [...document.querySelectorAll("#groups input")].filter(box => box.checked);
+    for (const box of seen) box.click();
     said.hidden = coloured();
-    for (const box of document.querySelectorAll("#groups input")) box.click();
-    $("by").value = "quality"; $("by").onchange();
+    for (const box of seen) box.click();
+    slow.drawing = 1000; isMoving = true;
+    said.while_moving = coloured();
+    isMoving = false;
+    if (check) { $("by").value = "quality"; $("by").onchange(); }
     said.legend = $("legend").textContent;
     canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "+" }));
     const half = camera.half, yaw = camera.yaw;
     canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
     said.turned = camera.yaw !== yaw;
     if (meta.sizes) {
-      $("by").value = "cause"; $("by").onchange();
+      if (check) { $("by").value = "cause"; $("by").onchange(); }
       said.causes = $("legend").textContent;
       const before = coloured();
       $("sliced").checked = true; $("axis").value = "z"; $("axis").onchange();
@@ -64,20 +69,14 @@ def script(page, name):
     return re.search(f'<script type="[^"]*" id="{name}">(.*?)</script>', page, re.S).group(1)
 
 
-class Report(ToolTest):
-    def report(self, model, *options):
-        made = artifacts_of(model)
-        file = self.folder / "report.html"
-        must("st-report", made / "mesh.hdf", "-o", file, *options)
-        return made, file
-
+class Browser(ToolTest):
     def browse(self, file):
         """What the probe says in a browser, or None without one."""
         browser = shutil.which("chromium")
         if not browser:
             print("SKIPPED: no chromium, st-report's page was not tried in a browser", file=sys.stderr)
             return None
-        probed = file.with_name("probed.html")
+        probed = self.folder / "probed.html"
         probed.write_text(file.read_text(encoding="utf-8").replace("</body>", PROBE), encoding="utf-8")
         done = subprocess.run([browser, "--headless", "--no-sandbox", "--use-angle=swiftshader",
                                "--enable-unsafe-swiftshader", "--force-prefers-reduced-motion",
@@ -87,6 +86,14 @@ class Report(ToolTest):
         title = re.search("<title>(.*?)</title>", done.stdout, re.S)
         self.assertTrue(title and title.group(1).startswith("{"), done.stdout[-500:] + done.stderr[-500:])
         return json.loads(title.group(1).replace("&quot;", '"').replace("&amp;", "&"))
+
+
+class Report(Browser):
+    def report(self, model, *options):
+        made = artifacts_of(model)
+        file = self.folder / "report.html"
+        must("st-report", made / "mesh.hdf", "-o", file, *options)
+        return made, file
 
     def test_holds_the_whole_mesh_and_refers_to_nothing_else(self):
         made, file = self.report("two_boxes")
@@ -122,6 +129,7 @@ class Report(ToolTest):
         self.assertIn("passes all checks", said["verdict"])
         self.assertGreater(said["shown"], 0.05, said)
         self.assertEqual(said["hidden"], 0, said)
+        self.assertAlmostEqual(said["while_moving"], said["shown"], delta=0.1 * said["shown"])
         self.assertIn("Quality", said["legend"])
         self.assertTrue(said["turned"] and said["flown"], said)
         self.assertGreater(said["near"], 0.05, said)
@@ -186,6 +194,43 @@ class Report(ToolTest):
             self.assertNotIn("error", said)
             self.assertIn("could not be meshed", said["verdict"])
             self.assertTrue(said["flown"], said)
+            self.assertGreater(said["hidden"], 0.001, "the loops of the failed face are always drawn")
+            self.assertIn("loops of a face that was not meshed", said["legend"])
+
+    def test_a_geometry_alone_shows_the_cad(self):
+        made = artifacts_of("two_boxes")
+        file = self.folder / "report.html"
+        run = must("st-report", made / "geometry.hdf", made / "sizing.hdf", "-o", file, "--json")
+        self.assertNotIn("passes", run.json())
+        page = file.read_text(encoding="utf-8")
+        self.assertEqual(json.loads(script(page, "check")), None)
+        runs = json.loads(script(page, "meta"))["lines"]
+        self.assertEqual(24 * sum(n for _, _, n in runs), len(base64.b64decode(script(page, "lines"))))
+        said = self.browse(file)
+        if said is None:
+            return
+        self.assertNotIn("error", said)
+        self.assertEqual(said["verdict"], "This CAD is closed.")
+        self.assertGreater(said["shown"], 0.05, said)
+        self.assertEqual(said["hidden"], 0, said)
+        self.assertGreater(said["covered"], 0.02, said)
+
+    def test_st_export_writes_the_same_page(self):
+        geometry = artifacts_of("two_boxes") / "geometry.hdf"
+        must("st-report", geometry, "-o", self.folder / "a.html")
+        must("st-export", geometry, "-o", self.folder / "b.html")
+        self.assertEqual((self.folder / "a.html").read_bytes(), (self.folder / "b.html").read_bytes())
+
+    def test_free_edges_of_the_cad_are_drawn(self):
+        must("st-import", MODELS / "plate_with_hole.brep", "-o", "geometry.hdf", cwd=self.folder)
+        must("st-report", "geometry.hdf", cwd=self.folder)
+        said = self.browse(self.folder / "report.html")
+        if said is not None:
+            self.assertNotIn("error", said)
+            self.assertIn("This CAD is open: 5 free edges", said["verdict"])
+            self.assertIn("free edge: the CAD is open here", said["legend"])
+            self.assertTrue(said["flown"], said)
+            self.assertGreater(said["hidden"], 0.001, said)
 
     def test_artifacts_come_in_any_order_and_one_of_each_kind(self):
         made = artifacts_of("two_boxes")
@@ -200,7 +245,7 @@ class Report(ToolTest):
         self.assertEqual(len(base64.b64decode(pages[0]["causes"])), 2 * n_triangles)
         cells = base64.b64decode(pages[0]["cells"])
         self.assertEqual(len(cells), 3 * len(base64.b64decode(pages[0]["lengths"])))
-        self.expect_error(USAGE, "st-report", made / "geometry.hdf", "-o", "r.html", says="give mesh.hdf",
+        self.expect_error(USAGE, "st-report", made / "sizing.hdf", "-o", "r.html", says="give mesh.hdf",
                           cwd=self.folder)
         self.expect_error(USAGE, "st-report", made / "mesh.hdf", made / "mesh.hdf", "-o", "r.html",
                           says="one of each kind", cwd=self.folder)
@@ -221,6 +266,22 @@ class Report(ToolTest):
         copy = self.folder / "mesh.hdf"
         shutil.copy(made / "mesh.hdf", copy)
         self.expect_error(USAGE, "st-report", copy, "-o", copy, says="is an input")
+
+
+@unittest.skipUnless(os.environ.get("ST_AIRCRAFT"), "the test pages.report runs it")
+class Aircraft(Browser):
+    def test_the_report_of_the_bundled_aircraft_works(self):
+        said = self.browse(Path(os.environ["ST_AIRCRAFT"]) / "report.html")
+        if said is None:
+            return
+        self.assertNotIn("error", said)
+        self.assertEqual(said["verdict"], "This mesh passes all checks.")
+        self.assertGreater(said["shown"], 0.05, said)
+        self.assertEqual(said["hidden"], 0, said)
+        self.assertAlmostEqual(said["while_moving"], said["shown"], delta=0.1 * said["shown"])
+        self.assertTrue(said["turned"] and said["flown"], said)
+        self.assertGreater(said["near"], 0.05, said)
+        self.assertGreater(said["cells"], 1000, said)
 
 
 if __name__ == "__main__":

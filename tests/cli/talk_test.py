@@ -57,7 +57,10 @@ class ProgressOnTerminals(ToolTest):
                 ("st-raster", [made / "geometry.hdf", "-o", self.folder / "r.hdf"], "joining: crossing facets"),
                 ("st-prolong", [made / "raster.hdf", "-o", self.folder / "s.hdf"], "prolonging: blanking"),
                 ("st-merge", [made / "patches.hdf", "-o", self.folder / "m.hdf"], "merging: nodes"),
-                ("st-check", [made / "mesh.hdf", "--geometry", made / "geometry.hdf"], "checking: measuring")):
+                ("st-check", [made / "mesh.hdf", "--geometry", made / "geometry.hdf"], "checking: measuring"),
+                ("st-import", [MODELS / "sphere.brep", "-o", self.folder / "g.hdf"], "importing: reading"),
+                ("st-export", [made / "mesh.hdf", "-o", self.folder / "m.vtu"], "exporting: measuring"),
+                ("st-report", [made / "mesh.hdf", "-o", self.folder / "r.html"], "writing the report: reading")):
             self.assertIn(REDRAWN + label, on_terminal(tool, *arguments))
 
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/length.h"
+#include "base/progress.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
@@ -180,12 +181,15 @@ const char* member_of(const EmptyGroup& group) {
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const FlowDomain domain = parse_flow_domain(options);
+  Progress progress("importing", 1);
+  progress.step("reading", 0);
   const CadFile file = occt::read_cad(path);
   const ModelUnit unit = choose_unit(file, options.unit);
   ImportResult result;
   result.format = file.format;
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
+  progress.step("sewing and repairing", 0.4);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
@@ -195,8 +199,10 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units) result.findings.push_back({FindingKind::kMixedUnits, "", {}, 0, false, unit.name});
+  progress.step("topology and areas", 0.6);
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
+  progress.step("far field and symmetry", 0.7);
   add_flow_domain(model, tables, domain, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
   result.tables = std::move(tables.tables);
@@ -208,6 +214,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   require_sewn_faces(model, result.tables, options);
   const double small = resolve_length(parse_length(options.small, "--small"),
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");
+  progress.step("looking for defects", 0.8);
   occt::report_topology(model, tables.measures, small, result);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
