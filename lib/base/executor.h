@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "base/packer.h"
@@ -18,6 +19,21 @@ inline std::vector<std::int32_t> heaviest_first(const std::vector<double>& weigh
   std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return weight[a] > weight[b]; });
   return order;
 }
+
+/// What a task is for: ("tile", 11, 3).
+struct TaskLabel {
+  const char* kind;       ///< a literal
+  std::int32_t id;        ///< 0-based, of the face or the like
+  std::int32_t part = 0;  ///< of it
+};
+
+/// Tasks with names: results of one run are of use to another.
+struct NamedTasks {
+  std::vector<std::int32_t> order;  ///< as for Executor::run_tasks
+  std::function<TaskLabel(std::int32_t task)> label;
+  std::string made_from;  ///< digest of all that the results depend on, but for the inputs and options of the run; the
+                          ///< same on every rank
+};
 
 /// The ranks of a job. `comm` has the one over MPI; SerialExecutor is the one of tests and of callers without ranks.
 class Executor {
@@ -38,6 +54,12 @@ class Executor {
   virtual void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                          const std::function<Bytes(std::int32_t task)>& compute,
                          const std::function<void(std::int32_t task, Bytes&& result)>& collect) const = 0;
+
+  /// The same, for tasks that are pure functions of what they are made from: some results may come from an earlier run.
+  virtual void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
+                               const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
+    run_tasks(static_cast<std::int32_t>(tasks.order.size()), tasks.order, compute, collect);
+  }
 };
 
 /// One rank, no threads.

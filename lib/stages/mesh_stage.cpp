@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "io/file/json_text.h"
@@ -18,6 +19,7 @@
 #include "meshing/engine/mesh_regions.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
+#include "stages/resumption.h"
 #include "stages/same_inputs.h"
 #include "stages/stored_model.h"
 
@@ -110,6 +112,16 @@ ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& ge
   return header;
 }
 
+/// Digest of what the results depend on.
+std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier) {
+  Hasher hasher;
+  hasher.add(std::string_view(output.options_json));
+  for (const auto& input : output.inputs) hasher.add(std::string_view(input.hash));
+  const Bytes edges = packed(earlier);
+  hasher.add(std::span(edges));
+  return hasher.hex();
+}
+
 }  // namespace
 
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
@@ -128,14 +140,20 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, comm)
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
+  const ArtifactHeader header = output_header(o, geometry.header, sizing.header);
+  Resumption resumption(comm, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(
       model, topology, *sizing.field, std::move(plan),
-      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, o.crashed_faces, o.time_limit}, comm);
+      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, resumption.left_out(), o.time_limit},
+      resumption);
+  resumption.end();
   if (!comm.is_root()) return {};
-  return write_patches_result(o.output, model.tables(), geometry.header,
-                              output_header(o, geometry.header, sizing.header), topology, std::move(result),
-                              {timer, load_seconds, comm.size()});
+  StageSummary summary =
+      write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
+                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
+  resumption.remove();
+  return summary;
 }
 
 }  // namespace st

@@ -16,10 +16,10 @@ struct MeshStageOptions {
   std::string geometry;  ///< geometry artifact
   std::string sizing;    ///< sizing artifact
   std::string output = "patches.hdf";
-  std::string faces;  ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
-  std::string group;  ///< mesh the faces of this group only; empty: all
-  std::string edges;  ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
-  std::vector<FaceId> crashed_faces;  ///< ascending: left out and reported, for an earlier try crashed there
+  std::string faces;        ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
+  std::string group;        ///< mesh the faces of this group only; empty: all
+  std::string edges;        ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
+  bool begins_new = false;  ///< without what an earlier run has kept, see Resumption
   int enhance_rounds = 5;
   static constexpr NumberOption kEnhanceRounds{"--enhance-rounds", "N", "[0, 10]",
                                                "rounds of mesh improvement: swaps, smoothing, collapses"};
@@ -39,6 +39,10 @@ struct MeshStageOptions {
   static constexpr NumberOption kTimeLimit{
       "--time-limit", "SECONDS", "[0.1, 1e9]",
       "leave out a face that takes longer; default: 600 and 50 times what its triangles need"};
+  double journal_after = 2;
+  static constexpr NumberOption kJournalAfter{
+      "--journal-after", "SECONDS", "[0, 1e9]",
+      "keep finished faces in OUTPUT.journal from then on: the same command goes on there after a sudden end"};
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

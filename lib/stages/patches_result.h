@@ -1,6 +1,7 @@
 // The end that st-mesh and st-remesh share: the patches artifact and its summary.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/log.h"
@@ -15,6 +16,7 @@ struct RunFacts {
   Timer timer;
   double load_seconds;
   int n_ranks;
+  std::int64_t n_parts = 0, n_resumed = 0;  ///< faces and tiles, once per round; and those of an earlier run
 };
 
 /// Local, on rank 0. Completes `header` (tool, options and inputs are the caller's), writes the artifact, warns of

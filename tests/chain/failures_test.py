@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import BIN, INCOMPLETE, INTERNAL, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
+from chain import BIN, INCOMPLETE, MODELS, OK, Run, ToolTest, content_hash, must  # noqa: E402
 
 
 VTK_LINE = 3
@@ -138,8 +138,10 @@ class Crash(ToolTest):
         self.assertIn("st-mesh: warning: face 1: takes too long", run.err)
         self.assertEqual(must("st-info", self.out / "p.hdf", "--json").json()["counts"]["failures"], 1)
         run = Run("st-mesh", *inputs, "--time-limit", "0.1", "--np", "2")
-        self.assertEqual(run.code, INTERNAL, run)
+        self.assertEqual(run.code, INCOMPLETE, run)
         self.assertIn("st-mesh: error: face 1: takes too long", run.err)
+        self.assertIn("face 1 not meshed: the mesher did not end here", run.err)
+        self.expect_nothing_left(self.out, "p.hdf", "p.failures.hdf")
 
     def test_of_another_stage_names_the_face_and_leaves_nothing(self):
         code, error = self.crash(BIN / "st-raster", self.chain / "g.hdf", "-o", self.out / "r.hdf", "--lmax", "0.05%",

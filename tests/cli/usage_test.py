@@ -48,7 +48,7 @@ REFUSED = {
                    "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],
                 "--tile": ["-1", "999", "1e10"], "--np": ["0"], "--threads": ["0", "x"],
-                "--time-limit": ["0", "x"]},
+                "--time-limit": ["0", "x"], "--journal-after": ["-1", "x"]},
     "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"], "--threads": ["0"]},
     "st-merge": {"--threads": ["0", "x"]},
     "st-check": {

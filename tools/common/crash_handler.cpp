@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -10,19 +9,20 @@
 #include <cstring>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "io/file/journal.h"
 #include "io/file/temporary_file.h"
 
 namespace st {
 namespace {
 
-constexpr char kVariable[] = "ST_CRASHED_FACES=";  // numbers from 1, a comma behind each
+constexpr char kVariable[] = "ST_TRIES";
 constexpr char kCrashed[] = ": crashed there, a defect: please report it with the CAD file";
 constexpr char kDidNotEnd[] = ": takes too long, probably a defect: please report it with the CAD file";
 constexpr int kLate = SIGUSR1;
-constexpr int kMostTries = 8;
 constexpr std::size_t kAltStack = 65'536;
 
 const char* g_tool = "st";
@@ -32,7 +32,7 @@ char g_alt_stack[kAltStack];  // of the main thread: its own may be what overflo
 // What the handler needs to start again, made ready ahead: it may not allocate.
 bool g_may_restart = false;
 char g_program[4096];
-char g_faces[256];  // an entry of the environment
+std::string g_tries;  // an entry of the environment
 char** g_argv = nullptr;
 std::vector<char*> g_environment;
 
@@ -46,11 +46,8 @@ void print_line(const char* kind, const char* work, const char* end) {
 
 /// Does not come back where it succeeds. `work`: "face 12".
 void start_again(const char* work, int signal) {
-  const char* number = work + std::strlen("face ");
-  if (std::strlen(g_faces) + std::strlen(number) + 2 > sizeof g_faces) return;
   print_line(": warning: ", work, signal == kLate ? kDidNotEnd : kCrashed);
   print("; again without it\n");
-  std::strcat(std::strcat(g_faces, number), ",");
   sigset_t crash;
   sigemptyset(&crash);
   sigaddset(&crash, signal);
@@ -66,7 +63,8 @@ extern "C" void end_on_crash(int signal) {
   char work[64];
   remove_temporaries();
   if (describe_current_work(work, sizeof work)) {
-    if (g_may_restart && std::strncmp(work, "face ", 5) == 0) start_again(work, signal);
+    const bool is_noted = std::strncmp(work, "face ", 5) == 0 && note_crash(std::atoi(work + 5) - 1, signal);
+    if (is_noted && g_may_restart) start_again(work, signal);
     print_line(": error: ", work, is_late ? kDidNotEnd : kCrashed);
     print("\n");
   }
@@ -110,27 +108,22 @@ void watch_late_work() {
 void restart_after_crashes(char** argv) {
   const ssize_t length = readlink("/proc/self/exe", g_program, sizeof g_program - 1);
   if (length <= 0) return;
-  const char* before = std::getenv(std::string(kVariable, sizeof kVariable - 2).c_str());
-  const std::string faces = before ? before : "";
-  if (std::count(faces.begin(), faces.end(), ',') >= kMostTries || faces.size() + sizeof kVariable > sizeof g_faces)
-    return;
-  std::strcat(std::strcpy(g_faces, kVariable), faces.c_str());
+  if (n_tries() >= kMostTries) return;
+  const std::string name = std::string(kVariable) + "=";
+  g_tries = name + std::to_string(n_tries() + 1);
   for (char** entry = environ; *entry; ++entry)
-    if (std::strncmp(*entry, kVariable, sizeof kVariable - 1) != 0) g_environment.push_back(*entry);
-  g_environment.push_back(g_faces);
+    if (std::strncmp(*entry, name.c_str(), name.size()) != 0) g_environment.push_back(*entry);
+  g_environment.push_back(g_tries.data());
   g_environment.push_back(nullptr);
   g_argv = argv;
   g_may_restart = true;
 }
 
-std::vector<std::int32_t> crashed_faces() {
-  std::vector<std::int32_t> faces;
-  const char* text = std::getenv(std::string(kVariable, sizeof kVariable - 2).c_str());
-  char* end = nullptr;
-  for (long face = 0; text && *text && (face = std::strtol(text, &end, 10)) > 0 && *end == ','; text = end + 1)
-    faces.push_back(static_cast<std::int32_t>(face - 1));
-  std::sort(faces.begin(), faces.end());
-  return faces;
+int n_tries() {
+  const char* text = std::getenv(kVariable);
+  return text ? std::atoi(text) : 0;
 }
+
+void count_try() { setenv(kVariable, std::to_string(n_tries() + 1).c_str(), 1); }
 
 }  // namespace st

@@ -1,9 +1,6 @@
 // What happens when the program crashes or does not end: the face is named, and left out of another try.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 namespace st {
 
 /// A crash says at which face or edge it happened, where that is known (CurrentWork); temporaries are removed, and the
@@ -13,11 +10,15 @@ void install_crash_handler(const char* tool);
 /// From now on work that is late (CurrentWork) counts as a crash: looked for once in a while, by a thread of its own.
 void watch_late_work();
 
-/// From now on a crash at a face starts the program again, in the same process, with this face among crashed_faces().
-/// After several faces a crash ends it. `argv`: of main. Not for ranks: the others would wait.
+/// From now on a crash at a face that a Journal takes note of starts the program again, in the same process: the
+/// journal says what to leave out. After several crashes the next one ends it. `argv`: of main. Not for ranks: the
+/// others would wait.
 void restart_after_crashes(char** argv);
 
-/// Faces at which earlier tries crashed, 0-based, ascending.
-std::vector<std::int32_t> crashed_faces();
+/// How often the program was started again; a new try by who started it has to count with count_try().
+int n_tries();
+inline constexpr int kMostTries = 8;
+/// For programs that are started from now on.
+void count_try();
 
 }  // namespace st

@@ -1,6 +1,7 @@
 // The part of ToolMain that knows of ranks; apart, so that serial tools do not load MPI.
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -13,6 +14,7 @@
 #include "comm/communicator.h"
 #include "common/crash_handler.h"
 #include "common/tool_main.h"
+#include "io/file/journal.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 
@@ -37,6 +39,20 @@ void wait_for_lower_ranks(int rank) {
   if (rank > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1000 + 200 * std::min(rank, 20)));
 }
 
+/// A rank was ended by a signal that neither the user nor the batch system sends to end a job.
+bool is_defect_or_kill(ExitCode code) {
+  const int signal = static_cast<int>(code) - 128;
+  return signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE || signal == SIGILL ||
+         signal == SIGKILL;
+}
+
+/// Deaths and crashes in the journals of these outputs.
+std::size_t n_noted(const std::vector<std::string>& outputs) {
+  std::size_t n = 0;
+  for (const std::string& path : outputs) n += count_deaths(path);
+  return n;
+}
+
 /// What ranks say, as it comes.
 void print_error_text(const std::string& text) {
   if (relay_progress(text)) return;
@@ -46,13 +62,29 @@ void print_error_text(const std::string& text) {
 
 }  // namespace
 
-std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& arguments) const {
-  if (n_ranks_ > 1) offer_progress_relay();
+std::optional<int> ToolMain::start_ranks_once(const std::vector<std::string>& arguments) const {
   try {
     return run_under_mpirun(n_ranks_, arguments, print_error_text);
   } catch (const Error&) {
     for (const std::string& path : output_paths()) remove_left_temporaries(path);
     throw;
+  }
+}
+
+std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& arguments) const {
+  if (n_ranks_ > 1) offer_progress_relay();
+  for (;; count_try()) {
+    const bool is_last = !restarts_after_crash_ || n_ranks_ == 1 || n_tries() >= kMostTries;
+    const std::size_t n_before = is_last ? 0 : n_noted(output_paths());
+    const auto has_news = [&] { return !is_last && n_noted(output_paths()) > n_before; };
+    try {
+      const std::optional<int> code = start_ranks_once(arguments);
+      if (!code || *code != static_cast<int>(ExitCode::kInternal) || !has_news()) return code;
+      log_warning("going on with what is finished");
+    } catch (const Error& e) {
+      if (!is_defect_or_kill(e.code()) || !has_news()) throw;
+      log_warning(std::string(e.what()) + "; going on with what is finished");
+    }
   }
 }
 

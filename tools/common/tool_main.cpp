@@ -22,6 +22,7 @@
 #include "common/crash_handler.h"
 #include "common/option_file.h"
 #include "common/presets.h"
+#include "io/file/journal.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -41,6 +42,7 @@ const char* g_name = "st";  // of the tool, for messages of signal handlers
 
 extern "C" void end_on_signal(int signal) {
   remove_temporaries();
+  note_end();
   _exit(128 + signal);
 }
 

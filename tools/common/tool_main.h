@@ -71,7 +71,8 @@ class ToolMain {
   /// Command lines that stand at the end of --help.
   void examples(const std::vector<std::string>& command_lines);
 
-  /// On one rank a crash at a face starts the tool again without this face: see crashed_faces() of crash_handler.h.
+  /// A crash at a face starts the tool again without this face, see restart_after_crashes(); so does the loss of a rank
+  /// that was started here, where the stage has kept something.
   void restart_after_crash() { restarts_after_crash_ = true; }
   /// --threads; run_parallel has it by itself.
   void threads();
@@ -93,6 +94,7 @@ class ToolMain {
   std::vector<std::string> output_paths() const;
   /// See run_under_mpirun; what a killed rank leaves half-written is removed.
   std::optional<int> start_ranks(const std::vector<std::string>& arguments) const;
+  std::optional<int> start_ranks_once(const std::vector<std::string>& arguments) const;
   /// The files that options and arguments name as inputs.
   std::vector<std::string> input_files() const;
   /// Throws Error(kUsage) when an output would overwrite an input or another output.

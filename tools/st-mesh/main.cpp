@@ -19,8 +19,12 @@ int main(int argc, char** argv) {
   tool.number(o.kMaxTurning, o.max_turning_deg);
   tool.number(o.kTile, o.tile_triangles);
   tool.number(o.kTimeLimit, o.time_limit);
+  tool.number(o.kJournalAfter, o.journal_after);
+  tool.flag("--no-resume", o.begins_new, "begin anew, without what an earlier run has kept in OUTPUT.journal");
   tool.restart_after_crash();
-  o.crashed_faces = st::crashed_faces();
   tool.examples({"st-mesh geometry.hdf sizing.hdf --np 8", "st-mesh geometry.hdf sizing.hdf --group WING -o wing.hdf"});
-  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_mesh(o, comm); });
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
+    o.begins_new = o.begins_new && st::n_tries() == 0;  // a new try of this run goes on
+    return st::run_mesh(o, comm);
+  });
 }

@@ -5,6 +5,7 @@
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
@@ -190,7 +191,7 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   const double tile_seconds = time_limit(options_.tile_triangles);
   TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
   if (options_.tile_triangles > 0 && !expected_.empty())
-    tiled.cut(without_crashed(dirty_faces_), expected_, options_.tile_triangles, executor_);
+    tiled.cut(without_left_out(dirty_faces_), expected_, options_.tile_triangles, executor_);
   std::vector<FaceId> whole;
   std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
                [&](FaceId f) { return !tiled.is_cut(f); });
@@ -211,26 +212,31 @@ double FaceRounds::time_limit(double n_triangles) const {
   return options_.time_limit.value_or(kAlways + kPerTriangle * n_triangles);
 }
 
-bool FaceRounds::has_crashed(FaceId f) const {
-  return std::binary_search(options_.crashed_faces.begin(), options_.crashed_faces.end(), f);
+std::vector<FaceId> FaceRounds::without_left_out(std::vector<FaceId> faces) const {
+  std::erase_if(faces, [&](FaceId f) { return options_.left_out.contains(f); });
+  return faces;
 }
 
-std::vector<FaceId> FaceRounds::without_crashed(std::vector<FaceId> faces) const {
-  std::erase_if(faces, [&](FaceId f) { return has_crashed(f); });
-  return faces;
+/// A face, and a tile of it, is a function of the inputs, of the nodes on edges and of what was refined.
+std::string FaceRounds::made_from() const {
+  const Bytes bytes = packed(result_.edges, refinements_.all());
+  return hash_hex(bytes.data(), bytes.size());
 }
 
 /// Tasks: `whole`, then the tiles.
 void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) {
-  const auto n_whole = static_cast<std::int32_t>(whole.size()), n = n_whole + tiled.n_tiles();
+  const auto n_whole = static_cast<std::int32_t>(whole.size());
   std::vector<double> weight;
   for (const FaceId f : whole) weight.push_back(expected_.empty() ? tables_.face_area[f] : expected_[f]);
   for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) weight.push_back(tiled.weight(t));
   Progress progress("meshing", std::accumulate(weight.begin(), weight.end(), 0.0),
                     expected_.empty() ? "" : "triangles");
   double done = 0;
-  executor_.run_tasks(
-      n, heaviest_first(weight),
+  const auto label = [&](std::int32_t task) {
+    return task < n_whole ? TaskLabel{"face", whole[task]} : tiled.label(task - n_whole);
+  };
+  executor_.run_named_tasks(
+      {heaviest_first(weight), label, made_from()},
       [&](std::int32_t task) {
         return task < n_whole ? packed(mesh_whole(whole[task])) : tiled.compute(task - n_whole);
       },
@@ -284,7 +290,8 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   FaceBoundary boundary;
   result.patch.face = f;
   try {
-    if (has_crashed(f)) throw Error(ExitCode::kInternal, "the mesher crashed or did not end here, a defect");
+    if (const auto it = options_.left_out.find(f); it != options_.left_out.end())
+      throw Error(ExitCode::kInternal, it->second);
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
     const FaceField field(field_, refinements_, tables_.face_box[f]);

@@ -70,8 +70,8 @@ class FaceRounds : public MeshRounds {
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
   FaceResult mesh_whole(FaceId f) const;
   double time_limit(double n_triangles) const;
-  bool has_crashed(FaceId f) const;
-  std::vector<FaceId> without_crashed(std::vector<FaceId> faces) const;
+  std::vector<FaceId> without_left_out(std::vector<FaceId> faces) const;
+  std::string made_from() const;
   void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);
   std::vector<FaceId> join(TiledFaces& tiled);
   void take_face(FaceId f, FaceResult&& result);

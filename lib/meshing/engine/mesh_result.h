@@ -1,7 +1,9 @@
 // What st-mesh and st-remesh make: edges, patches, failures, counts and times.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mesh/failed_face.h"
@@ -16,8 +18,8 @@ struct MeshOptions {
   double max_turning_deg = 30;      ///< of a CAD edge along one segment
   double merge_below = 0.05;        ///< of the requested length, see find_merged_features(); 0: nothing is merged
   double tile_triangles = 100'000;  ///< faces that expect one and a half times as many are cut; 0: none is
-  std::vector<FaceId> crashed_faces = {};  ///< ascending: they fail, for meshing them ended an earlier try
-  std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
+  std::map<FaceId, std::string> left_out = {};  ///< they fail, with this cause: meshing them ended an earlier run
+  std::optional<double> time_limit = {};  ///< of a face, seconds, see CurrentWork; none: by its expected triangles
 };
 
 /// Where the time went, seconds on rank 0.

@@ -54,6 +54,7 @@ class TiledFaces {
   /// Expected triangles.
   double weight(std::int32_t tile) const { return cuts_.at(tiles_[tile].face).tiles[tiles_[tile].index].weight; }
 
+  TaskLabel label(std::int32_t tile) const { return {"tile", tiles_[tile].face, tiles_[tile].index}; }
   /// Local: the mesh of one tile, packed; and on rank 0, what it packed.
   Bytes compute(std::int32_t tile) const;
   void take(std::int32_t tile, const Bytes& bytes);

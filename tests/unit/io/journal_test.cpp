@@ -1,0 +1,181 @@
+#include "io/file/journal.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "base/hash.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+const WorkKey kRun = work_key(hash_hex("run", 3)), kOtherRun = work_key(hash_hex("another", 7));
+
+Work work_at(FaceId face) { return {work_key(hash_hex(&face, sizeof face)), face}; }
+
+Bytes bytes_of(int n, int value) { return Bytes(n, static_cast<std::byte>(value)); }
+
+class JournalTest : public ::testing::Test {
+ protected:
+  Journal::Place place(int run = 1, double after = 0) const { return {folder(), kRun, run, 0, after}; }
+  std::string output() const { return directory_ / "p.hdf"; }
+  std::string folder() const { return journal_folder(output()); }
+  std::string file(int run = 1) const { return folder() + "/" + std::to_string(run) + "-0"; }
+
+  /// As if the process had been killed there: nothing is said of its end.
+  void forget_end(int run = 1) const {
+    constexpr int kHead = 104;
+    std::filesystem::resize_file(file(run), std::filesystem::file_size(file(run)) - kHead);
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(JournalTest, gives_back_what_was_finished) {
+  {
+    Journal journal(place());
+    for (const FaceId f : {3, 4}) {
+      journal.begin(work_at(f));
+      journal.finish(work_at(f), bytes_of(1000, f));
+    }
+  }
+  const JournalReader reader(folder(), kRun);
+  EXPECT_EQ(reader.n_done(), 2u);
+  EXPECT_EQ(reader.next_run(), 2);
+  EXPECT_EQ(reader.result(work_at(4).key), bytes_of(1000, 4));
+  EXPECT_FALSE(reader.result(work_at(5).key));
+}
+
+TEST_F(JournalTest, does_not_fit_another_run) {
+  {
+    Journal journal(place());
+    journal.finish(work_at(3), bytes_of(10, 1));
+  }
+  const JournalReader reader(folder(), kOtherRun);
+  EXPECT_TRUE(reader.is_empty());
+  EXPECT_EQ(reader.next_run(), 2) << "its file must not be written over";
+}
+
+TEST_F(JournalTest, passes_over_a_torn_end) {
+  {
+    Journal journal(place());
+    journal.finish(work_at(3), bytes_of(10, 1));
+    journal.finish(work_at(4), bytes_of(10, 2));
+  }
+  forget_end();
+  const auto whole = std::filesystem::file_size(file());
+  for (const auto cut : {1, 9, 10, 11, 60, 113}) {
+    std::filesystem::resize_file(file(), whole - cut);
+    const JournalReader reader(folder(), kRun);
+    EXPECT_EQ(reader.n_done(), 1u) << cut;
+    EXPECT_TRUE(reader.result(work_at(3).key)) << cut;
+  }
+}
+
+TEST_F(JournalTest, does_not_believe_changed_bytes) {
+  {
+    Journal journal(place());
+    journal.finish(work_at(3), bytes_of(10, 1));
+  }
+  forget_end();
+  {
+    std::fstream f(file(), std::ios::in | std::ios::out | std::ios::binary);
+    f.seekp(-5, std::ios::end);
+    f.put('x');
+  }
+  EXPECT_FALSE(JournalReader(folder(), kRun).result(work_at(3).key));
+}
+
+TEST_F(JournalTest, suspects_what_was_under_way_at_an_unexplained_end) {
+  for (const int run : {1, 2}) {
+    {
+      Journal journal(place(run));
+      journal.begin(work_at(3));
+      journal.begin(work_at(10 + run));
+      journal.begin(work_at(20));
+      journal.finish(work_at(20), bytes_of(10, 1));
+    }
+    forget_end(run);
+    const JournalReader reader(folder(), kRun);
+    EXPECT_EQ(reader.deaths().at(work_at(3).key), run);
+    EXPECT_FALSE(reader.deaths().contains(work_at(20).key));
+    EXPECT_EQ(reader.crashes().contains(3), run == JournalReader::kMostDeaths);
+    EXPECT_FALSE(reader.crashes().contains(10 + run));
+  }
+}
+
+TEST_F(JournalTest, suspects_nothing_after_an_orderly_end) {
+  Journal(place()).begin(work_at(3));
+  EXPECT_TRUE(JournalReader(folder(), kRun).deaths().empty());
+}
+
+TEST_F(JournalTest, counts_what_ran_out_of_memory) {
+  for (const int run : {1, 2}) {
+    Journal journal(place(run));
+    journal.begin(work_at(3));
+    journal.fail(work_at(3));
+  }
+  EXPECT_EQ(JournalReader(folder(), kRun).crashes(), (std::map<FaceId, int>{{3, SIGKILL}}));
+}
+
+TEST_F(JournalTest, blames_the_face_of_a_crash_alone) {
+  {
+    Journal journal(place(1, 1000));
+    journal.begin(work_at(3));
+    journal.begin(work_at(4));
+    EXPECT_FALSE(std::filesystem::exists(folder())) << "too early";
+    EXPECT_TRUE(note_crash(4, SIGSEGV));
+  }
+  const JournalReader reader(folder(), kRun);
+  EXPECT_EQ(reader.crashes(), (std::map<FaceId, int>{{4, SIGSEGV}}));
+  EXPECT_TRUE(reader.deaths().empty());
+  EXPECT_EQ(count_deaths(output()), 1u);
+  EXPECT_FALSE(note_crash(4, SIGSEGV)) << "no journal is open";
+}
+
+TEST_F(JournalTest, leaves_nothing_of_a_short_run) {
+  {
+    Journal journal(place(1, 1000));
+    journal.begin(work_at(3));
+    journal.finish(work_at(3), bytes_of(10, 1));
+    note_end();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder()));
+}
+
+TEST_F(JournalTest, that_starts_late_names_what_is_under_way) {
+  {
+    Journal journal(place(1, 0.01));
+    journal.begin(work_at(3));
+    while (!std::filesystem::exists(file()) || std::filesystem::file_size(file()) < 200) usleep(1000);
+  }
+  forget_end();
+  EXPECT_EQ(JournalReader(folder(), kRun).deaths().size(), 1u);
+}
+
+TEST_F(JournalTest, of_a_run_that_lives_is_in_use) {
+  const Journal journal(place());
+  EXPECT_TRUE(JournalReader(folder(), kRun).is_in_use());
+}
+
+TEST_F(JournalTest, that_cannot_be_written_is_given_up) {
+  std::ofstream(folder()) << "a file where the folder should be";
+  Journal journal(place());
+  journal.begin(work_at(3));
+  journal.finish(work_at(3), bytes_of(10, 1));
+  EXPECT_TRUE(JournalReader(folder(), kRun).is_empty());
+}
+
+TEST_F(JournalTest, is_removed_with_its_folder) {
+  Journal(place()).begin(work_at(3));
+  EXPECT_TRUE(std::filesystem::exists(folder()));
+  remove_journal(output());
+  EXPECT_FALSE(std::filesystem::exists(folder()));
+}
+
+}  // namespace
+}  // namespace st
