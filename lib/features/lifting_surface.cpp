@@ -122,17 +122,22 @@ class SurfaceMeasurer {
     double whole = 0;
     for (const EdgePlace& place : places) whole += place.way;
     if (measured_way(places, profiles) < kMeasured * whole) return std::nullopt;
-    if (!is_wing(assemble(chain, places, profiles))) return std::nullopt;
+    const LiftingSurface first = assemble(chain, places, profiles);
+    if (!is_measured(first) || !is_wing(first)) return std::nullopt;
     for (std::size_t i = 0; i < places.size(); ++i)  // winglets
       if (!profiles[i]) profiles[i] = profile_at(places[i], nullptr);
     drop_outliers(places, profiles);
-    return SurfaceDraft{assemble(chain, places, profiles), axis};
+    SurfaceDraft draft{assemble(chain, places, profiles), axis};
+    if (!is_measured(draft.surface)) return std::nullopt;
+    return draft;
   }
 
-  /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest.
-  LiftingSurface finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave) const {
+  /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest. None where
+  /// nothing of it is its own.
+  std::optional<LiftingSurface> finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave) const {
     LiftingSurface& surface = draft.surface;
     keep_own(model_.tables(), is_concave, surface);
+    if (!is_measured(surface)) return std::nullopt;
     for (TrailingEdge& edge : surface.trailing) reach_ends(draft.axis, surface.faces, edge);
     measure_chords(surface);
     fill_in(surface);
@@ -140,6 +145,14 @@ class SurfaceMeasurer {
   }
 
  private:
+  static bool is_measured(const LiftingSurface& surface) {
+    const auto has_station = [](const TrailingEdge& edge) {
+      return std::any_of(edge.stations.begin(), edge.stations.end(),
+                         [](const ChordStation& s) { return s.is_measured; });
+    };
+    return std::any_of(surface.trailing.begin(), surface.trailing.end(), has_station);
+  }
+
   static bool is_wing(const LiftingSurface& surface) {
     const bool is_wide = std::any_of(surface.trailing.begin(), surface.trailing.end(), [&](const TrailingEdge& edge) {
       return edge.base_width > kWidestBase * surface.median_chord;
@@ -253,6 +266,7 @@ class SurfaceMeasurer {
     for (const TrailingEdge& edge : surface.trailing)
       for (const ChordStation& s : edge.stations)
         if (s.is_measured) chords.push_back(s.chord);
+    if (chords.empty()) return;
     surface.median_chord = median(chords);
     const auto [least, most] = std::minmax_element(chords.begin(), chords.end());
     surface.least_chord = *least;
@@ -418,7 +432,9 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
     std::optional<SurfaceDraft> draft = measurer.find(chain);
     if (!draft) continue;
     if (is_concave.empty()) is_concave = find_concave_edges(model, roles);
-    surfaces.push_back(measurer.finish(std::move(*draft), is_concave));
+    std::optional<LiftingSurface> surface = measurer.finish(std::move(*draft), is_concave);
+    if (!surface) continue;
+    surfaces.push_back(std::move(*surface));
     add_leading(model, edges, surfaces.back());
   }
   return surfaces;

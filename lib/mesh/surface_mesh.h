@@ -61,12 +61,15 @@ struct MergedFeatures {
 std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges,
                                  const std::vector<VertexId>& edge_vertices);
 
-/// Why a face has no complete patch.
+/// Why a face could not be meshed.
 struct FaceFailure {
   FaceId face = kNone;
   std::string cause;
   std::string remedy;
   Vec3 xyz;
+  bool is_closed = false;  ///< it has triangles between the nodes of its loops instead: close_loops()
+  bool is_near = false;    ///< and these are near its surface
+  double deviation = 0;    ///< their largest distance from it, model unit
 };
 
 /// The merged mesh. Canonical: nodes by (entity dim, entity id, index), triangles by (face, position in its patch).

@@ -30,7 +30,8 @@ std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Execu
   return cells;
 }
 
-void warn_of_holes(const std::vector<FaceFailure>& failures) {
+void warn_of_holes(std::vector<FaceFailure> failures) {
+  std::erase_if(failures, [](const FaceFailure& f) { return f.is_closed; });
   if (failures.empty()) return;
   log_warning(fmt::format("{} faces, {} the first, have no coarse mesh: sizes may pass through the solid there",
                           failures.size(), failures.front().face + 1));

@@ -106,15 +106,15 @@ PatchesArtifact read_parts(const std::vector<std::string>& paths, std::vector<In
 void require_complete(const PatchesArtifact& patches, const MergeStageOptions& options) {
   if (patches.is_complete || options.allow_incomplete) return;
   const std::vector<FaceId> missing = find_missing_faces(patches);
+  const auto hole =
+      std::find_if(patches.failures.begin(), patches.failures.end(), [](const FaceFailure& f) { return !f.is_closed; });
   const std::string cause =
-      patches.failures.empty() ? ""
-                               : fmt::format(" (face {}: {})", patches.failures[0].face + 1, patches.failures[0].cause);
+      hole == patches.failures.end() ? "" : fmt::format(" (face {}: {})", hole->face + 1, hole->cause);
   throw Error(
       ExitCode::kIncomplete,
       fmt::format(
           "{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
-          options.patches[0], std::max(missing.size(), patches.failures.size()), missing.empty() ? "" : ": ",
-          list_faces(missing), cause));
+          options.patches[0], missing.size(), missing.empty() ? "" : ": ", list_faces(missing), cause));
 }
 
 /// Everything that could stop the outputs is found before the work, so that none is left without the others.

@@ -16,6 +16,8 @@ nlohmann::json failure_json(const ModelTables& t, const FaceFailure& f) {
           {"name", t.labels.face_name[f.face]},
           {"cause", f.cause},
           {"remedy", f.remedy},
+          {"is_closed", f.is_closed},
+          {"deviation", f.deviation},
           {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}};
 }
 
@@ -91,9 +93,13 @@ PatchesArtifact take_patches(const ModelTables& t, const ArtifactHeader& header,
 }
 
 void warn(const ModelTables& t, const MeshResult& r, const std::string& failures_file) {
-  for (const FaceFailure& f : r.failures)
-    log_warning(fmt::format("{} not meshed: {}, near ({:.6g}, {:.6g}, {:.6g}); {}", t.face_label(f.face), f.cause,
-                            f.xyz.x, f.xyz.y, f.xyz.z, f.remedy));
+  for (const FaceFailure& f : r.failures) {
+    const std::string cause = fmt::format("{}, near ({:.6g}, {:.6g}, {:.6g})", f.cause, f.xyz.x, f.xyz.y, f.xyz.z);
+    log_warning(f.is_closed ? fmt::format("{} closed from its edges alone: {}; its triangles are up to {:.3g} off its "
+                                          "surface{}",
+                                          t.face_label(f.face), cause, f.deviation, f.is_near ? "" : "; " + f.remedy)
+                            : fmt::format("{} not meshed: {}; {}", t.face_label(f.face), cause, f.remedy));
+  }
   if (!failures_file.empty())
     log_warning(failures_file + ": boundaries and finished triangles of these faces; open it with ParaView");
   if (!r.folds.empty())
@@ -149,7 +155,9 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   tell_merged(t, out.merged, closed.size());
 
   StageSummary s;
-  s.code = result.failures.empty() ? ExitCode::kOk : ExitCode::kIncomplete;
+  const bool is_sound = std::all_of(result.failures.begin(), result.failures.end(),
+                                    [](const FaceFailure& f) { return f.is_closed && f.is_near; });
+  s.code = is_sound ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
                        n_triangles, out.patches.size(), t.n_faces(), result.n_rounds, seconds, facts.n_ranks,
                        seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);

@@ -219,6 +219,7 @@ Json unmeshed_faces(const std::vector<FaceFailure>& failures, const FaceLabels& 
                     {"name", labels.face_name[f.face]},
                     {"cause", f.cause},
                     {"remedy", f.remedy},
+                    {"is_closed", f.is_closed},
                     {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}});
   return list;
 }

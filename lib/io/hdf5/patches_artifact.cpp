@@ -126,6 +126,34 @@ void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
              &FacePatch::triangle_previous);
 }
 
+/// Of faces that were closed from their loops. Absent when none was.
+void write_closed(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
+  std::vector<std::uint8_t> is_closed, is_near;
+  std::vector<double> deviation;
+  for (const FaceFailure& f : failures) {
+    is_closed.push_back(f.is_closed);
+    is_near.push_back(f.is_near);
+    deviation.push_back(f.deviation);
+  }
+  if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
+  w.write("/st/failure/is_closed", is_closed);
+  w.write("/st/failure/is_near", is_near);
+  w.write("/st/failure/deviation", deviation);
+}
+
+void read_closed(const Hdf5Reader& r, std::vector<FaceFailure>& failures) {
+  if (!r.has("/st/failure/is_closed")) return;
+  const auto is_closed = r.read_rows<std::uint8_t>("/st/failure/is_closed", failures.size());
+  const auto is_near = r.read_rows<std::uint8_t>("/st/failure/is_near", failures.size());
+  const auto deviation = r.read_rows<double>("/st/failure/deviation", failures.size());
+  require_finite(r, "/st/failure/deviation", deviation);
+  for (std::size_t i = 0; i < failures.size(); ++i) {
+    failures[i].is_closed = is_closed[i] != 0;
+    failures[i].is_near = is_near[i] != 0;
+    failures[i].deviation = deviation[i];
+  }
+}
+
 void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
   std::vector<std::int32_t> face;
   std::vector<std::string> cause, remedy;
@@ -140,6 +168,7 @@ void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
   w.write_strings("/st/failure/cause", cause);
   w.write_strings("/st/failure/remedy", remedy);
   w.write("/st/failure/xyz", xyz);
+  write_closed(w, failures);
 }
 
 std::vector<FaceFailure> read_failures(const Hdf5Reader& r, std::size_t n_faces) {
@@ -150,6 +179,7 @@ std::vector<FaceFailure> read_failures(const Hdf5Reader& r, std::size_t n_faces)
   require_ids(r, "/st/failure/face", face, n_faces);
   std::vector<FaceFailure> failures;
   for (std::size_t i = 0; i < face.size(); ++i) failures.push_back({face[i], cause[i], remedy[i], xyz[i]});
+  read_closed(r, failures);
   return failures;
 }
 

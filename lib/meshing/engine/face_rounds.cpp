@@ -15,6 +15,7 @@
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
+#include "meshing/face/loop_closing.h"
 #include "meshing/topology/curve_discretiser.h"
 #include "meshing/topology/small_features.h"
 
@@ -24,8 +25,9 @@ namespace {
 constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
-constexpr int kSamples = 32;      // of a curve, for its box
-constexpr double kMargin = 0.05;  // of the box's diagonal: the curve may leave the box of its samples
+constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
+constexpr int kSamples = 32;        // of a curve, for its box
+constexpr double kMargin = 0.05;    // of the box's diagonal: the curve may leave the box of its samples
 
 Box3 box_of(const Curve& curve) {
   Box3 box;
@@ -35,6 +37,16 @@ Box3 box_of(const Curve& curve) {
   box.lo -= {margin, margin, margin};
   box.hi += {margin, margin, margin};
   return box;
+}
+
+/// Of the face, its edges and their vertices.
+double largest_tolerance(const ModelTables& t, FaceId f) {
+  double largest = t.face_tolerance[f];
+  for (const EdgeId e : t.edges_of(f)) {
+    largest = std::max(largest, t.edge_tolerance[e]);
+    for (const int end : {0, 1}) largest = std::max(largest, t.vertex_tolerance[t.edge_vertices[2 * e + end]]);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -127,10 +139,11 @@ void FaceRounds::report() {
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     result_.folds.insert(result_.folds.end(), o.fold_places.begin(), o.fold_places.end());
-    if (o.cause != FailureCause::kNone)
-      result_.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz});
+    if (o.cause == FailureCause::kNone) continue;
+    result_.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz,
+                                o.is_closed, o.is_near, o.deviation});
+    result_.failed_faces.push_back(o.failed);
   }
-  for (auto& [f, failed] : failed_faces_) result_.failed_faces.push_back(std::move(failed));
 }
 
 void FaceRounds::mesh_edges() {
@@ -316,20 +329,25 @@ void FaceRounds::take_face(FaceId f, FaceResult&& result) {
   result_.patches[f] = std::move(result.patch);
   o.cause = result.cause;
   o.error = std::move(result.error);
-  failed_faces_.erase(f);
-  if (o.cause != FailureCause::kNone) failed_faces_[f] = std::move(result.failed);
+  o.failed = std::move(result.failed);
+  o.is_closed = false;
   o.fold_places = result.n_folds ? result.wanted : std::vector<RefinementPoint>();
   o.cause_xyz = result.wanted.empty() ? tables_.face_box[f].center() : result.wanted[0].x;
   crossings_.renew(f);
   wanted_[f] = std::move(result.wanted);
 }
 
-/// Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole.
+bool FaceRounds::has_holes() const {
+  return std::any_of(outcomes_.begin(), outcomes_.end(), [](const FaceOutcome& o) { return o.is_hole(); });
+}
+
+/// Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole. Where a
+/// face fails in any case, its loops are closed.
 void FaceRounds::join() {
-  char restores = whole_ && !failed_faces_.empty();
+  char restores = whole_ && has_holes();
   share(executor_, restores);
   is_restored_ = restores != 0;
-  if (!is_restored_) return;
+  if (!is_restored_) return close_holes();
   EdgeMesh& edges = result_.edges;
   if (executor_.is_root()) {
     edges = std::move(whole_->edges);
@@ -338,10 +356,38 @@ void FaceRounds::join() {
       outcomes_[f] = std::move(before.second);
       crossings_.renew(f);
     }
-    failed_faces_.clear();
   }
   share(executor_, edges);
   numbering_.emplace(topology_, edges);
+}
+
+/// Local, on rank 0.
+void FaceRounds::close_holes() {
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (outcomes_[f].is_hole() && !has_crashed(f)) close_hole(f);
+}
+
+void FaceRounds::close_hole(FaceId f) {
+  const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
+  const FaceField field(field_, refinements_, tables_.face_box[f]);
+  std::unique_ptr<Surface> surface;
+  FaceBoundary boundary;
+  try {
+    surface = model_.surface(f);
+    boundary = make_face_boundary(model_, *surface, f, *numbering_);
+  } catch (const Error&) {
+    surface.reset();
+    boundary = make_boundary_in_space(f, *numbering_);
+  }
+  const ClosedFace closed =
+      close_loops(surface.get(), boundary, field.get(), kNearEnough * largest_tolerance(tables_, f));
+  if (closed.mesh.cause != FailureCause::kNone) return;
+  FaceOutcome& o = outcomes_[f];
+  o.is_closed = true;
+  o.is_near = closed.is_near;
+  o.deviation = closed.deviation;
+  result_.patches[f] = make_patch(tables_, f, boundary, closed.mesh, *numbering_);
+  crossings_.renew(f);
 }
 
 /// None where the mesh before was restored: refining does not help.
@@ -362,7 +408,7 @@ void FaceRounds::choose_again(std::size_t first_refinement) {
 
 /// Before the dirty faces are meshed again.
 void FaceRounds::keep_whole() {
-  if (failed_faces_.empty()) whole_ = WholeMesh{result_.edges, {}};
+  if (!has_holes()) whole_ = WholeMesh{result_.edges, {}};
   if (!whole_) return;
   for (const FaceId f : dirty_faces_) whole_->faces.try_emplace(f, result_.patches[f], outcomes_[f]);
 }

@@ -32,6 +32,11 @@ class FaceRounds : public MeshRounds {
     std::string error;  // what was thrown, for kError
     Vec3 cause_xyz;
     std::vector<RefinementPoint> fold_places;
+    FailedFace failed;       // where it failed
+    bool is_closed = false;  // it failed, and its loops were closed; then:
+    bool is_near = false;    // the triangles are near the surface
+    double deviation = 0;
+    bool is_hole() const { return cause != FailureCause::kNone && !is_closed; }
   };
   struct WholeMesh {  // no face failed: what has been redone since, as it was
     EdgeMesh edges;
@@ -75,6 +80,9 @@ class FaceRounds : public MeshRounds {
   void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);
   std::vector<FaceId> join(TiledFaces& tiled);
   void take_face(FaceId f, FaceResult&& result);
+  bool has_holes() const;
+  void close_holes();
+  void close_hole(FaceId f);
   void keep_whole();
   void find_dirty(std::size_t first_refinement);
 
@@ -92,8 +100,7 @@ class FaceRounds : public MeshRounds {
   std::optional<BoundaryNumbering> numbering_;        // of the present edges
   std::vector<FaceOutcome> outcomes_;                 // by face, on rank 0
   std::vector<std::vector<RefinementPoint>> wanted_;  // likewise, of this round
-  std::map<FaceId, FailedFace> failed_faces_;
-  std::optional<WholeMesh> whole_;  // the last one, on rank 0
+  std::optional<WholeMesh> whole_;                    // the last one, on rank 0
   bool is_restored_ = false;
   CrossingSearch crossings_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/merge.h"
 
@@ -237,6 +238,28 @@ BoundaryNumbering::Entity BoundaryNumbering::entity(std::int32_t id) const {
 FaceBoundary make_face_boundary(const Model& model, const Surface& surface, FaceId face,
                                 const BoundaryNumbering& numbering) {
   return BoundaryMaker(model, surface, face, numbering).run();
+}
+
+FaceBoundary make_boundary_in_space(FaceId face, const BoundaryNumbering& numbering) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const ModelTables& t = numbering.tables;
+  const EdgeMesh& m = numbering.edges;
+  FaceBoundary result;
+  for (const LoopId l : t.loops(face)) {
+    const auto first = static_cast<std::int32_t>(result.nodes.size());
+    for (const CoedgeId c : t.loop_coedges(l)) {
+      const EdgeId e = t.coedge_edge[c];
+      const std::int32_t n = m.n_nodes(e);
+      for (std::int32_t i = 0; i + 1 < n; ++i) {  // the last one is the first of the next coedge
+        const std::int32_t k = t.coedge_is_reversed[c] ? n - 1 - i : i, node = m.first_node(e) + k;
+        result.nodes.push_back(
+            {{kUnknown, kUnknown}, m.node_xyz[node], m.node_size[node], numbering.edge_node(e, k), false});
+      }
+    }
+    const auto end = static_cast<std::int32_t>(result.nodes.size());
+    for (std::int32_t i = first; i < end; ++i) result.segments.push_back({i, i + 1 < end ? i + 1 : first});
+  }
+  return result;
 }
 
 std::vector<int> min_segments_per_edge(const ModelTables& t) {

@@ -38,6 +38,9 @@ struct BoundaryNumbering {
 FaceBoundary make_face_boundary(const Model& model, const Surface& surface, FaceId face,
                                 const BoundaryNumbering& numbering);
 
+/// The loops by the nodes of their edges alone, (u,v) NaN: for a face whose trimming curves cannot be used.
+FaceBoundary make_boundary_in_space(FaceId face, const BoundaryNumbering& numbering);
+
 /// Segments that an edge needs whatever its length: 3 when it is a loop of its own, 2 when it is one of two, else 1.
 std::vector<int> min_segments_per_edge(const ModelTables& tables);
 

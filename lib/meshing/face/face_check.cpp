@@ -53,7 +53,8 @@ class EdgeCheck {
     return corner < n_boundary_ ? boundary_.nodes[corner].x : r_.inner[corner - n_boundary_].x;
   }
 
-  /// Walks both sorted lists: an edge of the loops is used as often as they use it, any other twice.
+  /// Walks both sorted lists: an edge of the loops is used as often as they use it, any other twice. One that they use
+  /// twice may be used by none: to and fro, or where two loops touch along it with nothing of the face between them.
   void compare_uses(const std::vector<NodePair>& uses, const std::vector<NodePair>& loop_uses) {
     std::size_t i = 0, j = 0;
     while (i < uses.size() || j < loop_uses.size()) {
@@ -62,7 +63,7 @@ class EdgeCheck {
       std::size_t n_used = 0, n_wanted = 0;
       for (; i < uses.size() && uses[i] == edge; ++i) ++n_used;
       for (; j < loop_uses.size() && loop_uses[j] == edge; ++j) ++n_wanted;
-      if (n_used == (n_wanted ? n_wanted : 2)) continue;
+      if (n_used == (n_wanted ? n_wanted : 2) || (n_used == 0 && n_wanted == 2)) continue;
       r_.cause = n_wanted ? FailureCause::kUnusedBoundary : FailureCause::kNarrowPart;
       report_edge(edge);
     }

@@ -9,8 +9,8 @@ namespace st {
 /// Are two corners of the triangle nodes of one pole? In space it has no area.
 bool has_pole_side(const Triangulation& mesh, const PlaneTriangle& t);
 
-/// Every edge used twice (boundary segments as often as the loops use them), no triangle with a repeated node, no
-/// repeated triangle. Else sets the cause and places to refine.
+/// Every edge used twice (boundary segments as often as the loops use them, or not at all where that is twice), no
+/// triangle with a repeated node, no repeated triangle. Else sets the cause and places to refine.
 void check_edges(const FaceBoundary& boundary, FaceMesh& mesh);
 
 /// Counts triangles turned against the surface, and neighbours folded onto each other, and adds their places to refine.

@@ -1,7 +1,6 @@
 #include "meshing/face/failed_face.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace st {
 namespace {
@@ -51,23 +50,6 @@ void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& bounda
   }
 }
 
-/// Nodes of the CAD edges themselves, loop by loop.
-void add_edges(const BoundaryNumbering& numbering, FailedFace& f) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const EdgeMesh& m = numbering.edges;
-  for (const LoopEdge& e : loop_edges(numbering.tables, f.face))
-    for (const std::int32_t i : m.nodes(e.edge)) {
-      f.xyz.push_back(m.node_xyz[i]);
-      f.uv.push_back({kUnknown, kUnknown});
-      f.size.push_back(m.node_size[i]);
-      if (i == m.first_node(e.edge)) continue;
-      const std::int32_t last = static_cast<std::int32_t>(f.xyz.size()) - 1;
-      f.segment_nodes.insert(f.segment_nodes.end(), {last - 1, last});
-      f.segment_loop.push_back(e.loop);
-      f.segment_edge.push_back(e.edge);
-    }
-}
-
 void add_triangles(const FaceMesh& mesh, FailedFace& f) {
   for (const FaceNode& n : mesh.inner) {
     f.xyz.push_back(n.x);
@@ -86,10 +68,9 @@ FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, con
                             const FaceMesh& mesh) {
   FailedFace f;
   f.face = face;
-  if (boundary.nodes.empty())
-    add_edges(numbering, f);
-  else
-    add_boundary(numbering, boundary, f), add_triangles(mesh, f);
+  const bool has_uv = !boundary.nodes.empty();
+  add_boundary(numbering, has_uv ? boundary : make_boundary_in_space(face, numbering), f);
+  if (has_uv) add_triangles(mesh, f);
   for (const RefinementPoint& p : mesh.refinement) f.places.push_back(p.x);
   return f;
 }
