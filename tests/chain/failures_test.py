@@ -45,14 +45,15 @@ class Failures(ToolTest):
         run = self.mesh()
         self.assertEqual(run.code, INCOMPLETE, run)
         summary = run.json()
-        self.assertEqual((summary["faces_meshed"], summary["faces_failed"]), (1, 1))
+        self.assertEqual((summary["faces_meshed"], summary["faces_failed"]), (2, 1))
         failure = summary["failures"][0]
         self.assertEqual(failure["face"], 2)
         self.assertIn("cross", failure["cause"])
         self.assertIn("CAD", failure["remedy"])
         for k, value in enumerate([5, -5, 0]):
             self.assertAlmostEqual(failure["xyz"][k], value, delta=0.1)
-        self.assertIn("face 2 not meshed", run.err)
+        self.assertTrue(failure["is_closed"])
+        self.assertIn("face 2 closed from its edges alone", run.err)
         self.assertIn("patches.failures.hdf", run.err)
         self.assertEqual(summary["failures_file"], str(self.folder / "patches.failures.hdf"))
 

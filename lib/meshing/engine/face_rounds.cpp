@@ -1,5 +1,7 @@
 #include "meshing/engine/face_rounds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -361,10 +363,13 @@ void FaceRounds::join() {
   numbering_.emplace(topology_, edges);
 }
 
-/// Local, on rank 0.
+/// Local, on rank 0. What cannot be closed either stays a hole.
 void FaceRounds::close_holes() {
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    if (outcomes_[f].is_hole() && !has_crashed(f)) close_hole(f);
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) try {
+      if (outcomes_[f].is_hole() && !has_crashed(f)) close_hole(f);
+    } catch (const Error& e) {
+      log_info(fmt::format("{} is not closed either: {}", tables_.face_label(f), e.what()));
+    }
 }
 
 void FaceRounds::close_hole(FaceId f) {

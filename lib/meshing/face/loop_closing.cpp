@@ -129,8 +129,10 @@ class LoopClosing {
       const auto foot = project_near(*surface_, middle, uv);
       const double off = distance(middle, surface_->point(foot.value_or(uv)));
       const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+      const double height = norm(cross(b - a, c - a)) / longest;
+      const bool is_turned = quality(t.n[0], t.n[1], t.n[2]) < 0 && height > allowed;
       result.deviation = std::max(result.deviation, off);
-      result.is_near = result.is_near && (off <= allowed || off <= kNear * longest);
+      result.is_near = result.is_near && !is_turned && (off <= allowed || off <= kNear * longest);
     }
     result.is_near = result.is_near && surface_;
   }

@@ -8,7 +8,8 @@ namespace st {
 struct ClosedFace {
   FaceMesh mesh;         ///< FailureCause::kNone where the loops could be closed
   double deviation = 0;  ///< largest distance between the middle of a triangle and the surface, model unit
-  bool is_near = true;   ///< no triangle is further from the surface than `allowed` and a tenth of its longest side
+  bool is_near = true;   ///< no triangle is further from the surface than `allowed` and a tenth of its longest side,
+                         ///< and none that is wider than `allowed` is turned over
 };
 
 /// Closes the loops of a face whatever they look like in (u,v), crossing or touching themselves. Holes are joined to

@@ -309,6 +309,9 @@ TEST(PatchesArtifact, gives_back_every_array) {
   EXPECT_EQ(b.failures[0].face, 1);
   EXPECT_EQ(b.failures[0].cause, a.failures[0].cause);
   EXPECT_EQ(b.failures[0].remedy, a.failures[0].remedy);
+  EXPECT_TRUE(b.failures[0].is_closed);
+  EXPECT_FALSE(b.failures[0].is_near);
+  EXPECT_EQ(b.failures[0].deviation, a.failures[0].deviation);
 }
 
 TEST(PatchesArtifact, refuses_indices_that_point_nowhere) {

@@ -111,7 +111,7 @@ inline PatchesArtifact sample_patches() {
   FacePatch empty;
   empty.face = 1;
   p.patches = {patch, empty};
-  p.failures = {{1, "the boundary crosses itself", "use a smaller lmin", {0.5, 0.5, 0}}};
+  p.failures = {{1, "the boundary crosses itself", "use a smaller lmin", {0.5, 0.5, 0}, true, false, 0.25}};
   p.merged = {{2}, {1}, {0}, {1}, {1}};
   p.labels = sample_labels(2);
   p.labels.face_name = {"top", ""};

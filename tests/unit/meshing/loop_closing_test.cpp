@@ -81,6 +81,7 @@ TEST(CloseLoops, closes_a_loop_that_crosses_itself) {
   const ClosedFace closed = close_loops(&kPlane, boundary, UniformField(5), 1e-6);
   ASSERT_EQ(closed.mesh.cause, FailureCause::kNone);
   expect_watertight(boundary, closed.mesh);
+  EXPECT_FALSE(closed.is_near) << "a part is turned over";
 }
 
 TEST(CloseLoops, joins_loops_at_a_node_that_they_share) {
