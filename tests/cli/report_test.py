@@ -187,12 +187,13 @@ class Report(Browser):
         file = self.folder / "report.html"
         unmeshed = json.loads(script(file.read_text(encoding="utf-8"), "meta"))["unmeshed"]
         self.assertTrue(unmeshed and all(f["cause"] and len(f["xyz"]) == 3 for f in unmeshed), unmeshed)
+        self.assertTrue(all(f["is_closed"] for f in unmeshed), unmeshed)
         self.expect_nothing_left(self.folder, "geometry.hdf", "raster.hdf", "sizing.hdf", "patches.hdf",
                                  "patches.failures.hdf", "report.html")
         said = self.browse(file)
         if said is not None:
             self.assertNotIn("error", said)
-            self.assertIn("could not be meshed", said["verdict"])
+            self.assertIn("closed from its edges alone", said["verdict"])
             self.assertTrue(said["flown"], said)
             self.assertGreater(said["hidden"], 0.001, "the loops of the failed face are always drawn")
             self.assertIn("loops of a face that was not meshed", said["legend"])
