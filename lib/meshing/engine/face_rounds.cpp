@@ -366,7 +366,7 @@ void FaceRounds::join() {
 /// Local, on rank 0. What cannot be closed either stays a hole.
 void FaceRounds::close_holes() {
   for (FaceId f = 0; f < tables_.n_faces(); ++f) try {
-      if (outcomes_[f].is_hole() && !has_crashed(f)) close_hole(f);
+      if (outcomes_[f].is_hole() && !options_.left_out.contains(f)) close_hole(f);
     } catch (const Error& e) {
       log_info(fmt::format("{} is not closed either: {}", tables_.face_label(f), e.what()));
     }
