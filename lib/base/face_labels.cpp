@@ -6,6 +6,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "base/nearest_name.h"
+
 namespace st {
 namespace {
 
@@ -183,7 +185,15 @@ std::vector<std::int32_t> find_members(const std::string& pattern, const std::ve
 
 std::string say_other_kind(const std::string& pattern, const FaceLabels& labels) {
   if (!find_members(pattern, labels.edge_groups).empty()) return " (it names a group of edges)";
-  return find_members(pattern, labels.vertex_groups).empty() ? "" : " (it names a group of vertices)";
+  if (!find_members(pattern, labels.vertex_groups).empty()) return " (it names a group of vertices)";
+  std::vector<std::string> names = labels.group_name;
+  for (const GroupTable& table : labels.tables)
+    names.insert(names.end(), table.group_name.begin(), table.group_name.end());
+  for (const std::vector<std::string>* parts : {&labels.part_name, &labels.part_path})
+    names.insert(names.end(), parts->begin(), parts->end());
+  for (const std::vector<EntityGroup>* groups : {&labels.edge_groups, &labels.vertex_groups})
+    for (const EntityGroup& g : *groups) names.push_back(g.name);
+  return did_you_mean(pattern, names);
 }
 
 std::vector<double> face_tolerances(const FaceLabels& labels) {

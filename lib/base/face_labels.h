@@ -83,8 +83,8 @@ std::vector<std::uint8_t> find_faces(const std::string& pattern, const FaceLabel
 /// does, of those in further tables ("te", or "bc:te" with the name of the table). Empty: nothing matches.
 std::vector<std::int32_t> find_members(const std::string& pattern, const std::vector<EntityGroup>& groups);
 
-/// Of a pattern that no group of faces matches, for messages: " (it names a group of edges)", "... of vertices)", or
-/// empty.
+/// Of a pattern that no group of faces matches, for messages: " (it names a group of edges)", "... of vertices)", else
+/// the group or part that was meant, ", did you mean 'flap'"; empty where none is near.
 std::string say_other_kind(const std::string& pattern, const FaceLabels& labels);
 
 /// Tolerance of each face: the largest that its groups have as attribute "tolerance" in any table. [n_faces] model

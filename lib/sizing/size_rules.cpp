@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace st {
 namespace {
@@ -57,7 +58,8 @@ std::vector<std::int32_t> select(const SizeRule& rule, const std::vector<std::st
       const std::vector<std::int32_t> members = find_members(item, all.groups);
       result.insert(result.end(), members.begin(), members.end());
     }
-    if (result.size() == n_before) fail(rule, text_of(all.key, ": '", item, "' matches nothing"));
+    if (result.size() == n_before)
+      fail(rule, text_of(all.key, ": '", item, "' matches nothing", did_you_mean(item, all.names)));
   }
   return result;
 }
@@ -89,7 +91,7 @@ void add_groups(const SizeRule& rule, const ModelTables& t, RuleTargets& targets
     targets.vertices.insert(targets.vertices.end(), vertices.begin(), vertices.end());
     const std::vector<std::uint8_t> is_in = find_faces(pattern, t.labels);
     if (is_in.empty() && edges.empty() && vertices.empty())
-      fail(rule, text_of("groups: no group or part matches '", pattern, "'"));
+      fail(rule, text_of("groups: no group or part matches '", pattern, "'", say_other_kind(pattern, t.labels)));
     for (std::size_t f = 0; f < is_in.size(); ++f)
       if (is_in[f]) targets.faces.push_back(static_cast<FaceId>(f));
   }

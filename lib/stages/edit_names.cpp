@@ -29,15 +29,6 @@ std::vector<std::uint8_t> faces_named(const std::string& name, const ModelTables
   return std::find(is_in.begin(), is_in.end(), 1) == is_in.end() ? std::vector<std::uint8_t>() : is_in;
 }
 
-std::vector<std::string> all_names(const ModelTables& t) {
-  std::vector<std::string> names = t.labels.group_name;
-  for (const GroupTable& table : t.labels.tables)
-    names.insert(names.end(), table.group_name.begin(), table.group_name.end());
-  for (const std::vector<std::string>* more : {&t.labels.part_name, &t.labels.part_path, &t.labels.face_name})
-    names.insert(names.end(), more->begin(), more->end());
-  return names;
-}
-
 void select_item(const std::string& item, const ModelTables& t, const std::string& option,
                  std::vector<std::uint8_t>& chosen) {
   if (const auto range = as_range(item)) {
@@ -49,9 +40,11 @@ void select_item(const std::string& item, const ModelTables& t, const std::strin
   }
   const std::vector<std::uint8_t> named = faces_named(item, t);
   if (named.empty()) {
+    std::string meant = say_other_kind(item, t.labels);
+    if (meant.empty()) meant = did_you_mean(item, t.labels.face_name);
     throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}': no group, part or face has this name{}{}; st-info --groups lists them", option,
-                            item, say_other_kind(item, t.labels), did_you_mean(item, all_names(t))));
+                fmt::format("{} '{}': no group, part or face has this name{}; st-info --groups lists them", option,
+                            item, meant));
   }
   for (std::size_t f = 0; f < named.size(); ++f) chosen[f] |= named[f];
 }

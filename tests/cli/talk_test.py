@@ -101,6 +101,24 @@ class ImportCheck(ToolTest):
         self.assertNotIn("  free edge", other.err)
 
 
+class Misspelt(ToolTest):
+    def test_names_of_groups_parts_presets_and_suffixes_are_guessed(self):
+        made = artifacts_of("assembly")
+        geometry, raster = made / "geometry.hdf", made / "raster.hdf"
+        (self.folder / "sizes.toml").write_text('[[size]]\ngroups = "pin_mantel"\nlmax = 1\n')
+        (self.folder / "groups.toml").write_text('[[group]]\nname = "x"\ngroups = "pin_mantel"\n')
+        for meant, tool, *arguments in (
+                ("pin_mantle", "st-raster", geometry, "--sizes", "sizes.toml"),
+                ("pin_mantle", "st-prolong", raster, "--slope-of", "pin_mantel=0.1"),
+                ("pin_mantle", "st-mesh", geometry, made / "sizing.hdf", "--group", "pin_mantel"),
+                ("pin_mantle", "st-import", MODELS / "assembly.step", "--groups", "groups.toml"),
+                ("preview", "st-raster", geometry, "--preset", "prevew"),
+                (".vtu", "st-export", made / "mesh.hdf", "-o", "mesh.vtx")):
+            run = Run(tool, *arguments, cwd=self.folder)
+            self.assertNotEqual(run.code, 0, run)
+            self.assertIn(f", did you mean '{meant}'", run.err)
+
+
 class Sizes(ToolTest):
     def range_of(self, tool, *arguments):
         low, high = re.search(r", lengths (\S+) to (\S+) on the faces", must(tool, *arguments).out).groups()

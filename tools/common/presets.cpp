@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace st {
 
@@ -58,8 +59,12 @@ std::string preset_names() {
 const Preset& find_preset(const std::string& name) {
   const auto& all = presets();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == name; });
-  if (found == all.end())
-    throw Error(ExitCode::kUsage, "--preset: unknown preset '" + name + "'; use one of " + preset_names());
+  if (found == all.end()) {
+    std::vector<std::string> names;
+    for (const Preset& p : all) names.push_back(p.name);
+    throw Error(ExitCode::kUsage, "--preset: unknown preset '" + name + "'" + did_you_mean(name, names) +
+                                      "; use one of " + preset_names());
+  }
   return *found;
 }
 

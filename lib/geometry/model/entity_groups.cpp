@@ -26,8 +26,8 @@ std::vector<std::uint8_t> faces_of(const GroupRule& rule, const char* key, const
     const std::vector<std::uint8_t> own = find_faces(item, t.labels);
     for (std::size_t f = 0; f < own.size(); ++f) all[f] |= own[f];
     if (!other(item) && own.empty() && !rule.is_optional)
-      fail_group(rule, std::string(key) + ": no group or part matches '" + item +
-                           "'; st-info geometry.hdf --groups lists names");
+      fail_group(rule, std::string(key) + ": no group or part matches '" + item + "'" + say_other_kind(item, t.labels) +
+                           "; st-info geometry.hdf --groups lists names");
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "base/text.h"
 #include "geometry/model/model.h"
 
@@ -41,8 +42,10 @@ void GroupSelection::add_matches(const char* key, const std::string& item, const
   bool is_used = false;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (name_matches(item, name(static_cast<std::int32_t>(i)))) wanted[i] = is_used = true;
-  if (!is_used && !rule_.is_optional)
-    fail_group(rule_, std::string(key) + ": '" + item + "' matches nothing" + kWhereNamesAre);
+  if (is_used || rule_.is_optional) return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < wanted.size(); ++i) names.push_back(name(static_cast<std::int32_t>(i)));
+  fail_group(rule_, std::string(key) + ": '" + item + "' matches nothing" + did_you_mean(item, names) + kWhereNamesAre);
 }
 
 void GroupSelection::select_names(const char* key, const std::vector<std::string>& items, const Name& name) {

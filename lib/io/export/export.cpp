@@ -6,6 +6,7 @@
 #include <cstring>
 #include <set>
 
+#include "base/nearest_name.h"
 #include "io/export/export_formats.h"
 #include "io/hdf5/face_numbers.h"
 
@@ -95,8 +96,11 @@ const Format& chosen_format(const std::string& path, const ExportOptions& option
     throw Error(ExitCode::kUsage,
                 "--format: unknown format '" + options.format + "'; use a suffix of " + suffixes_with(0));
   const std::size_t dot = name.rfind('.');
-  throw Error(ExitCode::kUsage, path + ": unknown suffix '" + (dot == std::string::npos ? "" : name.substr(dot)) +
-                                    "' for an export; use one of " + suffixes_with(0));
+  const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
+  std::vector<std::string> known;
+  for (const Format& f : kFormats) known.emplace_back(f.suffix);
+  throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "'" + did_you_mean(suffix, known) +
+                                    " for an export; use one of " + suffixes_with(0));
 }
 
 const Format& format_of(const std::string& path, const ExportOptions& options) {

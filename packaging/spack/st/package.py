@@ -1,5 +1,5 @@
 """Spack recipe: spack repo add packaging/spack && spack dev-build st@0.2.0 in the root of the sources."""
-from spack.package import CMakePackage, depends_on, license, variant, version
+from spack.package import CMakePackage, depends_on, generator, license, variant, version
 
 
 class St(CMakePackage):
@@ -10,8 +10,10 @@ class St(CMakePackage):
 
     variant("tests", default=False, description="Build the tests")
 
+    generator("ninja")
+    depends_on("c", type="build")
+    depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
-    depends_on("ninja", type="build")
     depends_on("python@3.9:", type=("build", "run"))
     depends_on("py-h5py", type="run")
     depends_on("py-numpy", type="run")
