@@ -69,12 +69,31 @@ void add_sag(Vec3& sag, Vec3 a, Vec3 b, Vec3 c) {
   sag = {std::max(sag.x, std::fabs(d.x)), std::max(sag.y, std::fabs(d.y)), std::max(sag.z, std::fabs(d.z))};
 }
 
+void add_sides(const LoopUv& loop, std::vector<LoopSide>& sides) {
+  const std::vector<Vec2> p = loop.polygon();
+  for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
+}
+
+/// Where all of several loops run the same way, some must be wrong: holes, most of whose points are inside an odd
+/// number of others, run clockwise.
+void mark_turned(std::vector<LoopUv>& loops) {
+  const auto n_positive = std::count_if(loops.begin(), loops.end(), [](const LoopUv& l) { return l.area > 0; });
+  if (loops.size() < 2 || (n_positive != 0 && n_positive != static_cast<std::ptrdiff_t>(loops.size()))) return;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const std::vector<Vec2> points = loops[i].polygon();
+    std::vector<LoopSide> others;
+    for (std::size_t j = 0; j < loops.size(); ++j)
+      if (j != i) add_sides(loops[j], others);
+    const LoopPolygons polygons(std::move(others));
+    const auto n_inside = std::count_if(points.begin(), points.end(), [&](Vec2 p) { return polygons.contains(p); });
+    const bool is_hole = 2 * n_inside > static_cast<std::ptrdiff_t>(points.size());
+    loops[i].is_turned = is_hole == (loops[i].area > 0);
+  }
+}
+
 std::vector<LoopSide> sides_of(const FaceDomain& d) {
   std::vector<LoopSide> sides;
-  for (const LoopUv& loop : d.loops) {
-    const std::vector<Vec2> p = loop.polygon();
-    for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
-  }
+  for (const LoopUv& loop : d.loops) add_sides(loop, sides);
   return sides;
 }
 
@@ -110,6 +129,7 @@ FaceDomain make_domain(const TopoDS_Face& face) {
     d.loops.push_back(std::move(loop));
   }
   std::stable_sort(d.loops.begin(), d.loops.end(), [](const LoopUv& a, const LoopUv& b) { return a.area > b.area; });
+  if (d.surface->u_period() == 0 && d.surface->v_period() == 0) mark_turned(d.loops);
   return d;
 }
 

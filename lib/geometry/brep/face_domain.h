@@ -22,7 +22,8 @@ struct CoedgeUv {
 
 struct LoopUv {
   std::vector<CoedgeUv> coedges;
-  double area = 0;  ///< of the sampled polygon, signed, in (u,v)
+  double area = 0;         ///< of the sampled polygon, signed, in (u,v)
+  bool is_turned = false;  ///< it runs the wrong way: a hole as the outer loop does
   std::vector<Vec2> polygon() const;
 };
 

@@ -32,6 +32,7 @@ class Integrator {
     struct Piece {
       const Geom2dAdaptor_Curve* curve;
       double t0, t1;
+      double sign;  // -1: of a loop that runs the wrong way
       FaceIntegral value;
     };
     std::vector<Geom2dAdaptor_Curve> curves;
@@ -45,14 +46,15 @@ class Integrator {
         curves.emplace_back(c.curve, std::min(c.t_start, c.t_end), std::max(c.t_start, c.t_end));
         const std::vector<double> t = split_at_knots(c, curves.back());
         for (std::size_t i = 0; i + 1 < t.size(); ++i) {
-          pieces.push_back({&curves.back(), t[i], t[i + 1], boundary(curves.back(), t[i], t[i + 1])});
-          coarse = coarse + pieces.back().value;
+          const double sign = loop.is_turned ? -1 : 1;
+          pieces.push_back({&curves.back(), t[i], t[i + 1], sign, boundary(curves.back(), t[i], t[i + 1])});
+          coarse = coarse + sign * pieces.back().value;
         }
       }
     if (pieces.size() > kManyPieces) return coarse;
     const double tolerance = kRelative * std::max(std::fabs(coarse.area), 1e-300);
     FaceIntegral sum;
-    for (const Piece& p : pieces) sum = sum + adapt(*p.curve, p.t0, p.t1, p.value, tolerance, kMaxDepth);
+    for (const Piece& p : pieces) sum = sum + p.sign * adapt(*p.curve, p.t0, p.t1, p.value, tolerance, kMaxDepth);
     return sum;
   }
 

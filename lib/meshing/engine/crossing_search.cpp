@@ -1,6 +1,7 @@
 #include "meshing/engine/crossing_search.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "mesh/patch_crossing.h"
@@ -107,6 +108,16 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
     places.push_back(refinement_of(m, m.patch_begin[p.face_b] + p.index_b));
   }
   return places;
+}
+
+std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) const {
+  std::set<std::size_t> triangles;
+  for (const FacetPair& p : pairs_) {
+    if (p.face_a != p.face_b && !others_too) continue;
+    if (p.face_a == f) triangles.insert(static_cast<std::size_t>(p.index_a));
+    if (p.face_b == f) triangles.insert(static_cast<std::size_t>(p.index_b));
+  }
+  return {triangles.begin(), triangles.end()};
 }
 
 }  // namespace st

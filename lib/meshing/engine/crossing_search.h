@@ -34,6 +34,9 @@ class CrossingSearch {
   std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches);
   /// By the last run.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  /// Triangles of the face, by their places in its patch, that cross others of it, or also of other faces; by the last
+  /// run, ascending.
+  std::vector<std::size_t> crossing_in(FaceId f, bool others_too) const;
 
  private:
   struct FacetPair {  // two triangles by face and place in its patch

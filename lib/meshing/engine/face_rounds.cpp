@@ -18,6 +18,7 @@
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
 #include "meshing/face/loop_closing.h"
+#include "meshing/face/patch_refill.h"
 #include "meshing/topology/curve_discretiser.h"
 #include "meshing/topology/small_features.h"
 
@@ -27,6 +28,7 @@ namespace {
 constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
+constexpr int kFewPairs = 50;       // of crossing triangles: else faces that cross each other stay as they are
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
 constexpr int kSamples = 32;        // of a curve, for its box
 constexpr double kMargin = 0.05;    // of the box's diagonal: the curve may leave the box of its samples
@@ -137,7 +139,63 @@ void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) con
   }
 }
 
+/// Places of the patch's nodes.
+std::vector<Vec3> FaceRounds::nodes_of(const FacePatch& patch) const {
+  std::vector<Vec3> xyz;
+  for (std::int32_t i = 0; i < patch.n_boundary; ++i)
+    xyz.push_back(
+        patch.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)
+            ? tables_.vertex_xyz[patch.boundary_entity[i]]
+            : result_.edges.node_xyz[result_.edges.first_node(patch.boundary_entity[i]) + patch.boundary_index[i]]);
+  xyz.insert(xyz.end(), patch.inner_xyz.begin(), patch.inner_xyz.end());
+  return xyz;
+}
+
+/// By face: folded onto a neighbour, without area, or crossing others.
+std::map<FaceId, std::vector<std::size_t>> FaceRounds::bad_triangles() const {
+  std::map<FaceId, std::vector<std::size_t>> bad;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= kFewPairs);
+    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) {
+      const std::vector<std::size_t> flawed = find_flawed(nodes_of(result_.patches[f]), result_.patches[f]);
+      own.insert(own.end(), flawed.begin(), flawed.end());
+    }
+    if (!own.empty()) bad[f] = std::move(own);
+  }
+  return bad;
+}
+
+/// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
+/// rather than through themselves. Stays only where it halves their number.
+void FaceRounds::refill_bad() {
+  const auto count = [](const auto& bad) {
+    std::size_t n = 0;
+    for (const auto& [f, triangles] : bad) n += triangles.size();
+    return n;
+  };
+  for (auto bad = bad_triangles(); !bad.empty();) {
+    const int n_pairs = crossings_.n_pairs();
+    std::map<FaceId, FacePatch> before;
+    for (const auto& [f, triangles] : bad) {
+      before[f] = result_.patches[f];
+      if (refill(nodes_of(result_.patches[f]), triangles, result_.patches[f]) > 0) crossings_.renew(f);
+    }
+    crossings_.run(*numbering_, result_.patches);
+    auto left = bad_triangles();
+    if (crossings_.n_pairs() > n_pairs || 2 * count(left) > count(bad)) {
+      for (auto& [f, patch] : before) {
+        result_.patches[f] = std::move(patch);
+        crossings_.renew(f);
+      }
+      crossings_.run(*numbering_, result_.patches);
+      return;
+    }
+    bad = std::move(left);
+  }
+}
+
 void FaceRounds::report() {
+  refill_bad();
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     result_.folds.insert(result_.folds.end(), o.fold_places.begin(), o.fold_places.end());

@@ -83,6 +83,9 @@ class FaceRounds : public MeshRounds {
   bool has_holes() const;
   void close_holes();
   void close_hole(FaceId f);
+  void refill_bad();
+  std::map<FaceId, std::vector<std::size_t>> bad_triangles() const;
+  std::vector<Vec3> nodes_of(const FacePatch& patch) const;
   void keep_whole();
   void find_dirty(std::size_t first_refinement);
 

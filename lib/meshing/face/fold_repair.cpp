@@ -10,6 +10,7 @@
 #include "base/eigen.h"
 #include "mesh/adjacency.h"
 #include "meshing/face/scaled_field.h"
+#include "meshing/face/triangle_places.h"
 
 namespace st {
 namespace {
@@ -157,13 +158,6 @@ std::optional<Axis> find_axis(const std::vector<Vec3>& points, const std::vector
   return found;
 }
 
-/// Triangles that hang together, and the loop around them.
-struct Place {
-  std::vector<std::size_t> triangles;
-  int n_folds = 0;
-  std::vector<std::int32_t> loop;  ///< corners, the place on the left; empty: not one loop
-};
-
 class FoldRepair {
  public:
   FoldRepair(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
@@ -182,7 +176,8 @@ class FoldRepair {
       std::vector<Triangle> kept;
       std::vector<std::uint8_t> is_gone(triangles_.size(), 0);
       std::vector<Triangle> added;
-      for (const Place& place : places_about(folds, rings))
+      for (const TrianglePlace& place :
+           places_about(triangles_, static_cast<std::int64_t>(nodes_.size()), folds, rings))
         if (mesh_again(place, added))
           for (const std::size_t t : place.triangles) is_gone[t] = 1;
       for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -240,52 +235,8 @@ class FoldRepair {
       normal_.push_back(surface_normal(surface_, nodes_[i].uv));
   }
 
-  /// Some rings of triangles about the folds, those that share a node in one place.
-  std::vector<Place> places_about(const std::vector<std::size_t>& folds, int rings) const {
-    std::vector<std::uint8_t> is_in(triangles_.size(), 0), is_near(nodes_.size(), 0);
-    for (const std::size_t t : folds) is_in[t] = 1;
-    for (int ring = 0; ring < rings; ++ring) {
-      for (std::size_t t = 0; t < triangles_.size(); ++t)
-        for (int k = 0; is_in[t] && k < 3; ++k) is_near[triangles_[t].n[k]] = 1;
-      for (std::size_t t = 0; t < triangles_.size(); ++t)
-        for (int k = 0; k < 3; ++k) is_in[t] |= is_near[triangles_[t].n[k]];
-    }
-    DisjointSets sets(static_cast<std::int64_t>(nodes_.size()));
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      for (int k = 1; is_in[t] && k < 3; ++k) sets.join(triangles_[t].n[0], triangles_[t].n[k]);
-    std::map<std::int32_t, Place> by_set;
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      if (is_in[t]) by_set[sets.find(triangles_[t].n[0])].triangles.push_back(t);
-    for (const std::size_t t : folds) ++by_set[sets.find(triangles_[t].n[0])].n_folds;
-    std::vector<Place> result;
-    for (auto& [set, place] : by_set) {
-      place.loop = loop_around(place.triangles);
-      result.push_back(std::move(place));
-    }
-    return result;
-  }
-
-  /// Empty where the triangles are no disc.
-  std::vector<std::int32_t> loop_around(const std::vector<std::size_t>& place) const {
-    std::map<std::pair<NodeId, NodeId>, int> sides;
-    for (const std::size_t t : place)
-      for (int k = 0; k < 3; ++k) ++sides[{triangles_[t].n[k], triangles_[t].n[(k + 1) % 3]}];
-    std::map<NodeId, NodeId> next;
-    for (const auto& [side, count] : sides) {
-      if (sides.contains({side.second, side.first})) continue;
-      if (count > 1 || !next.emplace(side).second) return {};
-    }
-    std::vector<std::int32_t> loop;
-    if (next.empty()) return loop;
-    for (NodeId n = next.begin()->first; loop.empty() || n != loop.front(); n = next.at(n)) {
-      loop.push_back(n);
-      if (!next.contains(next.at(n)) || loop.size() > next.size()) return {};
-    }
-    return loop.size() == next.size() ? loop : std::vector<std::int32_t>();
-  }
-
   /// Appends the new triangles, and their nodes to all nodes. False: nothing better was found, nothing has changed.
-  bool mesh_again(const Place& place, std::vector<Triangle>& added) {
+  bool mesh_again(const TrianglePlace& place, std::vector<Triangle>& added) {
     if (place.loop.empty()) return false;
     std::vector<NodeId> nodes;
     for (const std::size_t t : place.triangles) nodes.insert(nodes.end(), triangles_[t].n, triangles_[t].n + 3);
@@ -310,13 +261,13 @@ class FoldRepair {
       rim.segments.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>((i + 1) % place.loop.size())});
     }
     FaceMesh fresh;
-    fresh.n_folds = place.n_folds;
+    fresh.n_folds = place.n_seeds;
     for (const double scale : kCoarser) {
       FaceMesh trial = mesh_face(seen, rim, ScaledField(field_, scale), options_);
       if (trial.cause == FailureCause::kNone && trial.n_folds < fresh.n_folds && find_feet(seen, trial)) fresh = trial;
       if (fresh.n_folds == 0) break;
     }
-    if (fresh.n_folds == place.n_folds) return false;
+    if (fresh.n_folds == place.n_seeds) return false;
     const auto first = static_cast<std::int32_t>(nodes_.size()), n_rim = static_cast<std::int32_t>(rim.nodes.size());
     nodes_.insert(nodes_.end(), fresh.inner.begin(), fresh.inner.end());
     const auto corner = [&](std::int32_t c) { return c < n_rim ? place.loop[c] : first + c - n_rim; };

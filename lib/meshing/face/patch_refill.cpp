@@ -1,0 +1,219 @@
+#include "meshing/face/patch_refill.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "mesh/adjacency.h"
+#include "meshing/face/face_mesher.h"
+#include "meshing/face/triangle_places.h"
+
+namespace st {
+namespace {
+
+constexpr std::array kRings = {1, 2, 3};
+constexpr std::size_t kMostNodes = 150;  // of a loop; the cost is cubic
+constexpr double kFlat = 0.5;            // cosine between neighbours' normals: flatter ones are as good
+constexpr double kNoArea = 1e-9;         // over the squared perimeter: twice the area of a triangle that has none
+constexpr double kShape = 1e-2;          // share of the squared perimeter in a triangle's area: few slivers
+
+using Side = std::pair<NodeId, NodeId>;
+
+bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
+  const double perimeter = distance(a, b) + distance(b, c) + distance(c, a);
+  return norm(cross(b - a, c - a)) <= kNoArea * perimeter * perimeter;
+}
+
+/// Fills one loop.
+class LoopFill {
+ public:
+  /// `beyond`: normals of the triangles outside by side, as they run along the loop; none at the rim of the patch.
+  /// `taken`: pairs of nodes with a side outside, the lower first.
+  LoopFill(std::span<const Vec3> xyz, const std::vector<NodeId>& loop, const std::map<Side, Vec3>& beyond,
+           const std::set<Side>& taken)
+      : xyz_(xyz), loop_(loop), n_(loop.size()), beyond_(beyond), taken_(taken), best_(n_ * n_) {}
+
+  /// Empty: nothing without folds was found.
+  std::vector<Triangle> run() {
+    for (std::size_t gap = 2; gap < n_; ++gap)
+      for (std::size_t i = 0; i + gap < n_; ++i) choose(i, i + gap);
+    std::vector<Triangle> result;
+    if (n_ < 3 || !(best_[n_ - 1].cosine > kFoldedCosine)) return result;
+    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n_ - 1}};
+    while (!open.empty()) {
+      const auto [i, k] = open.back();
+      open.pop_back();
+      if (k - i < 2) continue;
+      const std::size_t j = best_[i * n_ + k].apex;
+      result.push_back({{loop_[i], loop_[j], loop_[k]}});
+      open.push_back({i, j});
+      open.push_back({j, k});
+    }
+    return result;
+  }
+
+ private:
+  /// Of the part of the loop from i to k.
+  struct Best {
+    double cosine = kFlat, area = 0;
+    std::size_t apex = 0;
+    Vec3 normal;  // of the triangle at the side from i to k
+    bool beats(const Best& o) const { return cosine != o.cosine ? cosine > o.cosine : area < o.area; }
+  };
+
+  void choose(std::size_t i, std::size_t k) {
+    const bool is_whole = i == 0 && k == n_ - 1;
+    Best& best = best_[i * n_ + k];
+    best.cosine = -2;
+    best.area = std::numeric_limits<double>::infinity();
+    if (!is_whole && taken_.contains(std::minmax(loop_[i], loop_[k]))) return;
+    for (std::size_t j = i + 1; j < k; ++j) {
+      const Vec3 a = xyz_[loop_[i]], b = xyz_[loop_[j]], c = xyz_[loop_[k]], normal = cross(b - a, c - a);
+      const double perimeter = distance(a, b) + distance(b, c) + distance(c, a);
+      Best own;
+      own.apex = j;
+      own.normal = normalized(normal);
+      own.area = 0.5 * norm(normal) + kShape * perimeter * perimeter + best_[i * n_ + j].area + best_[j * n_ + k].area;
+      own.cosine = std::min({kFlat, best_[i * n_ + j].cosine, best_[j * n_ + k].cosine, cosine(i, j, own.normal),
+                             cosine(j, k, own.normal)});
+      if (is_whole) own.cosine = std::min(own.cosine, beyond(loop_[k], loop_[i], own.normal));
+      if (has_no_area(a, b, c)) own.cosine = -1;
+      if (own.beats(best)) best = own;
+    }
+  }
+
+  double cosine(std::size_t i, std::size_t j, Vec3 normal) const {
+    if (j == i + 1) return beyond(loop_[i], loop_[j], normal);
+    return dot(best_[i * n_ + j].normal, normal);
+  }
+  double beyond(NodeId a, NodeId b, Vec3 normal) const {
+    const auto found = beyond_.find({a, b});
+    return found == beyond_.end() ? kFlat : dot(found->second, normal);
+  }
+
+  std::span<const Vec3> xyz_;
+  const std::vector<NodeId>& loop_;
+  const std::size_t n_;
+  const std::map<Side, Vec3>& beyond_;
+  const std::set<Side>& taken_;
+  std::vector<Best> best_;  // [n*n]
+};
+
+Vec3 normal_of(std::span<const Vec3> xyz, const Triangle& t) {
+  return normalized(cross(xyz[t.n[1]] - xyz[t.n[0]], xyz[t.n[2]] - xyz[t.n[0]]));
+}
+
+/// The triangles that fill a place; empty: none are better.
+std::vector<Triangle> fill(std::span<const Vec3> xyz, const std::vector<Triangle>& triangles,
+                           const TrianglePlace& place) {
+  if (place.loop.size() < 3 || place.loop.size() > kMostNodes) return {};
+  std::map<Side, Vec3> beyond;
+  std::set<Side> taken;
+  const std::set<NodeId> on_loop(place.loop.begin(), place.loop.end());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (std::binary_search(place.triangles.begin(), place.triangles.end(), t)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = triangles[t].n[k], b = triangles[t].n[(k + 1) % 3];
+      if (!on_loop.contains(a) || !on_loop.contains(b)) continue;
+      beyond[{b, a}] = normal_of(xyz, triangles[t]);
+      taken.insert(std::minmax(a, b));
+    }
+  }
+  return LoopFill(xyz, place.loop, beyond, taken).run();
+}
+
+/// Drops nodes inside that no triangle uses.
+void drop_unused(FacePatch& patch) {
+  std::vector<NodeId> number(static_cast<std::size_t>(patch.n_boundary) + patch.inner_xyz.size(), kNone);
+  for (const Triangle& t : patch.triangles)
+    for (const NodeId n : t.n) number[n] = n;
+  FacePatch kept;
+  for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i) {
+    NodeId& n = number[static_cast<std::size_t>(patch.n_boundary) + i];
+    if (n == kNone) continue;
+    n = patch.n_boundary + static_cast<NodeId>(kept.inner_xyz.size());
+    kept.inner_xyz.push_back(patch.inner_xyz[i]);
+    kept.inner_uv.push_back(patch.inner_uv[i]);
+    kept.inner_size.push_back(patch.inner_size[i]);
+    if (!patch.inner_previous.empty()) kept.inner_previous.push_back(patch.inner_previous[i]);
+  }
+  patch.inner_xyz = std::move(kept.inner_xyz);
+  patch.inner_uv = std::move(kept.inner_uv);
+  patch.inner_size = std::move(kept.inner_size);
+  patch.inner_previous = std::move(kept.inner_previous);
+  for (Triangle& t : patch.triangles)
+    for (NodeId& n : t.n) n = n < patch.n_boundary ? n : number[n];
+}
+
+/// The patch without the triangles of a place, with others at its end.
+void exchange(const TrianglePlace& place, const std::vector<Triangle>& added, FacePatch& patch) {
+  std::map<NodeId, Vec2> uv;
+  for (const std::size_t t : place.triangles)
+    for (std::size_t k = 0; k < 3; ++k) uv.emplace(patch.triangles[t].n[k], patch.corner_uv[3 * t + k]);
+  std::vector<Triangle> triangles;
+  std::vector<Vec2> corner_uv;
+  std::vector<TriangleId> previous;
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    if (std::binary_search(place.triangles.begin(), place.triangles.end(), t)) continue;
+    triangles.push_back(patch.triangles[t]);
+    for (std::size_t k = 0; k < 3; ++k) corner_uv.push_back(patch.corner_uv[3 * t + k]);
+    if (!patch.triangle_previous.empty()) previous.push_back(patch.triangle_previous[t]);
+  }
+  for (const Triangle& t : added) {
+    triangles.push_back(t);
+    for (const NodeId n : t.n) corner_uv.push_back(uv.at(n));
+    if (!patch.triangle_previous.empty()) previous.push_back(kNone);
+  }
+  patch.triangles = std::move(triangles);
+  patch.corner_uv = std::move(corner_uv);
+  patch.triangle_previous = std::move(previous);
+}
+
+}  // namespace
+
+std::vector<std::size_t> find_flawed(std::span<const Vec3> xyz, const FacePatch& patch) {
+  std::vector<std::size_t> flawed;
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    const NodeId* n = patch.triangles[t].n;
+    if (has_no_area(xyz[n[0]], xyz[n[1]], xyz[n[2]])) flawed.push_back(t);
+  }
+  EdgeTable(patch.triangles, static_cast<std::int64_t>(xyz.size()))
+      .for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+        if (sides.size() != 2) return;
+        const Triangle &a = patch.triangles[sides[0] / 3], &b = patch.triangles[sides[1] / 3];
+        if (dot(normal_of(xyz, a), normal_of(xyz, b)) < kFoldedCosine)
+          flawed.push_back(static_cast<std::size_t>(sides[0] / 3));
+      });
+  return flawed;
+}
+
+int refill(std::span<const Vec3> xyz, std::span<const std::size_t> bad, FacePatch& patch) {
+  std::set<std::array<NodeId, 3>> left;  // bad triangles, by their nodes
+  for (const std::size_t t : bad) left.insert(std::to_array(patch.triangles[t].n));
+  int n_filled = 0;
+  for (const int rings : kRings) {
+    for (bool has_filled = true; has_filled && !left.empty();) {
+      has_filled = false;
+      std::vector<std::size_t> seeds;
+      for (std::size_t t = 0; t < patch.triangles.size(); ++t)
+        if (left.contains(std::to_array(patch.triangles[t].n))) seeds.push_back(t);
+      for (const TrianglePlace& place :
+           places_about(patch.triangles, static_cast<std::int64_t>(xyz.size()), seeds, rings)) {
+        const std::vector<Triangle> added = fill(xyz, patch.triangles, place);
+        if (added.empty()) continue;
+        for (const std::size_t t : place.triangles) left.erase(std::to_array(patch.triangles[t].n));
+        exchange(place, added, patch);
+        ++n_filled;
+        has_filled = true;
+        break;  // the triangles have other numbers now
+      }
+    }
+  }
+  if (n_filled > 0) drop_unused(patch);
+  return n_filled;
+}
+
+}  // namespace st
