@@ -32,7 +32,7 @@ struct NamedTasks {
   std::vector<std::int32_t> order;  ///< as for Executor::run_tasks
   std::function<TaskLabel(std::int32_t task)> label;
   std::string made_from;  ///< digest of all that the results depend on, but for the inputs and options of the run; the
-                          ///< same on every rank
+                          ///< same on every rank. Empty: not worth keeping
 };
 
 /// The ranks of a job. `comm` has the one over MPI; SerialExecutor is the one of tests and of callers without ranks.
@@ -43,6 +43,10 @@ class Executor {
   virtual int size() const = 0;
   bool is_root() const { return rank() == 0; }
 
+  /// Whether anyone but rank 0 wants to have what it shares.
+  virtual bool has_listeners() const { return size() > 1; }
+  /// Local: what follows, in the words of a trace. `name`: a literal.
+  virtual void begin_phase(const char* name) const { static_cast<void>(name); }
   /// Collective: rank 0's bytes on every rank.
   virtual void broadcast(Bytes& bytes) const = 0;
   /// Collective: the bytes of every rank on rank 0, by rank; nothing elsewhere.

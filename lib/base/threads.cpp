@@ -12,12 +12,32 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/log.h"
 
 namespace st {
 namespace {
 
 std::atomic<int> g_thread_count = 1;
 thread_local int t_depth = 0;  // loops in whose pieces this thread is
+thread_local bool t_is_timed = false;
+thread_local double t_seconds_in_loops = 0;
+
+/// Adds the time of its life, but for one in the life of another one.
+class LoopTimer {
+ public:
+  LoopTimer() : is_outermost_(t_depth == 0 && !std::exchange(t_is_timed, true)) {}
+  ~LoopTimer() {
+    if (!is_outermost_) return;
+    t_is_timed = false;
+    t_seconds_in_loops += timer_.seconds();
+  }
+  LoopTimer(const LoopTimer&) = delete;
+  LoopTimer& operator=(const LoopTimer&) = delete;
+
+ private:
+  bool is_outermost_;
+  Timer timer_;
+};
 
 /// The pieces of one loop, taken one after the other by whoever works on it.
 class Loop {
@@ -150,6 +170,7 @@ int processor_count() { return std::max(1, static_cast<int>(std::thread::hardwar
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   static Pool pool;
+  const LoopTimer timer;
   grain = std::max<std::size_t>(grain, 1);
   if (thread_count() == 1 || n <= grain) {
     for (std::size_t begin = 0; begin < n; begin += grain) body(begin, std::min(n, begin + grain));
@@ -159,6 +180,8 @@ void parallel_for(std::size_t n, std::size_t grain,
   pool.run(loop);
   loop.rethrow();
 }
+
+double seconds_in_loops() { return t_seconds_in_loops; }
 
 void run_jobs(const std::vector<std::function<void()>>& jobs) {
   parallel_for(jobs.size(), 1, [&](std::size_t i, std::size_t) { jobs[i](); });

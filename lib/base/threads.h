@@ -22,6 +22,9 @@ int processor_count();
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads speed up.
+double seconds_in_loops();
+
 /// Sorts as std::sort does, by pieces that are merged. Elements that are equal to `less` end in an order that does not
 /// depend on the number of threads.
 template <class Iterator, class Less>

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <numeric>
+#include <memory>
+#include <mutex>
 #include <tuple>
+#include <utility>
 
 #include "base/assert.h"
+#include "base/threads.h"
 
 namespace st {
 
@@ -67,120 +71,140 @@ struct Item {
 
 struct TreeNode {
   FloatBox box;
-  Directions near;            ///< directions that all triangles below agree with
-  std::int32_t begin, end;    ///< range of items
-  std::int32_t left = kNone;  ///< first of two children; kNone: not split (yet)
+  Directions near;          ///< directions that all triangles below agree with
+  std::int32_t begin, end;  ///< range of items
+  std::int32_t left;        ///< first of two children; kNone: not split (yet). Read and written as an atomic
   std::int32_t size() const { return end - begin; }
 };
 
+/// Several threads may test at once. Who first needs the children of a node makes them, alone; leaves never change.
 class Forest {
  public:
-  explicit Forest(const PatchTriangles& mesh) : mesh_(mesh) {
-    items_.reserve(mesh.triangles.size());
-    for (std::size_t f = 0; f + 1 < mesh.face_begin.size(); ++f) add_face(mesh.face_begin[f], mesh.face_begin[f + 1]);
+  using Pairs = std::vector<TrianglePair>;
+
+  explicit Forest(const PatchTriangles& mesh)
+      : mesh_(mesh),
+        n_faces_(static_cast<std::int32_t>(mesh.face_begin.size()) - 1),
+        items_(new Item[mesh.triangles.size()]),
+        nodes_(new TreeNode[n_faces_ + 2 * mesh.triangles.size()]),  // a node has two children, none of them empty
+        n_nodes_(n_faces_) {
+    parallel_for(mesh.triangles.size(), kItemsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) items_[t] = item_of(static_cast<TriangleId>(t));
+    });
+    parallel_for(n_faces_, kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) nodes_[f] = root_of(static_cast<FaceId>(f));
+    });
   }
   const FloatBox& box(FaceId f) const { return nodes_[f].box; }
   bool is_empty(FaceId f) const { return nodes_[f].size() == 0; }
-  void test_within(std::int32_t n) {
+  void test_within(std::int32_t n, Pairs& pairs) {
     if (nodes_[n].near != 0 || nodes_[n].size() < 2) return;
-    if (!split(n)) {
-      for (std::int32_t i = nodes_[n].begin; i < nodes_[n].end; ++i) test_item(i, i + 1, nodes_[n].end);
+    const std::int32_t left = split(n);
+    if (left == kNone) {
+      for (std::int32_t i = nodes_[n].begin; i < nodes_[n].end; ++i) test_item(i, i + 1, nodes_[n].end, pairs);
       return;
     }
-    const std::int32_t left = nodes_[n].left;
-    test_within(left);
-    test_within(left + 1);
-    test_between(left, left + 1);
+    test_within(left, pairs);
+    test_within(left + 1, pairs);
+    test_between(left, left + 1, pairs);
   }
-  void test_between(std::int32_t a, std::int32_t b) {
+  void test_between(std::int32_t a, std::int32_t b, Pairs& pairs) {
     if (!nodes_[a].box.meets(nodes_[b].box)) return;
     if (nodes_[a].box.extent() < nodes_[b].box.extent()) std::swap(a, b);
-    if (!split(a)) std::swap(a, b);
-    if (split(a)) {
-      const std::int32_t left = nodes_[a].left;
-      test_between(left, b);
-      test_between(left + 1, b);
+    std::int32_t left = split(a);
+    if (left == kNone) {
+      std::swap(a, b);
+      left = split(a);
+    }
+    if (left != kNone) {
+      test_between(left, b, pairs);
+      test_between(left + 1, b, pairs);
       return;
     }
     for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
-      if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end);
-  }
-  std::vector<TrianglePair> take_sorted() {
-    std::sort(pairs_.begin(), pairs_.end(),
-              [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-    return std::move(pairs_);
+      if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end, pairs);
   }
 
  private:
   static constexpr std::int32_t kLeafSize = 12;
   static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
+  static constexpr std::size_t kItemsPerPiece = 16'384, kFacesPerPiece = 8, kLocks = 256;
 
-  /// Appends the root of a face: node f, over the face's triangles with an area.
-  void add_face(TriangleId begin, TriangleId end) {
-    const auto first = static_cast<std::int32_t>(items_.size());
-    for (TriangleId t = begin; t < end; ++t) {
-      const Triangle& tri = mesh_.triangles[t];
-      const Vec3 a = mesh_.points[tri.n[0]], b = mesh_.points[tri.n[1]], c = mesh_.points[tri.n[2]];
-      const Vec3 normal = cross(b - a, c - a);
-      const double length2 = norm2(normal);
-      if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) &&
-          is_degenerate(mesh_.points, tri))
-        continue;
-      Box3 box{a, a};
-      box.add(b);
-      box.add(c);
-      const auto f = [](double x) { return static_cast<float>(x); };
-      items_.push_back({{{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}},
-                        length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0,
-                        t});
-    }
-    nodes_.push_back(node_over(first, static_cast<std::int32_t>(items_.size())));
+  /// Without an id where the triangle has no area.
+  Item item_of(TriangleId t) const {
+    const Triangle& tri = mesh_.triangles[t];
+    const Vec3 a = mesh_.points[tri.n[0]], b = mesh_.points[tri.n[1]], c = mesh_.points[tri.n[2]];
+    const Vec3 normal = cross(b - a, c - a);
+    const double length2 = norm2(normal);
+    if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) && is_degenerate(mesh_.points, tri))
+      return {{}, 0, kNone};
+    Box3 box{a, a};
+    box.add(b);
+    box.add(c);
+    const auto f = [](double x) { return static_cast<float>(x); };
+    return {{{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}},
+            length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0,
+            t};
+  }
+
+  /// Over the triangles of a face that have an area.
+  TreeNode root_of(FaceId f) {
+    Item *first = &items_[mesh_.face_begin[f]], *last = &items_[mesh_.face_begin[f + 1]];
+    last = std::remove_if(first, last, [](const Item& i) { return i.id == kNone; });
+    return node_over(mesh_.face_begin[f], static_cast<std::int32_t>(last - items_.get()));
   }
 
   TreeNode node_over(std::int32_t begin, std::int32_t end) const {
-    if (begin == end) return {{}, 0, begin, end};
-    TreeNode node{items_[begin].box, items_[begin].near, begin, end};
+    if (begin == end) return {{}, 0, begin, end, kNone};
+    TreeNode node{items_[begin].box, items_[begin].near, begin, end, kNone};
     for (std::int32_t i = begin + 1; i < end; ++i) node.box.add(items_[i].box), node.near &= items_[i].near;
     return node;
   }
 
-  /// Gives the node its children; false for a leaf. Halves the box, or the items where that would leave a small part.
-  bool split(std::int32_t n) {
-    const TreeNode node = nodes_[n];
-    if (node.left != kNone) return true;
-    if (node.size() <= kLeafSize) return false;
+  /// The first child of the node, made where it is not there yet; kNone for a leaf. Halves the box, or the items where
+  /// that would leave a small part.
+  std::int32_t split(std::int32_t n) {
+    TreeNode& node = nodes_[n];
+    if (node.size() <= kLeafSize) return kNone;
+    const std::atomic_ref left(node.left);
+    if (const std::int32_t known = left.load(std::memory_order_acquire); known != kNone) return known;
+    const std::lock_guard lock(locks_[n % kLocks]);
+    if (const std::int32_t known = left.load(std::memory_order_acquire); known != kNone) return known;
     const int axis = node.box.longest_axis();
     const auto key = [axis](const FloatBox& box) { return box.lo[axis] + box.hi[axis]; };
-    const auto first = items_.begin() + node.begin, last = items_.begin() + node.end;
-    auto middle = std::partition(first, last, [&, at = key(node.box)](const Item& i) { return key(i.box) < at; });
+    Item *first = &items_[node.begin], *last = first + node.size();
+    Item* middle = std::partition(first, last, [&, at = key(node.box)](const Item& i) { return key(i.box) < at; });
     if (std::min(middle - first, last - middle) * kMaxLopsided < node.size()) {
       middle = first + node.size() / 2;
       std::nth_element(first, middle, last, [&](const Item& i, const Item& j) {
         return std::pair(key(i.box), i.id) < std::pair(key(j.box), j.id);
       });
     }
-    const auto at = static_cast<std::int32_t>(middle - items_.begin());
-    nodes_[n].left = static_cast<std::int32_t>(nodes_.size());
-    nodes_.push_back(node_over(node.begin, at));
-    nodes_.push_back(node_over(at, node.end));
-    return true;
+    const auto at = static_cast<std::int32_t>(middle - items_.get());
+    const std::int32_t child = n_nodes_.fetch_add(2);
+    nodes_[child] = node_over(node.begin, at);
+    nodes_[child + 1] = node_over(at, node.end);
+    left.store(child, std::memory_order_release);
+    return child;
   }
 
   /// Compares item i with the items [begin, end).
-  void test_item(std::int32_t i, std::int32_t begin, std::int32_t end) {
+  void test_item(std::int32_t i, std::int32_t begin, std::int32_t end, Pairs& pairs) const {
     for (std::int32_t j = begin; j < end; ++j) {
       if (!items_[i].box.meets(items_[j].box)) continue;
       const auto [a, b] = std::minmax(items_[i].id, items_[j].id);
       int n_shared = 0;
       if (triangles_cross(mesh_.points, mesh_.triangles[a], mesh_.triangles[b], n_shared))
-        pairs_.push_back({a, b, n_shared});
+        pairs.push_back({a, b, n_shared});
     }
   }
 
   const PatchTriangles& mesh_;
-  std::vector<Item> items_;
-  std::vector<TreeNode> nodes_;  ///< node f is the root of face f
-  std::vector<TrianglePair> pairs_;
+  const std::int32_t n_faces_;
+  std::unique_ptr<Item[]> items_;      // by face: where its triangles are
+  std::unique_ptr<TreeNode[]> nodes_;  // node f is the root of face f; memory that is not used is never touched
+  std::atomic<std::int32_t> n_nodes_;
+  std::array<std::mutex, kLocks> locks_;
 };
 
 /// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the
@@ -216,12 +240,26 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
   const auto n_faces = static_cast<FaceId>(mesh.face_shell.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
   Forest forest(mesh);
+  std::vector<std::pair<FaceId, FaceId>> jobs;  // a face with itself, or two faces
   for (FaceId f = 0; f < n_faces; ++f)
-    if (is_dirty(f)) forest.test_within(f);
+    if (is_dirty(f)) jobs.push_back({f, f});
   for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
-    if (mesh.face_shell[f] == mesh.face_shell[g] && (is_dirty(f) || is_dirty(g))) forest.test_between(f, g);
+    if (mesh.face_shell[f] == mesh.face_shell[g] && (is_dirty(f) || is_dirty(g))) jobs.push_back({f, g});
   });
-  return forest.take_sorted();
+  constexpr std::size_t kJobsPerPiece = 4;
+  std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
+  parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [f, g] = jobs[i];
+      Forest::Pairs& pairs = found[begin / kJobsPerPiece];
+      f == g ? forest.test_within(f, pairs) : forest.test_between(f, g, pairs);
+    }
+  });
+  Forest::Pairs all;
+  for (const Forest::Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
+  std::sort(all.begin(), all.end(),
+            [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+  return all;
 }
 
 }  // namespace st

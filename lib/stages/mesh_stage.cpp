@@ -22,6 +22,7 @@
 #include "stages/resumption.h"
 #include "stages/same_inputs.h"
 #include "stages/stored_model.h"
+#include "stages/task_trace.h"
 
 namespace st {
 namespace {
@@ -126,9 +127,12 @@ std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier) {
 
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
+  TaskTrace trace(comm, o.trace);
   keep_freed_memory();
   require_valid(o);
-  if (comm.is_root()) require_writable(o.output);
+  if (comm.is_root())
+    for (const std::string& path : o.trace.empty() ? std::vector{o.output} : std::vector{o.output, o.trace})
+      require_writable(path);
   GeometryArtifact geometry = read_geometry(o.geometry);
   const MappedSizing sizing = map_sizing(o.sizing);
   require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizing, sizing.header.content_hash}});
@@ -137,22 +141,25 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   std::vector<FaceId> faces = select_faces(o, model.tables());
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing);
   EarlierPart earlier = read_earlier_part(o, geometry.header);
-  const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, comm)
+  const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, trace)
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
   const ArtifactHeader header = output_header(o, geometry.header, sizing.header);
-  Resumption resumption(comm, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
+  Resumption resumption(trace, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(
       model, topology, *sizing.field, std::move(plan),
       {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, resumption.left_out(), o.time_limit},
       resumption);
   resumption.end();
-  if (!comm.is_root()) return {};
-  StageSummary summary =
-      write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
-                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
-  resumption.remove();
+  trace.begin_phase("write");
+  StageSummary summary;
+  if (comm.is_root()) {
+    summary = write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
+                                   {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
+    resumption.remove();
+  }
+  trace.write();
   return summary;
 }
 

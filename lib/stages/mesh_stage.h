@@ -31,7 +31,7 @@ struct MeshStageOptions {
   static constexpr NumberOption kMaxTurning{
       "--max-turning", "DEG", "[0.001, 60]",
       "largest angle in degrees by which a CAD edge turns along one mesh segment"};
-  double tile_triangles = 100'000;
+  double tile_triangles = 50'000;
   static constexpr NumberOption kTile{
       "--tile", "N", "[0, 1e9]",
       "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none"};
@@ -39,6 +39,7 @@ struct MeshStageOptions {
   static constexpr NumberOption kTimeLimit{
       "--time-limit", "SECONDS", "[0.1, 1e9]",
       "leave out a face that takes longer; default: 600 and 50 times what its triangles need"};
+  std::string trace;  ///< table of the time of each task, see TaskTrace; empty: none
   double journal_after = 2;
   static constexpr NumberOption kJournalAfter{
       "--journal-after", "SECONDS", "[0, 1e9]",

@@ -119,6 +119,7 @@ std::vector<std::int32_t> Resumption::collect_done(const std::vector<Work>& work
 }
 
 void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute, const Collect& collect) const {
+  if (tasks.made_from.empty()) return inner_.run_named_tasks(tasks, compute, collect);
   std::vector<Work> works;
   for (std::int32_t task = 0; task < static_cast<std::int32_t>(tasks.order.size()); ++task)
     works.push_back(work_of(tasks.label(task), tasks.made_from));

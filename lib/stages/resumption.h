@@ -41,6 +41,8 @@ class Resumption : public Executor {
 
   int rank() const override { return inner_.rank(); }
   int size() const override { return inner_.size(); }
+  bool has_listeners() const override { return inner_.has_listeners(); }
+  void begin_phase(const char* name) const override { inner_.begin_phase(name); }
   void broadcast(Bytes& bytes) const override { inner_.broadcast(bytes); }
   std::vector<Bytes> gather(Bytes own) const override { return inner_.gather(std::move(own)); }
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,

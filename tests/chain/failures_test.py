@@ -117,7 +117,7 @@ class Crash(ToolTest):
         return run.returncode, error
 
     def test_of_the_mesher_leaves_out_the_face_and_reports_it(self):
-        must("st-raster", self.chain / "g.hdf", "-o", self.chain / "r.hdf", "--lmax", "0.25%", "--lmin", "0.2%")
+        must("st-raster", self.chain / "g.hdf", "-o", self.chain / "r.hdf", "--lmax", "0.15%", "--lmin", "0.1%")
         must("st-prolong", self.chain / "r.hdf", "-o", self.chain / "s.hdf")
         patches = self.out / "p.hdf"
         code, error = self.crash(BIN / "st-mesh", self.chain / "g.hdf", self.chain / "s.hdf", "-o", patches)

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   tool.number(o.kMaxTurning, o.max_turning_deg);
   tool.number(o.kTile, o.tile_triangles);
   tool.number(o.kTimeLimit, o.time_limit);
+  tool.output_option("--trace", o.trace, "table of the time of each task, for bench/replay.py; default: none");
   tool.number(o.kJournalAfter, o.journal_after);
   tool.flag("--no-resume", o.begins_new, "begin anew, without what an earlier run has kept in OUTPUT.journal");
   tool.restart_after_crash();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/mapped_file.h"
+#include "base/threads.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/hdf5_open.h"
@@ -180,6 +182,11 @@ const char* element_type_name(ElementType type) {
 
 struct Hdf5Writer::Impl {
   explicit Impl(const std::string& path) : temporary(path) {}
+  ~Impl() {
+    if (rows_file >= 0) close(rows_file);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
   TemporaryFile temporary;
   File file;
   std::map<std::string, Group> groups;
@@ -199,6 +206,11 @@ struct Hdf5Writer::Impl {
   void set(const std::string& group_name, const std::string& name, AttributeValue value);
   Dataset create_dataset(const std::string& name, hid_t type, hid_t space);
   void finish_dataset(hid_t dataset, DatasetInfo info);
+  void add_writes(hid_t dataset, const std::string& name, const std::vector<std::span<const std::byte>>& parts,
+                  std::vector<std::function<void()>>& jobs);
+  void write_at(std::uint64_t offset, std::span<const std::byte> bytes, const std::string& name) const;
+
+  int rows_file = -1;  // the temporary file once more, for rows
 };
 
 /// The group `name` ("/a/b"), made as needed, parents first. Attributes and links stay inside the object headers.
@@ -242,6 +254,7 @@ Dataset Hdf5Writer::Impl::create_dataset(const std::string& name, hid_t type, hi
   group(name.substr(0, name.rfind('/')));
   const Properties creation(H5Pcreate(H5P_DATASET_CREATE));
   H5Pset_layout(creation, H5D_CONTIGUOUS);
+  H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
   H5Pset_obj_track_times(creation, false);
   if (H5Tis_variable_str(type) <= 0) H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);  // refused for variable length
   Dataset dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
@@ -286,15 +299,67 @@ void Hdf5Writer::write_raw(const std::string& name, ElementType type, const void
   if (columns == 0 || n_elements % columns != 0)
     throw Error(ExitCode::kInternal,
                 name + ": " + std::to_string(n_elements) + " values are not rows of " + std::to_string(columns));
-  const std::size_t n_rows = n_elements / columns;
+  write_bytes(name, type, {{static_cast<const std::byte*>(values), n_elements * element_size(type)}}, columns);
+}
+
+void Hdf5Writer::write_bytes(const std::string& name, ElementType type,
+                             const std::vector<std::span<const std::byte>>& parts, std::size_t columns) {
+  std::size_t n_bytes = 0;
+  for (const auto& part : parts) n_bytes += part.size();
+  const std::size_t n_rows = n_bytes / (columns * element_size(type));
   const hsize_t dims[2] = {n_rows, columns};
   const Space space(H5Screate_simple(columns == 1 ? 1 : 2, dims, nullptr));
   const Dataset dataset = impl_->create_dataset(name, native_type(type), space);
-  if (n_elements)
-    impl_->require(H5Dwrite(dataset, native_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, name);
-  DatasetInfo info{name, type, {n_rows}, hash_hex(values, n_elements * element_size(type)), false};
+  std::string checksum;
+  const auto hash = [&] {
+    Hasher hasher;
+    for (const auto& part : parts) hasher.add(part.data(), part.size());
+    checksum = hasher.hex();
+  };
+  std::vector<std::function<void()>> jobs = {hash};
+  if (n_bytes > 0) impl_->add_writes(dataset, name, parts, jobs);
+  run_jobs(jobs);
+  DatasetInfo info{name, type, {n_rows}, checksum, false};
   if (columns != 1) info.shape.push_back(columns);
   impl_->finish_dataset(dataset, std::move(info));
+}
+
+/// Jobs that write the rows of a dataset. Its place in the file is known: they go there past HDF5, which has one
+/// thread.
+void Hdf5Writer::Impl::add_writes(hid_t dataset, const std::string& name,
+                                  const std::vector<std::span<const std::byte>>& parts,
+                                  std::vector<std::function<void()>>& jobs) {
+  constexpr std::size_t kPerJob = std::size_t{4} << 20;
+  const haddr_t begin = H5Dget_offset(dataset);
+  require(begin != HADDR_UNDEF, name);
+  if (rows_file < 0) rows_file = open(temporary.name().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  require(rows_file >= 0, name);
+  std::size_t at = 0, n_in_job = kPerJob;
+  std::vector<std::vector<std::pair<std::size_t, std::span<const std::byte>>>> pieces;
+  for (std::span<const std::byte> rest : parts)
+    while (!rest.empty()) {
+      if (n_in_job >= kPerJob) pieces.emplace_back(), n_in_job = 0;
+      const auto piece = rest.first(std::min(rest.size(), kPerJob - n_in_job));
+      pieces.back().emplace_back(at, piece);
+      rest = rest.subspan(piece.size());
+      at += piece.size();
+      n_in_job += piece.size();
+    }
+  for (auto& some : pieces)
+    jobs.emplace_back([this, begin, name, some = std::move(some)] {
+      for (const auto& [offset, bytes] : some) write_at(begin + offset, bytes, name);
+    });
+}
+
+void Hdf5Writer::Impl::write_at(std::uint64_t offset, std::span<const std::byte> bytes, const std::string& name) const {
+  while (!bytes.empty()) {
+    errno = 0;
+    const ssize_t n = pwrite(rows_file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    require(n > 0, name);
+    offset += static_cast<std::uint64_t>(n);
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+  }
 }
 
 void Hdf5Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {

@@ -112,6 +112,14 @@ class Hdf5Writer {
   void write(const std::string& name, const std::vector<T>& values, std::size_t columns = Element<T>::count) {
     write(name, std::span<const T>(values), columns);
   }
+  /// Rows that lie in several places, behind one another. Written by all threads, each at its own place in the file.
+  template <class T>
+  void write_parts(const std::string& name, const std::vector<std::span<const T>>& parts) {
+    static_assert(sizeof(T) == Element<T>::count * element_size(Element<T>::type), "no padding inside");
+    std::vector<std::span<const std::byte>> bytes;
+    for (const std::span<const T> part : parts) bytes.push_back(std::as_bytes(part));
+    write_bytes(name, Element<T>::type, bytes, Element<T>::count);
+  }
   /// UTF-8 strings, fixed-length and padded with NUL (a NUL inside a string ends it), shape (n).
   void write_strings(const std::string& name, const std::vector<std::string>& values);
   /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for
@@ -130,6 +138,8 @@ class Hdf5Writer {
  private:
   void write_raw(const std::string& name, ElementType type, const void* values, std::size_t n_elements,
                  std::size_t columns);
+  void write_bytes(const std::string& name, ElementType type, const std::vector<std::span<const std::byte>>& parts,
+                   std::size_t columns);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -11,16 +11,13 @@ using PatchArray = std::vector<T> FacePatch::*;
 
 /// One array of all patches, behind one another.
 template <class T>
-std::vector<T> concatenate(const std::vector<FacePatch>& patches, PatchArray<T> array) {
-  std::size_t n = 0;
-  for (const FacePatch& p : patches) n += (p.*array).size();
-  std::vector<T> all;
-  all.reserve(n);
-  for (const FacePatch& p : patches) all.insert(all.end(), (p.*array).begin(), (p.*array).end());
-  return all;
+void write_all(Hdf5Writer& w, const std::string& name, const std::vector<FacePatch>& patches, PatchArray<T> array) {
+  std::vector<std::span<const T>> parts;
+  for (const FacePatch& p : patches) parts.emplace_back(p.*array);
+  w.write_parts(name, parts);
 }
 
-/// Where each patch starts in concatenate(), [n_patches+1].
+/// Where each patch starts in write_all(), [n_patches+1].
 template <class T>
 std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, PatchArray<T> array) {
   std::vector<std::int64_t> offsets = {0};
@@ -28,7 +25,7 @@ std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, Patc
   return offsets;
 }
 
-/// The inverse of concatenate() for an array with `factor` rows for each step of the offsets.
+/// The inverse of write_all() for an array with `factor` rows for each step of the offsets.
 template <class T>
 void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets,
                 std::vector<FacePatch>& patches, PatchArray<T> array, std::int64_t factor = 1) {
@@ -46,14 +43,14 @@ void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
   w.write("/st/patch/boundary_offsets", offsets_of(patches, &FacePatch::boundary_dim));
   w.write("/st/patch/inner_offsets", offsets_of(patches, &FacePatch::inner_xyz));
   w.write("/st/patch/triangle_offsets", offsets_of(patches, &FacePatch::triangles));
-  w.write("/st/boundary/dim", concatenate(patches, &FacePatch::boundary_dim));
-  w.write("/st/boundary/entity", concatenate(patches, &FacePatch::boundary_entity));
-  w.write("/st/boundary/index", concatenate(patches, &FacePatch::boundary_index));
-  w.write("/st/inner/xyz", concatenate(patches, &FacePatch::inner_xyz));
-  w.write("/st/inner/uv", concatenate(patches, &FacePatch::inner_uv));
-  w.write("/st/inner/size", concatenate(patches, &FacePatch::inner_size));
-  w.write("/st/triangle/nodes", concatenate(patches, &FacePatch::triangles));
-  w.write("/st/triangle/corner_uv", concatenate(patches, &FacePatch::corner_uv));
+  write_all(w, "/st/boundary/dim", patches, &FacePatch::boundary_dim);
+  write_all(w, "/st/boundary/entity", patches, &FacePatch::boundary_entity);
+  write_all(w, "/st/boundary/index", patches, &FacePatch::boundary_index);
+  write_all(w, "/st/inner/xyz", patches, &FacePatch::inner_xyz);
+  write_all(w, "/st/inner/uv", patches, &FacePatch::inner_uv);
+  write_all(w, "/st/inner/size", patches, &FacePatch::inner_size);
+  write_all(w, "/st/triangle/nodes", patches, &FacePatch::triangles);
+  write_all(w, "/st/triangle/corner_uv", patches, &FacePatch::corner_uv);
 }
 
 /// Offsets of one kind of rows of the patches; `array` is one that they point into.
@@ -113,8 +110,8 @@ std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtif
 void write_previous(Hdf5Writer& w, const PatchesArtifact& a) {
   if (a.edges.node_previous.empty()) return;
   w.write("/st/edge_node/previous_id", a.edges.node_previous);
-  w.write("/st/inner/previous_id", concatenate(a.patches, &FacePatch::inner_previous));
-  w.write("/st/triangle/previous_id", concatenate(a.patches, &FacePatch::triangle_previous));
+  write_all(w, "/st/inner/previous_id", a.patches, &FacePatch::inner_previous);
+  write_all(w, "/st/triangle/previous_id", a.patches, &FacePatch::triangle_previous);
 }
 
 void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/threads.h"
 #include "mesh/patch_crossing.h"
 
 namespace st {
@@ -35,12 +36,17 @@ struct EdgeUse {
 
 /// Uses of edges between two nodes on boundaries, sorted.
 std::vector<EdgeUse> uses_between_boundaries(const WeldedPatches& mesh) {
+  constexpr std::size_t kPerPiece = 65'536;
+  std::vector<std::vector<EdgeUse>> found(mesh.triangles.size() / kPerPiece + 1);
+  parallel_for(mesh.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const auto [a, b] = std::minmax(mesh.triangles[i].n[k], mesh.triangles[i].n[(k + 1) % 3]);
+        if (b < mesh.n_boundary) found[begin / kPerPiece].push_back({a, b, static_cast<TriangleId>(i)});
+      }
+  });
   std::vector<EdgeUse> uses;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(mesh.triangles[i].n[k], mesh.triangles[i].n[(k + 1) % 3]);
-      if (b < mesh.n_boundary) uses.push_back({a, b, static_cast<TriangleId>(i)});
-    }
+  for (const auto& some : found) uses.insert(uses.end(), some.begin(), some.end());
   std::sort(uses.begin(), uses.end());
   return uses;
 }

@@ -21,8 +21,12 @@ EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int3
       part.append(make(i));
     return packed(part);
   };
-  executor.run_tasks(n_tasks, heaviest_first(std::vector<double>(n_tasks, 1)), compute,
-                     [&](std::int32_t task, Bytes&& result) { unpack(result, parts[task]); });
+  executor.run_named_tasks({heaviest_first(std::vector<double>(n_tasks, 1)),
+                            [](std::int32_t task) {
+                              return TaskLabel{"curves", task};
+                            },
+                            ""},
+                           compute, [&](std::int32_t task, Bytes&& result) { unpack(result, parts[task]); });
   EdgeMesh all = EdgeMesh::of_edges(0);
   for (const EdgeMesh& part : parts)
     for (EdgeId i = 0; i < part.n_edges(); ++i) all.append(part, i);

@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
+#include "base/threads.h"
 #include "features/strip.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/engine/dirty_parts.h"
@@ -270,6 +271,7 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
                [&](FaceId f) { return !tiled.is_cut(f); });
   wanted_.assign(outcomes_.size(), {});
   run_tasks(whole, tiled);
+  executor_.begin_phase("join tiles");
   std::vector<FaceId> failed = join(tiled);
   share(executor_, failed);
   TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
@@ -327,17 +329,21 @@ void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) 
 
 /// Local. Joins the tiles of each face on rank 0; returns the faces of which a tile failed, or whose tiles do not fit.
 std::vector<FaceId> FaceRounds::join(TiledFaces& tiled) {
-  std::vector<FaceId> failed;
+  std::vector<FaceId> cut, failed;
   if (!executor_.is_root()) return failed;
-  for (const FaceId f : dirty_faces_) {
-    if (!tiled.is_cut(f)) continue;
-    FaceResult result = make_face(f, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-      return tiled.join(surface, f, boundary);
+  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(cut),
+               [&](FaceId f) { return tiled.is_cut(f); });
+  std::vector<FaceResult> results(cut.size());
+  parallel_for(cut.size(), 1, [&](std::size_t i, std::size_t) {
+    results[i] = make_face(cut[i], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+      return tiled.join(surface, cut[i], boundary);
     });
-    if (result.cause == FailureCause::kNone)
-      take_face(f, std::move(result));
+  });
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    if (results[i].cause == FailureCause::kNone)
+      take_face(cut[i], std::move(results[i]));
     else
-      failed.push_back(f);
+      failed.push_back(cut[i]);
   }
   return failed;
 }

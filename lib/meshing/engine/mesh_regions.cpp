@@ -72,6 +72,7 @@ MeshResult mesh_regions(const Model& model, const MeshTopology& topology, const 
                         const MeshOptions& options, const Executor& executor) {
   MeshResult result;
   run_faces(model, topology, field, std::move(plan), options, executor, result);
+  executor.begin_phase("requests");
   if (executor.is_root()) store_requests(field, result);
   return result;
 }

@@ -41,7 +41,9 @@ void MeshRounds::run() {
   std::uint64_t n_first = 0;  // triangles of the first round
   std::uint64_t n_last = 0;   // places of the last search for crossings
   for (int n_rounds = 1, n_crossing_rounds = 0;; ++n_rounds) {
+    executor_.begin_phase("edges");
     timed(times.edges, [&] { mesh_edges(); });
+    executor_.begin_phase("regions");
     const Places wanted = timed(times.faces, [&] { return mesh_regions(); });
     ++result_.n_rounds;
     if (n_rounds == 1) n_first = n_meshed_;
@@ -73,8 +75,10 @@ bool MeshRounds::runs_away(std::uint64_t n_first) {
 MeshRounds::Places MeshRounds::join_and_check() {
   Progress progress("joining", 2);
   progress.step("nodes", 0);
+  executor_.begin_phase("join");
   timed(result_.times.join, [&] { join(); });
   progress.step("crossing facets", 1);
+  executor_.begin_phase("crossings");
   return timed(result_.times.crossing, [&] { return find_crossings(); });
 }
 
@@ -89,6 +93,7 @@ bool MeshRounds::refine(const Places& places, double floor) {
   refinements_.assign(std::move(all));
   const std::size_t n_new = refinements_.all().size() - n_before;
   if (n_new == 0) return false;
+  executor_.begin_phase("choice");
   result_.n_refinements += static_cast<int>(n_new);
   choose_again(n_before);
   return true;

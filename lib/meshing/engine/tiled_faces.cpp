@@ -47,8 +47,12 @@ void TiledFaces::cut(const std::vector<FaceId>& faces, const std::vector<double>
   }
   if (heavy.empty()) return;
   std::vector<TileCut> cuts(heavy.size());
-  executor.run_tasks(
-      static_cast<std::int32_t>(heavy.size()), heaviest_first(work),
+  executor.run_named_tasks(
+      {heaviest_first(work),
+       [&](std::int32_t task) {
+         return TaskLabel{"cut", heavy[task]};
+       },
+       ""},
       [&](std::int32_t task) { return packed(cut_one(heavy[task], tile_triangles)); },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, cuts[task]); });
   share(executor, cuts);
@@ -81,8 +85,7 @@ void TiledFaces::take(std::int32_t tile, const Bytes& bytes) {
 }
 
 FaceMesh TiledFaces::join(const Surface& surface, FaceId f, const FaceBoundary& boundary) {
-  std::vector<FaceMesh> meshes = std::move(meshes_[f]);
-  meshes_.erase(f);
+  std::vector<FaceMesh> meshes = std::move(meshes_.at(f));
   return join_tiles(surface, boundary, cuts_.at(f), field_of(f).get(), options_, std::move(meshes));
 }
 

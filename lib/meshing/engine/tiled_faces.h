@@ -60,6 +60,7 @@ class TiledFaces {
   void take(std::int32_t tile, const Bytes& bytes);
 
   /// Local, on rank 0, when all tiles were taken: the whole mesh of a face; its tiles are gone after it.
+  /// Several threads may join different faces.
   FaceMesh join(const Surface& surface, FaceId f, const FaceBoundary& boundary);
 
  private:

@@ -118,6 +118,21 @@ TEST(ParallelFor, inside_another_one_throws_through_both) {
                std::runtime_error);
 }
 
+TEST(SecondsInLoops, count_the_outermost_loop_of_this_thread) {
+  for (const int n_threads : {1, 2}) {
+    const Threads threads(n_threads);
+    const double before = seconds_in_loops();
+    parallel_for(2, 1, [](std::size_t, std::size_t) {
+      parallel_for(2, 1, [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); });
+    });
+    EXPECT_GE(seconds_in_loops() - before, 0.005);
+    EXPECT_LT(seconds_in_loops() - before, 5);
+    const double after = seconds_in_loops();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(seconds_in_loops(), after);
+  }
+}
+
 TEST(RunJobs, runs_each_once) {
   for (const int n_threads : {1, 3}) {
     const Threads threads(n_threads);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/threads.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -80,6 +81,28 @@ TEST(Hdf5File, maps_large_and_small_and_empty_arrays) {
   }
   ASSERT_EQ(large.size(), 5000u);  // outlives the reader
   EXPECT_EQ(large[4999], 4999 * 4999);
+}
+
+TEST(Hdf5File, writes_rows_of_several_places_behind_one_another) {
+  const TemporaryDirectory dir;
+  std::vector<std::int64_t> all(1'300'001);  // some pieces of the file
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i * i);
+  const std::span<const std::int64_t> rows(all);
+  const auto write = [&](const std::string& path, const std::vector<std::span<const std::int64_t>>& parts) {
+    Hdf5Writer writer(path, sizing_header());
+    writer.write_parts("/st/rows", parts);
+    writer.write("/st/doubles", kDoubles);
+    return writer.commit();
+  };
+  const std::string whole = write(dir / "whole.hdf", {rows});
+  for (const int n_threads : {1, 3}) {
+    set_thread_count(n_threads);
+    const std::string hash =
+        write(dir / "parts.hdf", {rows.first(3), {}, rows.subspan(3, 700'000), rows.subspan(700'003)});
+    set_thread_count(1);
+    EXPECT_EQ(hash, whole);
+    EXPECT_EQ(Hdf5Reader(dir / "parts.hdf", "sizing").read<std::int64_t>("/st/rows"), all);
+  }
 }
 
 TEST(Hdf5File, writes_equal_content_as_equal_bytes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "base/threads.h"
 #include "unit/mesh/shapes.h"
 
 namespace st {
@@ -169,6 +170,22 @@ TEST(PatchCrossing, ignores_triangles_without_area_and_faces_without_triangles) 
   EXPECT_TRUE(Patches(shapes::from(points, triangles, {0, 0, 2})).find().empty());
   const std::vector<std::int32_t> no_face{0};
   EXPECT_TRUE(find_crossing_patches({{}, {}, no_face, {}}).empty());
+}
+
+TEST(PatchCrossing, finds_the_same_with_several_threads) {
+  SurfaceMesh m = shapes::torus(90, 40);
+  for (TriangleId t = 0; t < static_cast<TriangleId>(m.triangles.size()); ++t) m.triangle_face[t] = t / 60;
+  m.labels.face_name.assign(m.triangle_face.back() + 1, "");
+  for (std::size_t n = 0; n < m.node_xyz.size(); n += 7) m.node_xyz[n] += Vec3{0.3, -0.2, 0.4};
+  const Patches patches(m);
+  const std::vector<TrianglePair> one = patches.find();
+  EXPECT_GT(one.size(), 100u);
+  for (int run = 0; run < 20; ++run) {
+    set_thread_count(2 + run % 7);
+    const std::vector<TrianglePair> several = patches.find();
+    set_thread_count(1);
+    ASSERT_TRUE(same(one, several)) << run;
+  }
 }
 
 TEST(PatchCrossing, survives_many_triangles_in_the_same_place) {

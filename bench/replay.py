@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Replays a run of st-mesh on any number of ranks, from the times of its tasks.
+
+usage: bench/replay.py TRACE [--ranks 1,2,16,256] [--threads N] [--latency S] [--bandwidth B] [--times N]
+       bench/replay.py --validate GEOMETRY SIZING [--bin DIR] [--runs N]
+
+TRACE: what `st-mesh --trace` wrote with one rank and one thread. Processor times count, so a disk costs nothing.
+What is replayed, with one processor for each thread:
+- tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
+- a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
+- a broadcast goes through a tree; all wait for what rank 0 does alone, on its threads where that is a loop over them.
+--times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
+--validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one.
+"""
+import argparse
+import bisect
+import csv
+import heapq
+import math
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+class Call:
+    """Tasks, (seconds, bytes, name, id) in order of their start, and what collecting their results took rank 0."""
+
+    def __init__(self):
+        self.tasks, self.collect = [], 0.0
+
+
+class Trace:
+    """What rank 0 goes through: ("serial", name, (seconds, of them in loops over threads)),
+    ("broadcast", name, bytes), ("call", name, Call). Processor time, so without what a disk or other programs took.
+    .end is the time of this run."""
+
+    def __init__(self, path):
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        calls, self.steps, self.end, before = defaultdict(Call), [], 0.0, 0.0
+        for row in rows:
+            call, start, wall, processor = int(row["call"]), *(float(row[k]) for k in ("start", "wall", "processor"))
+            if row["event"] == "task":
+                if call not in calls:
+                    self.steps.append(("call", row["name"], calls[call]))
+                calls[call].tasks.append((processor, int(row["bytes"]), row["name"], row["id"]))
+            elif row["event"] == "collect":
+                calls[call].collect = processor
+                self.end += start - before
+            elif row["event"] == "serial":
+                seconds = min(wall, processor)
+                self.steps.append(("serial", row["name"], (seconds, min(seconds, float(row["loops"])))))
+                self.end += seconds
+            else:
+                self.steps.append(("broadcast", row["name"], int(row["bytes"])))
+                self.end += wall
+            if row["event"] != "task":
+                before = start + (0 if row["event"] == "collect" else wall)
+
+    def tasks(self):
+        return [task for kind, _, call in self.steps if kind == "call" for task in call.tasks]
+
+    def serial(self):
+        """Seconds of rank 0 alone by phase, what it takes in included; and of them in loops over threads."""
+        parts, loops = defaultdict(float), 0.0
+        for kind, name, what in self.steps:
+            if kind == "serial":
+                parts[name] += what[0]
+                loops += what[1]
+            elif kind == "call":
+                parts["results"] += what.collect
+        return dict(parts), loops
+
+
+class Machine:
+    def __init__(self, ranks, threads, options):
+        self.ranks, self.threads, self.options = ranks, threads, options
+
+    def wire(self, rank, n_bytes=0):
+        return 0.0 if rank == 0 else self.options.latency + n_bytes / self.options.bandwidth
+
+    def run_call(self, begin, call):
+        """Time when all results are collected."""
+        tasks = call.tasks * self.options.times
+        total = sum(task[1] for task in tasks) or 1
+        per_byte = call.collect * self.options.times / total
+        events, n_given, n_events = [], 0, 0
+        main_free, ends, debt = begin, [begin], 0.0  # of rank 0's main thread; its processor owes the debt to its tasks
+
+        def give(rank, time):
+            nonlocal n_given, n_events
+            if n_given < len(tasks):
+                heapq.heappush(events, (time + self.wire(rank) + tasks[n_given][0], n_events, rank, n_given))
+                n_given += 1
+                n_events += 1
+
+        for _ in range(self.threads):
+            for rank in range(self.ranks):
+                give(rank, begin)
+        end = begin
+        while events:
+            time, number, rank, task = heapq.heappop(events)
+            if rank == 0 and debt > 0 and self.ranks > 1:
+                heapq.heappush(events, (time + debt, number, rank, task))
+                debt = 0.0
+                continue
+            cost = per_byte * tasks[task][1]
+            if self.ranks == 1:  # the thread itself, one at a time
+                main_free = max(main_free, time) + cost
+                give(0, main_free)
+            else:
+                arrival = time + self.wire(rank)
+                i = bisect.bisect_left(ends, arrival)  # it answers between two results
+                give(rank, ends[i] if i < len(ends) and main_free > arrival else arrival)
+                main_free = max(main_free, time + self.wire(rank, tasks[task][1])) + cost
+                ends.append(main_free)
+                debt += cost
+            end = max(end, main_free)
+        return end
+
+    def run(self, trace):
+        time = 0.0
+        for kind, _, what in trace.steps:
+            if kind == "serial":
+                seconds, in_loops = what
+                time += (seconds - in_loops + in_loops / self.threads) * self.options.times
+            elif kind == "broadcast":
+                time += math.ceil(math.log2(self.ranks)) * self.wire(1, what * self.options.times)
+            else:
+                time = self.run_call(time, what)
+        return time
+
+
+def tell(trace, options):
+    tasks, (serial, loops) = trace.tasks(), trace.serial()
+    work = sum(task[0] for task in tasks)
+    heaviest = max(tasks)
+    print(f"{len(tasks)} tasks, {work:.3f} s; heaviest: {heaviest[2]} {heaviest[3]}, {heaviest[0]:.3f} s, "
+          f"{100 * heaviest[0] / work:.1f} %")
+    print("rank 0 alone: " + ", ".join(f"{name} {seconds:.3f}" for name, seconds in serial.items()) +
+          f"; {sum(serial.values()):.3f} s, of them {loops:.3f} in loops over threads")
+    first = Machine(1, 1, options).run(trace)
+    print("| ranks | threads | seconds | speed-up |\n|--:|--:|--:|--:|")
+    for n in options.ranks:
+        seconds = Machine(n, options.threads, options).run(trace)
+        print(f"| {n} | {options.threads} | {seconds:.3f} | {first / seconds:.2f} |")
+
+
+def validate(options):
+    geometry, sizing = options.files
+    with tempfile.TemporaryDirectory() as folder:
+        def measure(*setting):
+            best = None
+            for _ in range(options.runs):
+                path = Path(folder) / "trace.csv"
+                words = [options.bin / "st-mesh", geometry, sizing, "-o", Path(folder) / "p.hdf", "--trace", path, "-q",
+                         "--journal-after", "1e9", *setting]
+                subprocess.run([str(w) for w in words], check=True)
+                trace = Trace(path)
+                best = trace if best is None or trace.end < best.end else best
+            return best
+        base = measure("--threads", 1)
+        print("| ranks | threads | measured | replayed | difference | tasks' time against one thread |")
+        print("|--:|--:|--:|--:|--:|--:|")
+        for ranks, threads in ((1, 1), (1, 2), (2, 1)):
+            run = base if (ranks, threads) == (1, 1) else measure("--np", ranks, "--threads", threads)
+            seconds = Machine(ranks, threads, options).run(base)
+            slower = sum(t[0] for t in run.tasks()) / sum(t[0] for t in base.tasks())
+            print(f"| {ranks} | {threads} | {run.end:.3f} | {seconds:.3f} | {100 * (seconds / run.end - 1):+.1f} % | "
+                  f"{slower:.2f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", nargs="+", type=Path)
+    parser.add_argument("--ranks", default="1,2,4,16,32,256", type=lambda text: [int(n) for n in text.split(",")])
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--latency", type=float, default=20e-6, help="seconds of a message")
+    parser.add_argument("--bandwidth", type=float, default=1e9, help="bytes per second into a process")
+    parser.add_argument("--times", type=int, default=1)
+    parser.add_argument("--validate", action="store_true")
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
+    parser.add_argument("--runs", type=int, default=3)
+    options = parser.parse_args()
+    if len(options.files) != 1 + options.validate:
+        sys.exit(__doc__)
+    if options.validate:
+        validate(options)
+    else:
+        tell(Trace(options.files[0]), options)
+
+
+if __name__ == "__main__":
+    main()
