@@ -30,6 +30,7 @@ constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where 
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
 constexpr int kFewPairs = 50;       // of crossing triangles: else faces that cross each other stay as they are
+constexpr double kWorthIt = 0.9;    // of the bad triangles before: as many or less are left by a refill that stays
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
 constexpr int kSamples = 32;        // of a curve, for its box
 constexpr double kMargin = 0.05;    // of the box's diagonal: the curve may leave the box of its samples
@@ -167,7 +168,7 @@ std::map<FaceId, std::vector<std::size_t>> FaceRounds::bad_triangles() const {
 }
 
 /// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
-/// rather than through themselves. Stays only where it halves their number.
+/// rather than through themselves. Stays only where clearly fewer are left.
 void FaceRounds::refill_bad() {
   const auto count = [](const auto& bad) {
     std::size_t n = 0;
@@ -183,7 +184,8 @@ void FaceRounds::refill_bad() {
     }
     crossings_.run(*numbering_, result_.patches);
     auto left = bad_triangles();
-    if (crossings_.n_pairs() > n_pairs || 2 * count(left) > count(bad)) {
+    if (crossings_.n_pairs() > n_pairs ||
+        static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad))) {
       for (auto& [f, patch] : before) {
         result_.patches[f] = std::move(patch);
         crossings_.renew(f);
