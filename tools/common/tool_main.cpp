@@ -13,6 +13,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "base/bounded_work.h"
 #include "base/length.h"
 #include "base/log.h"
 #include "base/mapped_file.h"
@@ -392,8 +393,10 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
     print_summary(summary);
     return summary.code;
   };
-  return static_cast<int>(
-      guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
+  const auto code =
+      static_cast<int>(guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
+  if (has_abandoned_work()) std::_Exit(code);  // it would meet the end of what it uses
+  return code;
 }
 
 }  // namespace st

@@ -1,4 +1,5 @@
 // Model::contacts(): where two faces meet although they share nothing there.
+#include <fmt/format.h>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Section.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -9,8 +10,12 @@
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+
+#include <atomic>
 #include <cmath>
 
+#include "base/bounded_work.h"
+#include "base/log.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/model/model.h"
@@ -20,6 +25,8 @@ namespace st {
 namespace {
 
 constexpr int kSamples = 33;
+constexpr double kMostSeconds = 30;  // for two faces: damaged surfaces may take OpenCASCADE for ever
+constexpr int kMostGivenUp = 3;      // pairs of faces; then no more are tried
 constexpr double kTangent = 0.9998;  // cosine of 1 degree: the faces touch, they do not cross
 
 /// Edges and vertices as one shape to measure distances to; null when there is none.
@@ -91,12 +98,7 @@ void add_pieces(const TopoDS_Edge& edge, const TopoDS_Shape& shared, double tole
   }
 }
 
-}  // namespace
-
-std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
-  const TopoDS_Face a = TopoDS::Face(impl_->faces(first + 1)), b = TopoDS::Face(impl_->faces(second + 1));
-  const double tolerance =
-      std::max({1e-6 * tables_.box().diagonal(), occt::max_edge_tolerance(a), occt::max_edge_tolerance(b)});
+std::vector<FaceContact> find_contacts(const TopoDS_Face& a, const TopoDS_Face& b, double tolerance) {
   std::vector<FaceContact> result;
   try {
     BRepAlgoAPI_Section section(a, b, false);
@@ -117,6 +119,22 @@ std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
     return {};
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
+  static std::atomic<int> n_given_up = 0;
+  if (n_given_up >= kMostGivenUp) return {};
+  const TopoDS_Face a = TopoDS::Face(impl_->faces(first + 1)), b = TopoDS::Face(impl_->faces(second + 1));
+  const double tolerance =
+      std::max({1e-6 * tables_.box().diagonal(), occt::max_edge_tolerance(a), occt::max_edge_tolerance(b)});
+  auto contacts = run_within(kMostSeconds, [a, b, tolerance] { return find_contacts(a, b, tolerance); });
+  if (contacts) return *std::move(contacts);
+  ++n_given_up;
+  log_warning(fmt::format("where {} and {} meet was not found within {} s: what crosses there counts as a fault",
+                          tables_.face_label(first), tables_.face_label(second), kMostSeconds));
+  return {};
 }
 
 }  // namespace st

@@ -105,11 +105,11 @@ class LoopClosing {
     for (const auto& [a, b] : boundary.segments) fixed_.insert(ids(a, b));
   }
 
-  bool run(const FaceBoundary& boundary) {
+  bool run(const FaceBoundary& boundary, bool splits) {
     std::vector<Polygon> loops = find_loops(boundary);
     if (loops.empty() || !triangulate(joined(std::move(loops)))) return false;
     split_repeated();
-    for (int pass = 0; pass < kPasses; ++pass) {
+    for (int pass = 0; splits && pass < kPasses; ++pass) {
       const bool has_split = split_long();
       for (int sweep = 0; sweep < 4 && swap_sides(); ++sweep) {
       }
@@ -119,7 +119,9 @@ class LoopClosing {
     return true;
   }
 
-  void store(double allowed, ClosedFace& result) const {
+  /// Returns whether a triangle is turned over.
+  bool store(double allowed, ClosedFace& result) const {
+    bool has_turned = false;
     result.mesh.inner.assign(nodes_.begin() + static_cast<std::ptrdiff_t>(first_inner_), nodes_.end());
     for (const Triangle& t : triangles_) {
       result.mesh.corners.insert(result.mesh.corners.end(), t.n, t.n + 3);
@@ -133,8 +135,10 @@ class LoopClosing {
       const bool is_turned = quality(t.n[0], t.n[1], t.n[2]) < 0 && height > allowed;
       result.deviation = std::max(result.deviation, off);
       result.is_near = result.is_near && !is_turned && (off <= allowed || off <= kNear * longest);
+      has_turned = has_turned || is_turned;
     }
     result.is_near = result.is_near && surface_;
+    return has_turned;
   }
 
  private:
@@ -427,12 +431,15 @@ class LoopClosing {
 
 ClosedFace close_loops(const Surface* surface, const FaceBoundary& boundary, const SizeField& field, double allowed) {
   ClosedFace result;
-  LoopClosing closing(surface, boundary, field);
-  if (!closing.run(boundary)) {
-    result.mesh.cause = FailureCause::kShortLoops;
-    return result;
+  for (const bool splits : {true, false}) {  // what is turned over is not made finer
+    result = {};
+    LoopClosing closing(surface, boundary, field);
+    if (!closing.run(boundary, splits)) {
+      result.mesh.cause = FailureCause::kShortLoops;
+      return result;
+    }
+    if (!closing.store(allowed, result)) break;
   }
-  closing.store(allowed, result);
   check_edges(boundary, result.mesh);
   return result;
 }
