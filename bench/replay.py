@@ -8,7 +8,7 @@ TRACE: what `st-mesh --trace` wrote with one rank and one thread. Processor time
 What is replayed, with one processor for each thread:
 - tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
 - a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
-- a broadcast goes through a tree; all wait for what rank 0 does alone, on its threads where that is a loop over them.
+- a broadcast goes through a tree; all wait for what rank 0 does alone. Its threads share loops, but no piece of one.
 --times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
 --validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one.
 """
@@ -34,7 +34,7 @@ class Call:
 
 
 class Trace:
-    """What rank 0 goes through: ("serial", name, (seconds, of them in loops over threads)),
+    """What rank 0 goes through: ("serial", name, (seconds, of them in loops over threads, the longest pieces)),
     ("broadcast", name, bytes), ("call", name, Call). Processor time, so without what a disk or other programs took.
     .end is the time of this run."""
 
@@ -53,7 +53,8 @@ class Trace:
                 self.end += start - before
             elif row["event"] == "serial":
                 seconds = min(wall, processor)
-                self.steps.append(("serial", row["name"], (seconds, min(seconds, float(row["loops"])))))
+                loops = min(seconds, float(row["loops"]))
+                self.steps.append(("serial", row["name"], (seconds, loops, min(loops, float(row["longest"])))))
                 self.end += seconds
             else:
                 self.steps.append(("broadcast", row["name"], int(row["bytes"])))
@@ -126,8 +127,9 @@ class Machine:
         time = 0.0
         for kind, _, what in trace.steps:
             if kind == "serial":
-                seconds, in_loops = what
-                time += (seconds - in_loops + in_loops / self.threads) * self.options.times
+                seconds, in_loops, longest = what
+                time += (seconds - in_loops) * self.options.times
+                time += max(in_loops * self.options.times / self.threads, longest)
             elif kind == "broadcast":
                 time += math.ceil(math.log2(self.ranks)) * self.wire(1, what * self.options.times)
             else:

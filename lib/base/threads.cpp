@@ -20,7 +20,7 @@ namespace {
 std::atomic<int> g_thread_count = 1;
 thread_local int t_depth = 0;  // loops in whose pieces this thread is
 thread_local bool t_is_timed = false;
-thread_local double t_seconds_in_loops = 0;
+thread_local LoopSeconds t_loops;
 
 /// Adds the time of its life, but for one in the life of another one.
 class LoopTimer {
@@ -29,13 +29,22 @@ class LoopTimer {
   ~LoopTimer() {
     if (!is_outermost_) return;
     t_is_timed = false;
-    t_seconds_in_loops += timer_.seconds();
+    t_loops.all += timer_.seconds();
+    t_loops.longest += longest_;
+  }
+  /// Between pieces.
+  void end_piece() {
+    if (!is_outermost_) return;
+    const double now = timer_.seconds();
+    longest_ = std::max(longest_, now - last_);
+    last_ = now;
   }
   LoopTimer(const LoopTimer&) = delete;
   LoopTimer& operator=(const LoopTimer&) = delete;
 
  private:
   bool is_outermost_;
+  double last_ = 0, longest_ = 0;
   Timer timer_;
 };
 
@@ -170,10 +179,10 @@ int processor_count() { return std::max(1, static_cast<int>(std::thread::hardwar
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   static Pool pool;
-  const LoopTimer timer;
+  LoopTimer timer;
   grain = std::max<std::size_t>(grain, 1);
   if (thread_count() == 1 || n <= grain) {
-    for (std::size_t begin = 0; begin < n; begin += grain) body(begin, std::min(n, begin + grain));
+    for (std::size_t begin = 0; begin < n; begin += grain, timer.end_piece()) body(begin, std::min(n, begin + grain));
     return;
   }
   Loop loop(n, grain, body);
@@ -181,7 +190,7 @@ void parallel_for(std::size_t n, std::size_t grain,
   loop.rethrow();
 }
 
-double seconds_in_loops() { return t_seconds_in_loops; }
+LoopSeconds seconds_in_loops() { return t_loops; }
 
 void run_jobs(const std::vector<std::function<void()>>& jobs) {
   parallel_for(jobs.size(), 1, [&](std::size_t i, std::size_t) { jobs[i](); });

@@ -23,7 +23,11 @@ void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads speed up.
-double seconds_in_loops();
+struct LoopSeconds {
+  double all = 0;
+  double longest = 0;  ///< of the longest piece of each: more threads cannot speed up more. Counted with one thread
+};
+LoopSeconds seconds_in_loops();
 
 /// Sorts as std::sort does, by pieces that are merged. Elements that are equal to `less` end in an order that does not
 /// depend on the number of threads.

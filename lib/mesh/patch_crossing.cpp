@@ -97,6 +97,37 @@ class Forest {
   }
   const FloatBox& box(FaceId f) const { return nodes_[f].box; }
   bool is_empty(FaceId f) const { return nodes_[f].size() == 0; }
+
+  /// Nodes to be tested: within one, or between two.
+  struct Job {
+    std::int32_t a, b;
+  };
+  /// What is to be tested of these nodes within, as many small jobs.
+  std::vector<Job> split_within(std::vector<std::int32_t> nodes) {
+    std::vector<Job> jobs;
+    while (!nodes.empty()) {
+      std::vector<std::int32_t> left(nodes.size(), kNone);
+      parallel_for(nodes.size(), 1, [&](std::size_t i, std::size_t) {
+        if (nodes_[nodes[i]].near == 0 && nodes_[nodes[i]].size() > kLargeJob) left[i] = split(nodes[i]);
+      });
+      std::vector<std::int32_t> parts;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (left[i] == kNone) {
+          jobs.push_back({nodes[i], nodes[i]});
+        } else {
+          parts.insert(parts.end(), {left[i], left[i] + 1});
+          jobs.push_back({left[i], left[i] + 1});
+        }
+      }
+      nodes = std::move(parts);
+    }
+    return jobs;
+  }
+  void test(const Job& job, Pairs& pairs) {
+    job.a == job.b ? test_within(job.a, pairs) : test_between(job.a, job.b, pairs);
+  }
+
+ private:
   void test_within(std::int32_t n, Pairs& pairs) {
     if (nodes_[n].near != 0 || nodes_[n].size() < 2) return;
     const std::int32_t left = split(n);
@@ -125,8 +156,8 @@ class Forest {
       if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end, pairs);
   }
 
- private:
   static constexpr std::int32_t kLeafSize = 12;
+  static constexpr std::int32_t kLargeJob = 20'000;
   static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
   static constexpr std::size_t kItemsPerPiece = 16'384, kFacesPerPiece = 8, kLocks = 256;
 
@@ -240,20 +271,17 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
   const auto n_faces = static_cast<FaceId>(mesh.face_shell.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
   Forest forest(mesh);
-  std::vector<std::pair<FaceId, FaceId>> jobs;  // a face with itself, or two faces
+  std::vector<std::int32_t> dirty;
   for (FaceId f = 0; f < n_faces; ++f)
-    if (is_dirty(f)) jobs.push_back({f, f});
+    if (is_dirty(f)) dirty.push_back(f);
+  std::vector<Forest::Job> jobs = forest.split_within(std::move(dirty));
   for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
     if (mesh.face_shell[f] == mesh.face_shell[g] && (is_dirty(f) || is_dirty(g))) jobs.push_back({f, g});
   });
   constexpr std::size_t kJobsPerPiece = 4;
   std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
   parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [f, g] = jobs[i];
-      Forest::Pairs& pairs = found[begin / kJobsPerPiece];
-      f == g ? forest.test_within(f, pairs) : forest.test_between(f, g, pairs);
-    }
+    for (std::size_t i = begin; i < end; ++i) forest.test(jobs[i], found[begin / kJobsPerPiece]);
   });
   Forest::Pairs all;
   for (const Forest::Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());

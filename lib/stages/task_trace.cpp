@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/packer.h"
-#include "base/threads.h"
 #include "io/file/text_file.h"
 
 namespace st {
@@ -40,7 +39,8 @@ void TaskTrace::end_serial() const {
   row.start = serial_start_;
   row.wall = clock_.seconds() - serial_start_;
   row.processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - serial_processor_;
-  row.loops = seconds_in_loops() - serial_loops_;
+  row.loops = seconds_in_loops().all - serial_loops_.all;
+  row.longest = seconds_in_loops().longest - serial_loops_.longest;
   const std::lock_guard lock(mutex_);
   rows_.push_back(row);
 }
@@ -125,11 +125,12 @@ void TaskTrace::write() {
 }
 
 void TaskTrace::write_rows(const std::vector<Row>& rows) const {
-  std::string text = "event,name,id,part,call,rank,thread,start,wall,processor,bytes,loops\n";
+  std::string text = "event,name,id,part,call,rank,thread,start,wall,processor,bytes,loops,longest\n";
   const auto number = [](std::int32_t n) { return n == kNothing ? "" : std::to_string(n); };
   for (const Row& r : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f}\n", r.event, r.name, number(r.id),
-                        number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes, r.loops);
+    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f}\n", r.event, r.name, number(r.id),
+                        number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes, r.loops,
+                        r.longest);
   write_text_file(path_, text);
 }
 

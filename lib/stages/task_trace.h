@@ -12,6 +12,7 @@
 
 #include "base/executor.h"
 #include "base/log.h"
+#include "base/threads.h"
 
 namespace st {
 
@@ -44,11 +45,11 @@ class TaskTrace : public Executor {
     std::int32_t call = 0, rank = 0, thread = 0;
     double start = 0, wall = 0, processor = 0;  // seconds
     std::uint64_t bytes = 0;                    // of the result, or sent to each rank
-    double loops = 0;                           // seconds of the wall time in loops over the threads
+    double loops = 0, longest = 0;              // seconds of the wall time in loops over the threads, see LoopSeconds
 
     static auto fields(auto& r) {
       return std::tie(r.event, r.name, r.id, r.part, r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes,
-                      r.loops);
+                      r.loops, r.longest);
     }
   };
   static constexpr std::int32_t kNothing = -1;
@@ -66,7 +67,8 @@ class TaskTrace : public Executor {
   mutable std::map<std::thread::id, std::int32_t> threads_;
   mutable const char* phase_ = "load";
   mutable std::int32_t n_calls_ = 0;
-  mutable double serial_start_ = 0, serial_processor_ = 0, serial_loops_ = 0;
+  mutable double serial_start_ = 0, serial_processor_ = 0;
+  mutable LoopSeconds serial_loops_;
 };
 
 }  // namespace st
