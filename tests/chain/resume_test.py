@@ -1,6 +1,6 @@
 """st-mesh goes on after a sudden end: the same bytes, and nothing that was finished is made again.
 
-ST_MOMENTS: at how many random moments each job is killed (default 3).
+ST_MOMENTS: at how many random moments each job is killed (default 2).
 """
 import ctypes
 import os
@@ -18,7 +18,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INCOMPLETE, MODELS, OK, Run, ToolTest, must  # noqa: E402
 
-MOMENTS = int(os.environ.get("ST_MOMENTS", "3"))
+MOMENTS = int(os.environ.get("ST_MOMENTS", "2"))
 HEAD = struct.Struct("<8siiqQ32s32sQ")  # of a record: magic, kind, signal, face, size, key, digest, sum
 BEGUN, DONE = 2, 3
 SYS_TGKILL = 234
