@@ -128,6 +128,22 @@ class Resume(ToolTest):
         print(f"parts that were not made again: {n_done} of {self.n_parts}")
         self.assertGreater(max(n_done), 0)
 
+    def test_the_loss_of_a_rank_is_made_good_by_itself(self):
+        for _ in range(20):
+            run = self.start("--np", "2")
+            time.sleep(self.random.uniform(0.3, 0.9) * self.seconds)
+            ranks = [p for p in descendants(run.pid) if p != run.pid]
+            if len(ranks) == 2:
+                os.kill(self.random.choice(ranks), signal.SIGKILL)
+            _, err = run.communicate(timeout=120)
+            if "going on with what is finished" in err:
+                break
+            shutil.rmtree(self.journal, ignore_errors=True)
+        self.assertEqual(run.returncode, OK, err)
+        self.assertIn("was ended by signal 9", err)
+        self.assertEqual(self.patches.read_bytes(), self.bytes)
+        self.expect_nothing_left(self.out, "p.hdf")
+
     def test_the_number_of_ranks_may_change(self):
         for before, after in ((["--np", "2"], ["--threads", "1"]), (["--threads", "2"], ["--np", "3"])):
             self.kill(None, *before)
