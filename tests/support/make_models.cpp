@@ -3,7 +3,6 @@
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -16,7 +15,6 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
-#include <Geom_Plane.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -50,6 +48,8 @@
 #include <gp_Elips.hxx>
 #include <stdexcept>
 #include <string>
+
+#include "support/shapes.h"
 
 namespace {
 
@@ -207,31 +207,6 @@ void write_assembly(const fs::path& path) {
   application->Close(document);
 }
 
-/// A square, and on one of its edges a second face whose boundary crosses itself: nobody can mesh that one.
-TopoDS_Shape crossed_loop() {
-  const gp_Pnt corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, -10, 0}, {10, -10, 0}};
-  TopoDS_Vertex v[6];
-  for (int i = 0; i < 6; ++i) v[i] = BRepBuilderAPI_MakeVertex(corner[i]);
-  const auto line = [&](int a, int b) { return BRepBuilderAPI_MakeEdge(v[a], v[b]).Edge(); };
-  const TopoDS_Edge common = line(0, 1);
-  BRep_Builder builder;
-  const auto face = [&](std::initializer_list<TopoDS_Edge> edges) {
-    TopoDS_Wire wire;
-    builder.MakeWire(wire);
-    for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
-    wire.Closed(true);
-    TopoDS_Face f;
-    builder.MakeFace(f, new Geom_Plane(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))), 1e-7);
-    builder.Add(f, wire);
-    return f;
-  };
-  TopoDS_Shell shell;
-  builder.MakeShell(shell);
-  builder.Add(shell, face({common, line(1, 2), line(2, 3), line(3, 0)}));
-  builder.Add(shell, face({common, line(1, 4), line(4, 5), line(5, 0)}));
-  return shell;
-}
-
 /// A cube of 10 in one of 100 around it, each of six faces that share no edge, the last one 0.5 % of the size away.
 TopoDS_Shape gappy_boxes() {
   TopoDS_Compound all;
@@ -270,7 +245,7 @@ void write_all(const fs::path& dir) {
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
   write_wing_with_flap(dir / "wing_with_flap.step");
-  write_brep(dir / "crossed_loop.brep", crossed_loop());
+  st::test::write_brep("crossed_loop", dir / "crossed_loop.brep");
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());

@@ -14,6 +14,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
@@ -173,6 +174,38 @@ Handle(Geom_BSplineSurface)
     return new Geom_BSplineSurface(poles, wave_weights(nu, nv), u.knots, v.knots, u.multiplicities, v.multiplicities,
                                    degree_u, degree_v);
   return new Geom_BSplineSurface(poles, u.knots, v.knots, u.multiplicities, v.multiplicities, degree_u, degree_v);
+}
+
+/// A wave with one pole moved over its neighbours: it is folded there.
+Handle(Geom_BSplineSurface) crumpled() {
+  const Handle(Geom_BSplineSurface) surface = wave(10, 8, 3, 3, false);
+  surface->SetPole(5, 4, surface->Pole(5, 4).Translated(gp_Vec(11, 0, 0)));
+  return surface;
+}
+
+/// A square, and on one of its edges a second face whose boundary crosses itself: it can only be closed in space.
+TopoDS_Shape crossed_loop() {
+  const gp_Pnt corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, -10, 0}, {10, -10, 0}};
+  TopoDS_Vertex v[6];
+  for (int i = 0; i < 6; ++i) v[i] = BRepBuilderAPI_MakeVertex(corner[i]);
+  const auto line = [&](int a, int b) { return BRepBuilderAPI_MakeEdge(v[a], v[b]).Edge(); };
+  const TopoDS_Edge common = line(0, 1);
+  BRep_Builder builder;
+  const auto face = [&](std::initializer_list<TopoDS_Edge> edges) {
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
+    wire.Closed(true);
+    TopoDS_Face f;
+    builder.MakeFace(f, new Geom_Plane(gp_Pln(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))), 1e-7);
+    builder.Add(f, wire);
+    return f;
+  };
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  builder.Add(shell, face({common, line(1, 2), line(2, 3), line(3, 0)}));
+  builder.Add(shell, face({common, line(1, 4), line(4, 5), line(5, 0)}));
+  return shell;
 }
 
 /// A wavy tube about z, periodic along u.
@@ -472,6 +505,8 @@ const std::map<std::string, Factory>& factories() {
       {"rational_wave", [] { return face_of(wave(9, 7, 3, 2, true)); }},
       {"high_degree_wave", [] { return face_of(wave(13, 11, 9, 7, true)); }},
       {"kinked", [] { return face_of(wave(10, 6, 3, 2, false, 3)); }},
+      {"crumpled", [] { return face_of(crumpled()); }},
+      {"crossed_loop", crossed_loop},
       {"bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(5, 4, 30, 20))); }},
       {"rational_bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(4, 5, 30, 20), wave_weights(4, 5))); }},
       {"stretched", [] { return face_of(stretched()); }},

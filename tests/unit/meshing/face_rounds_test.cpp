@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "features/strip.h"
+#include "mesh/checks.h"
 #include "meshing/topology/curve_discretiser.h"
 #include "support/meshed.h"
 
@@ -42,6 +43,25 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   EXPECT_EQ(r.failed_faces[0].face, top);
   EXPECT_FALSE(r.failed_faces[0].xyz.empty());
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == top) << f;
+}
+
+TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {
+  const test::Meshed meshed("crossed_loop", 2);
+  const MeshResult& r = meshed.result;
+  ASSERT_EQ(r.failures.size(), 1u);
+  EXPECT_TRUE(r.failures[0].is_closed);
+  EXPECT_FALSE(r.failures[0].is_near) << "half of it is turned over";
+  ASSERT_EQ(r.failed_faces.size(), 1u);
+  EXPECT_EQ(r.failed_faces[0].face, r.failures[0].face);
+  for (const FacePatch& p : r.patches) EXPECT_FALSE(p.triangles.empty());
+}
+
+TEST(FaceRounds, leave_no_fold_where_the_surface_is_folded) {
+  const test::Meshed meshed("crumpled", 0.5);
+  ASSERT_TRUE(meshed.result.failures.empty());
+  const ShapeReport shape = check_shape(meshed.mesh, edges_of(meshed.mesh));
+  EXPECT_EQ(shape.folds.count, 0);
+  EXPECT_EQ(shape.zero_area.count, 0);
 }
 
 /// Stretched along z; the length along grows a little with y.
