@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t kMostCorners = 200;  // of a polygon that is triangulated at once; its cost is cubic
 constexpr double kShape = 1e-4;        // share of the squared perimeter in a triangle's cost: few slivers where flat
-constexpr double kTurned = 100;        // times the area: cost of a triangle that is turned over in (u,v)
 constexpr double kRepeated = 1e3;      // squared perimeters of the polygon: cost of a side that exists already
 constexpr double kImpossible = 1e200;  // cost of a triangle with one node twice
 constexpr double kLong = 1.4;          // times the request: sides that are split
@@ -33,11 +32,9 @@ using Polygon = std::vector<std::int32_t>;  // node indices, the face on the lef
 class LeastArea {
  public:
   /// Places and ids of its nodes [n]; of the sides between each two of them [n*n] the middle and a cost.
-  LeastArea(std::vector<Vec3> x, std::vector<Vec2> uv, std::vector<std::int32_t> id, std::vector<Vec3> middle,
-            std::vector<double> side_cost)
+  LeastArea(std::vector<Vec3> x, std::vector<std::int32_t> id, std::vector<Vec3> middle, std::vector<double> side_cost)
       : n_(x.size()),
         x_(std::move(x)),
-        uv_(std::move(uv)),
         id_(std::move(id)),
         middle_(std::move(middle)),
         side_cost_(std::move(side_cost)),
@@ -80,15 +77,12 @@ class LeastArea {
     const Vec3 a = middle_[i * n_ + j], b = middle_[j * n_ + k], c = middle_[i * n_ + k];
     const auto area = [](Vec3 p, Vec3 q, Vec3 r) { return norm(cross(q - p, r - p)); };
     const double perimeter = distance(x_[i], x_[j]) + distance(x_[j], x_[k]) + distance(x_[k], x_[i]);
-    const bool is_turned = cross(uv_[j] - uv_[i], uv_[k] - uv_[i]) < 0;
-    return 0.5 * (is_turned ? kTurned : 1) *
-               (area(x_[i], a, c) + area(x_[j], b, a) + area(x_[k], c, b) + area(a, b, c)) +
+    return 0.5 * (area(x_[i], a, c) + area(x_[j], b, a) + area(x_[k], c, b) + area(a, b, c)) +
            kShape * perimeter * perimeter;
   }
 
   std::size_t n_;
   std::vector<Vec3> x_;
-  std::vector<Vec2> uv_;
   std::vector<std::int32_t> id_;
   std::vector<Vec3> middle_;       // [n*n]
   std::vector<double> side_cost_;  // [n*n]
@@ -237,14 +231,12 @@ class LoopClosing {
   bool triangulate_coarse(const Polygon& polygon) {
     const std::size_t n = polygon.size();
     std::vector<Vec3> x, middle(n * n);
-    std::vector<Vec2> uv;
     std::vector<std::int32_t> same;
     std::vector<double> side_cost(n * n, 0);
     const double repeated = kRepeated * length(polygon) * length(polygon);
     std::map<std::int64_t, std::int32_t> number;
     for (const std::int32_t p : polygon) {
       x.push_back(nodes_[p].x);
-      uv.push_back(surface_ ? nodes_[p].uv : Vec2());
       same.push_back(number.emplace(id(p), static_cast<std::int32_t>(number.size())).first->second);
     }
     for (std::size_t i = 0; i < n; ++i)
@@ -253,8 +245,7 @@ class LoopClosing {
         const bool is_side = j == i + 1 || (i == 0 && j == n - 1);
         if (!is_side && fixed_.contains(ids(polygon[i], polygon[j]))) side_cost[i * n + j] = repeated;
       }
-    const auto triples =
-        LeastArea(std::move(x), std::move(uv), std::move(same), std::move(middle), std::move(side_cost)).run();
+    const auto triples = LeastArea(std::move(x), std::move(same), std::move(middle), std::move(side_cost)).run();
     for (const auto& [i, j, k] : triples) triangles_.push_back({{polygon[i], polygon[j], polygon[k]}});
     return triples.size() + 2 == n;
   }
