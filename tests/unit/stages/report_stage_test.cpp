@@ -39,9 +39,10 @@ MeshArtifact tetrahedron(int n_faces) {
 }
 
 std::string page_of(int n_faces, ExitCode& code) {
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
   ReportStageOptions o;
-  o.artifacts = {in_temp("report_mesh.hdf")};
-  o.output = in_temp("report.html");
+  o.artifacts = {in_temp(test + ".mesh.hdf")};
+  o.output = in_temp(test + ".html");
   write_mesh(o.artifacts[0], tetrahedron(n_faces));
   code = run_report(o).code;
   return read_text_file(o.output);
