@@ -5,6 +5,8 @@
 #include <iterator>
 #include <string>
 
+#include "features/flow_domain.h"
+
 namespace st {
 namespace {
 
@@ -96,14 +98,15 @@ void set_outer_roles(const ModelTables& t, FaceRoles& roles) {
 
 }  // namespace
 
-FaceRoles face_roles(const ModelTables& t) {
+FaceRoles face_roles(const ModelTables& t, RoleGuess guess) {
   FaceRoles roles;
   for (std::size_t f = 0; f < static_cast<std::size_t>(t.n_faces()); ++f) roles.role.push_back(named_role(t, f));
   const auto is_wall = [](FaceRole r) { return r == FaceRole::kWall; };
   if (std::none_of(roles.role.begin(), roles.role.end(), is_wall)) {
     std::fill(roles.role.begin(), roles.role.end(), FaceRole::kWall);
-  } else if (std::all_of(roles.role.begin(), roles.role.end(), is_wall)) {
+  } else if (guess == RoleGuess::kAllowed && std::all_of(roles.role.begin(), roles.role.end(), is_wall)) {
     roles.guessed = guess_outer_faces(t);
+    if (roles.guessed.empty()) roles.guessed = find_flow_domain(t);
     set_outer_roles(t, roles);
   }
   Box3 walls;

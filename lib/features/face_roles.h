@@ -16,12 +16,15 @@ struct FaceRoles {
   double reference_diagonal = 0;  ///< of the box of all walls, model unit: what default lengths and per cents refer to
 };
 
+/// Whether roles may be guessed where no name says anything.
+enum class RoleGuess : unsigned char { kAllowed, kForbidden };
+
 /// Roles from the names of groups; all faces are walls when none is. Where no name says anything, a body in a domain is
 /// recognised by its extent: when every face is either large (its box's diagonal at least 1/4 of the model's) or
 /// belongs to a rest that fits into a box of 1/20 of the model's diagonal and lies in the box of the large ones, the
 /// large ones are the outer boundary. Those that share an edge with the body count as symmetry planes - they have to be
-/// planes, no two of them opposite - the others as far field.
-FaceRoles face_roles(const ModelTables& tables);
+/// planes, no two of them opposite - the others as far field. Larger bodies: find_flow_domain().
+FaceRoles face_roles(const ModelTables& tables, RoleGuess guess = RoleGuess::kAllowed);
 
 /// Normals of faces point into the material: the model is the domain around walls, or its solids are turned inward.
 bool is_material_ahead(const ModelTables& tables, const FaceRoles& roles);

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <vector>
 
+#include "base/error.h"
 #include "base/local_size.h"
+#include "base/log.h"
 #include "base/memory.h"
 #include "sizing/size_field.h"
 
@@ -14,6 +16,7 @@ namespace st {
 namespace {
 
 constexpr std::size_t kMostQueries = 20000;    // of the field, on a whole mesh
+constexpr std::size_t kFacesNamed = 5;         // in a warning
 constexpr double kShare = 0.8;                 // of the memory
 constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/bench.md)
 
@@ -21,6 +24,33 @@ constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/ben
 
 double expected_triangles(std::span<const double> face_weight) {
   return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
+}
+
+std::string heaviest_faces(std::span<const double> face_weight, std::span<const std::string> face_name) {
+  std::vector<std::size_t> order(face_weight.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return face_weight[a] > face_weight[b]; });
+  const double all = std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
+  std::string text;
+  for (std::size_t k = 0; k < std::min(order.size(), kFacesNamed); ++k) {
+    const std::size_t f = order[k];
+    const bool has_name = f < face_name.size() && !face_name[f].empty();
+    text += fmt::format("{}{:.2g} % on face {}{}", k > 0 ? ", " : "", 100 * face_weight[f] / all, f + 1,
+                        has_name ? " \"" + face_name[f] + "\"" : "");
+  }
+  return text;
+}
+
+void report_expected_triangles(std::span<const double> face_weight, std::span<const std::string> face_name,
+                               std::optional<int> limit, const std::string& sizing, double many) {
+  const double n = expected_triangles(face_weight);
+  if (!(n > (limit ? *limit : many))) return;
+  const std::string text =
+      fmt::format("{}: these sizes need about {:.3g} triangles: {}", sizing, n, heaviest_faces(face_weight, face_name));
+  const std::string ways = "use --target-triangles or a larger --scale, or a larger --lmin of st-raster";
+  if (limit) throw Error(ExitCode::kUsage, fmt::format("{}; --max-triangles is {}: {}", text, *limit, ways));
+  log_warning(fmt::format("{}; for fewer {}", text, ways));
 }
 
 std::vector<double> face_weights_on(const SurfaceMesh& mesh, const SizeField& field, FaceId n_faces) {

@@ -1,6 +1,7 @@
 // How many triangles a sizing will give, before anything is meshed.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,18 @@ namespace st {
 
 /// About this many triangles: equilateral ones of the local length. `face_weight`: see SizingArtifact.
 double expected_triangles(std::span<const double> face_weight);
+
+/// Above this number st-prolong says before anything is meshed which faces ask for most.
+inline constexpr double kManyTriangles = 5e6;
+
+/// The faces that ask for most triangles, five at most, with their shares: "31 % on face 12 "fillet", 4 % on face 3".
+/// `face_name`: one per face, or empty.
+std::string heaviest_faces(std::span<const double> face_weight, std::span<const std::string> face_name);
+
+/// Warns when more than `many` triangles are expected; throws Error(kUsage) when it is more than `limit`. Both say
+/// which faces ask for most, and the options that bound it. `sizing`: its file, for the message.
+void report_expected_triangles(std::span<const double> face_weight, std::span<const std::string> face_name,
+                               std::optional<int> limit, const std::string& sizing, double many = kManyTriangles);
 
 /// Weights of faces as in SizingArtifact, from a mesh of them and the sizes that a new one will have. Cost: at most
 /// some 40,000 queries of the field.

@@ -134,6 +134,24 @@ std::string repairs_in_words(const ImportResult& r) {
   return text;
 }
 
+/// Parts that cross, and what could not be joined or united.
+void say_bodies(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr std::size_t kPairs = 3;
+  std::vector<std::string> crossing;
+  for (const ImportFinding& f : r.findings) {
+    if (f.kind == FindingKind::kOverlap) crossing.push_back(f.detail);
+    if (f.kind == FindingKind::kNotUnited)
+      log_warning(fmt::format("{}: {} stay apart, they could not be united: {}", o.model, f.entity, f.detail));
+    if (f.kind == FindingKind::kTouchingApart) log_warning(fmt::format("{}: {}", o.model, f.what()));
+  }
+  if (crossing.empty()) return;
+  std::string pairs;
+  for (std::size_t k = 0; k < std::min(crossing.size(), kPairs); ++k) pairs += (k > 0 ? ", " : "") + crossing[k];
+  log_warning(fmt::format("{}: {} pairs of parts cross: {}{}; {}", o.model, crossing.size(), pairs,
+                          crossing.size() > kPairs ? " ..." : "",
+                          o.unite ? "repair them in the CAD system" : "--unite makes them one body"));
+}
+
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
@@ -147,6 +165,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   if (r.n_repairs > 0)
     log_warning(
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
+  say_bodies(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -185,6 +204,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.sew = o.sew;
   options.symmetry = o.symmetry;
   options.farfield = o.farfield;
+  options.unite = o.unite;
+  options.join_touching = o.join;
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   options.groups = groups.rules;
@@ -207,6 +228,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.sew.empty()) used["sew"] = o.sew;
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
+    if (o.unite) used["unite"] = true;
+    if (o.join) used["join"] = true;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = json_text(used);
     g.header.unit = t.unit;

@@ -21,6 +21,8 @@ struct ImportStageOptions {
       "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file"};
   std::string symmetry, farfield;  ///< of ImportOptions; empty: none
   std::string groups;              ///< groups file (TOML); empty: the groups of the CAD file
+  bool unite = false;              ///< of ImportOptions
+  bool join = false;               ///< solids that touch get common faces
   bool check = false;              ///< report only, write nothing
   bool require_closed = false;     ///< an open model is an error (exit 4)
 };

@@ -37,6 +37,7 @@ void require_valid(const ProlongStageOptions& o) {
   o.kSlope.require(o.slope);
   o.kScale.require(o.scale);
   o.kTargetTriangles.require(o.target_triangles);
+  o.kMaxTriangles.require(o.max_triangles);
   o.kFamily.require(o.family);
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
@@ -243,10 +244,6 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   const std::string blanked = colour.empty() ? ""
                                              : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut,
                                                            sizing.blanking.split.size());
-  if (n > static_cast<double>(kMaxTriangles))
-    log_warning(fmt::format(
-        "the mesh would have about {:.4g} triangles; st-mesh takes up to {}: give a larger --scale or larger lengths",
-        n, kMaxTriangles));
   StageSummary summary;
   summary.line =
       fmt::format("{}: {} cells{}{}{}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
@@ -304,6 +301,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   if (!o.sample.empty()) require_writable(o.sample_output);
   ProlongedSizes sizes = read_and_prolong(o);
   SizingArtifact& sizing = sizes.sizing;
+  report_expected_triangles(sizing.face_weight, sizing.names.face, o.max_triangles, o.output);
   if (!o.sample.empty()) {
     sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,
                  o.sample_output);

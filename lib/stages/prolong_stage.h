@@ -34,6 +34,10 @@ struct ProlongStageOptions {
   static constexpr NumberOption kTargetTriangles{
       "--target-triangles", "N", "[4, 2e9]",
       "scale all lengths so that the mesh has about this many triangles; default: no scaling"};
+  std::optional<int> max_triangles;
+  static constexpr NumberOption kMaxTriangles{
+      "--max-triangles", "N", "[4, 2e9]",
+      "end with exit code 2 when the sizes need more triangles; default: a warning above 5 million"};
   std::string blank;      ///< closed mesh (mesh.hdf, STL): cells on its other side carry no lengths to the flow; empty:
                           ///< the raster's own surface
   bool no_blank = false;  ///< lengths pass through solids

@@ -108,10 +108,8 @@ void require_valid(const RasterStageOptions& o) {
 
 std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
   return fmt::format(
-      "no group is named far field or symmetry: {} faces far larger than the rest, {} the first, are taken as the "
-      "outer boundary, and "
-      "lengths refer to "
-      "the rest (diagonal {:.4g}); name the groups, or give --lmin and --lmax",
+      "taken as a body in a flow domain: {} faces, {} the first, are its outer boundary, and lengths refer to the rest "
+      "(diagonal {:.4g}); --all-walls takes all faces as walls, names of groups tell for certain",
       roles.guessed.size(), t.face_label(roles.guessed.front()), roles.reference_diagonal);
 }
 
@@ -429,6 +427,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["edge_size"] = o.edge_size;
   options["base_cells"] = o.base_cells;
   options["chord_cells"] = o.chord_cells;
+  if (o.all_walls) options["all_walls"] = true;
   if (o.no_surface) options["no_surface"] = true;
   if (o.max_aspect > 1) options["max_aspect"] = o.max_aspect;
   header.options_json = json_text(options);
@@ -629,7 +628,7 @@ class RasterRun {
       : o_(o),
         comm_(comm),
         geometry_(read_geometry(o.geometry)),
-        roles_(face_roles(geometry_.tables)),
+        roles_(face_roles(geometry_.tables, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed)),
         wall_(resolve_limits(o, geometry_.tables, roles_.reference_diagonal)),
         rules_(option_rules(o)),  // those of the file come later, and win
         model_(stored_model(geometry_, o.geometry)),

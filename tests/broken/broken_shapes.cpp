@@ -1,12 +1,17 @@
 #include "broken/broken_shapes.h"
 
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_GTransform.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -18,6 +23,7 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_Circle.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_SphericalSurface.hxx>
@@ -114,6 +120,31 @@ TopoDS_Shape off_pcurve() {
     break;
   }
   return face;
+}
+
+TopoDS_Shape pin_in_plate() {
+  const gp_Ax2 axis(gp_Pnt(20, 20, -10), gp::DZ());
+  const TopoDS_Shape plate = BRepAlgoAPI_Cut(box(40, 40, 10), BRepPrimAPI_MakeCylinder(axis, 5, 30).Shape()).Shape();
+  return compound({TopExp_Explorer(plate, TopAbs_SOLID).Current(), BRepPrimAPI_MakeCylinder(axis, 5, 30).Shape()});
+}
+
+TopoDS_Shape far_circle() {
+  const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(10, 20).Shape();
+  for (TopExp_Explorer e(cylinder, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    double t0, t1;
+    const Handle(Geom_Circle) circle = Handle(Geom_Circle)::DownCast(BRep_Tool::Curve(edge, t0, t1));
+    if (circle.IsNull() || circle->Location().Z() < 10) continue;
+    BRep_Builder().UpdateEdge(edge, Handle(Geom_Curve)::DownCast(circle->Translated(gp_Vec(0, 0, 30))), 1e-7);
+    break;
+  }
+  return cylinder;
+}
+
+TopoDS_Shape wing_in_body() {
+  return compound({BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0, 0), gp::DX()), 2, 20).Shape(),
+                   BRepPrimAPI_MakeBox(gp_Pnt(-2, -15, -0.25), 4, 30, 0.5).Shape(),
+                   BRepPrimAPI_MakeBox(gp_Pnt(-0.5, -0.2, -0.5), 1, 0.4, 4).Shape()});
 }
 
 TopoDS_Shape stacked_boxes() {
@@ -255,8 +286,86 @@ TopoDS_Shape ring() {
   return face;
 }
 
-const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
-  static const std::map<std::string, std::function<TopoDS_Shape()>> all{
+/// 6 x 2 x 1.2 about the origin.
+TopoDS_Shape pod() {
+  gp_GTrsf stretch;
+  stretch.SetVectorialPart(gp_Mat(3, 0, 0, 0, 1, 0, 0, 0, 0.6));
+  return BRepBuilderAPI_GTransform(BRepPrimAPI_MakeSphere(1).Shape(), stretch, true).Shape();
+}
+
+/// With a half width or radius of `r` about the origin.
+TopoDS_Shape domain(const std::string& kind, double r) {
+  const gp_Ax2 across(gp_Pnt(0, 0, -r), gp::DZ()), along(gp_Pnt(-r, 0, 0), gp::DX());
+  const TopoDS_Shape whole = BRepPrimAPI_MakeBox(gp_Pnt(-r, -r, -r), 2 * r, 2 * r, 2 * r).Shape();
+  if (kind == "sphere") return BRepPrimAPI_MakeSphere(r).Shape();
+  if (kind == "cylinder") return BRepPrimAPI_MakeCylinder(along, r, 2 * r).Shape();
+  if (kind == "c")
+    return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(across, r, 2 * r).Shape(),
+                            BRepPrimAPI_MakeBox(gp_Pnt(0, -r, -r), 2 * r, 2 * r, 2 * r).Shape())
+        .Shape();
+  return whole;
+}
+
+TopoDS_Shape pod_in(const std::string& kind, double r, bool is_half) {
+  TopoDS_Shape outer = domain(kind, r);
+  if (is_half)
+    outer =
+        BRepAlgoAPI_Common(outer, BRepPrimAPI_MakeBox(gp_Pnt(-2 * r, -2 * r, 0), 4 * r, 4 * r, 4 * r).Shape()).Shape();
+  return BRepAlgoAPI_Cut(outer, pod()).Shape();
+}
+
+using Factories = std::map<std::string, std::function<TopoDS_Shape()>>;
+
+void add_domains(Factories& all) {
+  for (const char* kind : {"box", "sphere", "cylinder", "c"})
+    for (const int size : {5, 50, 1000})
+      for (const bool is_half : {false, true})
+        all[std::string("pod_in_") + kind + "_" + std::to_string(size) + (is_half ? "_half" : "")] = [=] {
+          return pod_in(kind, 3.0 * size, is_half);
+        };
+}
+
+/// Bodies that touch, cross, or hold others, and machine parts.
+void add_bodies(Factories& all) {
+  const Factories bodies{
+      {"offset_boxes",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 3, 2), 10, 4, 5).Shape()});
+       }},
+      {"pin_in_plate", pin_in_plate},
+      {"boxes_along_edge",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(10, 10, 0), 10, 10, 10).Shape()});
+       }},
+      {"box_twice",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 10, 10, 10).Shape()});
+       }},
+      {"crossing_boxes",
+       [] {
+         return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(5, 5, 5), 10, 10, 10).Shape()});
+       }},
+      {"far_circle", far_circle},
+      {"wing_in_body", wing_in_body},
+      {"blind_hole",
+       [] {
+         return BRepAlgoAPI_Cut(box(40, 40, 40),
+                                BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(20, 20, 30), gp::DZ()), 4, 20).Shape())
+             .Shape();
+       }},
+      {"housing", [] { return BRepAlgoAPI_Cut(centred_cube(40), centred_cube(30)).Shape(); }},
+      {"moulded_block",
+       [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(-5, -5, -2), 10, 10, 2).Shape(), pod()).Shape(); }},
+      {"box_in_box",
+       [] {
+         return compound({centred_cube(60), centred_cube(10)});
+       }},
+  };
+  all.insert(bodies.begin(), bodies.end());
+}
+
+Factories make_factories() {
+  Factories all{
       {"doubled_face", doubled_face},
       {"sheet_on_solid", sheet_on_solid},
       {"gappy_box", gappy_box},
@@ -306,6 +415,13 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& factories() {
          return compound({rectangle_with_side(5, 1), rectangle_with_side(-5, 3)});
        }},
   };
+  add_domains(all);
+  add_bodies(all);
+  return all;
+}
+
+const Factories& factories() {
+  static const Factories all = make_factories();
   return all;
 }
 

@@ -11,6 +11,22 @@ namespace st::test {
 ///   gappy_box        the six loose faces of that box with gaps up to 0.09
 ///   touching_boxes   two solids side by side that share a place, not a face
 ///   touching_boxes_and_sheet   those, and a triangle far away in no solid
+///   offset_boxes     boxes 10 x 10 x 10 and 10 x 4 x 5; a side of the second, 4 x 5, lies inside one of the first
+///   pin_in_plate     a plate 40 x 40 x 10 with a bore of radius 5, and a pin of that radius, 30 long, in it
+///   boxes_along_edge two boxes of 10 that touch along an edge
+///   box_twice        a box of 10, two solids at one place
+///   crossing_boxes   a box of 10, and another one whose corner is in the middle of the first
+///   wing_in_body     a body (cylinder, radius 2, length 20), a wing (box 4 x 30 x 0.5) through it, a pylon (box 1 x
+///   0.4
+///                    x 4) through both
+///   box_in_box       a box of 10 inside a box of 60, two solids
+///   pod_in_KIND_SIZE the flow around a pod of free form, 6 x 2 x 1.2, in a box, sphere, cylinder or c (half cylinder
+///   and
+///                    box) of 5, 50 or 1000 times its length; with _half only z > 0, with a plane of symmetry
+///   blind_hole       a cube of 40 with a hole of radius 4, 10 deep
+///   housing          a cube of 40 with a cavity of 30 inside
+///   moulded_block    a block 40 x 40 x 10 with the pocket of half a pod
+///   far_circle       a cylinder of radius 10 and height 20; the space curve of its upper circle is 30 above both faces
 ///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in
 ///   common parted_corner    a plane square of 10, two sides of which end 0.5 short of their corner at (10, 10, 0)
 ///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward

@@ -54,6 +54,47 @@ class Report(ToolTest):
         self.assertIn("and 8 more: see --json", run.err)  # 12 short edges, 6 narrow faces
 
 
+class Bodies(ToolTest):
+    """Parts that cross or touch."""
+
+    def run_import(self, model, *options):
+        run = must("st-import", MODELS / model, "-o", self.folder / "g.hdf", "--json", *options)
+        return run.json(), run.err
+
+    def group_names(self, report):
+        return {g["name"] for t in report["tables"] for g in t["groups"]}
+
+    def test_parts_that_cross_are_named_with_the_option_that_unites_them(self):
+        report, text = self.run_import("concept.step")
+        self.assertIn("3 pairs of parts cross", text)
+        self.assertIn("wing", text)
+        self.assertIn("--unite", text)
+        self.assertEqual(report["solids"], 3)
+
+    def test_unite_leaves_one_surface_with_the_names_of_its_parts(self):
+        report, text = self.run_import("concept.step", "--unite")
+        self.assertNotIn("cross", text)
+        self.assertEqual((report["solids"], report["shells"], report["closed"], report["nonmanifold_edges"]),
+                         (1, 1, True, 0))
+        self.assertEqual(self.group_names(report), {"body", "wing", "pylon"})
+
+    def test_united_parts_mesh_without_crossings(self):
+        g, r, s, p, m = (self.folder / f"{n}.hdf" for n in "grspm")
+        must("st-import", MODELS / "concept.step", "--unite", "-o", g)
+        must("st-raster", g, "-o", r)
+        must("st-prolong", r, "-o", s)
+        must("st-mesh", g, s, "-o", p)
+        must("st-merge", p, "-o", m)
+        must("st-check", m, "--geometry", g)
+
+    def test_parts_that_touch_have_a_common_face_where_asked(self):
+        report, _ = self.run_import("stacked.step", "--join")
+        self.assertEqual(self.group_names(report), {"plate", "block", "interface_block_plate"})
+        self.assertEqual(report["faces"], 12)
+        report, _ = self.run_import("stacked.step")
+        self.assertEqual((report["faces"], self.group_names(report)), (12, {"plate", "block"}))
+
+
 class Refused(ToolTest):
     def expect_refused(self, path, *says, options=()):
         self.expect_error(3, "st-import", path, "-o", self.folder / "out.hdf", *options, says=[str(path), *says])

@@ -44,6 +44,7 @@ REFUSED = {
     },
     "st-prolong": {"--threads": ["0", "x"],
                    "--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"],
+                   "--max-triangles": ["3", "x"],
                    "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"],
                    "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],

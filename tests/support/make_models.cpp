@@ -48,6 +48,8 @@
 #include <gp_Elips.hxx>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "support/shapes.h"
 
@@ -157,20 +159,32 @@ TopoDS_Shape wing_element(double x, double radius, double chord, double y, doubl
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, span, 0)).Shape();
 }
 
-/// Two parts of those names: a wing of chord 60, and behind it a flap whose nose is round about the line x = 63.5, z =
-/// 0.
-void write_wing_with_flap(const fs::path& path) {
+/// Parts of their own, by name.
+void write_parts(const std::vector<std::pair<const char*, TopoDS_Shape>>& parts, const fs::path& path) {
   STEPCAFControl_Controller::Init();
   Handle(TDocStd_Document) document;
   const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
   application->NewDocument("MDTV-XCAF", document);
   const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-  name(shapes->AddShape(wing_element(0, 4, 60, 0, 100), false), "wing");
-  name(shapes->AddShape(wing_element(62, 1.5, 18, 10, 80), false), "flap");
+  for (const auto& [part, shape] : parts) name(shapes->AddShape(shape, false), part);
   STEPCAFControl_Writer writer;
   writer.SetNameMode(true);
   require(writer.Transfer(document, STEPControl_AsIs) && writer.Write(path.c_str()) == IFSelect_RetDone, path);
   application->Close(document);
+}
+
+/// As conceptual-design tools export it: a wing passes through a body, a pylon through both.
+void write_concept(const fs::path& path) {
+  write_parts({{"body", BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-10, 0, 0), gp::DX()), 2, 20).Shape()},
+               {"wing", BRepPrimAPI_MakeBox(gp_Pnt(-2, -15, -0.25), 4, 30, 0.5).Shape()},
+               {"pylon", BRepPrimAPI_MakeBox(gp_Pnt(-0.5, -0.2, -0.5), 1, 0.4, 4).Shape()}},
+              path);
+}
+
+/// Two parts of those names: a wing of chord 60, and behind it a flap whose nose is round about the line x = 63.5, z =
+/// 0.
+void write_wing_with_flap(const fs::path& path) {
+  write_parts({{"wing", wing_element(0, 4, 60, 0, 100)}, {"flap", wing_element(62, 1.5, 18, 10, 80)}}, path);
 }
 
 /// An assembly: a named block, and two instances of a pin of which one face has a name and a colour.
@@ -245,6 +259,9 @@ void write_all(const fs::path& dir) {
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
   write_wing_with_flap(dir / "wing_with_flap.step");
+  write_concept(dir / "concept.step");
+  write_parts({{"plate", box(10, 10, 4)}, {"block", BRepPrimAPI_MakeBox(gp_Pnt(3, 3, 4), 4, 4, 3).Shape()}},
+              dir / "stacked.step");
   st::test::write_brep("crossed_loop", dir / "crossed_loop.brep");
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());

@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
             "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
   tool.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   tool.number(o.kTimeLimit, o.time_limit);
+  tool.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
+  tool.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
   tool.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
   tool.examples({"st-import wing.step", "st-import aircraft.step --symmetry y=0 --farfield sphere:50 -o geometry.hdf",

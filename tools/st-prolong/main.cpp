@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
             "slope of lengths that come from faces of this name, group or part, such as WING=0.1");
   tool.number(o.kScale, o.scale);
   tool.number(o.kTargetTriangles, o.target_triangles);
+  tool.number(o.kMaxTriangles, o.max_triangles);
   tool.number(o.kFamily, o.family);
   tool.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
   tool.optional_input("--background", o.background,

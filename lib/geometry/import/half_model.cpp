@@ -340,8 +340,8 @@ TopoDS_Shape fluid_of(const std::vector<TopoDS_Shape>& shells, const TopoDS_Face
   return solid;
 }
 
-/// Faces of the body in the order of their ids: with a far field not those of cavities inside a solid, which no flow
-/// reaches.
+/// Faces of the body in the order of their ids: with a far field neither those of cavities inside a solid, which no
+/// flow reaches, nor those between two solids.
 Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool leave_cavities,
                  std::vector<ImportFinding>& findings) {
   TopTools_IndexedMapOfShape cavities;
@@ -353,9 +353,13 @@ Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool
         findings.push_back({FindingKind::kCavityLeftOut, "", box.center(), box.diagonal(), false});
       }
   }
+  std::vector<int> n_sides(model.faces.Extent() + 1, 0);
+  for (TopExp_Explorer e(model.shape, TopAbs_FACE); leave_cavities && e.More(); e.Next())
+    ++n_sides[model.faces.FindIndex(e.Current())];
   Faces faces;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     const TopoDS_Face f = TopoDS::Face(model.faces(i));
+    if (n_sides[i] > 1) continue;
     if (!cavities.Contains(f) && !(cut && is_in_plane(f, *cut))) faces.push_back(f);
   }
   return faces;

@@ -4,11 +4,13 @@
 #include <TopExp.hxx>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/length.h"
 #include "base/progress.h"
 #include "geometry/import/cad_reader.h"
+#include "geometry/import/crossing_bodies.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
 #include "geometry/import/half_model.h"
@@ -19,7 +21,10 @@
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
 #include "geometry/import/sound_geometry.h"
+#include "geometry/import/space_curves.h"
 #include "geometry/import/topology_report.h"
+#include "geometry/import/touching_bodies.h"
+#include "geometry/import/unite.h"
 #include "geometry/model/imported_shape.h"
 #include "geometry/model/model.h"
 #include "geometry/model/model_impl.h"
@@ -179,6 +184,37 @@ const char* member_of(const EmptyGroup& group) {
   return group.of == EntityDim::kFace ? "a face" : group.of == EntityDim::kEdge ? "an edge" : "a vertex";
 }
 
+std::string part_name(const ModelTables& t, FaceId f) {
+  const std::string& path = t.labels.path_of(f);
+  if (!path.empty()) return path;
+  const std::string& group = t.labels.group_name[t.labels.face_group[f]];
+  return t.face_solid[f] == kNone ? group : group + " (solid " + std::to_string(t.face_solid[f] + 1) + ")";
+}
+
+void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing>& crossings,
+                      std::vector<ImportFinding>& findings) {
+  for (const occt::BodyCrossing& c : crossings)
+    findings.push_back({FindingKind::kOverlap, t.face_label(c.of_edge), c.xyz, 0, false,
+                        part_name(t, c.of_edge) + " and " + part_name(t, c.face)});
+}
+
+/// Solids that cross others cannot be joined where they touch.
+std::set<int> crossing_solids(const ModelTables& t, const std::vector<occt::BodyCrossing>& crossings) {
+  std::set<int> solids;
+  for (const occt::BodyCrossing& c : crossings) solids.insert({t.face_solid[c.of_edge], t.face_solid[c.face]});
+  return solids;
+}
+
+/// Bodies that overlap are united where asked; those that touch are joined.
+void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
+                   std::vector<ImportFinding>& findings, const std::string& path) {
+  if (options.unite) occt::unite_solids(model, tables, findings, path);
+  const std::vector<occt::BodyCrossing> crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
+  say_what_crosses(tables.tables, crossings, findings);
+  if (options.join_touching)
+    occt::join_touching_solids(model, tables, crossing_solids(tables.tables, crossings), findings, path);
+}
+
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const FlowDomain domain = parse_flow_domain(options);
   Progress progress("importing", 1);
@@ -194,6 +230,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   say_what_is_not_sewn(options, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
   occt::open_slits(model, result.findings);
+  occt::rebuild_space_curves(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);
   occt::repair_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
@@ -202,6 +239,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   progress.step("topology and areas", 0.6);
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
+  progress.step("bodies that touch or overlap", 0.65);
+  relate_bodies(model, tables, options, result.findings, path);
   progress.step("far field and symmetry", 0.7);
   add_flow_domain(model, tables, domain, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);

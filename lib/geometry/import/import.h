@@ -18,6 +18,8 @@ struct ImportOptions {
   bool check_only = false;  ///< also run OpenCASCADE's checker
   std::string symmetry;     ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
   std::string farfield;     ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
+  bool join_touching = false;     ///< solids that touch get common faces and edges
+  bool unite = false;             ///< bodies that overlap become one, before that
   bool require_closed = false;    ///< Error(kGeometry) for a model that is open after repairs
   std::vector<GroupRule> groups;  ///< empty: those of the file
 };

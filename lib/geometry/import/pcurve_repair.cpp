@@ -14,6 +14,8 @@
 #include <TopoDS_Face.hxx>
 #include <cmath>
 
+#include "geometry/brep/face_domain.h"
+#include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
@@ -116,28 +118,60 @@ void raise_tolerance(const TopoDS_Edge& edge, double distance) {
     builder.UpdateVertex(TopoDS::Vertex(v.Current()), distance);
 }
 
+double area_of(const TopoDS_Face& face) { return std::abs(integrate_face(make_domain(face), {}).area); }
+
+void set_pcurve(const Use& use, const Handle(Geom2d_Curve) & pcurve) {
+  BRep_Builder().UpdateEdge(use.edge, pcurve, use.face, BRep_Tool::Tolerance(use.edge));
+  BRep_Builder().Range(use.edge, use.face, use.t0, use.t1);
+}
+
+double chord_length(const Use& use) {
+  double length = 0;
+  for (int k = 1; k < kFewSamples; ++k)
+    length += use.curve->Value(use.t0 + (use.t1 - use.t0) * k / (kFewSamples - 1))
+                  .Distance(use.curve->Value(use.t0 + (use.t1 - use.t0) * (k - 1) / (kFewSamples - 1)));
+  return length;
+}
+
+/// A curve that moves by a distance sweeps this area at most, with room for bends: a face that changes by more has got
+/// another shape.
+bool keeps_shape(const Use& use, double area_before, double moved) {
+  constexpr double kRoom = 3, kRounding = 1e-3;
+  return std::abs(area_of(use.face) - area_before) <= kRoom * moved * chord_length(use) + kRounding * area_before;
+}
+
 void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string& name,
             std::vector<ImportFinding>& findings) {
   const Gap before = largest_gap(use, old, kManySamples);
   const bool is_seam = BRep_Tool::IsClosed(use.edge, use.face);
   Handle(Geom2d_Curve) better;
   Gap after = before;
+  bool is_undone = false;
+  const double area = is_seam ? 0 : area_of(use.face);
   const auto consider = [&](const Handle(Geom2d_Curve) & anywhere) {
     const Handle(Geom2d_Curve) candidate = in_place(use, old, anywhere);
     if (candidate.IsNull()) return;
     const Gap gap = largest_gap(use, candidate, kManySamples);
-    if (gap.distance < 0.5 * after.distance) after = gap, better = candidate;
+    if (gap.distance >= 0.5 * after.distance) return;
+    set_pcurve(use, candidate);
+    if (keeps_shape(use, area, before.distance))
+      after = gap, better = candidate;
+    else
+      is_undone = true;
+    set_pcurve(use, old);
   };
   if (!is_seam) consider(projected(use));
   if (!is_seam && after.distance > BRep_Tool::Tolerance(use.edge))
     consider(resampled(use, old, 0.5 * BRep_Tool::Tolerance(use.edge)));
   if (!better.IsNull()) {
-    BRep_Builder().UpdateEdge(use.edge, better, use.face, BRep_Tool::Tolerance(use.edge));
-    BRep_Builder().Range(use.edge, use.face, use.t0, use.t1);
+    set_pcurve(use, better);
     findings.push_back({FindingKind::kProjectedCurve, name, before.xyz, before.distance, true,
                         format_number(after.distance / before.distance)});
   } else {
     findings.push_back({FindingKind::kRaisedTolerance, name, before.xyz, before.distance, true});
+    if (is_undone)
+      findings.push_back({FindingKind::kUndoneRepair, name, before.xyz, before.distance, false,
+                          "the face would have another area with its trimming curve projected again"});
   }
   const double left = std::min(before.distance, after.distance);
   if (left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);

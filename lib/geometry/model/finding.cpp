@@ -50,6 +50,13 @@ constexpr Wording kWordings[] = {
     {"solid inside out, turned", "solid inside out, turned"},
     {"closed shell inside another one made its void", "closed shell inside another one made its void"},
     {"closed shell made a solid", "closed shell made a solid"},
+    {"bodies that touch joined", "bodies that touch joined: {}"},
+    {"bodies that touch not joined", "bodies that touch not joined, each has a mesh of its own there: {}"},
+    {"bodies that overlap united", "bodies that overlap united: {}"},
+    {"bodies that overlap not united", "bodies that overlap not united: {}"},
+    {"parts cross", "parts cross: {}"},
+    {"repair taken back", "repair taken back: {}"},
+    {"edge away from its faces, made again from them", "edge away from its faces, made again from them"},
     {"other", "{}"},
 };
 static_assert(std::size(kWordings) == static_cast<std::size_t>(FindingKind::kOther) + 1);

@@ -41,6 +41,13 @@ enum class FindingKind : std::uint8_t {
   kTurnedSolid,            ///< was inside out
   kVoidShell,              ///< a closed shell in another one made its void
   kShellMadeSolid,         ///< a closed shell without a solid
+  kJoinedBodies,           ///< bodies that touch got common faces
+  kTouchingApart,          ///< bodies that touch could not be joined
+  kUnited,                 ///< bodies that overlap made one
+  kNotUnited,              ///< bodies that could not be made one
+  kOverlap,                ///< bodies that overlap, left as they are
+  kUndoneRepair,           ///< a repair that made things worse was taken back
+  kSpaceCurve,             ///< a space curve away from its faces, made again
   kOther                   ///< written by another version
 };
 

@@ -84,5 +84,20 @@ TEST(ExpectedTrianglesOfAMesh, come_from_its_areas_and_the_lengths_of_the_field)
   EXPECT_DOUBLE_EQ(face_weights_on(mesh, UniformField(0.5), 1)[0], 7.5 / 0.25);
 }
 
+TEST_F(ExpectedTriangles, above_what_is_usual_name_the_five_heaviest_faces) {
+  const std::vector<double> weight{1, 5, 2, 10, 3, 4};
+  const std::vector<std::string> name{"", "", "", "fillet", "", ""};
+  EXPECT_EQ(heaviest_faces(weight, name),
+            "40 % on face 4 \"fillet\", 20 % on face 2, 16 % on face 6, 12 % on face 5, 8 % on face 3");
+  EXPECT_NO_THROW(report_expected_triangles(weight, name, 1000, "sizing.hdf"));
+  try {
+    report_expected_triangles(weight, name, 10, "sizing.hdf");
+    ADD_FAILURE() << "taken";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    EXPECT_TRUE(has(e.what(), "face 4 \"fillet\"") && has(e.what(), "--target-triangles")) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace st

@@ -1,0 +1,131 @@
+#include "geometry/import/crossing_bodies.h"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRep_Tool.hxx>
+#include <IntCurvesFace_Intersector.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "geometry/brep/shape_queries.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kTouching = 1e-6;  // of the diagonal: the tolerance of places
+constexpr double kDeep = 10;        // times that, on both sides of a face: an edge goes through it
+constexpr double kStep = 0.02;      // of the edge, to look at both sides
+
+bool meet(const Box3& a, const Box3& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+         b.lo.z <= a.hi.z;
+}
+
+/// Of a comparison: some microseconds.
+int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 1 : type < SurfaceType::kBezier ? 80 : 400; }
+
+class CrossingSearch {
+ public:
+  CrossingSearch(const ImportedShape& model, const ModelTables& t, const FaceMeasures& measures)
+      : model_(model), t_(t), box_(measures.edge_box), tolerance_(kTouching * t.box().diagonal()) {
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      body_.push_back(t.face_solid[f] != kNone   ? t.face_solid[f]
+                      : t.face_shell[f] != kNone ? t.n_solids + t.face_shell[f]
+                                                 : t.n_solids + t.n_shells + f);
+    face_of_edge_.assign(t.n_edges(), kNone);
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      for (const EdgeId e : t.edges_of(f))
+        if (face_of_edge_[e] == kNone) face_of_edge_[e] = f;
+  }
+
+  std::vector<BodyCrossing> find() {
+    if (*std::max_element(body_.begin(), body_.end()) == *std::min_element(body_.begin(), body_.end())) return {};
+    TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+    std::vector<EdgeId> order;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (!t_.edge_is_degenerate[e] && face_of_edge_[e] != kNone && !box_[e].is_empty()) order.push_back(e);
+    std::sort(order.begin(), order.end(),
+              [&](EdgeId a, EdgeId b) { return box_[a].lo.x != box_[b].lo.x ? box_[a].lo.x < box_[b].lo.x : a < b; });
+    for (FaceId f = 0; f < t_.n_faces() && n_tests_ < kMostCrossingTests; ++f) search(f, order);
+    return found_;
+  }
+
+ private:
+  void search(FaceId f, const std::vector<EdgeId>& order) {
+    const std::set<VertexId> own = vertices_of(f);
+    std::optional<IntCurvesFace_Intersector> intersector;
+    for (const EdgeId e : order) {
+      if (box_[e].lo.x > t_.face_box[f].hi.x) break;
+      const FaceId other = face_of_edge_[e];
+      const std::pair<int, int> pair = std::minmax(body_[f], body_[other]);
+      if (pair.first == pair.second || !meet(box_[e], t_.face_box[f]) || known_.count(pair)) continue;
+      if (own.count(t_.edge_vertices[2 * e]) || own.count(t_.edge_vertices[2 * e + 1])) continue;
+      n_tests_ += cost_of(t_.face_type[f]);
+      if (n_tests_ > kMostCrossingTests) return;
+      if (!intersector) intersector.emplace(TopoDS::Face(model_.faces(f + 1)), tolerance_);
+      if (const auto place = place_of(e, *intersector)) {
+        known_.insert(pair);
+        found_.push_back({other, f, *place});
+      }
+    }
+  }
+
+  std::set<VertexId> vertices_of(FaceId f) const {
+    std::set<VertexId> own;
+    for (const EdgeId e : t_.edges_of(f)) own.insert({t_.edge_vertices[2 * e], t_.edge_vertices[2 * e + 1]});
+    return own;
+  }
+
+  /// Where the edge goes through the face, away from its ends and from the face's loops.
+  std::optional<Vec3> place_of(EdgeId e, IntCurvesFace_Intersector& intersector) const {
+    try {
+      const Handle(BRepAdaptor_Curve) curve = new BRepAdaptor_Curve(TopoDS::Edge(edges_(e + 1)));
+      const double t0 = curve->FirstParameter(), t1 = curve->LastParameter();
+      if (curve->GetType() == GeomAbs_Line)
+        intersector.Perform(curve->Line(), t0, t1);
+      else
+        intersector.Perform(curve, t0, t1);
+      for (int k = 1; intersector.IsDone() && k <= intersector.NbPnt(); ++k) {
+        const double w = intersector.WParameter(k), step = kStep * (t1 - t0);
+        if (intersector.State(k) != TopAbs_IN || w < t0 + step || w > t1 - step) continue;
+        const gp_Pnt p = intersector.Pnt(k);
+        gp_Pnt on_face;
+        gp_Vec du, dv;
+        BRep_Tool::Surface(intersector.Face())
+            ->D1(intersector.UParameter(k), intersector.VParameter(k), on_face, du, dv);
+        const gp_Vec normal = du.Crossed(dv);
+        if (normal.Magnitude() == 0) continue;
+        const double before = gp_Vec(p, curve->Value(w - step)).Dot(normal) / normal.Magnitude(),
+                     after = gp_Vec(p, curve->Value(w + step)).Dot(normal) / normal.Magnitude();
+        if (before * after < 0 && std::min(std::abs(before), std::abs(after)) > kDeep * tolerance_) return vec(p);
+      }
+    } catch (const Standard_Failure&) {
+    }
+    return std::nullopt;
+  }
+
+  const ImportedShape& model_;
+  const ModelTables& t_;
+  const std::vector<Box3>& box_;
+  double tolerance_;
+  std::vector<int> body_;
+  std::vector<FaceId> face_of_edge_;
+  TopTools_IndexedMapOfShape edges_;
+  std::set<std::pair<int, int>> known_;
+  std::vector<BodyCrossing> found_;
+  int n_tests_ = 0;
+};
+
+}  // namespace
+
+std::vector<BodyCrossing> find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
+                                               const FaceMeasures& measures) {
+  if (tables.n_faces() < 2) return {};
+  return CrossingSearch(model, tables, measures).find();
+}
+
+}  // namespace st::occt

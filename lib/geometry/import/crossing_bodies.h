@@ -1,0 +1,26 @@
+// Bodies that pass through each other, or through themselves.
+#pragma once
+
+#include <vector>
+
+#include "geometry/import/import.h"
+#include "geometry/model/imported_shape.h"
+#include "geometry/model/model_tables.h"
+
+namespace st::occt {
+
+/// An edge of one body goes through a face of another one, or of its own away from what they share.
+struct BodyCrossing {
+  FaceId of_edge = kNone, face = kNone;  ///< a face that has the edge; the face that it passes through
+  Vec3 xyz;                              ///< there, model unit
+};
+
+/// One place for each pair of bodies, at most, in the order of the faces. Bodies are solids, else shells, else loose
+/// faces. `measures` and `tables` are those of `model`. Edges and faces are compared where their boxes meet, until
+/// kMostCrossingTests are done: a plane counts once, other surfaces of a formula 80 times, splines 400 times.
+std::vector<BodyCrossing> find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
+                                               const FaceMeasures& measures);
+
+inline constexpr int kMostCrossingTests = 20000;
+
+}  // namespace st::occt

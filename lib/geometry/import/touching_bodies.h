@@ -1,0 +1,31 @@
+// Bodies that touch.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geometry/import/import.h"
+#include "geometry/model/imported_shape.h"
+#include "geometry/model/model_tables.h"
+
+namespace st::occt {
+
+/// Numbers of solids, in TopExp order, ascending.
+struct TouchingGroups {
+  std::vector<std::vector<int>> groups;  ///< solids that lie on each other; or one that touches itself
+  std::set<int> self_touching;           ///< two edges of the solid are at one place
+};
+
+/// Solids with faces of the same surface, or with edges between the same points. `tables` are those of `model`. Cost:
+/// comparisons of boxes; surfaces only where these meet.
+TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTables& tables);
+
+/// Gives solids that touch common faces and edges, by OpenCASCADE's general fuse. A common face is named after both
+/// sides: "interface_plate_bolt". What does not keep the area of every face and the volume of every solid stays as it
+/// was, with a finding; `left_out` are solids that are not joined (0-based). `model_tables` are those of `model`, and
+/// made again where it changes; `path` is for messages.
+void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
+                          std::vector<ImportFinding>& findings, const std::string& path);
+
+}  // namespace st::occt
