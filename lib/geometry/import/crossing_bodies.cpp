@@ -26,16 +26,12 @@ bool meet(const Box3& a, const Box3& b) {
 }
 
 /// Of a comparison: some microseconds.
-int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 1 : type < SurfaceType::kBezier ? 80 : 400; }
+int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 8 : type < SurfaceType::kBezier ? 200 : 400; }
 
 class CrossingSearch {
  public:
   CrossingSearch(const ImportedShape& model, const ModelTables& t, const FaceMeasures& measures)
       : model_(model), t_(t), box_(measures.edge_box), tolerance_(kTouching * t.box().diagonal()) {
-    for (FaceId f = 0; f < t.n_faces(); ++f)
-      body_.push_back(t.face_solid[f] != kNone   ? t.face_solid[f]
-                      : t.face_shell[f] != kNone ? t.n_solids + t.face_shell[f]
-                                                 : t.n_solids + t.n_shells + f);
     face_of_edge_.assign(t.n_edges(), kNone);
     for (FaceId f = 0; f < t.n_faces(); ++f)
       for (const EdgeId e : t.edges_of(f))
@@ -43,11 +39,13 @@ class CrossingSearch {
   }
 
   std::vector<BodyCrossing> find() {
-    if (*std::max_element(body_.begin(), body_.end()) == *std::min_element(body_.begin(), body_.end())) return {};
+    if (t_.n_solids < 2) return {};
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
     std::vector<EdgeId> order;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (!t_.edge_is_degenerate[e] && face_of_edge_[e] != kNone && !box_[e].is_empty()) order.push_back(e);
+      if (!t_.edge_is_degenerate[e] && face_of_edge_[e] != kNone && t_.face_solid[face_of_edge_[e]] != kNone &&
+          !box_[e].is_empty())
+        order.push_back(e);
     std::sort(order.begin(), order.end(),
               [&](EdgeId a, EdgeId b) { return box_[a].lo.x != box_[b].lo.x ? box_[a].lo.x < box_[b].lo.x : a < b; });
     for (FaceId f = 0; f < t_.n_faces() && n_tests_ < kMostCrossingTests; ++f) search(f, order);
@@ -56,12 +54,13 @@ class CrossingSearch {
 
  private:
   void search(FaceId f, const std::vector<EdgeId>& order) {
+    if (t_.face_solid[f] == kNone) return;
     const std::set<VertexId> own = vertices_of(f);
     std::optional<IntCurvesFace_Intersector> intersector;
     for (const EdgeId e : order) {
       if (box_[e].lo.x > t_.face_box[f].hi.x) break;
       const FaceId other = face_of_edge_[e];
-      const std::pair<int, int> pair = std::minmax(body_[f], body_[other]);
+      const std::pair<int, int> pair = std::minmax(t_.face_solid[f], t_.face_solid[other]);
       if (pair.first == pair.second || !meet(box_[e], t_.face_box[f]) || known_.count(pair)) continue;
       if (own.count(t_.edge_vertices[2 * e]) || own.count(t_.edge_vertices[2 * e + 1])) continue;
       n_tests_ += cost_of(t_.face_type[f]);
@@ -112,7 +111,6 @@ class CrossingSearch {
   const ModelTables& t_;
   const std::vector<Box3>& box_;
   double tolerance_;
-  std::vector<int> body_;
   std::vector<FaceId> face_of_edge_;
   TopTools_IndexedMapOfShape edges_;
   std::set<std::pair<int, int>> known_;

@@ -15,9 +15,9 @@ struct BodyCrossing {
   Vec3 xyz;                              ///< there, model unit
 };
 
-/// One place for each pair of bodies, at most, in the order of the faces. Bodies are solids, else shells, else loose
-/// faces. `measures` and `tables` are those of `model`. Edges and faces are compared where their boxes meet, until
-/// kMostCrossingTests are done: a plane counts once, other surfaces of a formula 80 times, splines 400 times.
+/// One place for each pair of bodies, at most, in the order of the faces. Bodies are solids. `measures` and `tables`
+/// are those of `model`. Edges and faces are compared where their boxes meet, until kMostCrossingTests are done: a
+/// plane counts 8, other surfaces of a formula 200, splines 400.
 std::vector<BodyCrossing> find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
                                                const FaceMeasures& measures);
 

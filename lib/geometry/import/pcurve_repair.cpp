@@ -27,6 +27,7 @@ namespace {
 constexpr int kFewSamples = 17, kManySamples = 1025;  // to look, to judge
 constexpr double kExcess = 2.0;                       // of the tolerance: readers leave distances just above it
 constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
+constexpr double kFar = 0.01;  // of the edge: a curve that moves by less leaves its face in shape
 
 /// A use of an edge by a face, with what is needed to compare its curves.
 struct Use {
@@ -147,14 +148,15 @@ void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string&
   Handle(Geom2d_Curve) better;
   Gap after = before;
   bool is_undone = false;
-  const double area = is_seam ? 0 : area_of(use.face);
+  const bool is_far = before.distance > kFar * chord_length(use);
+  const double area = is_far && !is_seam ? area_of(use.face) : 0;
   const auto consider = [&](const Handle(Geom2d_Curve) & anywhere) {
     const Handle(Geom2d_Curve) candidate = in_place(use, old, anywhere);
     if (candidate.IsNull()) return;
     const Gap gap = largest_gap(use, candidate, kManySamples);
     if (gap.distance >= 0.5 * after.distance) return;
     set_pcurve(use, candidate);
-    if (keeps_shape(use, area, before.distance))
+    if (!is_far || keeps_shape(use, area, before.distance))
       after = gap, better = candidate;
     else
       is_undone = true;
