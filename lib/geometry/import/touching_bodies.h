@@ -22,9 +22,9 @@ struct TouchingGroups {
 TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTables& tables);
 
 /// Gives solids that touch common faces and edges, by OpenCASCADE's general fuse. A common face is named after both
-/// sides: "interface_plate_bolt". What does not keep the area of every face and the volume of every solid stays as it
-/// was, with a finding; `left_out` are solids that are not joined (0-based). `model_tables` are those of `model`, and
-/// made again where it changes; `path` is for messages.
+/// sides: "interface_plate_bolt". What does not keep the area of every face stays as it was, with a finding;
+/// `left_out` are solids that are not joined (0-based). `model_tables` are those of `model`, and made again where it
+/// changes; `path` is for messages.
 void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                           std::vector<ImportFinding>& findings, const std::string& path);
 

@@ -13,7 +13,7 @@
 namespace st {
 namespace {
 
-constexpr std::size_t kMostCorners = 200;  // of a polygon that is triangulated at once; its cost is cubic
+constexpr std::size_t kMostCorners = 600;  // of a polygon that is triangulated at once; its cost is cubic
 constexpr double kShape = 1e-4;        // share of the squared perimeter in a triangle's cost: few slivers where flat
 constexpr double kRepeated = 1e3;      // squared perimeters of the polygon: cost of a side that exists already
 constexpr double kImpossible = 1e200;  // cost of a triangle with one node twice
@@ -181,30 +181,44 @@ class LoopClosing {
     return sum;
   }
 
-  /// One polygon: from the longest loop to the nearest node of another one and back, until all are in it.
+  /// The shortest way from the polygon to a loop that is not in it yet.
+  struct Way {
+    double length2 = std::numeric_limits<double>::infinity();
+    std::int32_t from = kNone;  // node of the polygon
+    std::size_t to = 0;         // place in the loop
+  };
+
+  void shorten(Way& way, const Polygon& from, const Polygon& loop) const {
+    for (const std::int32_t node : from)
+      for (std::size_t j = 0; j < loop.size(); ++j)
+        if (const double d = norm2(nodes_[node].x - nodes_[loop[j]].x); d < way.length2) way = {d, node, j};
+  }
+
+  /// One polygon: from the longest loop to the nearest node of another one and back, until all are in it. Quadratic in
+  /// the nodes.
   Polygon joined(std::vector<Polygon> loops) const {
     const auto longest = std::max_element(loops.begin(), loops.end(),
                                           [&](const Polygon& a, const Polygon& b) { return length(a) < length(b); });
-    Polygon all = std::move(*longest);
+    Polygon all = std::move(*longest), latest = all;
     loops.erase(longest);
+    std::vector<Way> ways(loops.size());
     while (!loops.empty()) {
-      double least = std::numeric_limits<double>::infinity();
-      std::size_t from = 0, loop = 0, to = 0;
-      for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t l = 0; l < loops.size(); ++l)
-          for (std::size_t j = 0; j < loops[l].size(); ++j)
-            if (const double d = norm2(nodes_[all[i]].x - nodes_[loops[l][j]].x); d < least)
-              least = d, from = i, loop = l, to = j;
-      Polygon& added = loops[loop];
-      std::rotate(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(to), added.end());
-      if (id(all[from]) != id(added[0])) {  // there, around, and back
+      for (std::size_t l = 0; l < loops.size(); ++l) shorten(ways[l], latest, loops[l]);
+      const auto nearest =
+          std::min_element(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.length2 < b.length2; });
+      const auto loop = loops.begin() + (nearest - ways.begin());
+      latest = *loop;
+      Polygon& added = *loop;
+      std::rotate(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(nearest->to), added.end());
+      if (id(nearest->from) != id(added[0])) {  // there, around, and back
         added.push_back(added[0]);
-        added.push_back(all[from]);
+        added.push_back(nearest->from);
       } else {
         std::rotate(added.begin(), added.begin() + 1, added.end());
       }
-      all.insert(all.begin() + static_cast<std::ptrdiff_t>(from) + 1, added.begin(), added.end());
-      loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(loop));
+      all.insert(std::find(all.begin(), all.end(), nearest->from) + 1, added.begin(), added.end());
+      loops.erase(loop);
+      ways.erase(nearest);
     }
     return all;
   }
@@ -213,7 +227,12 @@ class LoopClosing {
   bool triangulate(const Polygon& polygon) {
     const std::size_t n = polygon.size(), n_coarse = std::min(n, kMostCorners);
     std::vector<std::size_t> corner;
-    for (std::size_t i = 0; i < n_coarse; ++i) corner.push_back(i * n / n_coarse);
+    for (std::size_t i = 0; i < n_coarse; ++i) {
+      std::size_t at = i * n / n_coarse;
+      while (!corner.empty() && at < n && (id(polygon[at]) == id(polygon[corner.back()]) || at <= corner.back())) ++at;
+      if (at < n) corner.push_back(at);
+    }
+    while (corner.size() > 3 && id(polygon[corner.back()]) == id(polygon[0])) corner.pop_back();
     Polygon coarse;
     for (const std::size_t c : corner) coarse.push_back(polygon[c]);
     if (!triangulate_coarse(coarse)) return false;
@@ -265,8 +284,9 @@ class LoopClosing {
     std::map<IdPair, int> n_sides;
     std::vector<std::pair<std::int32_t, std::int32_t>> inside;
     EdgeTable(triangles_, n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
-      ++n_sides[ids(a, b)];
-      if (sides.size() == 2) inside.push_back({a, b});
+      n_sides[ids(a, b)] += static_cast<int>(sides.size()) - 1;
+      if (sides.size() > 1) inside.push_back({a, b});
+      if (sides.size() == 1) ++n_sides[ids(a, b)];
     });
     std::set<std::pair<std::int32_t, std::int32_t>> repeated;
     for (const auto& side : inside)
@@ -293,8 +313,11 @@ class LoopClosing {
     };
     std::vector<Side> sides;
     EdgeTable(triangles_, n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> uses) {
-      if (uses.size() != 2) return;
-      if (const double r = rank(a, b); r > 0) sides.push_back({r, uses[0], uses[1]});
+      if (uses.size() < 2) return;
+      std::size_t other = 1;  // of the other direction
+      while (other < uses.size() && run_alike(triangles_, uses[0], uses[other])) ++other;
+      if (other == uses.size()) return;
+      if (const double r = rank(a, b); r > 0) sides.push_back({r, uses[0], uses[other]});
     });
     std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.rank > b.rank; });
     std::vector<char> is_done(triangles_.size(), 0);

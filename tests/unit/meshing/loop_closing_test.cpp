@@ -68,6 +68,20 @@ TEST(CloseLoops, splits_long_sides) {
     EXPECT_LT(distance(view.x(closed.mesh.corners[i]), view.x(closed.mesh.corners[i % 3 == 2 ? i - 2 : i + 1])), 0.9);
 }
 
+TEST(CloseLoops, joins_many_holes) {
+  std::vector<std::vector<Vec2>> loops = {square(0, 10, 10)};
+  for (int i = 1; i < 10; ++i)
+    for (int j = 1; j < 10; ++j) {
+      loops.push_back(reversed(square(0, 0.4, 1)));
+      for (Vec2& p : loops.back()) p = {p.x + i - 0.2, p.y + j - 0.2};
+    }
+  const FaceBoundary boundary = polygons(loops, 1);
+  const ClosedFace closed = close_loops(&kPlane, boundary, UniformField(5), 1e-6);
+  ASSERT_EQ(closed.mesh.cause, FailureCause::kNone);
+  test::expect_valid(boundary, closed.mesh);
+  EXPECT_NEAR((MeshView{boundary, closed.mesh}.area()), 100 - 81 * 0.16, 1e-9);
+}
+
 TEST(CloseLoops, closes_loops_that_cross) {
   const FaceBoundary boundary = polygons({square(0, 4, 8), reversed(square(2, 5, 6))}, 0.5);
   EXPECT_FALSE(check_boundary(kPlane, boundary).empty());
