@@ -122,14 +122,11 @@ class SurfaceMeasurer {
     double whole = 0;
     for (const EdgePlace& place : places) whole += place.way;
     if (measured_way(places, profiles) < kMeasured * whole) return std::nullopt;
-    const LiftingSurface first = assemble(chain, places, profiles);
-    if (!is_measured(first) || !is_wing(first)) return std::nullopt;
+    if (!is_wing(assemble(chain, places, profiles))) return std::nullopt;
     for (std::size_t i = 0; i < places.size(); ++i)  // winglets
       if (!profiles[i]) profiles[i] = profile_at(places[i], nullptr);
     drop_outliers(places, profiles);
-    SurfaceDraft draft{assemble(chain, places, profiles), axis};
-    if (!is_measured(draft.surface)) return std::nullopt;
-    return draft;
+    return SurfaceDraft{assemble(chain, places, profiles), axis};
   }
 
   /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest. None where

@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/threads.h"
+#include "geometry/model/cad_tolerance.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
@@ -108,19 +109,6 @@ Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
     c.note = fmt::format("largest difference {:.3g} % ({}; chord error {:.3g} %)", 100 * largest,
                          face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
   return c;
-}
-
-/// Largest tolerance of a face, its edges and its vertices, model unit.
-double cad_tolerance(const ModelTables& tables, FaceId f) {
-  double tolerance = tables.face_tolerance[f];
-  for (const LoopId l : tables.loops(f))
-    for (const CoedgeId k : tables.loop_coedges(l)) {
-      const EdgeId e = tables.coedge_edge[k];
-      const VertexId a = tables.edge_vertices[2 * e], b = tables.edge_vertices[2 * e + 1];
-      tolerance =
-          std::max({tolerance, tables.edge_tolerance[e], tables.vertex_tolerance[a], tables.vertex_tolerance[b]});
-    }
-  return tolerance;
 }
 
 /// Tolerance that the groups of a face give it, 0: none.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/brep/compound.h"
+
 namespace st::occt {
 
 /// What a boolean operation gave.
@@ -13,6 +15,16 @@ struct BooleanResult {
   TopoDS_Shape shape;                ///< null: nothing
   std::vector<TopoDS_Shape> images;  ///< compounds of what became of the shapes that were tracked, in their order
 };
+
+/// What became of a shape in an operation of OpenCASCADE, as a compound: itself where it did not change, nothing where
+/// it is gone.
+template <class Operation>
+TopoDS_Shape image_of(Operation& operation, const TopoDS_Shape& shape) {
+  const auto& images = operation.Modified(shape);
+  if (operation.IsDeleted(shape)) return compound_of(std::vector<TopoDS_Shape>{});
+  return images.IsEmpty() ? TopoDS_Shape(compound_of(std::vector<TopoDS_Shape>{shape}))
+                          : TopoDS_Shape(compound_of(images));
+}
 
 /// One attempt: a result, or the cause of its failure in words.
 struct BooleanAttempt {

@@ -312,12 +312,7 @@ BooleanResult fuse(const Fuse& fuse) {
       result.images.push_back(compound_of(std::vector<TopoDS_Shape>{rebuilt(shape, builder)}));
       continue;
     }
-    const TopTools_ListOfShape& images = builder.Modified(shape);
-    if (builder.IsDeleted(shape))
-      result.images.push_back(compound_of(std::vector<TopoDS_Shape>{}));
-    else
-      result.images.push_back(images.IsEmpty() ? TopoDS_Shape(compound_of(std::vector<TopoDS_Shape>{shape}))
-                                               : compound_of(images));
+    result.images.push_back(image_of(builder, shape));
   }
   return result;
 }

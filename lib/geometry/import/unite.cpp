@@ -71,14 +71,7 @@ BooleanResult fuse(const Body& a, const Body& b, const std::vector<TopoDS_Shape>
   if (volume < std::max(a.volume, b.volume) - slack || volume > a.volume + b.volume + slack)
     throw std::runtime_error("their union has another volume");
   BooleanResult result{solids.size() == 1 ? solids[0] : TopoDS_Shape(compound_of(solids)), {}};
-  for (const TopoDS_Shape& shape : tracked) {
-    const TopTools_ListOfShape& images = fuse.Modified(shape);
-    if (fuse.IsDeleted(shape))
-      result.images.push_back(compound_of(std::vector<TopoDS_Shape>{}));
-    else
-      result.images.push_back(images.IsEmpty() ? TopoDS_Shape(compound_of(std::vector<TopoDS_Shape>{shape}))
-                                               : compound_of(images));
-  }
+  for (const TopoDS_Shape& shape : tracked) result.images.push_back(image_of(fuse, shape));
   return result;
 }
 

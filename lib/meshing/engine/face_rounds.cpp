@@ -13,6 +13,7 @@
 #include "base/share.h"
 #include "base/threads.h"
 #include "features/strip.h"
+#include "geometry/model/cad_tolerance.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/engine/dirty_parts.h"
 #include "meshing/face/face_patch.h"
@@ -43,16 +44,6 @@ Box3 box_of(const Curve& curve) {
   box.lo -= {margin, margin, margin};
   box.hi += {margin, margin, margin};
   return box;
-}
-
-/// Of the face, its edges and their vertices.
-double largest_tolerance(const ModelTables& t, FaceId f) {
-  double largest = t.face_tolerance[f];
-  for (const EdgeId e : t.edges_of(f)) {
-    largest = std::max(largest, t.edge_tolerance[e]);
-    for (const int end : {0, 1}) largest = std::max(largest, t.vertex_tolerance[t.edge_vertices[2 * e + end]]);
-  }
-  return largest;
 }
 
 }  // namespace
@@ -450,8 +441,7 @@ void FaceRounds::close_hole(FaceId f) {
     surface.reset();
     boundary = make_boundary_in_space(f, *numbering_);
   }
-  const ClosedFace closed =
-      close_loops(surface.get(), boundary, field.get(), kNearEnough * largest_tolerance(tables_, f));
+  const ClosedFace closed = close_loops(surface.get(), boundary, field.get(), kNearEnough * cad_tolerance(tables_, f));
   if (closed.mesh.cause != FailureCause::kNone) return;
   FaceOutcome& o = outcomes_[f];
   o.is_closed = true;
