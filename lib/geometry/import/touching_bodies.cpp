@@ -407,8 +407,8 @@ class TouchingSolids {
     });
     joined.edge_names.clear();
     for (const auto& [edge, name] : model_.edge_names) {
-      const auto it =
-          std::find_if(shapes.edges.begin(), shapes.edges.end(), [&](const TopoDS_Shape& e) { return e.IsSame(edge); });
+      const auto is_same = [&of = edge](const TopoDS_Shape& e) { return e.IsSame(of); };
+      const auto it = std::find_if(shapes.edges.begin(), shapes.edges.end(), is_same);
       if (it == shapes.edges.end()) {
         joined.edge_names.emplace_back(edge, name);
         continue;

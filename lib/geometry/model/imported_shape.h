@@ -31,6 +31,7 @@ struct FaceAttributes {
 };
 
 /// One shape, its faces in the order of their ids, and what the file said of faces and edges.
+// NOLINTNEXTLINE(bugprone-exception-escape): OpenCASCADE's map copies itself where it is to be moved, and may throw
 struct ImportedShape {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces;        ///< TopExp order of `shape`
