@@ -3,6 +3,8 @@
 #include <csignal>
 #include <ctime>
 #include <mutex>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace st {
@@ -11,6 +13,11 @@ namespace {
 thread_local const char* t_kind = nullptr;
 thread_local std::int64_t t_number = 0;
 thread_local double t_deadline = std::numeric_limits<double>::infinity();
+thread_local double t_seconds = std::numeric_limits<double>::infinity();
+thread_local bool t_throws = false;
+thread_local unsigned t_n_asked = 0;
+
+constexpr unsigned kAsksPerLook = 64;  // of throw_if_late(): looking at the clock takes 30 ns
 
 std::mutex g_mutex;
 
@@ -18,6 +25,12 @@ std::mutex g_mutex;
 std::list<LateWatch>& watches() {
   static auto& list = *new std::list<LateWatch>;
   return list;
+}
+
+std::string short_number(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
 }
 
 double now() {
@@ -28,10 +41,12 @@ double now() {
 
 }  // namespace
 
-CurrentWork::CurrentWork(const char* kind, std::int64_t number, double seconds)
-    : kind_before_(std::exchange(t_kind, kind)),
+CurrentWork::CurrentWork(const char* kind, std::int64_t number, const WorkLimit& limit)
+    : seconds_before_(std::exchange(t_seconds, limit.seconds)),
+      throws_before_(std::exchange(t_throws, limit.when_late == WhenLate::kThrow)),
+      kind_before_(std::exchange(t_kind, kind)),
       number_before_(std::exchange(t_number, number)),
-      deadline_before_(std::exchange(t_deadline, now() + seconds)) {
+      deadline_before_(std::exchange(t_deadline, now() + limit.seconds)) {
   const std::lock_guard lock(g_mutex);
   watch_ = watches().insert(watches().end(), {pthread_self(), t_deadline});
 }
@@ -41,6 +56,8 @@ CurrentWork::~CurrentWork() {
     const std::lock_guard lock(g_mutex);
     watches().erase(watch_);
   }
+  t_seconds = seconds_before_;
+  t_throws = throws_before_;
   t_deadline = deadline_before_;
   t_kind = kind_before_;
   t_number = number_before_;
@@ -66,6 +83,14 @@ void signal_late_work(int signal) {
   const std::lock_guard lock(g_mutex);
   for (const LateWatch& watch : watches())
     if (now() > watch.deadline) pthread_kill(watch.thread, signal);
+}
+
+LateWork::LateWork(double seconds)
+    : Error(ExitCode::kGeometry, "takes longer than " + short_number(seconds) +
+                                     " s, its surface may be damaged; give it more with --time-limit") {}
+
+void throw_if_late() {
+  if (t_throws && ++t_n_asked % kAsksPerLook == 0 && is_current_work_late()) throw LateWork(t_seconds);
 }
 
 }  // namespace st

@@ -7,6 +7,8 @@
 #include <limits>
 #include <list>
 
+#include "base/error.h"
+
 namespace st {
 
 /// A thread and when its work is late, seconds of the steady clock.
@@ -15,16 +17,30 @@ struct LateWatch {
   double deadline;
 };
 
+/// What happens to late work.
+enum class WhenLate {
+  kSignal,  ///< whoever watches sends a signal, see signal_late_work()
+  kThrow    ///< it gives up by itself, see throw_if_late()
+};
+
+/// How long a piece of work may take.
+struct WorkLimit {
+  double seconds = std::numeric_limits<double>::infinity();  ///< > 0
+  WhenLate when_late = WhenLate::kSignal;
+};
+
 /// While it lives this thread works on, say, ("face", 12). Objects may be nested; the innermost one counts.
 class CurrentWork {
  public:
-  /// `kind`: a literal; `number`: as users count, from 1; `seconds`: after which it is late, > 0.
-  CurrentWork(const char* kind, std::int64_t number, double seconds = std::numeric_limits<double>::infinity());
+  /// `kind`: a literal; `number`: as users count, from 1.
+  CurrentWork(const char* kind, std::int64_t number, const WorkLimit& limit = {});
   ~CurrentWork();
   CurrentWork(const CurrentWork&) = delete;
   CurrentWork& operator=(const CurrentWork&) = delete;
 
  private:
+  double seconds_before_;
+  bool throws_before_;
   const char* kind_before_;
   std::int64_t number_before_;
   double deadline_before_;
@@ -39,5 +55,15 @@ bool describe_current_work(char* text, int size);
 bool is_current_work_late();
 /// Sends a signal to every thread whose work is late. It may arrive after that work ended: ask is_current_work_late().
 void signal_late_work(int signal);
+
+/// A piece of work gave up.
+class LateWork : public Error {
+ public:
+  explicit LateWork(double seconds);
+};
+
+/// To be called in loops that damaged surfaces may keep going. Throws LateWork when this thread's work is late and
+/// WhenLate::kThrow; a few nanoseconds else.
+void throw_if_late();
 
 }  // namespace st

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/current_work.h"
 #include "sizing/raster_curve.h"
 
 namespace st {
@@ -87,6 +88,7 @@ class LoopTracer {
 
   /// Adds points between a and b where the trimming curve leaves the straight side.
   void follow(const Curve2d& curve, CoedgeId coedge, double ta, Vec2 a, double tb, Vec2 b, int depth) {
+    throw_if_late();
     if (depth == kMaxHalvings) return;
     const double tm = 0.5 * (ta + tb);
     const Vec2 m = curve.point(tm), off = m - 0.5 * (a + b);
@@ -101,6 +103,7 @@ class LoopTracer {
     std::vector<LoopSide> plain;
     for (const TracedSide& s : sides_) plain.push_back({s.a.uv, s.b.uv});
     std::vector<char> crosses(sides_.size(), 0);
+    throw_if_late();
     for (const auto& [i, k] : crossing_sides(plain)) crosses[i] = crosses[k] = 1;
     bool is_refined = false;
     std::vector<TracedSide> refined;

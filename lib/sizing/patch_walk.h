@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/current_work.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
 
@@ -76,7 +77,7 @@ double inside_area(const Patch<Probe>& patch) {
 ///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is
 ///   not yet known); bool visit(const Patch<Probe>&, const PatchSize&, int& n_doubts)   true: split it; false: done
 ///   with it.
-/// A patch is split across its longer side in space, and not more than 60 times.
+/// A patch is split across its longer side in space, and not more than 60 times. Throws LateWork.
 template <class Probe, class Visitor>
 class PatchWalk {
  public:
@@ -107,6 +108,7 @@ class PatchWalk {
   }
 
   void visit(Patch<Probe>& patch, std::span<const std::int32_t> candidates, bool is_inside) {
+    throw_if_late();
     collect_sides(patch, candidates);
     if (patch.sides.empty() && !is_inside && !loops_.contains(patch.uv(4))) return;
     const PatchSize size = measure(patch);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/current_work.h"
 #include "sizing/cell_limit.h"
 #include "sizing/line_stretch.h"
 
@@ -36,6 +37,7 @@ class CurveMeasurer {
 
  private:
   void measure(double ta, const CurvePoint& a, double tb, const CurvePoint& b, int depth) {
+    throw_if_late();
     require_samples(table_.t.size(), limits_.max_samples);
     const double tm = 0.5 * (ta + tb);
     const CurvePoint m = curve_.evaluate(tm);

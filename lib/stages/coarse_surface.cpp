@@ -40,7 +40,7 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
 }  // namespace
 
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 const Executor& executor) {
+                                 double seconds, const Executor& executor) {
   if (!is_closed(model.tables(), report_edge_uses(model.tables()).n_free)) return {};
   const std::vector<CellLength> cells = prolong_openly(raster, executor);
   OctreeFieldData data;
@@ -51,6 +51,8 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   const OctreeField field(data, nullptr);
   MeshOptions options;
   options.enhance_rounds = 0;  // it only tells where the solid is
+  options.time_limit = seconds;
+  options.when_late = WhenLate::kThrow;
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};

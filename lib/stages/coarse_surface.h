@@ -10,9 +10,9 @@
 namespace st {
 
 /// Collective. Meshes the model at a multiple of the raster's own sizes; complete on rank 0, the same at every number
-/// of ranks. Empty when the model is not closed. A face that cannot be meshed leaves a hole, and a warning. `raster`:
-/// shape on every rank, lengths and samples on rank 0.
+/// of ranks. Empty when the model is not closed. A face that cannot be meshed, or not in `seconds`, leaves a hole, and
+/// a warning. `raster`: shape on every rank, lengths and samples on rank 0.
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 const Executor& executor);
+                                 double seconds, const Executor& executor);
 
 }  // namespace st

@@ -103,6 +103,7 @@ void require_valid(const RasterStageOptions& o) {
   o.kChordCells.require(o.chord_cells);
   o.kCellPerLength.require(o.cell_per_length);
   o.kMaxCells.require(o.max_cells);
+  o.kTimeLimit.require(o.time_limit);
   SizeOptions::kMaxAspect.require(o.max_aspect);
 }
 
@@ -184,10 +185,13 @@ using FaceLoops = std::vector<std::optional<LoopPolygons>>;
 class RasterTasks {
  public:
   /// Keeps the loops that it traces in `loops` ([n_faces]).
-  RasterTasks(const Model& model, const ModelLimits& limits, std::span<const Strip> strips, FaceLoops& loops)
+  /// `seconds`: for each face.
+  RasterTasks(const Model& model, const ModelLimits& limits, std::span<const Strip> strips, double seconds,
+              FaceLoops& loops)
       : model_(model),
         limits_(limits),
         strips_(strips),
+        seconds_(seconds),
         loops_(loops),
         vertex_edge_(first_edges(model.tables())),
         n_batches_((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask) {}
@@ -267,7 +271,7 @@ class RasterTasks {
   }
 
   void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
-    const CurrentWork at_face("face", f + 1);
+    const CurrentWork at_face("face", f + 1, {seconds_, WhenLate::kThrow});
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
     const bool is_reversed = model_.tables().face_is_reversed[f] != 0;
@@ -292,6 +296,7 @@ class RasterTasks {
   const Model& model_;
   const ModelLimits& limits_;
   std::span<const Strip> strips_;
+  double seconds_;
   FaceLoops& loops_;
   std::vector<EdgeId> vertex_edge_;  // first edge at each vertex
   std::int32_t n_batches_;
@@ -440,8 +445,9 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 }
 
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
+/// `seconds`: for each face; one that takes longer is in no cell, warned of and counted in `n_failures`.
 FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
-                       const Communicator& comm) {
+                       double seconds, const Communicator& comm, std::size_t& n_failures) {
   const ModelTables& t = model.tables();
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
   Progress progress("locating faces", t.n_faces());
@@ -449,17 +455,26 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   comm.run_tasks(
       t.n_faces(), heaviest_first(t.face_area),
       [&](std::int32_t f) {
-        Packer packer;
+        const CurrentWork at_face("face", f + 1, {seconds, WhenLate::kThrow});
+        std::vector<CellArea> cells;
+        std::string failure;
         try {
-          packer.add(locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits),
-                                 shape.view(), t.face_area[f]));
+          cells = locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits), shape.view(),
+                              t.face_area[f]);
+        } catch (const LateWork& e) {
+          failure = fmt::format("{}: its cells were not found, {}", t.face_label(f), e.what());
         } catch (const std::exception&) {  // reported when it was sampled
-          packer.add(std::vector<CellArea>());
+          cells.clear();
         }
-        return packer.take();
+        return packed(cells, failure);
       },
       [&](std::int32_t f, Bytes&& result) {
-        Unpacker(result).get(by_face[f]);
+        Unpacker unpacker(result);
+        unpacker.get(by_face[f]);
+        std::string failure;
+        unpacker.get(failure);
+        if (!failure.empty()) log_warning(failure);
+        n_failures += !failure.empty();
         progress.update(++n_done);
       });
   FaceCells faces;
@@ -644,11 +659,12 @@ class RasterRun {
     set_limits();
     times_.end("opening");
     sample();
-    artifact_.faces = locate_faces(model_, artifact_.octree.shape, limits_, loops_, comm_);
+    artifact_.faces =
+        locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, comm_, counts_.n_failures);
     times_.end("faces");
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
-    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, comm_);
+    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, o_.time_limit, comm_);
     times_.end("surface");
     times_.gather(comm_);
     if (!comm_.is_root()) return {};
@@ -670,7 +686,8 @@ class RasterRun {
 
   void sample() {
     loops_.resize(static_cast<std::size_t>(model_.tables().n_faces()));
-    Samples samples = sample_model(RasterTasks(model_, limits_, strips_, loops_), budget_.max_samples, comm_);
+    Samples samples =
+        sample_model(RasterTasks(model_, limits_, strips_, o_.time_limit, loops_), budget_.max_samples, comm_);
     times_.end("sampling");
     if (comm_.is_root()) counts_ = report_samples(samples);
     counts_.n_boxes += wings_.boxes.size();

@@ -9,7 +9,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import BIN, INPUT, MODELS, OK, OUTPUT, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
+from chain import BIN, INCOMPLETE, INPUT, MODELS, OK, OUTPUT, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 
 class Hostile(ToolTest):
@@ -188,6 +188,24 @@ class Leftovers(Hostile):
         must("st-merge", self.good / "patches.hdf", "-o", self.folder / "x.hdf")
         zombie.send_signal(signal.SIGKILL)
         self.expect_nothing_left(self.folder, "x.hdf")
+
+
+class TimeLimits(Hostile):
+    FINE = ("--lmax", "0.05%", "--max-cells", 1000000000)
+
+    def test_a_run_ends_at_its_limit_and_names_the_input(self):
+        for arguments in ([], ["--np", 2]):
+            self.expect_error(INPUT, "st-raster", self.good / "geometry.hdf", *self.FINE, "--wall-limit", "0.2",
+                    *arguments, "-o", self.folder / "x.hdf",
+                    says=["geometry.hdf: not done within 0.2 s", "--wall-limit"], timeout=60)
+            self.expect_nothing_left(self.folder)
+
+    def test_faces_that_take_too_long_are_given_up_and_named(self):
+        run = Run("st-raster", self.good / "geometry.hdf", *self.FINE, "--no-surface", "--time-limit", "0.1",
+                "-o", self.folder / "x.hdf", timeout=60)
+        self.assertEqual(run.code, INCOMPLETE, run)
+        for face in range(1, 7):
+            self.assertRegex(run.err, rf"face {face}.*: not sampled, takes longer than 0.1 s")
 
 
 if __name__ == "__main__":

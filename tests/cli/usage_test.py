@@ -13,7 +13,8 @@ from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artif
 N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1,
             "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
 # Options of all tools, which the pages describe in words.
-COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json"}
+COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json",
+          "--wall-limit"}
 HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
@@ -35,6 +36,7 @@ REFUSED = {
         "--edge-size": ["0", "-1", "3pt", "nothing"],
         "--edge-cells": ["0", "101", "1.5"],
         "--max-cells": ["0", "x", "1.5"],
+        "--time-limit": ["0", "x"],
         "--max-aspect": ["0.9", "101", "x"],
         "--trailing-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
         "--leading-edges": ["0.1:", ":1", "1:0.1", "x", "1:2:3", "1pt"],
@@ -71,6 +73,8 @@ REFUSED = {
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
     "st-export": {"--tolerance": ["0", "-1%", "x"], "--feature-angle": ["0", "181", "x"], "--unit": ["parsec"]},
 }
+for tool_name in N_INPUTS:
+    REFUSED.setdefault(tool_name, {})["--wall-limit"] = ["0", "-1", "x"]
 
 
 def inputs(tool):

@@ -21,6 +21,8 @@
 namespace st {
 namespace {
 
+constexpr std::chrono::seconds kLongestEnd{30};  // that mpirun may need to end all ranks
+
 /// The arguments after the program's name, without --np N and --np=N.
 std::vector<std::string> arguments_without_np(int argc, char** argv) {
   std::vector<std::string> arguments;
@@ -110,6 +112,11 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
     comm = std::make_unique<Communicator>();
     if (usage_error) std::rethrow_exception(usage_error);
   };
+  const auto report = [&](ExitCode code, const std::string& message) {
+    if (comm) wait_for_lower_ranks(comm->rank());
+    print_error(code, message);
+    if (comm && comm->size() > 1) comm->abort(static_cast<int>(code));
+  };
   const auto action = [&] {
     start();
     if (job_code) return static_cast<ExitCode>(*job_code);
@@ -118,17 +125,16 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
       if (comm->is_root()) print_text(*text);
       return ExitCode::kOk;
     }
+    watch_time([&](ExitCode code, const std::string& message) {
+      if (!comm->is_root()) std::this_thread::sleep_for(kLongestEnd);
+      report(code, message);
+    });
     set_thread_count(n_threads_.value_or(comm->size() > 1 ? 1 : processor_count()));
     if (restarts_after_crash_) watch_late_work();
     if (restarts_after_crash_ && comm->size() == 1) restart_after_crashes(argv);
     const StageSummary summary = stage(*comm);
     if (comm->is_root()) print_summary(summary);
     return summary.code;
-  };
-  const auto report = [&](ExitCode code, const std::string& message) {
-    if (comm) wait_for_lower_ranks(comm->rank());
-    print_error(code, message);
-    if (comm && comm->size() > 1) comm->abort(static_cast<int>(code));
   };
   return static_cast<int>(guard(action, report));
 }

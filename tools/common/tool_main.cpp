@@ -12,6 +12,7 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/bounded_work.h"
 #include "base/length.h"
@@ -23,6 +24,7 @@
 #include "common/crash_handler.h"
 #include "common/option_file.h"
 #include "common/presets.h"
+#include "common/wall_limit.h"
 #include "io/file/journal.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -65,6 +67,8 @@ extern "C" void end_on_lost_page(int signal, siginfo_t* info, void*) {
   print(": got shorter or unreadable while it was used; make it again, and leave it alone until this run ends\n");
   _exit(static_cast<int>(ExitCode::kInput));
 }
+
+constexpr NumberOption kWallLimit{"--wall-limit", "SECONDS", "[0.1, 1e9]", ""};
 
 /// Type of an option that names an array in a file.
 constexpr const char* kArrayType = "FILE:ARRAY";
@@ -155,6 +159,10 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.add_flag_function(
           "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit")
       ->disable_flag_override();
+  app_.add_option("--wall-limit", wall_limit_, "end with exit code 3 when the run takes longer")
+      ->type_name("SECONDS")
+      ->check(in_interval(kWallLimit))
+      ->capture_default_str();
   auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only")->disable_flag_override();
   app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet)->disable_flag_override();
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout")->disable_flag_override();
@@ -335,6 +343,22 @@ void ToolMain::require_distinct_files() const {
   }
 }
 
+void ToolMain::watch_time(const std::function<void(ExitCode, const std::string&)>& report) const {
+  std::string where;  // the first of the inputs
+  for (const std::string& path : input_files())
+    if (where.empty()) where = path + ": ";
+  std::ostringstream seconds;
+  seconds << wall_limit_;
+  const std::string message = where + "not done within " + seconds.str() +
+                              " s: the input is damaged, or needs more; give it more with --wall-limit";
+  watch_wall_time(wall_limit_, [report, message] {
+    remove_temporaries();
+    note_end();
+    report(ExitCode::kInput, message);
+    return static_cast<int>(ExitCode::kInput);
+  });
+}
+
 void ToolMain::print_summary(const StageSummary& summary) const {
   const std::string text = json_ ? summary.json : printable(summary.line);
   if (!text.empty() && (json_ || kind_ == Kind::kReport || !quiet_)) {
@@ -388,6 +412,7 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
       print_text(*text);
       return ExitCode::kOk;
     }
+    watch_time([&](ExitCode code, const std::string& message) { print_error(code, message); });
     set_thread_count(n_threads_.value_or(processor_count()));
     const StageSummary summary = stage();
     print_summary(summary);

@@ -99,6 +99,8 @@ class ToolMain {
   std::vector<std::string> input_files() const;
   /// Throws Error(kUsage) when an output would overwrite an input or another output.
   void require_distinct_files() const;
+  /// Ends the run when --wall-limit is over; `report` is told so before.
+  void watch_time(const std::function<void(ExitCode, const std::string&)>& report) const;
   /// Prints the summary to stdout. When stdout takes nothing: throws Error(kOutput) for a report and for JSON, which
   /// are lost then; only warns for a stage, whose outputs are complete.
   void print_summary(const StageSummary& summary) const;
@@ -115,6 +117,7 @@ class ToolMain {
   CLI::App app_;
   std::string options_file_, preset_;
   int n_ranks_ = 1;
+  double wall_limit_ = 86'400;
   std::optional<int> n_threads_;
   bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;

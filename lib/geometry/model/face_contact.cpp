@@ -25,7 +25,7 @@ namespace st {
 namespace {
 
 constexpr int kSamples = 33;
-constexpr double kMostSeconds = 30;  // for two faces: damaged surfaces may take OpenCASCADE for ever
+constexpr double kMostSeconds = 10;  // for two faces: damaged surfaces may take OpenCASCADE for ever
 constexpr int kMostGivenUp = 3;      // pairs of faces; then no more are tried
 constexpr double kTangent = 0.9998;  // cosine of 1 degree: the faces touch, they do not cross
 

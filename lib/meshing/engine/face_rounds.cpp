@@ -255,8 +255,8 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 
 /// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
-  const double tile_seconds = time_limit(options_.tile_triangles);
-  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
+  const WorkLimit tile_limit = time_limit(options_.tile_triangles);
+  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
   if (options_.tile_triangles > 0 && !expected_.empty())
     tiled.cut(without_left_out(dirty_faces_), expected_, options_.tile_triangles, executor_);
   std::vector<FaceId> whole;
@@ -267,17 +267,17 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   executor_.begin_phase("join tiles");
   std::vector<FaceId> failed = join(tiled);
   share(executor_, failed);
-  TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_seconds);
+  TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
   if (!failed.empty()) run_tasks(failed, none);
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
 }
 
-/// Seconds after which something must be wrong with so many triangles.
-double FaceRounds::time_limit(double n_triangles) const {
+/// After it something must be wrong with so many triangles.
+WorkLimit FaceRounds::time_limit(double n_triangles) const {
   constexpr double kAlways = 600, kPerTriangle = 50 * 3e-6;
-  return options_.time_limit.value_or(kAlways + kPerTriangle * n_triangles);
+  return {options_.time_limit.value_or(kAlways + kPerTriangle * n_triangles), options_.when_late};
 }
 
 std::vector<FaceId> FaceRounds::without_left_out(std::vector<FaceId> faces) const {

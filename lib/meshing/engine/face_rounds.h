@@ -74,7 +74,7 @@ class FaceRounds : public MeshRounds {
   FaceMeshOptions face_options() const;
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
   FaceResult mesh_whole(FaceId f) const;
-  double time_limit(double n_triangles) const;
+  WorkLimit time_limit(double n_triangles) const;
   std::vector<FaceId> without_left_out(std::vector<FaceId> faces) const;
   std::string made_from() const;
   void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/current_work.h"
 #include "mesh/failed_face.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face/face_mesher.h"
@@ -19,7 +20,8 @@ struct MeshOptions {
   double merge_below = 0.05;       ///< of the requested length, see find_merged_features(); 0: nothing is merged
   double tile_triangles = 50'000;  ///< faces that expect one and a half times as many are cut; 0: none is
   std::map<FaceId, std::string> left_out = {};  ///< they fail, with this cause: meshing them ended an earlier run
-  std::optional<double> time_limit = {};  ///< of a face, seconds, see CurrentWork; none: by its expected triangles
+  std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
+  WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
 };
 
 /// Where the time went, seconds on rank 0.

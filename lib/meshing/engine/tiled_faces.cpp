@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/current_work.h"
 #include "base/error.h"
 #include "base/share.h"
 
@@ -26,7 +25,7 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
 }
 
 TileCut TiledFaces::cut_one(FaceId f, double tile_triangles) const {
-  const CurrentWork at_face("face", f + 1, seconds_);
+  const CurrentWork at_face("face", f + 1, limit_);
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary boundary = make_face_boundary(model_, *surface, f, numbering_);
@@ -67,7 +66,7 @@ void TiledFaces::cut(const std::vector<FaceId>& faces, const std::vector<double>
 
 Bytes TiledFaces::compute(std::int32_t tile) const {
   const auto [f, index] = tiles_[tile];
-  const CurrentWork at_face("face", f + 1, seconds_);
+  const CurrentWork at_face("face", f + 1, limit_);
   const TileCut& cut = cuts_.at(f);
   FaceMesh mesh;
   try {

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "base/current_work.h"
 #include "base/executor.h"
 #include "geometry/model/model.h"
 #include "meshing/face/face_boundary.h"
@@ -34,15 +35,15 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
 /// The faces of one round that are cut. All tasks are pure functions of the boundary and the sizes.
 class TiledFaces {
  public:
-  /// All references outlive the object. `seconds`: after which a tile is late, see CurrentWork.
+  /// All references outlive the object. `limit`: of a tile.
   TiledFaces(const Model& model, const BoundaryNumbering& numbering, const SizeField& field,
-             const Refinements& refinements, const FaceMeshOptions& options, double seconds)
+             const Refinements& refinements, const FaceMeshOptions& options, const WorkLimit& limit)
       : model_(model),
         numbering_(numbering),
         field_(field),
         refinements_(refinements),
         options_(options),
-        seconds_(seconds) {}
+        limit_(limit) {}
 
   /// Collective. Cuts those of `faces` that expect more than one and a half tiles; `expected`: triangles by face,
   /// [n_faces]. Where a face cannot be cut it stays whole.
@@ -76,7 +77,7 @@ class TiledFaces {
   const SizeField& field_;
   const Refinements& refinements_;
   const FaceMeshOptions options_;
-  const double seconds_;
+  const WorkLimit limit_;
   std::map<FaceId, TileCut> cuts_;
   std::vector<TileOf> tiles_;
   std::map<FaceId, std::vector<FaceMesh>> meshes_;  // on rank 0

@@ -6,6 +6,7 @@
 #include <queue>
 #include <utility>
 
+#include "base/current_work.h"
 #include "base/eigen.h"
 #include "base/predicates.h"
 #include "geometry/shape/surface.h"
@@ -466,6 +467,7 @@ Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
 }
 
 void FaceWork::evaluate(MeshNode& n) const {
+  throw_if_late();
   n.uv = {n.p.x / scale.x, n.p.y / scale.y};
   const SurfacePoint s = surface->evaluate(n.uv);
   n.x = s.x;

@@ -31,11 +31,11 @@ TEST(CurrentWork, is_late_after_its_seconds_and_its_thread_is_signalled) {
   g_n_signals = 0;
   const auto old = std::signal(SIGUSR1, [](int) { g_n_signals += is_current_work_late(); });
   {
-    const CurrentWork in_time("face", 1, 1000), without_limit("edge", 2);
+    const CurrentWork in_time("face", 1, {1000}), without_limit("edge", 2);
     signal_late_work(SIGUSR1);
     EXPECT_FALSE(is_current_work_late());
     EXPECT_EQ(g_n_signals, 0);
-    const CurrentWork late("face", 3, 1e-9);
+    const CurrentWork late("face", 3, {1e-9});
     signal_late_work(SIGUSR1);
     EXPECT_TRUE(is_current_work_late());
     EXPECT_EQ(g_n_signals, 1);
@@ -45,6 +45,30 @@ TEST(CurrentWork, is_late_after_its_seconds_and_its_thread_is_signalled) {
   signal_late_work(SIGUSR1);
   EXPECT_EQ(g_n_signals, 1);
   std::signal(SIGUSR1, old);
+}
+
+/// Whether `work` gives up in many looks at the clock.
+bool gives_up() {
+  try {
+    for (int i = 0; i < 1000; ++i) throw_if_late();
+  } catch (const LateWork& e) {
+    EXPECT_STREQ(e.what(), "takes longer than 1e-09 s, its surface may be damaged; give it more with --time-limit");
+    return true;
+  }
+  return false;
+}
+
+TEST(CurrentWork, gives_up_late_work_where_that_was_asked_for) {
+  EXPECT_FALSE(gives_up());
+  const CurrentWork in_time("face", 1, {1000, WhenLate::kThrow});
+  EXPECT_FALSE(gives_up());
+  {
+    const CurrentWork watched("face", 2, {1e-9});
+    EXPECT_FALSE(gives_up());
+    const CurrentWork late("face", 3, {1e-9, WhenLate::kThrow});
+    EXPECT_TRUE(gives_up());
+  }
+  EXPECT_FALSE(gives_up());
 }
 
 TEST(CurrentWork, fits_into_the_text_that_is_given) {
