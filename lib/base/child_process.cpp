@@ -70,6 +70,7 @@ double machine_memory() {
                            const std::string& subject) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (limits.cpu_seconds > 0) end_after(limits.cpu_seconds);
+  if (limits.wall_seconds > 0) alarm(static_cast<unsigned>(std::ceil(limits.wall_seconds)));
 #ifndef __SANITIZE_ADDRESS__  // which reserves more addresses than any machine has memory
   limit(RLIMIT_AS, machine_memory());
 #endif
@@ -108,6 +109,8 @@ std::string number(double x) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
     throw Error(ExitCode::kInput, subject + ": not read within " + number(limits.cpu_seconds) +
                                       " s of processor time; the file is damaged, or give it more with --time-limit");
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    throw Error(ExitCode::kInput, subject + ": not done within " + number(limits.wall_seconds) + " s");
   if (WIFSIGNALED(status))
     throw Error(ExitCode::kInput, subject + ": OpenCASCADE crashed on this file (" + strsignal(WTERMSIG(status)) +
                                       "); it is damaged: export the model again");

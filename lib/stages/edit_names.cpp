@@ -74,7 +74,8 @@ std::map<std::string, std::string> new_names(const std::map<std::string, std::st
   for (const auto* groups : {&first, &second})
     for (const auto& [name, kind] : *groups) taken.push_back(name);
   std::map<std::string, std::string> renamed;
-  for (const auto& [name, kind] : second) {
+  for (const auto& group : second) {
+    const std::string &name = group.first, &kind = group.second;
     const auto same = first.find(name);
     if (same == first.end()) continue;
     if (std::none_of(join.begin(), join.end(), [&](const std::string& j) { return name_matches(j, name); })) {

@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/bounded_work.h"
 #include "base/length.h"
 #include "base/log.h"
 #include "base/mapped_file.h"
@@ -418,10 +417,8 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
     print_summary(summary);
     return summary.code;
   };
-  const auto code =
-      static_cast<int>(guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
-  if (has_abandoned_work()) std::_Exit(code);  // it would meet the end of what it uses
-  return code;
+  return static_cast<int>(
+      guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
 }
 
 }  // namespace st

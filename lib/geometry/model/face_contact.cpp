@@ -14,8 +14,10 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/bounded_work.h"
+#include "base/child_process.h"
+#include "base/error.h"
 #include "base/log.h"
+#include "base/packer.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/model/model.h"
@@ -25,7 +27,7 @@ namespace st {
 namespace {
 
 constexpr int kSamples = 33;
-constexpr double kMostSeconds = 10;  // for two faces: damaged surfaces may take OpenCASCADE for ever
+constexpr double kMostSeconds = 10;  // for two faces: damaged surfaces may take OpenCASCADE for ever, or crash it
 constexpr int kMostGivenUp = 3;      // pairs of faces; then no more are tried
 constexpr double kTangent = 0.9998;  // cosine of 1 degree: the faces touch, they do not cross
 
@@ -121,6 +123,15 @@ std::vector<FaceContact> find_contacts(const TopoDS_Face& a, const TopoDS_Face& 
   return result;
 }
 
+/// Of the bytes that a child gives back.
+std::vector<FaceContact> contacts_of(const std::string& text) {
+  const Bytes bytes(reinterpret_cast<const Bytes::value_type*>(text.data()),
+                    reinterpret_cast<const Bytes::value_type*>(text.data()) + text.size());
+  std::vector<FaceContact> contacts;
+  unpack(bytes, contacts);
+  return contacts;
+}
+
 }  // namespace
 
 std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
@@ -129,11 +140,19 @@ std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
   const TopoDS_Face a = TopoDS::Face(impl_->faces(first + 1)), b = TopoDS::Face(impl_->faces(second + 1));
   const double tolerance =
       std::max({1e-6 * tables_.box().diagonal(), occt::max_edge_tolerance(a), occt::max_edge_tolerance(b)});
-  auto contacts = run_within(kMostSeconds, [a, b, tolerance] { return find_contacts(a, b, tolerance); });
-  if (contacts) return *std::move(contacts);
-  ++n_given_up;
-  log_warning(fmt::format("where {} and {} meet was not found within {} s: what crosses there counts as a fault",
-                          tables_.face_label(first), tables_.face_label(second), kMostSeconds));
+  const auto find = [&] {
+    const Bytes bytes = packed(find_contacts(a, b, tolerance));
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  try {
+    return contacts_of(run_in_child(find, {kMostSeconds, "", 2 * kMostSeconds}, "damaged surfaces"));
+  } catch (const Error&) {
+    ++n_given_up;
+    log_warning(
+        fmt::format("where {} and {} meet was not found, OpenCASCADE crashed or took more than {} s: what "
+                    "crosses there counts as a fault",
+                    tables_.face_label(first), tables_.face_label(second), kMostSeconds));
+  }
   return {};
 }
 

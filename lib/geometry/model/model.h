@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/face_labels.h"
@@ -88,6 +89,8 @@ struct ModelTables {
 struct FaceContact {
   std::vector<Vec3> points;     ///< along a curve, one for a touching point; model unit
   bool passes_through = false;  ///< the faces cross; else they touch: tangent to each other, or one ends on the other
+
+  static auto fields(auto& c) { return std::tie(c.points, c.passes_through); }
 };
 
 /// Tables plus evaluators. Creating evaluators is const and cheap (tens of microseconds); create, use, drop.

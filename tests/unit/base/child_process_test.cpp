@@ -65,6 +65,19 @@ TEST(ChildProcess, ends_work_that_does_not_end) {
   EXPECT_TRUE(says(e, "0.05 s") && says(e, "--time-limit")) << e.what();
 }
 
+TEST(ChildProcess, ends_work_that_waits_for_ever) {
+  try {
+    run_in_child(
+        []() -> std::string {
+          for (;;) pause();
+        },
+        {0, "", 0.5}, "wing.step");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_TRUE(says(e, "wing.step: not done within 0.5 s")) << e.what();
+  }
+}
+
 TEST(ChildProcess, takes_an_exit_or_exhausted_memory_for_an_error) {
   EXPECT_EQ(error_of([]() -> std::string { _exit(0); }).code(), ExitCode::kInput);
   EXPECT_TRUE(says(error_of([]() -> std::string { throw std::bad_alloc(); }), "memory"));
