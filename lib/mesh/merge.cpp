@@ -181,10 +181,14 @@ Welder::Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) : edges_
   welded_.inner_begin.push_back(0);
 }
 
-std::int32_t Welder::id_of(const FacePatch& p, std::int32_t i) const {
+std::int32_t boundary_id_of(VertexId n_vertices, const EdgeMesh& edges, const FacePatch& p, std::int32_t i) {
   const std::int32_t entity = p.boundary_entity[i];
   if (p.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)) return entity;
-  return boundary_id(static_cast<VertexId>(vertex_xyz_.size()), edges_, entity, p.boundary_index[i]);
+  return boundary_id(n_vertices, edges, entity, p.boundary_index[i]);
+}
+
+std::int32_t Welder::id_of(const FacePatch& p, std::int32_t i) const {
+  return boundary_id_of(static_cast<VertexId>(vertex_xyz_.size()), edges_, p, i);
 }
 
 void Welder::number_boundary(std::size_t n_inner, std::size_t n_triangles) {

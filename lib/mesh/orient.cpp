@@ -1,4 +1,5 @@
-// orient_outward(): neighbouring faces agree, closed components enclose their volume.
+#include "mesh/orient.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,27 +8,10 @@
 
 #include "base/predicates.h"
 #include "mesh/adjacency.h"
-#include "mesh/merge.h"
 
 namespace st {
 
 namespace {
-
-/// Two faces that share manifold mesh edges.
-struct FaceLink {
-  FaceId a = kNone, b = kNone;  ///< a < b
-  std::int32_t agreement = 0;   ///< edges along which their triangles are oriented alike, minus those where not
-};
-
-/// Faces connected by manifold edges, and what was found out about them.
-struct FaceComponent {
-  std::vector<FaceId> faces;  ///< ascending
-  bool is_one_sided = false;
-  bool is_closed = true;
-  double volume = 0;  ///< signed
-  Box3 box;
-  std::vector<TriangleId> triangles;  ///< filled only when nesting must be decided
-};
 
 FaceId count_faces(const SurfaceMesh& mesh) {
   FaceId n = 0;
@@ -42,15 +26,7 @@ std::vector<FaceLink> find_links(const SurfaceMesh& mesh, const EdgeTable& edges
     const auto [a, b] = std::minmax(mesh.triangle_face[sides[0] / 3], mesh.triangle_face[sides[1] / 3]);
     if (a != b) links.push_back({a, b, run_alike(mesh.triangles, sides[0], sides[1]) ? -1 : 1});
   });
-  std::sort(links.begin(), links.end(),
-            [](const FaceLink& x, const FaceLink& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
-  std::size_t n = 0;
-  for (const FaceLink& l : links)
-    if (n && links[n - 1].a == l.a && links[n - 1].b == l.b)
-      links[n - 1].agreement += l.agreement;
-    else
-      links[n++] = l;
-  links.resize(n);
+  unite_links(links);
   return links;
 }
 
@@ -118,13 +94,6 @@ void turn_faces(SurfaceMesh& mesh, std::span<const std::uint8_t> is_turned) {
   }
 }
 
-std::vector<std::int32_t> component_of_face(std::span<const FaceComponent> components, FaceId n_faces) {
-  std::vector<std::int32_t> component(n_faces, kNone);
-  for (std::size_t c = 0; c < components.size(); ++c)
-    for (const FaceId f : components[c].faces) component[f] = static_cast<std::int32_t>(c);
-  return component;
-}
-
 /// Closed: along every edge, as many sides of the component run one way as the other, once the faces are turned.
 void find_open(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const std::uint8_t> is_turned,
                std::span<const std::int32_t> face_component, std::vector<FaceComponent>& components) {
@@ -152,8 +121,7 @@ void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_compone
     const std::int32_t c = face_component[mesh.triangle_face[t]];
     if (c == kNone) continue;
     const auto& n = mesh.triangles[t].n;
-    const Vec3 a = mesh.node_xyz[n[0]] - origin, b = mesh.node_xyz[n[1]] - origin, d = mesh.node_xyz[n[2]] - origin;
-    components[c].volume += dot(a, cross(b, d)) / 6;
+    components[c].volume += volume_of(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]], origin);
     for (const NodeId i : n) components[c].box.add(mesh.node_xyz[i]);
   }
 }
@@ -218,11 +186,37 @@ void find_nesting(const SurfaceMesh& mesh, std::span<const FaceComponent> compon
       if (parent[i] == kNone || depth[o] > depth[parent[i]]) parent[i] = o;
 }
 
-/// Components to turn: negative at even depth (a body inside out), and the voids of such bodies.
+}  // namespace
+
+void unite_links(std::vector<FaceLink>& links) {
+  std::sort(links.begin(), links.end(),
+            [](const FaceLink& x, const FaceLink& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  std::size_t n = 0;
+  for (const FaceLink& l : links)
+    if (n && links[n - 1].a == l.a && links[n - 1].b == l.b)
+      links[n - 1].agreement += l.agreement;
+    else
+      links[n++] = l;
+  links.resize(n);
+}
+
+std::vector<FaceComponent> agree(std::span<const FaceLink> links, std::span<const double> area,
+                                 std::vector<std::uint8_t>& is_turned) {
+  std::vector<FaceComponent> components = flood(links, area, is_turned);
+  settle_majority(components, area, is_turned);
+  return components;
+}
+
+std::vector<std::int32_t> component_of_face(std::span<const FaceComponent> components, FaceId n_faces) {
+  std::vector<std::int32_t> component(n_faces, kNone);
+  for (std::size_t c = 0; c < components.size(); ++c)
+    for (const FaceId f : components[c].faces) component[f] = static_cast<std::int32_t>(c);
+  return component;
+}
+
 std::vector<std::uint8_t> find_inside_out(const SurfaceMesh& mesh, std::vector<FaceComponent>& components,
                                           std::span<const std::int32_t> face_component) {
   std::vector<std::uint8_t> is_turned(components.size(), 0);
-  const auto is_negative = [](const FaceComponent& c) { return c.is_closed && !c.is_one_sided && c.volume < 0; };
   if (std::none_of(components.begin(), components.end(), is_negative)) return is_turned;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (const std::int32_t c = face_component[mesh.triangle_face[t]]; c != kNone)
@@ -236,10 +230,23 @@ std::vector<std::uint8_t> find_inside_out(const SurfaceMesh& mesh, std::vector<F
   return is_turned;
 }
 
-}  // namespace
+OrientationReport report_orientation(std::span<const std::uint8_t> is_turned, std::span<const FaceComponent> components,
+                                     std::span<const std::uint8_t> is_inside_out) {
+  OrientationReport report;
+  for (std::size_t f = 0; f < is_turned.size(); ++f)
+    if (is_turned[f]) report.turned_faces.push_back(static_cast<FaceId>(f));
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    report.n_one_sided += components[c].is_one_sided;
+    report.turned_components += is_inside_out[c];
+    if (is_inside_out[c])
+      report.inside_out_faces.insert(report.inside_out_faces.end(), components[c].faces.begin(),
+                                     components[c].faces.end());
+  }
+  std::sort(report.inside_out_faces.begin(), report.inside_out_faces.end());
+  return report;
+}
 
 OrientationReport orient_outward(SurfaceMesh& mesh) {
-  OrientationReport report;
   const FaceId n_faces = count_faces(mesh);
   const std::vector<double> area = face_areas(mesh, n_faces);
   std::vector<FaceComponent> components;
@@ -247,25 +254,16 @@ OrientationReport orient_outward(SurfaceMesh& mesh) {
   std::vector<std::int32_t> face_component;
   {
     const EdgeTable edges(mesh.triangles, mesh.n_nodes());
-    components = flood(find_links(mesh, edges), area, is_turned);
-    settle_majority(components, area, is_turned);
+    components = agree(find_links(mesh, edges), area, is_turned);
     face_component = component_of_face(components, n_faces);
     find_open(mesh, edges, is_turned, face_component, components);
   }
   turn_faces(mesh, is_turned);
-  for (FaceId f = 0; f < n_faces; ++f)
-    if (is_turned[f]) report.turned_faces.push_back(f);
-
   measure(mesh, face_component, components);
   const std::vector<std::uint8_t> is_inside_out = find_inside_out(mesh, components, face_component);
-  for (FaceId f = 0; f < n_faces; ++f) {
-    is_turned[f] = face_component[f] != kNone && is_inside_out[face_component[f]];
-    if (is_turned[f]) report.inside_out_faces.push_back(f);
-  }
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    report.n_one_sided += components[c].is_one_sided;
-    report.turned_components += is_inside_out[c];
-  }
+  const OrientationReport report = report_orientation(is_turned, components, is_inside_out);
+  is_turned.assign(n_faces, 0);
+  for (const FaceId f : report.inside_out_faces) is_turned[f] = 1;
   turn_faces(mesh, is_turned);
   return report;
 }

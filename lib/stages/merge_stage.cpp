@@ -4,22 +4,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/log.h"
-#include "base/memory.h"
 #include "base/progress.h"
-#include "base/threads.h"
 #include "io/export/export.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
-#include "mesh/checks.h"
 #include "mesh/edge_segments.h"
-#include "mesh/merge.h"
+#include "stages/merge_columns.h"
 #include "stages/mesh_export.h"
 
 namespace st {
@@ -35,11 +33,10 @@ std::string list_faces(std::span<const FaceId> faces) {
   return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
 }
 
-std::vector<FaceId> find_missing_faces(const PatchesArtifact& patches) {
-  std::vector<std::uint8_t> is_meshed(patches.labels.face_name.size(), 0);
-  for (const FacePatch& p : patches.patches)
-    if (p.face >= 0 && static_cast<std::size_t>(p.face) < is_meshed.size()) is_meshed[p.face] = 1;
-  for (const FaceId f : closed_faces(patches.merged, patches.edges, patches.edge_vertices)) is_meshed[f] = 1;
+std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::vector<PatchPlace>& patches) {
+  std::vector<std::uint8_t> is_meshed(rest.labels.face_name.size(), 0);
+  for (const PatchPlace& p : patches) is_meshed[p.face()] = 1;
+  for (const FaceId f : closed_faces(rest.merged, rest.edges, rest.edge_vertices)) is_meshed[f] = 1;
   std::vector<FaceId> missing;
   for (std::size_t f = 0; f < is_meshed.size(); ++f)
     if (!is_meshed[f]) missing.push_back(static_cast<FaceId>(f));
@@ -68,48 +65,50 @@ EdgeMesh unite_edges(const EdgeMesh& a, const EdgeMesh& b, const std::string& pa
   return both;
 }
 
-/// Parts of one model that were meshed apart, as one.
-void add_part(PatchesArtifact& all, PatchesArtifact part, const std::string& path_all, const std::string& path) {
+/// The nodes of edges of parts of one model that were meshed apart, as one.
+void add_part(PatchesArtifact& all, const PatchesArtifact& part, const std::string& path_all, const std::string& path) {
   require_same_geometry(path_all, all.header, path, part.header);
   if (!(all.merged == part.merged))
     throw Error(ExitCode::kMismatch,
                 fmt::format("{} and {} merge different small features of the CAD; mesh the second part with --edges {}",
                             path_all, path, path_all));
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
-  for (FacePatch& p : part.patches) {
-    const auto same =
-        std::find_if(all.patches.begin(), all.patches.end(), [&](const FacePatch& q) { return q.face == p.face; });
-    if (same != all.patches.end())
-      throw Error(
-          ExitCode::kMismatch,
-          fmt::format("face {} is in {} and in an earlier patches file; mesh each face once", p.face + 1, path));
-    all.patches.push_back(std::move(p));
-  }
-  all.is_complete = find_missing_faces(all).empty();
 }
 
-PatchesArtifact read_parts(const std::vector<std::string>& paths, std::vector<InputRef>& inputs) {
+/// What is to be merged: files of patches, and what they have besides.
+struct MergeParts {
+  std::vector<std::unique_ptr<PatchesFile>> files;
+  std::vector<PatchPlace> patches;
+  PatchesArtifact rest;  // of all files; without patches
+  std::vector<InputRef> inputs;
+};
+
+MergeParts open_parts(const std::vector<std::string>& paths) {
   if (paths.empty()) throw Error(ExitCode::kUsage, "no patches given; name the artifact of st-mesh");
-  PatchesArtifact all = read_patches(paths[0]);
-  const auto note_input = [&](const std::string& path, const ArtifactHeader& header) {
-    inputs.push_back({"patches", std::filesystem::path(path).filename().string(), header.content_hash});
-  };
-  note_input(paths[0], all.header);
-  for (std::size_t i = 1; i < paths.size(); ++i) {
-    PatchesArtifact part = read_patches(paths[i]);
-    note_input(paths[i], part.header);
-    add_part(all, std::move(part), paths[0], paths[i]);
+  MergeParts parts;
+  for (const std::string& path : paths) {
+    parts.files.push_back(std::make_unique<PatchesFile>(path));
+    PatchesFile& file = *parts.files.back();
+    parts.inputs.push_back(
+        {"patches", std::filesystem::path(path).filename().string(), file.rest().header.content_hash});
+    if (parts.files.size() == 1)
+      parts.rest = file.rest();
+    else
+      add_part(parts.rest, file.rest(), paths[0], path);
   }
-  return all;
+  parts.patches = patches_of(parts.files);
+  if (paths.size() > 1) parts.rest.is_complete = find_missing_faces(parts.rest, parts.patches).empty();
+  return parts;
 }
 
-void require_complete(const PatchesArtifact& patches, const MergeStageOptions& options) {
-  if (patches.is_complete || options.allow_incomplete) return;
-  const std::vector<FaceId> missing = find_missing_faces(patches);
+void require_complete(const MergeParts& parts, const MergeStageOptions& options) {
+  const PatchesArtifact& rest = parts.rest;
+  if (rest.is_complete || options.allow_incomplete) return;
+  const std::vector<FaceId> missing = find_missing_faces(rest, parts.patches);
   const auto hole =
-      std::find_if(patches.failures.begin(), patches.failures.end(), [](const FaceFailure& f) { return !f.is_closed; });
+      std::find_if(rest.failures.begin(), rest.failures.end(), [](const FaceFailure& f) { return !f.is_closed; });
   const std::string cause =
-      hole == patches.failures.end() ? "" : fmt::format(" (face {}: {})", hole->face + 1, hole->cause);
+      hole == rest.failures.end() ? "" : fmt::format(" (face {}: {})", hole->face + 1, hole->cause);
   throw Error(
       ExitCode::kIncomplete,
       fmt::format(
@@ -138,52 +137,50 @@ void warn_of_changes(const OrientationReport& report) {
         fmt::format("{} parts are one-sided (like a Moebius strip) and cannot be oriented", report.n_one_sided));
 }
 
-MeshArtifact make_artifact(PatchesArtifact& patches, const MergeStageOptions& options, std::vector<InputRef> inputs,
-                           OrientationReport& report) {
+/// Without triangles, and of nodes those on boundaries.
+MeshArtifact make_artifact(MergeParts& parts, const MergeStageOptions& options, const MergeOrder& order) {
   MeshArtifact artifact;
   artifact.header.schema = "mesh";
   artifact.header.tool = "st-merge";
   artifact.header.tool_version = ST_VERSION;
   artifact.header.options_json = json_text(nlohmann::json{{"allow_incomplete", options.allow_incomplete}});
-  artifact.header.unit = patches.header.unit;
-  artifact.header.unit_in_m = patches.header.unit_in_m;
-  artifact.header.geometry_hash = patches.header.geometry_hash;
-  artifact.header.inputs = std::move(inputs);
-  artifact.is_complete = patches.is_complete;
-  artifact.mesh = merge_patches(
-      {patches.edges, patches.vertex_xyz, patches.edge_vertices, patches.patches, patches.labels.face_group}, report);
-  artifact.mesh.labels = std::move(patches.labels);
-  artifact.mesh.merged = std::move(patches.merged);
-  add_segments(artifact.mesh, patches.edges, patches.edge_vertices);
+  artifact.header.unit = parts.rest.header.unit;
+  artifact.header.unit_in_m = parts.rest.header.unit_in_m;
+  artifact.header.geometry_hash = parts.rest.header.geometry_hash;
+  artifact.header.inputs = std::move(parts.inputs);
+  artifact.is_complete = parts.rest.is_complete;
+  artifact.mesh = order.boundary;
+  artifact.mesh.labels = parts.rest.labels;
+  artifact.mesh.merged = parts.rest.merged;
+  add_segments(artifact.mesh, parts.rest.edges, parts.rest.edge_vertices);
   return artifact;
 }
 
-StageSummary summarize(const MergeStageOptions& options, const MeshArtifact& artifact, const std::string& hash,
-                       const TopologyReport& topology, const OrientationReport& orientation, double seconds) {
-  const SurfaceMesh& mesh = artifact.mesh;
-  const MeshMeasure measure = measure_mesh(mesh);
+StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh, const MergeOrder& order,
+                       const std::string& hash, bool is_complete, double seconds) {
+  const MergedFacts& facts = order.facts;
+  const OrientationReport& orientation = order.orientation;
   const nlohmann::json json{{"output", options.output},
                             {"hash", hash},
-                            {"triangles", mesh.n_triangles()},
-                            {"nodes", mesh.n_nodes()},
-                            {"components", topology.n_components},
-                            {"closed", topology.is_closed()},
-                            {"complete", artifact.is_complete},
-                            {"boundary_edges", topology.boundary_edges.count},
-                            {"nonmanifold_edges", topology.nonmanifold_edges.count},
-                            {"misoriented_edges", topology.misoriented_edges.count},
+                            {"triangles", mesh.n_triangles},
+                            {"nodes", mesh.n_nodes},
+                            {"components", facts.n_components},
+                            {"closed", facts.is_closed()},
+                            {"complete", is_complete},
+                            {"boundary_edges", facts.n_boundary_edges},
+                            {"nonmanifold_edges", facts.n_nonmanifold_edges},
+                            {"misoriented_edges", facts.n_misoriented_edges},
                             {"turned_faces", orientation.turned_faces.size()},
                             {"turned_parts", orientation.turned_components},
                             {"one_sided_parts", orientation.n_one_sided},
-                            {"area", measure.area},
-                            {"volume", measure.volume},
+                            {"area", facts.area},
+                            {"volume", facts.volume},
                             {"seconds", seconds}};
-  const std::string state = topology.is_closed()
-                                ? "closed"
-                                : fmt::format("{} open and {} non-manifold edges", topology.boundary_edges.count,
-                                              topology.nonmanifold_edges.count);
-  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(),
-                      state, artifact.is_complete ? "" : ", INCOMPLETE", seconds),
+  const std::string state = facts.is_closed() ? "closed"
+                                              : fmt::format("{} open and {} non-manifold edges", facts.n_boundary_edges,
+                                                            facts.n_nonmanifold_edges);
+  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles, mesh.n_nodes,
+                      state, is_complete ? "" : ", INCOMPLETE", seconds),
           json_text(json), ExitCode::kOk};
 }
 
@@ -191,28 +188,26 @@ StageSummary summarize(const MergeStageOptions& options, const MeshArtifact& art
 
 StageSummary run_merge(const MergeStageOptions& options) {
   const Timer timer;
-  keep_freed_memory();
   require_outputs(options);
   Progress progress("merging", 1);
   progress.step("reading", 0);
-  std::vector<InputRef> inputs;
-  PatchesArtifact patches = read_parts(options.patches, inputs);
-  require_complete(patches, options);
-  OrientationReport orientation;
+  MergeParts parts = open_parts(options.patches);
+  require_complete(parts, options);
   progress.step("nodes", 0.2);
-  const MeshArtifact artifact = make_artifact(patches, options, std::move(inputs), orientation);
-  patches = {};
-  warn_of_changes(orientation);
+  const MergeInput input{
+      parts.rest.edges, parts.rest.vertex_xyz, parts.rest.edge_vertices, {}, parts.rest.labels.face_group};
+  const MergeOrder order = find_merge_order(input, source_of(parts.patches));
+  warn_of_changes(order.orientation);
 
-  const SurfaceMesh& mesh = artifact.mesh;
-  progress.step("checking and writing", 0.5);
-  TopologyReport topology;
-  std::string hash;
-  run_jobs(
-      {[&] { hash = write_mesh(options.output, artifact); }, [&] { topology = check_topology(mesh, edges_of(mesh)); }});
-  for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
-
-  return summarize(options, artifact, hash, topology, orientation, timer.seconds());
+  progress.step("writing", 0.5);
+  const MeshArtifact artifact = make_artifact(parts, options, order);
+  const MeshColumns columns = merged_columns(parts.patches, input, order);
+  const std::string hash = write_mesh(options.output, artifact, columns);
+  if (!options.exports.empty()) {
+    const SurfaceMesh mesh = read_mesh(options.output).mesh;
+    for (const std::string& path : options.exports) export_and_warn(path, {mesh, all_triangles(mesh), {}}, {});
+  }
+  return summarize(options, columns, order, hash, artifact.is_complete, timer.seconds());
 }
 
 }  // namespace st

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +73,29 @@ struct MeshArtifact {
   bool is_complete = true;
 };
 
+/// The rows of one array, given in pieces, in order.
+template <class T>
+struct Column {
+  using Take = std::function<void(std::span<const T>)>;
+  std::size_t n_rows = 0;
+  std::function<void(const Take& take)> give;
+};
+
+/// The nodes and triangles of a mesh that are not in memory all at once. Columns are asked for from several threads.
+struct MeshColumns {
+  std::int64_t n_nodes = 0, n_triangles = 0;
+  Column<Vec3> node_xyz;
+  Column<std::uint8_t> node_entity_dim;
+  Column<std::int32_t> node_entity;
+  Column<double> node_t, node_size;
+  Column<Triangle> triangles;
+  Column<FaceId> triangle_face;
+  Column<std::int32_t> triangle_group;
+  Column<Vec2> corner_uv;
+  std::optional<Column<NodeId>> node_previous;          ///< of what st-remesh made
+  std::optional<Column<TriangleId>> triangle_previous;  ///< likewise
+};
+
 /// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no
 /// artifact, a truncated one.
 ArtifactHeader read_header(const std::string& path);
@@ -83,6 +109,8 @@ GeometryArtifact read_geometry(const std::string& path);
 std::string write_patches(const std::string& path, const PatchesArtifact& patches);
 PatchesArtifact read_patches(const std::string& path);
 std::string write_mesh(const std::string& path, const MeshArtifact& mesh);
+/// Of `mesh` what MeshColumns do not have; its nodes are the first of them, those on vertices and edges at least.
+std::string write_mesh(const std::string& path, const MeshArtifact& mesh, const MeshColumns& columns);
 MeshArtifact read_mesh(const std::string& path);
 
 /// Throws Error(kMismatch) unless both go back to the same geometry; the message names both files.

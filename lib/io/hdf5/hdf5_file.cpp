@@ -180,11 +180,11 @@ const char* element_type_name(ElementType type) {
 
 // -------------------------------------------------------------------------------- writer
 
+struct AppendedRows;
+
 struct Hdf5Writer::Impl {
   explicit Impl(const std::string& path) : temporary(path) {}
-  ~Impl() {
-    if (rows_file >= 0) close(rows_file);
-  }
+  ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   TemporaryFile temporary;
@@ -205,12 +205,27 @@ struct Hdf5Writer::Impl {
   void write_attribute(hid_t object, const std::string& name, hid_t type, hid_t space, const void* value) const;
   void set(const std::string& group_name, const std::string& name, AttributeValue value);
   Dataset create_dataset(const std::string& name, hid_t type, hid_t space);
+  void write_checksum(hid_t dataset, const std::string& checksum) const;
   void finish_dataset(hid_t dataset, DatasetInfo info);
   void add_writes(hid_t dataset, const std::string& name, const std::vector<std::span<const std::byte>>& parts,
                   std::vector<std::function<void()>>& jobs);
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes, const std::string& name) const;
 
+  std::uint64_t rows_begin(hid_t dataset, const std::string& name);
+  void flush_rows(AppendedRows& rows) const;
+  void end_rows();
+
   int rows_file = -1;  // the temporary file once more, for rows
+  std::vector<std::unique_ptr<AppendedRows>> appended;
+};
+
+/// A dataset whose rows come one after the other.
+struct AppendedRows {
+  Dataset dataset;
+  DatasetInfo info;
+  std::uint64_t at = 0, end = 0;  // in the file: of the next bytes, of the last
+  std::vector<std::byte> waiting;
+  Hasher hasher;
 };
 
 /// The group `name` ("/a/b"), made as needed, parents first. Attributes and links stay inside the object headers.
@@ -262,10 +277,14 @@ Dataset Hdf5Writer::Impl::create_dataset(const std::string& name, hid_t type, hi
   return dataset;
 }
 
-void Hdf5Writer::Impl::finish_dataset(hid_t dataset, DatasetInfo info) {
-  const Type type = fixed_string(info.checksum.size(), true);
+void Hdf5Writer::Impl::write_checksum(hid_t dataset, const std::string& checksum) const {
+  const Type type = fixed_string(checksum.size(), true);
   const Space space(H5Screate(H5S_SCALAR));
-  write_attribute(dataset, kChecksum, type, space, info.checksum.c_str());
+  write_attribute(dataset, kChecksum, type, space, checksum.c_str());
+}
+
+void Hdf5Writer::Impl::finish_dataset(hid_t dataset, DatasetInfo info) {
+  write_checksum(dataset, info.checksum);
   datasets.push_back(std::move(info));
 }
 
@@ -324,16 +343,73 @@ void Hdf5Writer::write_bytes(const std::string& name, ElementType type,
   impl_->finish_dataset(dataset, std::move(info));
 }
 
+Hdf5Writer::Impl::~Impl() {
+  if (rows_file >= 0) close(rows_file);
+}
+
+/// Where the rows lie in the file, which is open for them.
+std::uint64_t Hdf5Writer::Impl::rows_begin(hid_t dataset, const std::string& name) {
+  const haddr_t begin = H5Dget_offset(dataset);
+  require(begin != HADDR_UNDEF, name);
+  if (rows_file < 0) rows_file = open(temporary.name().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  require(rows_file >= 0, name);
+  return begin;
+}
+
+std::size_t Hdf5Writer::begin_rows(const std::string& name, ElementType type, std::size_t n_rows, std::size_t columns) {
+  const hsize_t dims[2] = {n_rows, columns};
+  const Space space(H5Screate_simple(columns == 1 ? 1 : 2, dims, nullptr));
+  auto rows = std::make_unique<AppendedRows>();
+  rows->dataset = impl_->create_dataset(name, native_type(type), space);
+  rows->info = {name, type, {n_rows}, Hasher().hex(), false};
+  if (columns != 1) rows->info.shape.push_back(columns);
+  if (n_rows > 0) rows->at = impl_->rows_begin(rows->dataset, name);
+  rows->end = rows->at + n_rows * columns * element_size(type);
+  impl_->write_checksum(rows->dataset, rows->info.checksum);  // its place; the value follows
+  impl_->appended.push_back(std::move(rows));
+  return impl_->appended.size() - 1;
+}
+
+void Hdf5Writer::append_bytes(std::size_t dataset, std::span<const std::byte> bytes) {
+  constexpr std::size_t kWorthWriting = std::size_t{1} << 20;
+  AppendedRows& rows = *impl_->appended.at(dataset);
+  while (!bytes.empty()) {
+    const auto some = bytes.first(std::min(bytes.size(), kWorthWriting - rows.waiting.size()));
+    rows.waiting.insert(rows.waiting.end(), some.begin(), some.end());
+    bytes = bytes.subspan(some.size());
+    if (rows.waiting.size() >= kWorthWriting) impl_->flush_rows(rows);
+  }
+}
+
+void Hdf5Writer::Impl::flush_rows(AppendedRows& rows) const {
+  if (rows.waiting.size() > rows.end - rows.at)
+    throw Error(ExitCode::kInternal, rows.info.name + ": more rows than were announced");
+  rows.hasher.add(std::span<const std::byte>(rows.waiting));
+  write_at(rows.at, rows.waiting, rows.info.name);
+  rows.at += rows.waiting.size();
+  rows.waiting.clear();
+}
+
+void Hdf5Writer::Impl::end_rows() {
+  for (const auto& rows : appended) {
+    flush_rows(*rows);
+    if (rows->at != rows->end) throw Error(ExitCode::kInternal, rows->info.name + ": fewer rows than were announced");
+    rows->info.checksum = rows->hasher.hex();
+    const Attribute attribute(H5Aopen(rows->dataset, kChecksum, H5P_DEFAULT));
+    const Type type = fixed_string(rows->info.checksum.size(), true);
+    require(attribute.is_valid() && H5Awrite(attribute, type, rows->info.checksum.c_str()) >= 0, rows->info.name);
+    datasets.push_back(rows->info);
+  }
+  appended.clear();
+}
+
 /// Jobs that write the rows of a dataset. Its place in the file is known: they go there past HDF5, which has one
 /// thread.
 void Hdf5Writer::Impl::add_writes(hid_t dataset, const std::string& name,
                                   const std::vector<std::span<const std::byte>>& parts,
                                   std::vector<std::function<void()>>& jobs) {
   constexpr std::size_t kPerJob = std::size_t{4} << 20;
-  const haddr_t begin = H5Dget_offset(dataset);
-  require(begin != HADDR_UNDEF, name);
-  if (rows_file < 0) rows_file = open(temporary.name().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-  require(rows_file >= 0, name);
+  const std::uint64_t begin = rows_begin(dataset, name);
   std::size_t at = 0, n_in_job = kPerJob;
   std::vector<std::vector<std::pair<std::size_t, std::span<const std::byte>>>> pieces;
   for (std::span<const std::byte> rest : parts)
@@ -410,6 +486,7 @@ void Hdf5Writer::set_attribute(const std::string& group, const std::string& name
 }
 
 std::string Hdf5Writer::commit() {
+  impl_->end_rows();
   std::sort(impl_->datasets.begin(), impl_->datasets.end(),
             [](const DatasetInfo& a, const DatasetInfo& b) { return a.name < b.name; });
   std::string hash = content_hash(impl_->datasets, impl_->attributes);

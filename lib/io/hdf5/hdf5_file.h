@@ -120,6 +120,17 @@ class Hdf5Writer {
     for (const std::span<const T> part : parts) bytes.push_back(std::as_bytes(part));
     write_bytes(name, Element<T>::type, bytes, Element<T>::count);
   }
+  /// Makes room for `n_rows` rows that append() brings, in order: all of them before commit(). Returns the number of
+  /// the dataset for append(). One thread at a time.
+  template <class T>
+  std::size_t begin_rows(const std::string& name, std::size_t n_rows) {
+    return begin_rows(name, Element<T>::type, n_rows, Element<T>::count);
+  }
+  /// The next rows of a dataset; of each dataset one thread, at the same time as other threads those of others.
+  template <class T>
+  void append(std::size_t dataset, std::span<const T> rows) {
+    append_bytes(dataset, std::as_bytes(rows));
+  }
   /// UTF-8 strings, fixed-length and padded with NUL (a NUL inside a string ends it), shape (n).
   void write_strings(const std::string& name, const std::vector<std::string>& values);
   /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for
@@ -140,6 +151,8 @@ class Hdf5Writer {
                  std::size_t columns);
   void write_bytes(const std::string& name, ElementType type, const std::vector<std::span<const std::byte>>& parts,
                    std::size_t columns);
+  std::size_t begin_rows(const std::string& name, ElementType type, std::size_t n_rows, std::size_t columns);
+  void append_bytes(std::size_t dataset, std::span<const std::byte> bytes);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

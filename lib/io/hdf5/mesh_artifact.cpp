@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/limits.h"
+#include "base/threads.h"
 #include "io/hdf5/artifact_checks.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/face_numbers.h"
@@ -14,11 +15,61 @@ namespace {
 
 constexpr std::uint8_t kVtkTriangle = 5;
 
-std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
-  std::vector<std::int32_t> shifted(ids);
-  for (std::int32_t& id : shifted) ++id;
-  return shifted;
+constexpr std::size_t kRowsAtOnce = 65'536;
+
+/// Calls f(begin, end) for pieces of [0, n).
+template <class Function>
+void in_pieces(std::size_t n, const Function& f) {
+  for (std::size_t begin = 0; begin < n; begin += kRowsAtOnce) f(begin, std::min(n, begin + kRowsAtOnce));
 }
+
+/// Arrays of rows that are written side by side, each from the beginning.
+class ColumnWriter {
+ public:
+  explicit ColumnWriter(Hdf5Writer& writer) : writer_(writer) {}
+
+  template <class T>
+  void add(const std::string& name, const Column<T>& column) {
+    const std::size_t dataset = writer_.begin_rows<T>(name, column.n_rows);
+    jobs_.emplace_back(
+        [this, dataset, &column] { column.give([&](std::span<const T> rows) { writer_.append(dataset, rows); }); });
+  }
+  /// `make`: from a row of the column to `n_each` rows of the dataset, which it appends.
+  template <class To, class From, class Make>
+  void add(const std::string& name, const Column<From>& column, const Make& make, std::size_t n_each = 1) {
+    const std::size_t dataset = writer_.begin_rows<To>(name, n_each * column.n_rows);
+    jobs_.emplace_back([this, dataset, &column, make] {
+      std::vector<To> made;
+      column.give([&](std::span<const From> rows) {
+        in_pieces(rows.size(), [&](std::size_t begin, std::size_t end) {
+          made.clear();
+          for (std::size_t i = begin; i < end; ++i) make(rows[i], made);
+          writer_.append(dataset, std::span<const To>(made));
+        });
+      });
+    });
+  }
+  /// The values of row after row.
+  template <class T, class ValueOf>
+  void add_values(const std::string& name, std::size_t n_rows, const ValueOf& value_of) {
+    const std::size_t dataset = writer_.begin_rows<T>(name, n_rows);
+    jobs_.emplace_back([this, dataset, n_rows, value_of] {
+      std::vector<T> values;
+      in_pieces(n_rows, [&](std::size_t begin, std::size_t end) {
+        values.clear();
+        for (std::size_t i = begin; i < end; ++i) values.push_back(value_of(i));
+        writer_.append(dataset, std::span<const T>(values));
+      });
+    });
+  }
+  void write() { run_jobs(jobs_); }
+
+ private:
+  Hdf5Writer& writer_;
+  std::vector<std::function<void()>> jobs_;
+};
+
+void add_one_based(std::int32_t id, std::vector<std::int32_t>& ids) { ids.push_back(id + 1); }
 
 /// Of ids in the file, 0: none.
 std::vector<std::int32_t> read_ids(const Hdf5Reader& r, const std::string& name, std::size_t n_rows) {
@@ -28,43 +79,61 @@ std::vector<std::int32_t> read_ids(const Hdf5Reader& r, const std::string& name,
   return ids;
 }
 
-void write_cells(Hdf5Writer& w, const std::vector<Triangle>& triangles) {
-  std::vector<std::int64_t> connectivity(3 * triangles.size()), offsets(triangles.size() + 1);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    std::copy(triangles[t].n, triangles[t].n + 3, connectivity.begin() + static_cast<std::ptrdiff_t>(3 * t));
-    offsets[t + 1] = static_cast<std::int64_t>(3 * (t + 1));
-  }
-  w.write("/VTKHDF/Connectivity", connectivity);
-  w.write("/VTKHDF/Offsets", offsets);
-  w.write("/VTKHDF/Types", std::vector<std::uint8_t>(triangles.size(), kVtkTriangle));
+void write_cells(ColumnWriter& c, const MeshColumns& m) {
+  const auto n = static_cast<std::size_t>(m.n_triangles);
+  c.add<std::int64_t>(
+      "/VTKHDF/Connectivity", m.triangles,
+      [](const Triangle& t, std::vector<std::int64_t>& ids) { ids.insert(ids.end(), std::begin(t.n), std::end(t.n)); },
+      3);
+  c.add_values<std::int64_t>("/VTKHDF/Offsets", n + 1, [](std::size_t i) { return static_cast<std::int64_t>(3 * i); });
+  c.add_values<std::uint8_t>("/VTKHDF/Types", n, [](std::size_t) { return kVtkTriangle; });
 }
 
-void write_vtk(Hdf5Writer& w, const SurfaceMesh& m) {
-  w.set_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-  w.set_attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-  w.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{m.n_nodes()});
-  w.write("/VTKHDF/NumberOfCells", std::vector<std::int64_t>{m.n_triangles()});
-  w.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{3 * m.n_triangles()});
-  w.write("/VTKHDF/Points", m.node_xyz);
-  write_cells(w, m.triangles);
-  w.write("/VTKHDF/CellData/face", one_based(m.triangle_face));
-  w.write("/VTKHDF/CellData/group", one_based(m.triangle_group));
-  w.write("/VTKHDF/PointData/entity_dim", m.node_entity_dim);
-  w.write("/VTKHDF/PointData/entity_id", one_based(m.node_entity));
-  w.write("/VTKHDF/PointData/size", m.node_size);
-  if (!m.node_previous.empty()) {
-    w.write("/VTKHDF/CellData/previous_id", m.triangle_previous);
-    w.write("/VTKHDF/PointData/previous_id", m.node_previous);
-  }
-  for (const FaceNumbers& n : face_numbers(m)) w.write("/VTKHDF/CellData/" + n.name, triangle_numbers(m, n));
-  for (const NodeGroups& n : node_groups(m)) {
-    w.write("/VTKHDF/PointData/" + n.name, n.of_node);
+/// Divisions of the faces beside the groups, and groups of edges and vertices.
+void write_numbers(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, const MeshColumns& m,
+                   const std::vector<FaceNumbers>& numbers) {
+  for (const FaceNumbers& n : numbers)
+    c.add<std::int32_t>("/VTKHDF/CellData/" + n.name, m.triangle_face,
+                        [of_face = n.of_face](FaceId f, std::vector<std::int32_t>& of_triangle) {
+                          of_triangle.push_back(static_cast<std::size_t>(f) < of_face->size() ? (*of_face)[f] + 1 : 0);
+                        });
+  for (NodeGroups& n : node_groups(head)) {
+    c.add_values<std::int32_t>(
+        "/VTKHDF/PointData/" + n.name, m.n_nodes,
+        [of_node = std::move(n.of_node)](std::size_t i) { return i < of_node.size() ? of_node[i] : 0; });
     w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", n.group_name);
   }
-  if (!m.labels.face_name.empty())
-    w.write_vtk_strings("/VTKHDF/FieldData/face_name", m.labels.face_name);  // VTK complains of empty ones
-  if (!m.labels.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", m.labels.group_name);
-  for (const FaceNumbers& n : face_numbers(m)) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
+}
+
+void write_vtk(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, const MeshColumns& m) {
+  w.set_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  w.set_attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+  w.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{m.n_nodes});
+  w.write("/VTKHDF/NumberOfCells", std::vector<std::int64_t>{m.n_triangles});
+  w.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{3 * m.n_triangles});
+  c.add("/VTKHDF/Points", m.node_xyz);
+  write_cells(c, m);
+  c.add<std::int32_t>("/VTKHDF/CellData/face", m.triangle_face, add_one_based);
+  c.add<std::int32_t>("/VTKHDF/CellData/group", m.triangle_group, add_one_based);
+  c.add("/VTKHDF/PointData/entity_dim", m.node_entity_dim);
+  c.add<std::int32_t>("/VTKHDF/PointData/entity_id", m.node_entity, add_one_based);
+  c.add("/VTKHDF/PointData/size", m.node_size);
+  if (m.node_previous) {
+    c.add("/VTKHDF/CellData/previous_id", *m.triangle_previous);
+    c.add("/VTKHDF/PointData/previous_id", *m.node_previous);
+  }
+  const std::vector<FaceNumbers> numbers = face_numbers(head);
+  write_numbers(w, c, head, m, numbers);
+  if (!head.labels.face_name.empty())
+    w.write_vtk_strings("/VTKHDF/FieldData/face_name", head.labels.face_name);  // VTK complains of empty ones
+  if (!head.labels.group_name.empty()) w.write_vtk_strings("/VTKHDF/FieldData/group_name", head.labels.group_name);
+  for (const FaceNumbers& n : numbers) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
+}
+
+/// Of what is in memory.
+template <class T>
+Column<T> column_of(const std::vector<T>& rows) {
+  return {rows.size(), [&rows](const typename Column<T>::Take& take) { take(rows); }};
 }
 
 std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
@@ -94,23 +163,47 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
 
 std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
   const SurfaceMesh& m = artifact.mesh;
+  MeshColumns c{m.n_nodes(),
+                m.n_triangles(),
+                column_of(m.node_xyz),
+                column_of(m.node_entity_dim),
+                column_of(m.node_entity),
+                column_of(m.node_t),
+                column_of(m.node_size),
+                column_of(m.triangles),
+                column_of(m.triangle_face),
+                column_of(m.triangle_group),
+                column_of(m.corner_uv),
+                {},
+                {}};
+  if (!m.node_previous.empty()) {
+    c.node_previous = column_of(m.node_previous);
+    c.triangle_previous = column_of(m.triangle_previous);
+  }
+  return write_mesh(path, artifact, c);
+}
+
+std::string write_mesh(const std::string& path, const MeshArtifact& artifact, const MeshColumns& columns) {
+  const SurfaceMesh& m = artifact.mesh;
   ArtifactHeader header = artifact.header;
   header.schema = "mesh";
   header.schema_version = kMeshVersion;
   Hdf5Writer w(path, header);
-  write_vtk(w, m);
+  ColumnWriter c(w);
+  write_vtk(w, c, m, columns);
   w.write_strings("/st/face/name", m.labels.face_name);
   w.write_strings("/st/group/name", m.labels.group_name);
   if (!m.labels.group_role.empty()) w.write_strings("/st/group/role", m.labels.group_role);
   write_labels(w, m.labels);
-  w.write("/st/node/t", m.node_t);
+  c.add("/st/node/t", columns.node_t);
   if (!m.segment_edge.empty()) {
     w.write("/st/segment/nodes", m.segment_nodes, 2);
     w.write("/st/segment/edge", m.segment_edge);
   }
-  w.write("/st/triangle/corner_uv", m.corner_uv);
+  c.add("/st/triangle/corner_uv", columns.corner_uv);
   write_merged(w, m.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
+  c.write();
   return w.commit();
 }
 

@@ -1,52 +1,14 @@
 #include "io/hdf5/mesh_part.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 
 #include "base/limits.h"
 #include "io/hdf5/artifact_checks.h"
 #include "io/hdf5/merged_features.h"
+#include "io/hdf5/row_reader.h"
 
 namespace st {
 namespace {
-
-/// Rows of the datasets of one file, without those before and after them.
-class RowReader {
- public:
-  RowReader(const std::string& path, const Hdf5Reader& reader)
-      : reader_(reader), fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (fd_ < 0) reader_.fail("/VTKHDF", "cannot be read");
-  }
-  ~RowReader() { close(fd_); }
-  RowReader(const RowReader&) = delete;
-  RowReader& operator=(const RowReader&) = delete;
-
-  std::size_t n_rows(const std::string& name) const { return reader_.info(name).shape.at(0); }
-
-  template <class T>
-  std::vector<T> read(const std::string& name, std::size_t first, std::size_t n) const {
-    const DatasetInfo& info = reader_.info(name);
-    const std::size_t columns = info.shape.size() == 2 ? info.shape[1] : 1;
-    if (info.type != Element<T>::type || columns != Element<T>::count || info.shape[0] < first + n)
-      reader_.fail(name, "has not the rows that its triangles need");
-    std::vector<T> values(n);
-    auto* to = reinterpret_cast<char*>(values.data());
-    const std::size_t n_bytes = n * sizeof(T);
-    const auto begin = static_cast<off_t>(reader_.file_offset(name)) + static_cast<off_t>(first * sizeof(T));
-    for (std::size_t done = 0; done < n_bytes;) {
-      const ssize_t got = pread(fd_, to + done, n_bytes - done, begin + static_cast<off_t>(done));
-      if (got <= 0) reader_.fail(name, "cannot be read");
-      done += static_cast<std::size_t>(got);
-    }
-    return values;
-  }
-
- private:
-  const Hdf5Reader& reader_;
-  int fd_;
-};
 
 /// Nodes on vertices and edges come first.
 std::size_t count_edge_nodes(const RowReader& rows, std::size_t n_nodes) {

@@ -2,6 +2,7 @@
 #include "io/hdf5/artifact_checks.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/merged_features.h"
+#include "io/hdf5/patches_file.h"
 
 namespace st {
 namespace {
@@ -203,6 +204,15 @@ void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
   a.labels = read_labels(r, a.face_shell.size());
 }
 
+void read_rest(const Hdf5Reader& r, PatchesArtifact& a) {
+  a.header = r.header();
+  read_edges(r, a);
+  read_faces(r, a);
+  a.failures = read_failures(r, a.face_shell.size());
+  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.labels.face_group.size());
+  a.is_complete = r.int_attribute("/st", "is_complete") != 0;
+}
+
 }  // namespace
 
 std::string write_patches(const std::string& path, const PatchesArtifact& a) {
@@ -235,15 +245,69 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
 PatchesArtifact read_patches(const std::string& path) {
   const Hdf5Reader r(path, "patches", kPatchesVersion);
   PatchesArtifact a;
-  a.header = r.header();
-  read_edges(r, a);
-  read_faces(r, a);
+  read_rest(r, a);
   a.patches = read_patch_arrays(r, a);
   read_previous(r, a);
-  a.failures = read_failures(r, a.face_shell.size());
-  a.merged = read_merged(r, a.edges.edge_offsets.size() - 1, a.labels.face_group.size());
-  a.is_complete = r.int_attribute("/st", "is_complete") != 0;
   return a;
+}
+
+PatchesFile::PatchesFile(const std::string& path)
+    : reader_(path, "patches", kPatchesVersion), row_reader_(path, reader_) {
+  const Hdf5Reader& r = reader_;
+  read_rest(r, rest_);
+  if (r.has("/st/edge_node/previous_id"))
+    rest_.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", rest_.edges.node_t.size());
+  face_ = r.read<std::int32_t>("/st/patch/face");
+  require_ids(r, "/st/patch/face", face_, rest_.labels.face_group.size());
+  boundary_ = read_offsets(r, "/st/patch/boundary_offsets", face_.size(), "/st/boundary/dim");
+  inner_ = read_offsets(r, "/st/patch/inner_offsets", face_.size(), "/st/inner/xyz");
+  triangle_ = read_offsets(r, "/st/patch/triangle_offsets", face_.size(), "/st/triangle/nodes");
+  find_rows();
+}
+
+void PatchesFile::find_rows() {
+  std::vector<std::string> names;
+  const auto find = [&]<class T>(const char* name, std::int64_t n_rows, T) {
+    RowPlace place = row_reader_.find<T>(name);
+    if (place.n_rows != static_cast<std::size_t>(n_rows))
+      reader_.fail(name, "has " + std::to_string(place.n_rows) + " rows, not " + std::to_string(n_rows));
+    names.emplace_back(name);
+    return place;
+  };
+  const std::int64_t n_boundary = boundary_.back(), n_inner = inner_.back(), n_triangles = triangle_.back();
+  rows_.boundary_dim = find("/st/boundary/dim", n_boundary, std::uint8_t());
+  rows_.boundary_entity = find("/st/boundary/entity", n_boundary, std::int32_t());
+  rows_.boundary_index = find("/st/boundary/index", n_boundary, std::int32_t());
+  rows_.inner_xyz = find("/st/inner/xyz", n_inner, Vec3());
+  find("/st/inner/uv", n_inner, Vec2());
+  rows_.inner_size = find("/st/inner/size", n_inner, double());
+  rows_.nodes = find("/st/triangle/nodes", n_triangles, Triangle());
+  rows_.corner_uv = find("/st/triangle/corner_uv", 3 * n_triangles, Vec2());
+  if (!rest_.edges.node_previous.empty()) {
+    rows_.inner_previous = find("/st/inner/previous_id", n_inner, NodeId());
+    rows_.triangle_previous = find("/st/triangle/previous_id", n_triangles, TriangleId());
+  }
+  row_reader_.verify(names);
+}
+
+FacePatch PatchesFile::boundary(std::size_t patch) const {
+  const std::int64_t begin = boundary_[patch], n = boundary_[patch + 1] - begin;
+  FacePatch p;
+  p.face = face_[patch];
+  p.n_boundary = static_cast<std::int32_t>(n);
+  p.boundary_dim = row_reader_.read<std::uint8_t>(rows_.boundary_dim, begin, n);
+  p.boundary_entity = row_reader_.read<std::int32_t>(rows_.boundary_entity, begin, n);
+  p.boundary_index = row_reader_.read<std::int32_t>(rows_.boundary_index, begin, n);
+  return p;
+}
+
+FacePatch PatchesFile::shape(std::size_t patch) const {
+  FacePatch p = boundary(patch);
+  p.inner_xyz = row_reader_.read<Vec3>(rows_.inner_xyz, inner_begin(patch), n_inner(patch));
+  p.triangles = row_reader_.read<Triangle>(rows_.nodes, triangle_begin(patch), n_triangles(patch));
+  require_finite(reader_, rows_.inner_xyz.name, p.inner_xyz);
+  require_consistent(reader_, p, rest_);
+  return p;
 }
 
 }  // namespace st

@@ -1,0 +1,395 @@
+#include "mesh/merge_order.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+#include "base/limits.h"
+#include "base/threads.h"
+#include "mesh/adjacency.h"
+#include "mesh/orient.h"
+
+namespace st {
+namespace {
+
+constexpr std::int64_t kTrianglesAtOnce = 1'000'000;  // in memory, of several patches
+constexpr std::size_t kNodesPerWindow = 262'144;      // of a patch, whose sides are sorted together
+
+bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
+
+/// A side of a triangle between two nodes on edges or vertices.
+struct BoundarySide {
+  std::int32_t low, high;  // boundary ids
+  std::int32_t patch;
+  std::int32_t runs_up;  // from low to high: 1
+};
+
+/// Uses of mesh edges with a node inside the patch.
+struct InnerEdges {
+  std::int64_t n_open = 0, n_nonmanifold = 0, n_misoriented = 0;
+  bool is_balanced = true;  // as many sides run one way as the other, along each
+};
+
+/// What the mesh as a whole needs of one patch.
+struct PatchFacts {
+  std::vector<std::int32_t> boundary;                           // ids that triangles use
+  std::vector<std::pair<std::int32_t, std::int32_t>> together;  // boundary ids of one component
+  std::int32_t n_own_components = 0;                            // without a node on edges
+  std::vector<BoundarySide> sides;
+  InnerEdges inner;
+  std::int32_t n_used_inner = 0;
+  bool has_unused = false;
+  double area = 0;
+  Box3 box;
+};
+
+/// Ids and places of the nodes of one patch.
+class PatchNodes {
+ public:
+  PatchNodes(const MergeInput& in, const FacePatch& p) : in_(in), p_(p) {
+    for (std::int32_t i = 0; i < p.n_boundary; ++i)
+      id_.push_back(boundary_id_of(static_cast<VertexId>(in.vertex_xyz.size()), in.edges, p, i));
+  }
+  std::int32_t id(std::int32_t boundary_node) const { return id_[boundary_node]; }
+  Vec3 xyz(NodeId n) const {
+    if (n >= p_.n_boundary) return p_.inner_xyz[n - p_.n_boundary];
+    const std::size_t id = id_[n], n_vertices = in_.vertex_xyz.size();
+    return id < n_vertices ? in_.vertex_xyz[id] : in_.edges.node_xyz[id - n_vertices];
+  }
+  /// Of boundary nodes with one id the first, for each node.
+  std::vector<NodeId> firsts() const {
+    std::vector<NodeId> order(id_.size()), first(id_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](NodeId a, NodeId b) { return std::tie(id_[a], a) < std::tie(id_[b], b); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const bool is_same = i > 0 && id_[order[i]] == id_[order[i - 1]];
+      first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+  }
+
+ private:
+  const MergeInput& in_;
+  const FacePatch& p_;
+  std::vector<std::int32_t> id_;
+};
+
+/// Of the edges whose lower node is in [begin, end).
+InnerEdges count_window(const FacePatch& p, NodeId begin, NodeId end) {
+  const auto for_each_side = [&](const auto& visit) {
+    for (const Triangle& t : p.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId a = t.n[k], b = t.n[(k + 1) % 3], low = std::min(a, b), high = std::max(a, b);
+        if (low >= begin && low < end && high >= p.n_boundary && !has_repeated_node(t)) visit(low, high, a == low);
+      }
+  };
+  std::vector<std::size_t> offsets(static_cast<std::size_t>(end - begin) + 2, 0);
+  for_each_side([&](NodeId low, NodeId, bool) { ++offsets[low - begin + 2]; });
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<std::int64_t> sides(offsets.back());  // higher node, and which way
+  for_each_side([&](NodeId low, NodeId high, bool runs_up) {
+    sides[offsets[low - begin + 1]++] = 2 * static_cast<std::int64_t>(high) + runs_up;
+  });
+  InnerEdges found;
+  for (NodeId low = 0; low < end - begin; ++low) {
+    const auto last = sides.begin() + static_cast<std::ptrdiff_t>(offsets[low + 1]);
+    auto side = sides.begin() + static_cast<std::ptrdiff_t>(offsets[low]);
+    std::sort(side, last);
+    while (side != last) {
+      const std::int64_t high = *side / 2;
+      std::int64_t n = 0, n_up = 0;
+      for (; side != last && *side / 2 == high; ++side) ++n, n_up += *side % 2;
+      found.n_open += n == 1;
+      found.n_nonmanifold += n > 2;
+      found.n_misoriented += n == 2 && n_up != 1;
+      found.is_balanced = found.is_balanced && 2 * n_up == n;
+    }
+  }
+  return found;
+}
+
+InnerEdges count_inner_edges(const FacePatch& p) {
+  const std::size_t n_nodes = p.n_boundary + p.inner_xyz.size();
+  std::vector<InnerEdges> windows(n_nodes / kNodesPerWindow + 1);
+  parallel_for(n_nodes, kNodesPerWindow, [&](std::size_t begin, std::size_t end) {
+    windows[begin / kNodesPerWindow] = count_window(p, static_cast<NodeId>(begin), static_cast<NodeId>(end));
+  });
+  InnerEdges all;
+  for (const InnerEdges& w : windows) {
+    all.n_open += w.n_open;
+    all.n_nonmanifold += w.n_nonmanifold;
+    all.n_misoriented += w.n_misoriented;
+    all.is_balanced = all.is_balanced && w.is_balanced;
+  }
+  return all;
+}
+
+void find_components(const FacePatch& p, const PatchNodes& nodes, const std::vector<std::uint8_t>& is_used,
+                     PatchFacts& facts) {
+  DisjointSets sets(static_cast<std::int64_t>(is_used.size()));
+  for (const Triangle& t : p.triangles) {
+    sets.join(t.n[0], t.n[1]);
+    sets.join(t.n[1], t.n[2]);
+  }
+  for (NodeId n = 0; n < static_cast<NodeId>(is_used.size()); ++n) {
+    if (!is_used[n]) continue;
+    const NodeId lowest = sets.find(n);
+    if (n >= p.n_boundary)
+      facts.n_own_components += lowest == n;
+    else if (lowest != n)
+      facts.together.emplace_back(nodes.id(lowest), nodes.id(n));
+  }
+}
+
+/// `p`: taken apart.
+PatchFacts facts_of(const MergeInput& in, FacePatch p, std::int32_t patch) {
+  PatchFacts facts;
+  const PatchNodes nodes(in, p);
+  std::vector<std::uint8_t> is_used(p.n_boundary + p.inner_xyz.size(), 0);
+  for (const Triangle& t : p.triangles) {
+    for (const NodeId n : t.n) is_used[n] = 1;
+    const Vec3 a = nodes.xyz(t.n[0]);
+    facts.area += 0.5 * norm(cross(nodes.xyz(t.n[1]) - a, nodes.xyz(t.n[2]) - a));
+  }
+  for (NodeId n = 0; n < static_cast<NodeId>(is_used.size()); ++n) {
+    if (is_used[n]) facts.box.add(nodes.xyz(n));
+    if (n >= p.n_boundary) facts.n_used_inner += is_used[n];
+  }
+  facts.has_unused = static_cast<std::size_t>(facts.n_used_inner) != p.inner_xyz.size();
+  const std::vector<NodeId> first = nodes.firsts();
+  for (std::int32_t i = 0; i < p.n_boundary; ++i) {
+    if (!is_used[i]) continue;
+    facts.boundary.push_back(nodes.id(i));
+    is_used[first[i]] = 1;
+  }
+  for (Triangle& t : p.triangles)
+    for (NodeId& n : t.n)
+      if (n < p.n_boundary) n = first[n];
+  for (const Triangle& t : p.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = t.n[k], b = t.n[(k + 1) % 3];
+      if (std::max(a, b) >= p.n_boundary || has_repeated_node(t)) continue;
+      const auto [low, high] = std::minmax({nodes.id(a), nodes.id(b)});
+      facts.sides.push_back({low, high, patch, low == nodes.id(a)});
+    }
+  find_components(p, nodes, is_used, facts);
+  facts.inner = count_inner_edges(p);
+  return facts;
+}
+
+/// Calls visit(sides of one edge between two nodes on boundaries).
+template <class Visit>
+void for_each_boundary_edge(std::span<const BoundarySide> sides, const Visit& visit) {
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+    while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
+    visit(sides.subspan(i, j - i));
+  }
+}
+
+class OrderFinder {
+ public:
+  OrderFinder(const MergeInput& input, const PatchSource& source)
+      : in_(input), source_(source), components_of_nodes_(n_boundary_ids()), welder_(input.edges, input.vertex_xyz) {}
+
+  MergeOrder run() {
+    look_at_all();
+    number();
+    orient();
+    count();
+    return std::move(order_);
+  }
+
+ private:
+  std::int64_t n_boundary_ids() const {
+    return static_cast<std::int64_t>(in_.vertex_xyz.size() + in_.edges.node_xyz.size());
+  }
+  FaceId n_faces() const { return source_.face.empty() ? 0 : source_.face.back() + 1; }
+
+  void look_at_all() {
+    order_.inner_begin = {0};
+    order_.triangle_begin = {0};
+    area_.assign(n_faces(), 0);
+    for (std::size_t begin = 0, end = 0; begin < source_.size(); begin = end) {
+      std::int64_t n = 0;
+      for (end = begin; end < source_.size() && (end == begin || n + source_.n_triangles[end] <= kTrianglesAtOnce);
+           ++end)
+        n += source_.n_triangles[end];
+      std::vector<PatchFacts> facts(end - begin);
+      parallel_for(facts.size(), 1, [&](std::size_t i, std::size_t) {
+        facts[i] = facts_of(in_, source_.shape(begin + i), static_cast<std::int32_t>(begin + i));
+      });
+      for (std::size_t i = 0; i < facts.size(); ++i) take(begin + i, facts[i]);
+    }
+    parallel_sort(sides_.begin(), sides_.end(), [](const BoundarySide& a, const BoundarySide& b) {
+      return std::tie(a.low, a.high, a.patch, a.runs_up) < std::tie(b.low, b.high, b.patch, b.runs_up);
+    });
+  }
+
+  void take(std::size_t patch, const PatchFacts& f) {
+    for (const std::int32_t id : f.boundary) welder_.use(id);
+    for (const auto& [a, b] : f.together) components_of_nodes_.join(a, b);
+    sides_.insert(sides_.end(), f.sides.begin(), f.sides.end());
+    MergedFacts& all = order_.facts;
+    all.n_components += f.n_own_components;
+    all.n_boundary_edges += f.inner.n_open;
+    all.n_nonmanifold_edges += f.inner.n_nonmanifold;
+    all.n_misoriented_edges += f.inner.n_misoriented;
+    is_balanced_.push_back(f.inner.is_balanced);
+    order_.has_unused.push_back(f.has_unused);
+    area_[source_.face[patch]] = f.area;
+    box_.add(f.box);
+    n_inner_ += f.n_used_inner;
+    n_triangles_ += source_.n_triangles[patch];
+    require_countable(n_inner_ + n_boundary_ids(), "nodes of all patches");
+    require_countable(n_triangles_, "triangles of all patches", kMaxTriangles);
+    order_.inner_begin.push_back(static_cast<NodeId>(n_inner_));
+    order_.triangle_begin.push_back(static_cast<TriangleId>(n_triangles_));
+  }
+
+  void number() {
+    welder_.number_boundary(0, 0);
+    WeldedPatches welded = welder_.take();
+    order_.boundary = describe_boundary(in_, welded);
+    order_.boundary.node_xyz = std::move(welded.points);
+    order_.number = std::move(welded.boundary);
+    for (NodeId& n : order_.inner_begin) n += welded.n_boundary;
+    for (std::size_t id = 0; id < order_.number.size(); ++id)
+      order_.facts.n_components +=
+          order_.number[id] != kNone && components_of_nodes_.find(static_cast<std::int32_t>(id)) == std::int64_t(id);
+  }
+
+  FaceId face_of(const BoundarySide& s) const { return source_.face[s.patch]; }
+
+  std::vector<FaceLink> links() const {
+    std::vector<FaceLink> links;
+    for_each_boundary_edge(sides_, [&](std::span<const BoundarySide> sides) {
+      if (sides.size() != 2) return;
+      const auto [a, b] = std::minmax({face_of(sides[0]), face_of(sides[1])});
+      if (a != b) links.push_back({a, b, sides[0].runs_up == sides[1].runs_up ? -1 : 1});
+    });
+    unite_links(links);
+    return links;
+  }
+
+  void orient() {
+    components_ = agree(links(), area_, is_turned_);
+    face_component_ = component_of_face(components_, n_faces());
+    find_open();
+    measure();
+    std::vector<std::uint8_t> is_inside_out(components_.size(), 0);
+    if (std::any_of(components_.begin(), components_.end(), is_negative))
+      is_inside_out = find_inside_out(all_triangles(), components_, face_component_);
+    order_.orientation = report_orientation(is_turned_, components_, is_inside_out);
+    for (const FaceId f : order_.orientation.inside_out_faces) is_turned_[f] ^= 1;
+    if (!order_.orientation.inside_out_faces.empty()) measure();
+    for (const FaceId f : source_.face) order_.is_turned.push_back(is_turned_[f]);
+    order_.facts.area = 0;
+    for (const double a : area_) order_.facts.area += a;
+  }
+
+  void find_open() {
+    for (std::size_t i = 0; i < source_.size(); ++i)
+      if (const std::int32_t c = face_component_[source_.face[i]]; c != kNone && !is_balanced_[i])
+        components_[c].is_closed = false;
+    for_each_boundary_edge(sides_, [&](std::span<const BoundarySide> sides) {
+      for (const BoundarySide& s : sides) {
+        const std::int32_t c = face_component_[face_of(s)];
+        if (c == kNone || !components_[c].is_closed) continue;
+        std::int32_t balance = 0;
+        for (const BoundarySide& r : sides)
+          if (face_component_[face_of(r)] == c) balance += (r.runs_up != 0) != (is_turned_[face_of(r)] != 0) ? 1 : -1;
+        components_[c].is_closed = balance == 0;
+      }
+    });
+  }
+
+  /// In the order of the triangles, as orient_outward() and measure_mesh() do.
+  void measure() {
+    const Vec3 origin = box_.center();
+    for (FaceComponent& c : components_) c.volume = 0;
+    order_.facts.volume = 0;
+    for (std::size_t i = 0; i < source_.size(); ++i) {
+      const FacePatch p = source_.shape(i);
+      const PatchNodes nodes(in_, p);
+      const bool is_turned = is_turned_[p.face] != 0;
+      const std::int32_t c = face_component_[p.face];
+      for (const Triangle& t : p.triangles) {
+        const Vec3 a = nodes.xyz(t.n[0]), b = nodes.xyz(t.n[is_turned ? 2 : 1]), d = nodes.xyz(t.n[is_turned ? 1 : 2]);
+        order_.facts.volume += dot(a - origin, cross(b - a, d - a)) / 6;
+        if (c == kNone) continue;
+        components_[c].volume += volume_of(a, b, d, origin);
+        for (const Vec3 x : {a, b, d}) components_[c].box.add(x);
+      }
+    }
+  }
+
+  /// Places, triangles and their faces, as they are turned now.
+  SurfaceMesh all_triangles() const {
+    SurfaceMesh mesh;
+    mesh.node_xyz = order_.boundary.node_xyz;
+    mesh.node_xyz.reserve(order_.inner_begin.back());
+    mesh.triangles.reserve(order_.triangle_begin.back());
+    mesh.triangle_face.reserve(order_.triangle_begin.back());
+    for (std::size_t i = 0; i < source_.size(); ++i) {
+      const FacePatch p = source_.shape(i);
+      const PatchNodes nodes(in_, p);
+      const std::vector<std::uint8_t> is_used = used_inner_nodes(p);
+      std::vector<NodeId> number;
+      for (std::int32_t n = 0; n < p.n_boundary; ++n) number.push_back(order_.number[nodes.id(n)]);
+      for (std::size_t n = 0; n < p.inner_xyz.size(); ++n) {
+        number.push_back(static_cast<NodeId>(mesh.node_xyz.size()));
+        if (is_used[n]) mesh.node_xyz.push_back(p.inner_xyz[n]);
+      }
+      for (const Triangle& t : p.triangles) {
+        mesh.triangles.push_back({{number[t.n[0]], number[t.n[1]], number[t.n[2]]}});
+        if (is_turned_[p.face]) std::swap(mesh.triangles.back().n[1], mesh.triangles.back().n[2]);
+      }
+      mesh.triangle_face.insert(mesh.triangle_face.end(), p.triangles.size(), p.face);
+    }
+    return mesh;
+  }
+
+  void count() {
+    MergedFacts& all = order_.facts;
+    for_each_boundary_edge(sides_, [&](std::span<const BoundarySide> sides) {
+      const auto runs_up = [&](const BoundarySide& s) { return (s.runs_up != 0) != (is_turned_[face_of(s)] != 0); };
+      all.n_boundary_edges += sides.size() == 1;
+      all.n_nonmanifold_edges += sides.size() > 2;
+      all.n_misoriented_edges += sides.size() == 2 && runs_up(sides[0]) == runs_up(sides[1]);
+    });
+  }
+
+  const MergeInput& in_;
+  const PatchSource& source_;
+  DisjointSets components_of_nodes_;  // by boundary id
+  Welder welder_;
+  MergeOrder order_;
+  std::vector<BoundarySide> sides_;
+  std::vector<std::uint8_t> is_balanced_;  // [n_patches]
+  std::vector<double> area_;               // [n_faces]
+  Box3 box_;
+  std::int64_t n_inner_ = 0, n_triangles_ = 0;
+  std::vector<FaceComponent> components_;
+  std::vector<std::int32_t> face_component_;
+  std::vector<std::uint8_t> is_turned_;  // [n_faces]
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> used_inner_nodes(const FacePatch& shape) {
+  std::vector<std::uint8_t> is_used(shape.inner_xyz.size(), 0);
+  for (const Triangle& t : shape.triangles)
+    for (const NodeId n : t.n)
+      if (n >= shape.n_boundary) is_used[n - shape.n_boundary] = 1;
+  return is_used;
+}
+
+MergeOrder find_merge_order(const MergeInput& input, const PatchSource& source) {
+  return OrderFinder(input, source).run();
+}
+
+}  // namespace st

@@ -1,0 +1,209 @@
+#include "stages/merge_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "io/hdf5/artifact_checks.h"
+
+namespace st {
+namespace {
+
+constexpr std::int64_t kRowsAtOnce = 65'536;
+
+class MergedRows {
+ public:
+  MergedRows(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order)
+      : patches_(patches), input_(input), order_(order) {}
+
+  /// Nodes on boundaries as they are, then `value_of` each face for its nodes inside.
+  template <class T, class ValueOf>
+  Column<T> of_face_nodes(const std::vector<T>& of_boundary, const ValueOf& value_of) const {
+    return {n_nodes(), [this, &of_boundary, value_of](const auto& take) {
+              take(of_boundary);
+              for (std::size_t i = 0; i < patches_.size(); ++i)
+                repeat(value_of(patches_[i].face()), order_.inner_begin[i + 1] - order_.inner_begin[i], take);
+            }};
+  }
+  /// Nodes on boundaries as they are, then the rows of the patches.
+  template <class T>
+  Column<T> of_nodes(const std::vector<T>& of_boundary, RowPlace PatchRows::*rows) const {
+    return {n_nodes(), [this, &of_boundary, rows](const auto& take) {
+              take(of_boundary);
+              for (std::size_t i = 0; i < patches_.size(); ++i) take_inner<T>(i, rows, take);
+            }};
+  }
+  template <class T, class ValueOf>
+  Column<T> of_faces(const ValueOf& value_of) const {
+    return {n_triangles(), [this, value_of](const auto& take) {
+              for (const PatchPlace& p : patches_) repeat(value_of(p.face()), p.file->n_triangles(p.patch), take);
+            }};
+  }
+  template <class T>
+  Column<T> of_triangles(RowPlace PatchRows::*rows) const {
+    return {n_triangles(), [this, rows](const auto& take) {
+              for (const PatchPlace& p : patches_)
+                in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
+                  const auto values = read<T>(p, rows, p.file->triangle_begin(p.patch) + begin, n);
+                  take(values);
+                });
+            }};
+  }
+  Column<Vec2> corner_uv() const {
+    return {3 * n_triangles(), [this](const auto& take) {
+              for (std::size_t i = 0; i < patches_.size(); ++i) take_corner_uv(i, take);
+            }};
+  }
+  Column<Triangle> triangles() const {
+    return {n_triangles(), [this](const auto& take) {
+              for (std::size_t i = 0; i < patches_.size(); ++i) take_triangles(i, take);
+            }};
+  }
+
+ private:
+  std::size_t n_nodes() const { return static_cast<std::size_t>(order_.inner_begin.back()); }
+  std::size_t n_triangles() const { return static_cast<std::size_t>(order_.triangle_begin.back()); }
+
+  template <class Function>
+  static void in_pieces(std::int64_t n, const Function& f) {
+    for (std::int64_t begin = 0; begin < n; begin += kRowsAtOnce) f(begin, std::min(kRowsAtOnce, n - begin));
+  }
+
+  template <class T, class Take>
+  static void repeat(T value, std::int64_t n, const Take& take) {
+    const std::vector<T> values(static_cast<std::size_t>(std::min(n, kRowsAtOnce)), value);
+    in_pieces(n, [&](std::int64_t, std::int64_t n_some) {
+      take(std::span<const T>(values).first(static_cast<std::size_t>(n_some)));
+    });
+  }
+
+  template <class T>
+  static std::vector<T> read(const PatchPlace& p, RowPlace PatchRows::*rows, std::int64_t first, std::int64_t n) {
+    const RowPlace& place = p.file->rows().*rows;
+    std::vector<T> values = p.file->row_reader().read<T>(place, first, n);
+    if constexpr (!std::is_same_v<T, std::int32_t> && !std::is_same_v<T, Triangle>)
+      require_finite(p.file->reader(), place.name, values);
+    return values;
+  }
+
+  template <class T, class Take>
+  void take_inner(std::size_t i, RowPlace PatchRows::*rows, const Take& take) const {
+    const PatchPlace& p = patches_[i];
+    const std::vector<std::uint8_t> is_used =
+        order_.has_unused[i] ? used_inner_nodes(p.file->shape(p.patch)) : std::vector<std::uint8_t>();
+    in_pieces(p.file->n_inner(p.patch), [&](std::int64_t begin, std::int64_t n) {
+      std::vector<T> values = read<T>(p, rows, p.file->inner_begin(p.patch) + begin, n);
+      if (!is_used.empty()) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < values.size(); ++k)
+          if (is_used[begin + k]) values[kept++] = values[k];
+        values.resize(kept);
+      }
+      take(values);
+    });
+  }
+
+  template <class Take>
+  void take_corner_uv(std::size_t i, const Take& take) const {
+    const PatchPlace& p = patches_[i];
+    in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
+      std::vector<Vec2> uv = read<Vec2>(p, &PatchRows::corner_uv, 3 * (p.file->triangle_begin(p.patch) + begin), 3 * n);
+      for (std::size_t c = 0; order_.is_turned[i] && c < uv.size(); c += 3) std::swap(uv[c + 1], uv[c + 2]);
+      take(uv);
+    });
+  }
+
+  /// Node of the mesh for each of the patch; of those inside only where some are left out.
+  std::vector<NodeId> numbers(std::size_t i) const {
+    const PatchPlace& p = patches_[i];
+    const FacePatch shape = order_.has_unused[i] ? p.file->shape(p.patch) : p.file->boundary(p.patch);
+    std::vector<NodeId> number;
+    for (std::int32_t n = 0; n < shape.n_boundary; ++n)
+      number.push_back(
+          order_.number[boundary_id_of(static_cast<VertexId>(input_.vertex_xyz.size()), input_.edges, shape, n)]);
+    NodeId next = order_.inner_begin[i];
+    if (order_.has_unused[i])
+      for (const std::uint8_t is_used : used_inner_nodes(shape)) number.push_back(is_used ? next++ : kNone);
+    return number;
+  }
+
+  template <class Take>
+  void take_triangles(std::size_t i, const Take& take) const {
+    const PatchPlace& p = patches_[i];
+    const std::vector<NodeId> number = numbers(i);
+    const auto n_known = static_cast<NodeId>(number.size());
+    const NodeId shift = order_.inner_begin[i] - n_known;
+    in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
+      std::vector<Triangle> triangles =
+          read<Triangle>(p, &PatchRows::nodes, p.file->triangle_begin(p.patch) + begin, n);
+      for (Triangle& t : triangles) {
+        for (NodeId& node : t.n) node = node < n_known ? number[node] : node + shift;
+        if (order_.is_turned[i]) std::swap(t.n[1], t.n[2]);
+      }
+      take(triangles);
+    });
+  }
+
+  const std::vector<PatchPlace>& patches_;
+  const MergeInput input_;
+  const MergeOrder& order_;
+};
+
+}  // namespace
+
+std::vector<PatchPlace> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files) {
+  std::vector<PatchPlace> all;
+  for (const auto& file : files)
+    for (std::size_t i = 0; i < file->n_patches(); ++i) all.push_back({file.get(), i});
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PatchPlace& a, const PatchPlace& b) { return a.face() < b.face(); });
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].face() != all[i - 1].face()) continue;
+    if (all[i].file == all[i - 1].file) all[i].file->reader().fail("/st/patch/face", "names a face twice");
+    throw Error(ExitCode::kMismatch, fmt::format("face {} is in {} and in an earlier patches file; mesh each face once",
+                                                 all[i].face() + 1, all[i].file->path()));
+  }
+  return all;
+}
+
+PatchSource source_of(const std::vector<PatchPlace>& patches) {
+  PatchSource source;
+  for (const PatchPlace& p : patches) {
+    source.face.push_back(p.face());
+    source.n_triangles.push_back(p.file->n_triangles(p.patch));
+  }
+  source.shape = [&patches](std::size_t i) { return patches[i].file->shape(patches[i].patch); };
+  return source;
+}
+
+MeshColumns merged_columns(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order) {
+  const auto rows = std::make_shared<const MergedRows>(patches, input, order);
+  const SurfaceMesh& head = order.boundary;
+  const auto group_of = [groups = input.face_group](FaceId f) {
+    return static_cast<std::size_t>(f) < groups.size() ? groups[f] : 0;
+  };
+  const auto keep = [rows]<class T>(Column<T> column) {  // the rows live as long as the columns
+    return Column<T>{column.n_rows, [rows, give = std::move(column.give)](const auto& take) { give(take); }};
+  };
+  MeshColumns c;
+  c.n_nodes = order.inner_begin.back();
+  c.n_triangles = order.triangle_begin.back();
+  c.node_xyz = keep(rows->of_nodes(head.node_xyz, &PatchRows::inner_xyz));
+  c.node_entity_dim = keep(
+      rows->of_face_nodes(head.node_entity_dim, [](FaceId) { return static_cast<std::uint8_t>(EntityDim::kFace); }));
+  c.node_entity = keep(rows->of_face_nodes(head.node_entity, [](FaceId f) { return f; }));
+  c.node_t = keep(rows->of_face_nodes(head.node_t, [](FaceId) { return 0.0; }));
+  c.node_size = keep(rows->of_nodes(head.node_size, &PatchRows::inner_size));
+  c.triangles = keep(rows->triangles());
+  c.triangle_face = keep(rows->of_faces<FaceId>([](FaceId f) { return f; }));
+  c.triangle_group = keep(rows->of_faces<std::int32_t>(group_of));
+  c.corner_uv = keep(rows->corner_uv());
+  if (input.edges.node_previous.empty()) return c;
+  c.node_previous = keep(rows->of_nodes(head.node_previous, &PatchRows::inner_previous));
+  c.triangle_previous = keep(rows->of_triangles<TriangleId>(&PatchRows::triangle_previous));
+  return c;
+}
+
+}  // namespace st

@@ -1,0 +1,29 @@
+// The rows of a merged mesh, from patches files: no more than one patch is in memory.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/hdf5/patches_file.h"
+#include "mesh/merge_order.h"
+
+namespace st {
+
+/// A patch in one of several files.
+struct PatchPlace {
+  const PatchesFile* file = nullptr;
+  std::size_t patch = 0;
+  FaceId face() const { return file->face(patch); }
+};
+
+/// By face. Throws Error(kMismatch) for a face that is in two files.
+std::vector<PatchPlace> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files);
+
+PatchSource source_of(const std::vector<PatchPlace>& patches);
+
+/// `patches`, `order` and `input` outlive the columns. Columns throw Error(kInput) for contents that no mesh can have.
+MeshColumns merged_columns(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order);
+
+}  // namespace st
