@@ -1,5 +1,15 @@
-#define TOML_IMPLEMENTATION  // the parser is compiled here alone
+// The parser is compiled here alone. It asserts, and without assertions lets clang assume, what damaged files break: a
+// key that begins with '['.
+#ifdef NDEBUG
+#define ST_HAS_NDEBUG
+#undef NDEBUG
+#endif
+#define TOML_ASSERT(expr) static_assert(true)
+#define TOML_IMPLEMENTATION
 #include "io/toml/toml_entry.h"
+#ifdef ST_HAS_NDEBUG
+#define NDEBUG
+#endif
 
 #include <cmath>
 #include <optional>
