@@ -205,6 +205,11 @@ TEST_F(TriangulationReader, says_what_is_wrong_and_where) {
   expect_message(replaced(text_msh2(), "2.2 0 8", "1.0 0 8"), "only MSH 2.2 and 4.1");
   expect_message(replaced(fro(), "1 1 3 2 7", "1 1 3 9 7"), "triangle 1 names node 9 of 4");
   expect_message(replaced(fro(), "4 4 1", "4000000 4 1"), "cut off");
+  expect_message(replaced(fro(), "  4 4 1", " 1 4 4 1"), "has 1 quadrangles");
+  expect_message(replaced(fro(), "\n2 ", "\n3 "), "the nodes are not numbered");
+  expect_message(replaced(fro(), "1 1 3 2 7", "7 1 3 2 7"), "the triangles are not numbered");
+  expect_message(text_msh2().substr(0, text_msh2().find("\n$Nodes") + 1), "there is no $Nodes section");
+  expect_message(text_msh2().substr(0, text_msh2().find("\n$Elements") + 1), "there is no $Elements section");
   expect_message(replaced(ascii_vtu(), "5 5 5 5", "5 5 9 5"), "cell 2 is no triangle");
   expect_message(replaced(ascii_vtu(), "0 2 1 ", "0 2 4 "), "triangle 1 names node 5 of 4");
   expect_message(replaced(ascii_vtu(), "UnstructuredGrid", "PolyData"), "PolyData");
