@@ -221,15 +221,16 @@ ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges) {
   return r;
 }
 
-CrossingReport check_crossings(const SurfaceMesh& mesh,
-                               const std::function<bool(const TrianglePair&)>& is_cad_contact) {
+CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
   CrossingReport r;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
     const bool is_contact = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
-    const bool is_own = !is_contact && is_cad_contact && is_cad_contact(p);
-    Defects& kind = is_contact   ? r.contacts
+    const bool is_own = !is_contact && cad.touches_itself && cad.touches_itself(p);
+    const bool is_gap = is_contact && cad.keeps_apart && cad.keeps_apart(p);
+    Defects& kind = is_gap       ? r.walls
+                    : is_contact ? r.contacts
                     : is_own     ? r.cad_contacts
                     : p.n_shared ? r.overlapping_neighbours
                                  : r.crossings;

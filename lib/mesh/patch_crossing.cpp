@@ -264,11 +264,11 @@ void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit
 }  // namespace
 
 std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
-  ST_ASSERT(mesh.face_begin.size() == mesh.face_shell.size() + 1 && mesh.face_begin.front() == 0);
+  ST_ASSERT(mesh.face_begin.size() == mesh.face_body.size() + 1 && mesh.face_begin.front() == 0);
   ST_ASSERT(std::is_sorted(mesh.face_begin.begin(), mesh.face_begin.end()));
   ST_ASSERT(static_cast<std::size_t>(mesh.face_begin.back()) == mesh.triangles.size());
-  ST_ASSERT(mesh.face_is_dirty.empty() || mesh.face_is_dirty.size() == mesh.face_shell.size());
-  const auto n_faces = static_cast<FaceId>(mesh.face_shell.size());
+  ST_ASSERT(mesh.face_is_dirty.empty() || mesh.face_is_dirty.size() == mesh.face_body.size());
+  const auto n_faces = static_cast<FaceId>(mesh.face_body.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
   Forest forest(mesh);
   std::vector<std::int32_t> dirty;
@@ -276,7 +276,9 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
     if (is_dirty(f)) dirty.push_back(f);
   std::vector<Forest::Job> jobs = forest.split_within(std::move(dirty));
   for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
-    if (mesh.face_shell[f] == mesh.face_shell[g] && (is_dirty(f) || is_dirty(g))) jobs.push_back({f, g});
+    if (!is_dirty(f) && !is_dirty(g)) return;
+    if (mesh.face_body[f] == mesh.face_body[g] || (mesh.are_compared && mesh.are_compared(f, g)))
+      jobs.push_back({f, g});
   });
   constexpr std::size_t kJobsPerPiece = 4;
   std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);

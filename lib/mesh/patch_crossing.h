@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,13 +16,14 @@ struct PatchTriangles {
   std::span<const Triangle> triangles;       ///< those of face 0, then of face 1, ...; patches share nodes by id
   std::span<const std::int32_t> face_begin;  ///< [n_faces+1] ascending from 0: face f has triangles [face_begin[f],
                                              ///< face_begin[f+1])
-  std::span<const std::int32_t> face_shell;  ///< [n_faces] faces of different shells are not compared (kNone: one
+  std::span<const std::int32_t> face_body;   ///< [n_faces] faces of different bodies are not compared (kNone: one
                                              ///< common part)
   std::span<const char> face_is_dirty = {};  ///< [n_faces] pairs of triangles of clean faces are skipped; empty: all
                                              ///< faces are dirty
+  std::function<bool(FaceId, FaceId)> are_compared = {};  ///< faces of different bodies that are compared after all
 };
 
-/// The pairs of find_crossing_triangles, sorted by (a, b), that lie in faces of the same shell, at least one of them
+/// The pairs of find_crossing_triangles, sorted by (a, b), that lie in faces of the same body, at least one of them
 /// dirty, except what the cone rule below hides. Every pair listed is one exactly; pairs with one or two common nodes
 /// are listed too.
 ///

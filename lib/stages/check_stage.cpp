@@ -15,12 +15,14 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/threads.h"
+#include "features/face_roles.h"
 #include "geometry/model/cad_tolerance.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "judge/cad_contacts.h"
+#include "judge/walls_apart.h"
 #include "stages/check_report.h"
 #include "stages/foreign_mesh.h"
 #include "stages/stored_model.h"
@@ -228,16 +230,26 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
     return;
   }
   CadContacts contacts(cad->model, mesh);
+  WallsApart walls(cad->model, mesh);
   std::int64_t n_cad = 0;
-  f.crossings = check_crossings(mesh, [&](const TrianglePair& pair) {
+  const auto touches_itself = [&](const TrianglePair& pair) {
     if (contacts.touches(pair)) return true;
     n_cad += contacts.crosses(pair);
     return false;
-  });
+  };
+  f.crossings =
+      check_crossings(mesh, {touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }});
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
 }
 
-std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, const Findings& f) {
+/// Whether a group is named as far field: the outside is to be filled.
+bool has_flow_domain(const ModelTables& tables) {
+  const std::vector<FaceRole> roles = face_roles(tables, RoleGuess::kForbidden).role;
+  return std::find(roles.begin(), roles.end(), FaceRole::kFarfield) != roles.end();
+}
+
+std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, bool is_filled_outside,
+                                    const Findings& f) {
   const std::string open = f.topology.n_cad_boundary_edges
                                ? fmt::format("{} more where the CAD is open", f.topology.n_cad_boundary_edges)
                                : "";
@@ -259,10 +271,13 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
       {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
        std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
+      {"walls", "crossing pairs of triangles of parts that the CAD keeps apart", f.crossings.walls, true, "",
+       std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
       {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
        f.crossings.cad_contacts, false, ""},
-      {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, false, ""},
+      {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, is_filled_outside,
+       is_filled_outside ? "no volume mesh fills the flow domain around them (st-import --unite or --join)" : ""},
       check_volume(f.topology, f.measure)};
 }
 
@@ -475,7 +490,7 @@ std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* fie
 /// What the measures mean.
 void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
            Findings& f) {
-  f.checks = list_mesh_checks(artifact, o.thresholds, f);
+  f.checks = list_mesh_checks(artifact, o.thresholds, cad && has_flow_domain(cad->model.tables()), f);
   if (cad) {
     run_cad_checks(artifact.mesh, *cad, o.area_tolerance, f);
     f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,

@@ -53,6 +53,7 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   options.enhance_rounds = 0;  // it only tells where the solid is
   options.time_limit = seconds;
   options.when_late = WhenLate::kThrow;
+  options.parts_bodies = false;
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};

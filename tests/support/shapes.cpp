@@ -440,6 +440,22 @@ const std::map<std::string, Factory>& factories() {
                                 moved(BRepPrimAPI_MakeCylinder(9.95, 22).Shape(), 0, 0, -1))
              .Shape();
        }},
+      {"thin_ball",
+       [] {
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(10).Shape(),
+                                BRepPrimAPI_MakeSphere(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(3, 5, 8)), 9.99).Shape())
+             .Shape();
+       }},
+      {"pin_in_bore",
+       [] {
+         const gp_Ax2 turned(gp_Pnt(0, 0, -10), gp_Dir(0, 0, 1), gp_Dir(4, 3, 0));
+         return BRepAlgoAPI_Fuse(
+                    BRepAlgoAPI_Cut(moved(box(40, 40, 10), -20, -20, 0),
+                                    BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -1), gp_Dir(0, 0, 1)), 10, 12).Shape())
+                        .Shape(),
+                    BRepPrimAPI_MakeCylinder(turned, 9.99, 30).Shape())
+             .Shape();
+       }},
       {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"wedge_strip", [] { return tapered_bar(); }},

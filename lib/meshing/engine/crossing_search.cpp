@@ -5,23 +5,32 @@
 #include <utility>
 
 #include "base/threads.h"
+#include "geometry/model/bodies.h"
+#include "geometry/shape/wall_gap.h"
 #include "mesh/patch_crossing.h"
 
 namespace st {
 namespace {
 
 constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed at once
+constexpr std::size_t kMaxWallPlaces = 8000;      // likewise, where walls are measured
+constexpr double kAround = 4;                     // triangles that a place makes shorter, about
+constexpr double kCovering = 1.5;                 // of half a triangle's longest side: a circle that covers it
+constexpr double kWider = 0.75;                   // more than that in each later search: new places crossed beside
+constexpr double kLeastFactor = 1.0 / 32;         // of a triangle's length: walls that would need less cannot be parted
 
 FaceId face_of(const WeldedPatches& m, TriangleId t) {
   return static_cast<FaceId>(std::upper_bound(m.patch_begin.begin(), m.patch_begin.end(), t) - m.patch_begin.begin()) -
          1;
 }
 
-/// Half the shortest side, or a quarter of the longest, where the triangle spans its face from boundary to boundary.
-RefinementPoint refinement_of(const WeldedPatches& m, TriangleId t) {
+/// The longest side times `factor` where there is one, `covering` halves of it around. Else half of it; half the
+/// shortest side, or a quarter of the longest, where the triangle spans its face from boundary to boundary.
+RefinementPoint refinement_of(const WeldedPatches& m, TriangleId t, double factor, double covering) {
   const NodeId* n = m.triangles[t].n;
   const Vec3 a = m.points[n[0]], b = m.points[n[1]], c = m.points[n[2]];
   RefinementPoint place = halve_triangle(a, b, c);
+  if (factor > 0) return {place.x, 2 * factor * place.length, covering * place.length, factor};
   if (std::max({n[0], n[1], n[2]}) >= m.n_boundary) return place;
   const auto [shortest, longest] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
   place.length = 0.5 * std::max(shortest, 0.5 * longest);
@@ -96,24 +105,120 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
   const WeldedPatches m = weld(numbering, patches);
   std::erase_if(pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
   std::vector<TrianglePair> found =
-      find_crossing_patches({m.points, m.triangles, m.patch_begin, face_shell_, face_is_fresh_});
+      find_crossing_patches({m.points, m.triangles, m.patch_begin, face_body_, face_is_fresh_,
+                             [&](FaceId a, FaceId b) { return may_be_apart(a, b); }});
   // with two common nodes: folded flat onto each other
   std::erase_if(found, [](const TrianglePair& p) { return p.n_shared == 1; });
   const std::vector<TrianglePair> repeated = find_repeated_chords(numbering, m, face_is_fresh_);
   found.insert(found.end(), repeated.begin(), repeated.end());
+  FacetPairs fresh;
   for (const TrianglePair& p : found) {
     const FaceId a = face_of(m, p.a), b = face_of(m, p.b);
-    pairs_.push_back({a, b, p.a - m.patch_begin[a], p.b - m.patch_begin[b]});
+    fresh.push_back({a, b, p.a - m.patch_begin[a], p.b - m.patch_begin[b], p.n_shared > 0 ? kHalve : kUnknown});
   }
+  std::sort(fresh.begin(), fresh.end());
+  fresh = measured(fresh, m, patches);
+  pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
   std::sort(pairs_.begin(), pairs_.end());
   std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
-  std::vector<RefinementPoint> places;
-  for (const FacetPair& p : pairs_) {
-    if (places.size() >= kMaxCrossingPlaces) break;
-    places.push_back(refinement_of(m, m.patch_begin[p.face_a] + p.index_a));
-    places.push_back(refinement_of(m, m.patch_begin[p.face_b] + p.index_b));
-  }
+  std::vector<RefinementPoint> places = places_to_refine(m);
+  ++n_runs_;
   return places;
+}
+
+/// The first pairs whose walls are not measured, and pairs from all over the others.
+std::vector<RefinementPoint> CrossingSearch::places_to_refine(const WeldedPatches& m) const {
+  std::vector<RefinementPoint> places;
+  const auto add = [&](const FacetPair& p, double n_triangles) {
+    for (const TriangleId t : {m.patch_begin[p.face_a] + p.index_a, m.patch_begin[p.face_b] + p.index_b}) {
+      places.push_back(refinement_of(m, t, p.factor, kCovering + kWider * n_runs_));
+      places.back().n_triangles = n_triangles;
+    }
+  };
+  FacetPairs apart;
+  for (const FacetPair& p : pairs_) {
+    if (p.factor > 0) apart.push_back(p);
+    if (p.factor == kHalve && places.size() < kMaxCrossingPlaces) add(p, 1);
+  }
+  const std::size_t step = 2 * apart.size() / kMaxWallPlaces + 1;
+  for (std::size_t i = 0; i < apart.size(); i += step) add(apart[i], kAround * static_cast<double>(step));
+  return places;
+}
+
+/// Plane walls have chords of their own shape: triangles of two bodies cross there where the CAD does.
+bool CrossingSearch::may_be_apart(FaceId a, FaceId b) const {
+  const ModelTables& t = model_.tables();
+  return is_across_ && !(t.face_type[a] == SurfaceType::kPlane && t.face_type[b] == SurfaceType::kPlane) &&
+         !touching_.contains(std::minmax(a, b));
+}
+
+/// With their factors, without pairs where two bodies meet. `pairs` sorted.
+CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, const WeldedPatches& mesh,
+                                                    const std::vector<FacePatch>& patches) {
+  std::vector<std::span<const FacetPair>> by_faces;
+  for (std::size_t i = 0, j = 0; i < pairs.size(); i = j) {
+    while (j < pairs.size() && pairs[j].face_a == pairs[i].face_a && pairs[j].face_b == pairs[i].face_b) ++j;
+    by_faces.push_back(std::span(pairs).subspan(i, j - i));
+  }
+  std::vector<FacetPairs> kept(by_faces.size());
+  parallel_for(by_faces.size(), 1,
+               [&](std::size_t i, std::size_t) { kept[i] = measured_pair_of_faces(by_faces[i], mesh, patches); });
+  FacetPairs all;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i].empty()) touching_.insert({by_faces[i][0].face_a, by_faces[i][0].face_b});
+    all.insert(all.end(), kept[i].begin(), kept[i].end());
+  }
+  return all;
+}
+
+/// Pairs of two faces. Where these are of two bodies, some places tell whether the bodies meet everywhere.
+CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<const FacetPair> pairs,
+                                                                  const WeldedPatches& mesh,
+                                                                  const std::vector<FacePatch>& patches) const {
+  constexpr std::size_t kTried = 16;  // of two bodies: none apart, and they meet
+  constexpr std::size_t kMostMeasured = 1000;
+  FacetPairs kept(pairs.begin(), pairs.end());
+  const FaceId a = pairs[0].face_a, b = pairs[0].face_b;
+  const bool is_one_body = face_body_[a] == face_body_[b];
+  const auto set_unknown = [&](double factor) {
+    for (FacetPair& p : kept)
+      if (p.factor == kUnknown) p.factor = factor;
+  };
+  if (a == b) {
+    set_unknown(kHalve);
+    return kept;
+  }
+  const auto surface_a = model_.surface(a), surface_b = model_.surface(b);
+  const double tolerance = meeting_distance(model_.tables(), a, b);
+  const auto measure = [&](FacetPair& p) {
+    const auto wall = [&](FaceId f, std::int32_t index) {
+      WallTriangle t;
+      for (int k = 0; k < 3; ++k) {
+        t.x[k] = mesh.points[mesh.triangles[mesh.patch_begin[f] + index].n[k]];
+        t.uv[k] = patches[f].corner_uv[3 * static_cast<std::size_t>(index) + k];
+      }
+      return t;
+    };
+    const auto gap = measure_gap(*surface_a, wall(a, p.index_a), *surface_b, wall(b, p.index_b), tolerance);
+    if (gap && gap->is_apart)
+      p.factor = gap->factor < kLeastFactor ? kHopeless : gap->factor;
+    else
+      p.factor = is_one_body ? kHalve : kMeets;
+  };
+  const auto measure_every = [&](std::size_t step) {
+    for (std::size_t i = 0; i < kept.size(); i += step)
+      if (kept[i].factor == kUnknown) measure(kept[i]);
+  };
+  if (!is_one_body) {
+    measure_every(std::max<std::size_t>(1, kept.size() / kTried));
+    if (std::all_of(kept.begin(), kept.end(),
+                    [](const FacetPair& p) { return p.factor == kMeets || p.factor == kUnknown; }))
+      return {};
+  }
+  measure_every(kept.size() / kMostMeasured + 1);
+  set_unknown(is_one_body ? kHalve : kMeets);
+  std::erase_if(kept, [](const FacetPair& p) { return p.factor == kMeets; });
+  return kept;
 }
 
 std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) const {

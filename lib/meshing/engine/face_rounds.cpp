@@ -61,7 +61,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       dirty_edges_(plan_.edges),
       dirty_faces_(plan_.faces),
       outcomes_(tables_.n_faces()),
-      crossings_(tables_.face_shell) {
+      crossings_(model, options.parts_bodies) {
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   result_.edges = std::move(plan_.kept_edges);
@@ -190,6 +190,7 @@ void FaceRounds::refill_bad() {
 
 void FaceRounds::report() {
   refill_bad();
+  result_.n_crossing_pairs = crossings_.n_pairs();
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     result_.folds.insert(result_.folds.end(), o.fold_places.begin(), o.fold_places.end());

@@ -166,7 +166,7 @@ std::vector<RefinementPoint> HoleRounds::find_crossings() {
   std::vector<RefinementPoint> places;
   if (!failed_faces_.empty() || !executor_.is_root()) return places;
   const SurfaceMesh& m = result_.mesh;
-  const std::vector<TrianglePair> pairs = find_new_crossings(m, model_.tables().face_shell);
+  const std::vector<TrianglePair> pairs = find_new_crossings(m, bodies_of(model_.tables()));
   result_.n_crossing_pairs = static_cast<int>(pairs.size());
   crossing_.clear();
   for (const TrianglePair& pair : pairs)

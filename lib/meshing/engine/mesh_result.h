@@ -22,6 +22,7 @@ struct MeshOptions {
   std::map<FaceId, std::string> left_out = {};  ///< they fail, with this cause: meshing them ended an earlier run
   std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
+  bool parts_bodies = true;                ///< bodies that the CAD keeps apart are refined where their triangles cross
 };
 
 /// Where the time went, seconds on rank 0.

@@ -1,6 +1,10 @@
 #include "meshing/engine/mesh_rounds.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "base/log.h"
 #include "base/progress.h"
@@ -13,6 +17,8 @@ constexpr double kLoopFloor = 1.0 / 16;  // of the requested length: refining lo
 constexpr std::uint64_t kFewCrossings = 200;     // places
 constexpr std::uint64_t kMostRepeated = 30;      // triangles of all rounds, by those of the first one
 constexpr std::uint64_t kFewTriangles = 200000;  // that may be meshed again in any case
+constexpr double kMostForWalls = 1.5e6;          // triangles that part walls, about
+constexpr double kPerWall = 2;                   // times what parting walls should take: its rounds may mesh so many
 constexpr double kPromising = 0.8;               // of the places before: as many or less is getting better
 
 /// Adds the seconds of its life.
@@ -38,21 +44,21 @@ auto timed(double& total, const Step& step) {
 
 void MeshRounds::run() {
   MeshTimes& times = result_.times;
-  std::uint64_t n_first = 0;  // triangles of the first round
-  std::uint64_t n_last = 0;   // places of the last search for crossings
+  std::uint64_t n_last = 0;  // places of the last search for crossings
   for (int n_rounds = 1, n_crossing_rounds = 0;; ++n_rounds) {
     executor_.begin_phase("edges");
     timed(times.edges, [&] { mesh_edges(); });
     executor_.begin_phase("regions");
     const Places wanted = timed(times.faces, [&] { return mesh_regions(); });
     ++result_.n_rounds;
-    if (n_rounds == 1) n_first = n_meshed_;
-    const bool is_last = runs_away(n_first);
+    if (n_rounds == 1) n_first_ = n_meshed_;
+    const bool is_last = runs_away();
     if (!is_last && n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
     const Places crossings = join_and_check();
     std::uint64_t n = crossings.size();
     share(executor_, n);
-    const bool is_promising = n <= kFewCrossings || static_cast<double>(n) < kPromising * static_cast<double>(n_last);
+    const bool is_promising = n <= kFewCrossings || is_measured(crossings) ||
+                              static_cast<double>(n) < kPromising * static_cast<double>(n_last);
     if (is_last || n == 0 ||
         n_crossing_rounds++ >= (is_promising ? limits_.max_promising_rounds : limits_.max_crossing_rounds))
       return;
@@ -61,13 +67,21 @@ void MeshRounds::run() {
   }
 }
 
+/// Collective. Whether it is known what it takes to part them, at some of rank 0's places.
+bool MeshRounds::is_measured(const Places& places) const {
+  char is = std::any_of(places.begin(), places.end(), [](const RefinementPoint& p) { return p.factor > 0; });
+  share(executor_, is);
+  return is != 0 && !has_said_walls_;
+}
+
 /// Collective. Whether more was meshed again than refining can be worth, as on surfaces that are damaged.
-bool MeshRounds::runs_away(std::uint64_t n_first) {
-  char is_over = n_meshed_ > kMostRepeated * n_first + kFewTriangles;
+bool MeshRounds::runs_away() {
+  char is_over = static_cast<double>(n_meshed_) > most_triangles();
   share(executor_, is_over);
   if (is_over && executor_.is_root())
     log_warning("refining was ended after " + std::to_string(n_meshed_) + " triangles instead of " +
-                std::to_string(n_first) + "; folds and crossings stay: the surfaces are damaged");
+                std::to_string(n_first_) +
+                "; folds and crossings stay: the surfaces are damaged, or walls too close together");
   return is_over != 0;
 }
 
@@ -82,12 +96,46 @@ MeshRounds::Places MeshRounds::join_and_check() {
   return timed(result_.times.crossing, [&] { return find_crossings(); });
 }
 
+/// Local. The places with lengths below those there so far, where it is known what it takes. None of these where that
+/// is more than refining may cost.
+MeshRounds::Places MeshRounds::affordable(const Places& places) {
+  const RefinedField present(field_, refinements_.all());
+  Places all, tries;
+  double n_more = 0;  // triangles
+  for (RefinementPoint p : places) {
+    if (p.factor > 0) {
+      int hint = 0;
+      p.length = std::min(p.length, p.factor * present.local(p.x, hint).along);
+      n_more += p.n_triangles / (p.factor * p.factor);
+    } else {
+      tries.push_back(p);
+    }
+    all.push_back(p);
+  }
+  if (n_for_walls_ + n_more < kMostForWalls) {
+    n_for_walls_ += n_more;
+    return all;
+  }
+  if (!std::exchange(has_said_walls_, true))
+    log_warning(fmt::format(
+        "walls lie closer together than the chords of their triangles, and to part them takes {:.0f} triangles: their "
+        "triangles cross (finer sizes there, by st-raster, part them)",
+        n_more));
+  return tries;
+}
+
+/// Of all rounds.
+double MeshRounds::most_triangles() const {
+  return static_cast<double>(kMostRepeated * n_first_ + kFewTriangles) + kPerWall * n_for_walls_;
+}
+
 /// Collective. Rank 0's places become part of the field, no finer than `floor` times the request. False when none
 /// changes anything.
 bool MeshRounds::refine(const Places& places, double floor) {
   const std::size_t n_before = refinements_.all().size();
   if (executor_.is_root())
-    for (const RefinementPoint& p : places) refinements_.add(p, floor);
+    for (const RefinementPoint& p : affordable(places))
+      refinements_.add(p, p.factor > 0 ? limits_.promising_floor : floor);
   std::vector<Refinement> all = refinements_.all();
   share(executor_, all);
   refinements_.assign(std::move(all));

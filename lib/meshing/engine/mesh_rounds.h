@@ -58,9 +58,15 @@ class MeshRounds {
 
   Places join_and_check();
   bool refine(const Places& places, double floor);
-  bool runs_away(std::uint64_t n_first);
+  Places affordable(const Places& places);
+  double most_triangles() const;
+  bool is_measured(const Places& places) const;
+  bool runs_away();
 
   RoundLimits limits_;
+  std::uint64_t n_first_ = 0;    // triangles of the first round
+  bool has_said_walls_ = false;  // too many triangles
+  double n_for_walls_ = 0;       // triangles that were to part walls
 };
 
 }  // namespace st

@@ -34,7 +34,10 @@ struct FaceMeshOptions {
 /// A place where the sizes must become smaller before the face can be meshed.
 struct RefinementPoint {
   Vec3 x;
-  double length = 0;  ///< requested length there
+  double length = 0;       ///< requested length there
+  double radius = 0;       ///< around x, where it is requested, too
+  double factor = 0;       ///< of the length there so far: what it takes; 0: not known
+  double n_triangles = 0;  ///< that need the factor
 };
 
 struct FaceMesh {

@@ -20,6 +20,9 @@ int longest_axis(const Box3& box) {
 
 double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
+/// Of the cone whose top is cut off at the radius.
+double at_centre(const Refinement& r) { return r.length - kRefinementSlope * r.radius; }
+
 }  // namespace
 
 double box_distance(const Box3& box, Vec3 p) {
@@ -31,11 +34,12 @@ double box_distance(const Box3& box, Vec3 p) {
 bool Refinements::add(const RefinementPoint& place, double floor) {
   int hint = 0;
   const LocalSize local = field_.local(place.x, hint);
-  const double request = local.along, length = std::max(place.length, floor * local.length);
   Box3 at;
   at.add(place.x);
-  if (length > kWorthwhile * RefinedField(field_, near(at)).local(place.x, hint).along) return false;
-  all_.push_back({place.x, length, std::max(0.0, (request - length) / kRefinementSlope)});
+  const double request = local.along, present = RefinedField(field_, near(at)).local(place.x, hint).along;
+  const double length = std::max(place.length, floor * local.length);
+  if (length > kWorthwhile * present) return false;
+  all_.push_back({place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius});
   return true;
 }
 
@@ -48,16 +52,17 @@ std::vector<Refinement> Refinements::near(const Box3& box) const {
 
 RefinedField::RefinedField(const SizeField& base, std::vector<Refinement> places)
     : base_(base), places_(std::move(places)) {
+  for (const Refinement& r : places_) shortest_ = std::min(shortest_, r.length);
   if (!places_.empty()) build(0, static_cast<std::int32_t>(places_.size()));
 }
 
 /// Appends the node of these places and all below it; returns its number.
 std::int32_t RefinedField::build(std::int32_t first, std::int32_t last) {
   const auto own = static_cast<std::int32_t>(nodes_.size());
-  Node node{{}, places_[first].length, first, last, 0};
+  Node node{{}, at_centre(places_[first]), first, last, 0};
   for (std::int32_t i = first; i < last; ++i) {
     node.box.add(places_[i].x);
-    node.shortest = std::min(node.shortest, places_[i].length);
+    node.shortest = std::min(node.shortest, at_centre(places_[i]));
   }
   nodes_.push_back(node);
   if (last - first <= kPlacesPerLeaf) return own;
@@ -81,7 +86,8 @@ void RefinedField::visit(std::int32_t index, Vec3 xyz, double& length) const {
     return;
   }
   for (std::int32_t i = node.first; i < node.last; ++i)
-    length = std::min(length, places_[i].length + kRefinementSlope * distance(xyz, places_[i].x));
+    length = std::min(
+        length, std::max(places_[i].length, at_centre(places_[i]) + kRefinementSlope * distance(xyz, places_[i].x)));
 }
 
 double RefinedField::size(Vec3 xyz, int& hint) const {
@@ -98,9 +104,7 @@ LocalSize RefinedField::local(Vec3 xyz, int& hint) const {
   return {local.along, local.along, {}};
 }
 
-double RefinedField::min_size() const {
-  return nodes_.empty() ? base_.min_size() : std::min(base_.min_size(), nodes_[0].shortest);
-}
+double RefinedField::min_size() const { return std::min(base_.min_size(), shortest_); }
 
 double RefinedField::slope() const { return std::max(base_.slope(), kRefinementSlope); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "base/vec.h"
@@ -21,6 +22,7 @@ struct Refinement {
   Vec3 x;
   double length = 0;  ///< requested there, model unit
   double reach = 0;   ///< distance at which the request at `x` is met again, model unit
+  double radius = 0;  ///< around `x`: requested there, too
 };
 
 /// All refinements of one run. The field outlives the object.
@@ -43,8 +45,8 @@ class Refinements {
   std::vector<Refinement> all_;
 };
 
-/// min(base, length_i + slope * distance to place i). Immutable; the base outlives it. A query visits about as many
-/// places as can matter.
+/// min(base, length_i + slope * distance beyond the radius of place i). Immutable; the base outlives it. A query visits
+/// about as many places as can matter.
 class RefinedField : public SizeField {
  public:
   RefinedField(const SizeField& base, std::vector<Refinement> places);
@@ -58,7 +60,7 @@ class RefinedField : public SizeField {
  private:
   struct Node {  // of a binary tree in an array: children follow their parent
     Box3 box;
-    double shortest = 0;               // of the places in it
+    double shortest = 0;               // of the places in it, less what the slope takes on their radius
     std::int32_t first = 0, last = 0;  // places
     std::int32_t right = 0;            // node; 0: a leaf. The left child is the next node
   };
@@ -66,8 +68,9 @@ class RefinedField : public SizeField {
   void visit(std::int32_t node, Vec3 xyz, double& length) const;
 
   const SizeField& base_;
-  std::vector<Refinement> places_;  // by tree
-  std::vector<Node> nodes_;         // empty: no place
+  std::vector<Refinement> places_;                             // by tree
+  std::vector<Node> nodes_;                                    // empty: no place
+  double shortest_ = std::numeric_limits<double>::infinity();  // of the places
 };
 
 }  // namespace st

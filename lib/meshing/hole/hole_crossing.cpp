@@ -116,12 +116,12 @@ NearTriangles find_near(const SurfaceMesh& m, const std::vector<TriangleId>& beg
 
 }  // namespace
 
-std::vector<TrianglePair> find_new_crossings(const SurfaceMesh& m, std::span<const std::int32_t> face_shell) {
-  const std::vector<TriangleId> begin = first_of_faces(m, face_shell.size());
+std::vector<TrianglePair> find_new_crossings(const SurfaceMesh& m, std::span<const std::int32_t> face_body) {
+  const std::vector<TriangleId> begin = first_of_faces(m, face_body.size());
   const std::vector<char> is_dirty = faces_with_new(m, begin);
   const NearTriangles near = find_near(m, begin);
   std::vector<TrianglePair> found;
-  for (TrianglePair p : find_crossing_patches({m.node_xyz, near.triangles, near.face_begin, face_shell, is_dirty})) {
+  for (TrianglePair p : find_crossing_patches({m.node_xyz, near.triangles, near.face_begin, face_body, is_dirty})) {
     p.a = near.id[p.a], p.b = near.id[p.b];
     if (p.n_shared != 1 && (m.triangle_previous[p.a] == kNone || m.triangle_previous[p.b] == kNone)) found.push_back(p);
   }

@@ -19,7 +19,7 @@ void push_through(const Meshed& box, FaceId f, FacePatch& patch) {
 
 TEST(CrossingSearch, finds_nothing_in_a_sound_mesh) {
   const Meshed m("box", 4);
-  CrossingSearch search(m.model.tables().face_shell);
+  CrossingSearch search(m.model);
   EXPECT_TRUE(search.run(m.numbering(), m.result.patches).empty());
   EXPECT_EQ(search.n_pairs(), 0);
 }
@@ -28,7 +28,7 @@ TEST(CrossingSearch, finds_a_patch_that_crosses_others_and_remembers_it) {
   const Meshed m("box", 8);
   std::vector<FacePatch> patches = m.result.patches;
   push_through(m, 0, patches[0]);
-  CrossingSearch search(m.model.tables().face_shell);
+  CrossingSearch search(m.model);
   const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
   EXPECT_EQ(places.size(), 2u * static_cast<std::size_t>(search.n_pairs()));
   ASSERT_GT(search.n_pairs(), 0);
@@ -43,12 +43,28 @@ TEST(CrossingSearch, finds_a_patch_that_crosses_others_and_remembers_it) {
 TEST(CrossingSearch, finds_what_a_renewed_patch_crosses) {
   const Meshed m("box", 8);
   std::vector<FacePatch> patches = m.result.patches;
-  CrossingSearch search(m.model.tables().face_shell), whole(m.model.tables().face_shell);
+  CrossingSearch search(m.model), whole(m.model);
   ASSERT_TRUE(search.run(m.numbering(), patches).empty());
   push_through(m, 3, patches[3]);
   search.renew(3);
   EXPECT_EQ(search.run(m.numbering(), patches).size(), whole.run(m.numbering(), patches).size());
   EXPECT_GT(search.n_pairs(), 0);
+}
+
+TEST(CrossingSearch, measures_what_it_takes_to_part_bodies_and_leaves_those_in_contact) {
+  MeshOptions options;
+  options.parts_bodies = false;
+  const Meshed pin("pin_in_bore", 2, options), boxes("two_boxes", 4, options);
+  CrossingSearch search(pin.model), within(pin.model, false), touching(boxes.model);
+  const std::vector<RefinementPoint> places = search.run(pin.numbering(), pin.result.patches);
+  ASSERT_GT(search.n_pairs(), 0);
+  for (const RefinementPoint& p : places) {
+    EXPECT_GT(p.factor, 0);
+    EXPECT_LT(p.factor, 1);
+    EXPECT_GT(p.radius, 0);
+  }
+  EXPECT_TRUE(within.run(pin.numbering(), pin.result.patches).empty());
+  EXPECT_TRUE(touching.run(boxes.numbering(), boxes.result.patches).empty());
 }
 
 TEST(CrossingSearch, halves_the_longest_side_of_a_triangle_at_its_centre) {
@@ -61,7 +77,7 @@ TEST(CrossingSearch, refines_triangles_that_span_their_face_by_more_than_half) {
   const Meshed m("box", 200);  // every face two triangles
   std::vector<FacePatch> patches = m.result.patches;
   patches[5] = patches[0];
-  CrossingSearch search(m.model.tables().face_shell);
+  CrossingSearch search(m.model);
   const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
   ASSERT_FALSE(places.empty());
   const double diagonal = m.model.tables().face_box[0].diagonal();

@@ -96,5 +96,21 @@ TEST(Refinements, of_a_stretched_field_count_where_they_shorten_the_longer_lengt
   EXPECT_FALSE(refinements.add({{500, 0, 0}, 9.9}, 0.1));
 }
 
+TEST(Refinements, ask_for_their_length_all_over_their_radius) {
+  const UniformField base(1);
+  Refinements all(base);
+  ASSERT_TRUE(all.add({.x = {0, 0, 0}, .length = 0.1, .radius = 2}, 0.01));
+  Box3 far;
+  far.add(Vec3{4.9, 0, 0});
+  ASSERT_EQ(all.near(far).size(), 1u) << "2 and (1 - 0.1) / 0.3";
+  const RefinedField field(base, all.all());
+  int hint = 0;
+  EXPECT_EQ(field.size({0, 0, 0}, hint), 0.1);
+  EXPECT_EQ(field.size({1.9, 0, 0}, hint), 0.1);
+  EXPECT_NEAR(field.size({3, 0, 0}, hint), 0.1 + 0.3, 1e-12);
+  EXPECT_EQ(field.size({5.1, 0, 0}, hint), 1);
+  EXPECT_EQ(field.min_size(), 0.1);
+}
+
 }  // namespace
 }  // namespace st
