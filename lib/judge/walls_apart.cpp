@@ -18,11 +18,15 @@ WallTriangle wall_of(const SurfaceMesh& mesh, TriangleId t) {
 
 }  // namespace
 
+bool WallsApart::are_of_one_body(const TrianglePair& pair) const {
+  const std::int32_t body = face_body_[mesh_.triangle_face[pair.a]];
+  return body != kNone && body == face_body_[mesh_.triangle_face[pair.b]];
+}
+
 bool WallsApart::are_apart(const TrianglePair& pair) {
   if (mesh_.corner_uv.empty()) return false;
   const FaceId a = mesh_.triangle_face[pair.a], b = mesh_.triangle_face[pair.b];
   const ModelTables& t = model_.tables();
-  if (a != b && face_body_[a] == face_body_[b] && face_body_[a] != kNone) return true;
   if (a == b || (t.face_type[a] == SurfaceType::kPlane && t.face_type[b] == SurfaceType::kPlane)) return false;
   FacePair& known = known_[std::minmax(a, b)];
   if (!known.is_apart && known.n_tried == kTried) return false;

@@ -19,8 +19,9 @@ class WallsApart {
   WallsApart(const Model& model, const SurfaceMesh& mesh)
       : model_(model), mesh_(mesh), face_body_(bodies_of(model.tables())) {}
 
-  /// Yes within one body, whose shells never meet. Else no, where the surfaces meet within the triangles, both are
-  /// planes, or the first kTried pairs of these faces meet.
+  /// Whether both triangles are of one body, whose shells never meet.
+  bool are_of_one_body(const TrianglePair& pair) const;
+  /// No, where the surfaces meet within the triangles, both are planes, or the first kTried pairs of these faces meet.
   bool are_apart(const TrianglePair& pair);
 
  private:

@@ -226,7 +226,8 @@ CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
-    const bool is_contact = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
+    const bool is_between = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
+    const bool is_contact = is_between && !(cad.is_one_body && cad.is_one_body(p));
     const bool is_own = !is_contact && cad.touches_itself && cad.touches_itself(p);
     const bool is_gap = is_contact && cad.keeps_apart && cad.keeps_apart(p);
     Defects& kind = is_gap       ? r.walls

@@ -237,8 +237,8 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
     n_cad += contacts.crosses(pair);
     return false;
   };
-  f.crossings =
-      check_crossings(mesh, {touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }});
+  f.crossings = check_crossings(mesh, {touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); },
+                                       [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); }});
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
 }
 
@@ -271,8 +271,8 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
       {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
        std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
-      {"walls", "crossing pairs of triangles of parts that the CAD keeps apart", f.crossings.walls, true, "",
-       std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
+      {"walls", "crossing pairs of triangles of parts that the CAD keeps apart", f.crossings.walls, is_filled_outside,
+       ""},
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
       {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
        f.crossings.cad_contacts, false, ""},

@@ -68,8 +68,8 @@ struct Element<Triangle> : Elements<ElementType::kInt32, 3> {};
 /// Calls `f` with a value of the C++ type that has these elements; std::string for strings.
 template <class Function>
 auto with_element(ElementType type, const Function& f) {
-  switch (type) {  // NOLINT(bugprone-branch-clone): each calls for another type
-    case ElementType::kFloat64:
+  switch (type) {
+    case ElementType::kFloat64:  // NOLINT(bugprone-branch-clone): each calls for another type
       return f(double());
     case ElementType::kFloat32:
       return f(float());
