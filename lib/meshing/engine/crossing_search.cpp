@@ -78,6 +78,16 @@ WeldedPatches weld(const BoundaryNumbering& numbering, const std::vector<FacePat
   return weld_patches(numbering.edges, numbering.tables.vertex_xyz, by_face);
 }
 
+/// Such faces meet, and where they cross beside what they share no length parts them.
+bool share_a_vertex(const ModelTables& t, FaceId a, FaceId b) {
+  std::set<VertexId> of_a;
+  for (const EdgeId e : t.edges_of(a)) of_a.insert({t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]});
+  const auto edges = t.edges_of(b);
+  return std::any_of(edges.begin(), edges.end(), [&](EdgeId e) {
+    return of_a.contains(t.edge_vertices[2 * e]) || of_a.contains(t.edge_vertices[2 * e + 1]);
+  });
+}
+
 }  // namespace
 
 std::vector<TrianglePair> find_repeated_chords(const BoundaryNumbering& numbering, const WeldedPatches& mesh,
@@ -184,7 +194,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<cons
     for (FacetPair& p : kept)
       if (p.factor == kUnknown) p.factor = factor;
   };
-  if (a == b) {
+  if (a == b || share_a_vertex(model_.tables(), a, b)) {
     set_unknown(kHalve);
     return kept;
   }
