@@ -12,6 +12,7 @@
 #include <set>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/model/bodies.h"
 
 namespace st::occt {
 namespace {
@@ -55,7 +56,7 @@ class CrossingSearch {
  private:
   void search(FaceId f, const std::vector<EdgeId>& order) {
     if (t_.face_solid[f] == kNone) return;
-    const std::set<VertexId> own = vertices_of(f);
+    const std::set<VertexId> own = vertices_of(t_, f);
     std::optional<IntCurvesFace_Intersector> intersector;
     for (const EdgeId e : order) {
       if (box_[e].lo.x > t_.face_box[f].hi.x) break;
@@ -71,12 +72,6 @@ class CrossingSearch {
         found_.push_back({other, f, *place});
       }
     }
-  }
-
-  std::set<VertexId> vertices_of(FaceId f) const {
-    std::set<VertexId> own;
-    for (const EdgeId e : t_.edges_of(f)) own.insert({t_.edge_vertices[2 * e], t_.edge_vertices[2 * e + 1]});
-    return own;
   }
 
   /// Where the edge goes through the face, away from its ends and from the face's loops.

@@ -80,12 +80,8 @@ WeldedPatches weld(const BoundaryNumbering& numbering, const std::vector<FacePat
 
 /// Such faces meet, and where they cross beside what they share no length parts them.
 bool share_a_vertex(const ModelTables& t, FaceId a, FaceId b) {
-  std::set<VertexId> of_a;
-  for (const EdgeId e : t.edges_of(a)) of_a.insert({t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]});
-  const auto edges = t.edges_of(b);
-  return std::any_of(edges.begin(), edges.end(), [&](EdgeId e) {
-    return of_a.contains(t.edge_vertices[2 * e]) || of_a.contains(t.edge_vertices[2 * e + 1]);
-  });
+  const std::set<VertexId> of_a = vertices_of(t, a), of_b = vertices_of(t, b);
+  return std::any_of(of_a.begin(), of_a.end(), [&](VertexId v) { return of_b.contains(v); });
 }
 
 }  // namespace
