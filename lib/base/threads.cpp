@@ -19,34 +19,41 @@ namespace {
 
 std::atomic<int> g_thread_count = 1;
 thread_local int t_depth = 0;  // loops in whose pieces this thread is
-thread_local bool t_is_timed = false;
 thread_local LoopSeconds t_loops;
 
-/// Adds the time of its life, but for one in the life of another one.
+/// Adds the time of its life, and of its longest piece; in the life of another one to that one's piece.
 class LoopTimer {
  public:
-  LoopTimer() : is_outermost_(t_depth == 0 && !std::exchange(t_is_timed, true)) {}
-  ~LoopTimer() {
-    if (!is_outermost_) return;
-    t_is_timed = false;
-    t_loops.all += timer_.seconds();
-    t_loops.longest += longest_;
+  LoopTimer() : outer_(t_timer), is_counted_(outer_ || t_depth == 0) {
+    if (is_counted_) t_timer = this;
   }
-  /// Between pieces.
+  ~LoopTimer() {
+    if (!is_counted_) return;
+    t_timer = outer_;
+    LoopSeconds& sum = outer_ ? outer_->inner_ : t_loops;
+    sum.all += timer_.seconds();
+    sum.longest += longest_;
+  }
+  /// Between pieces. Of loops in it the longest pieces count alone.
   void end_piece() {
-    if (!is_outermost_) return;
+    if (!is_counted_) return;
     const double now = timer_.seconds();
-    longest_ = std::max(longest_, now - last_);
+    longest_ = std::max(longest_, now - last_ - inner_.all + inner_.longest);
     last_ = now;
+    inner_ = {};
   }
   LoopTimer(const LoopTimer&) = delete;
   LoopTimer& operator=(const LoopTimer&) = delete;
 
  private:
-  bool is_outermost_;
+  LoopTimer* const outer_;
+  const bool is_counted_;
+  LoopSeconds inner_;  // of loops in this piece
   double last_ = 0, longest_ = 0;
   Timer timer_;
+  static thread_local LoopTimer* t_timer;
 };
+thread_local LoopTimer* LoopTimer::t_timer = nullptr;
 
 /// The pieces of one loop, taken one after the other by whoever works on it.
 class Loop {

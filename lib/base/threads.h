@@ -25,7 +25,8 @@ void parallel_for(std::size_t n, std::size_t grain,
 /// Seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads speed up.
 struct LoopSeconds {
   double all = 0;
-  double longest = 0;  ///< of the longest piece of each: more threads cannot speed up more. Counted with one thread
+  double longest = 0;  ///< of the longest piece of each, of which loops in it count likewise: more threads cannot speed
+                       ///< up more. Counted with one thread
 };
 LoopSeconds seconds_in_loops();
 

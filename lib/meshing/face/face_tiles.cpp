@@ -317,6 +317,27 @@ std::vector<std::int32_t> nodes_of(const Tile& tile) {
   return nodes;
 }
 
+/// The nodes between each two tiles are a piece; so is each junction.
+std::vector<std::int32_t> pieces_of_cuts(const TileCut& cut, std::int32_t n_boundary) {
+  using Tiles = std::pair<std::int32_t, std::int32_t>;  // the first and the last that has the node
+  std::vector<Tiles> tiles(cut.nodes.size(), {kNone, kNone});
+  for (std::size_t i = 0; i < cut.tiles.size(); ++i)
+    for (const auto& segment : cut.tiles[i].segments)
+      for (const std::int32_t n : segment) {
+        if (n < n_boundary) continue;
+        Tiles& own = tiles[n - n_boundary];
+        own.second = static_cast<std::int32_t>(i);
+        if (own.first == kNone) own.first = own.second;
+      }
+  std::vector<Tiles> all = tiles;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<std::int32_t> pieces;
+  for (const Tiles& own : tiles)
+    pieces.push_back(static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), own) - all.begin()));
+  return pieces;
+}
+
 }  // namespace
 
 TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
@@ -358,7 +379,7 @@ FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const 
     mesh = {};
   }
   if (joined.cause != FailureCause::kNone) return joined;
-  improve_seams(surface, boundary, field, options, static_cast<std::int32_t>(cut.nodes.size()), joined);
+  improve_seams(surface, boundary, field, options, pieces_of_cuts(cut, n_boundary), joined);
   check_edges(boundary, joined);
   return joined;
 }

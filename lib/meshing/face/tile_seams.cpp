@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
+#include <vector>
 
+#include "base/threads.h"
+#include "mesh/adjacency.h"
 #include "meshing/face/face_check.h"
 #include "meshing/face/front.h"
 
@@ -11,57 +16,74 @@ namespace {
 
 constexpr int kLayers = 4;  // of triangles on each side of a cut
 
-class SeamBand {
+/// Disjoint triangles of a mesh that are enhanced together, and what becomes of them.
+class SeamPiece {
  public:
-  SeamBand(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, FaceMesh& mesh)
-      : boundary_(boundary), mesh_(mesh), n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {
+  /// `is_inner(corner)`: all triangles of this node are in the piece.
+  template <class IsInner>
+  SeamPiece(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, FaceMesh& mesh,
+            std::vector<std::int32_t> triangles, const IsInner& is_inner)
+      : boundary_(boundary),
+        mesh_(mesh),
+        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
+        triangles_(std::move(triangles)) {
     work_.set_surface(surface);
     work_.field = &field;
+    number_nodes(is_inner);
+    take_over();
   }
 
-  void run(std::int32_t n_cut, const FaceMeshOptions& options) {
-    find_band(n_cut);
-    number_nodes();
-    take_over();
+  void enhance_it(const FaceMeshOptions& options) {
     work_.max_turning = radians(options.max_turning_deg);
     enhance(work_, options.enhance_rounds);
-    check_folds(work_.mesh, mesh_);
-    store();
+  }
+  void count_folds(FaceMesh& counts) const { check_folds(work_.mesh, counts); }
+
+  /// The triangles in the places of those before, and kNone for those that are gone. Touches no more than the triangles
+  /// and the inner nodes of the piece.
+  void store(std::vector<std::uint8_t>& is_gone) {
+    const std::vector<MeshNode>& nodes = work_.mesh.nodes;
+    for (std::size_t i = static_cast<std::size_t>(n_fixed_); i < of_number_.size(); ++i) {
+      const std::int32_t inner = of_number_[i] - n_boundary_;
+      mesh_.inner[inner] = nodes[i + 4];
+      is_gone[inner] = 1;
+    }
+    auto place = triangles_.begin();
+    for (const PlaneTriangle& t : work_.mesh.triangles) {
+      if (t.state == kDead) continue;
+      std::int32_t* corners = &mesh_.corners[3 * static_cast<std::size_t>(*place++)];
+      for (const std::int32_t v : t.v) {
+        *corners = of_number_[v < n_fixed_ ? v : v - 4];
+        if (v >= n_fixed_ + 4) is_gone[*corners - n_boundary_] = 0;
+        ++corners;
+      }
+    }
+    for (; place != triangles_.end(); ++place)
+      std::fill_n(&mesh_.corners[3 * static_cast<std::size_t>(*place)], 3, kNone);
   }
 
  private:
   using Corners = std::array<std::int32_t, 3>;
 
-  void find_band(std::int32_t n_cut) {
-    const std::size_t n_triangles = mesh_.corners.size() / 3;
-    is_in_.assign(n_triangles, 0);
-    std::vector<std::uint8_t> is_near(n_boundary_ + mesh_.inner.size(), 0);
-    std::fill_n(is_near.begin() + n_boundary_, n_cut, 1);
-    for (int layer = 0; layer < kLayers; ++layer) {
-      for (std::size_t t = 0; t < n_triangles; ++t) {
-        const std::int32_t* c = &mesh_.corners[3 * t];
-        is_in_[t] |= is_near[c[0]] | is_near[c[1]] | is_near[c[2]];
-      }
-      for (std::size_t t = 0; t < n_triangles; ++t)
-        for (int k = 0; is_in_[t] && k < 3; ++k) is_near[mesh_.corners[3 * t + k]] = 1;
-    }
+  /// Nodes that others have, too, are the rim, which comes first.
+  template <class IsInner>
+  void number_nodes(const IsInner& is_inner) {
+    for (const std::int32_t t : triangles_)
+      of_number_.insert(of_number_.end(), &mesh_.corners[3 * static_cast<std::size_t>(t)],
+                        &mesh_.corners[3 * static_cast<std::size_t>(t)] + 3);
+    std::sort(of_number_.begin(), of_number_.end());
+    of_number_.erase(std::unique(of_number_.begin(), of_number_.end()), of_number_.end());
+    const auto inner =
+        std::stable_partition(of_number_.begin(), of_number_.end(), [&](std::int32_t c) { return !is_inner(c); });
+    n_fixed_ = static_cast<std::int32_t>(inner - of_number_.begin());
   }
 
-  /// Nodes of the boundary, and those that triangles outside of the band have, are its rim.
-  void number_nodes() {
-    constexpr std::uint8_t kInside = 1, kOutside = 2;
-    std::vector<std::uint8_t> uses(n_boundary_ + mesh_.inner.size(), 0);
-    for (std::size_t i = 0; i < mesh_.corners.size(); ++i) uses[mesh_.corners[i]] |= is_in_[i / 3] ? kInside : kOutside;
-    for (std::int32_t i = 0; i < n_boundary_; ++i) uses[i] |= kOutside;
-    number_.assign(uses.size(), kNone);
-    for (const std::uint8_t wanted : {kInside | kOutside, int{kInside}}) {
-      for (std::size_t i = 0; i < uses.size(); ++i) {
-        if (uses[i] != wanted) continue;
-        number_[i] = static_cast<std::int32_t>(of_number_.size());
-        of_number_.push_back(static_cast<std::int32_t>(i));
-      }
-      if (wanted != kInside) n_fixed_ = static_cast<std::int32_t>(of_number_.size());
-    }
+  /// Both parts of of_number_ are sorted.
+  std::int32_t number(std::int32_t corner) const {
+    const auto rim_end = of_number_.begin() + n_fixed_;
+    auto it = std::lower_bound(of_number_.begin(), rim_end, corner);
+    if (it == rim_end || *it != corner) it = std::lower_bound(rim_end, of_number_.end(), corner);
+    return static_cast<std::int32_t>(it - of_number_.begin());
   }
 
   MeshNode node(std::int32_t corner) const {
@@ -79,9 +101,9 @@ class SeamBand {
     std::vector<MeshNode> nodes;
     for (const std::int32_t corner : of_number_) nodes.push_back(node(corner));
     std::vector<Corners> triangles;
-    for (std::size_t t = 0; t < is_in_.size(); ++t) {
-      const std::int32_t* c = &mesh_.corners[3 * t];
-      if (is_in_[t]) triangles.push_back({number_[c[0]], number_[c[1]], number_[c[2]]});
+    for (const std::int32_t t : triangles_) {
+      const std::int32_t* c = &mesh_.corners[3 * static_cast<std::size_t>(t)];
+      triangles.push_back({number(c[0]), number(c[1]), number(c[2])});
     }
     work_.mesh.adopt(n_fixed_, std::move(nodes), triangles);
     keep_loops();
@@ -89,68 +111,200 @@ class SeamBand {
 
   /// Segments of the loops with triangles on both sides, too.
   void keep_loops() {
+    std::vector<std::int32_t> ids;  // of boundary nodes here
+    for (std::int32_t i = 0; i < n_fixed_; ++i)
+      if (of_number_[i] < n_boundary_) ids.push_back(boundary_.nodes[of_number_[i]].id);
+    std::sort(ids.begin(), ids.end());
+    const auto is_here = [&](std::int32_t n) {
+      return std::binary_search(ids.begin(), ids.end(), boundary_.nodes[n].id);
+    };
     std::vector<std::pair<std::int32_t, std::int32_t>> loops;  // ids
     for (const auto& [a, b] : boundary_.segments)
-      loops.push_back(std::minmax({boundary_.nodes[a].id, boundary_.nodes[b].id}));
+      if (!ids.empty() && is_here(a) && is_here(b))
+        loops.push_back(std::minmax({boundary_.nodes[a].id, boundary_.nodes[b].id}));
     std::sort(loops.begin(), loops.end());
     Triangulation& m = work_.mesh;
     for (std::size_t t = 0; t < m.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
         const std::int32_t a = m.nodes[m.triangles[t].v[k]].id, b = m.nodes[m.triangles[t].v[(k + 1) % 3]].id;
-        if (a == kNone || b == kNone) continue;
+        if (a == kNone || b == kNone || a == b) continue;
         const std::pair<std::int32_t, std::int32_t> side = std::minmax({a, b});
         if (std::binary_search(loops.begin(), loops.end(), side)) m.constrain(static_cast<std::int32_t>(t), k);
       }
   }
 
-  /// The band in place of its old triangles; nodes that are gone go.
-  void store() {
-    std::vector<std::int32_t> corners;
-    for (std::size_t t = 0; t < is_in_.size(); ++t)
-      if (!is_in_[t]) corners.insert(corners.end(), &mesh_.corners[3 * t], &mesh_.corners[3 * t] + 3);
-    std::vector<std::uint8_t> is_gone(mesh_.inner.size(), 0);
-    const std::vector<MeshNode>& nodes = work_.mesh.nodes;
-    for (std::size_t i = static_cast<std::size_t>(n_fixed_); i < of_number_.size(); ++i) {
-      const std::int32_t inner = of_number_[i] - n_boundary_;
-      mesh_.inner[inner] = nodes[i + 4];
-      is_gone[inner] = 1;
+  const FaceBoundary& boundary_;
+  FaceMesh& mesh_;
+  const std::int32_t n_boundary_;
+  const std::vector<std::int32_t> triangles_;
+  FaceWork work_;
+  std::vector<std::int32_t> of_number_;  // the corner of each node of the piece
+  std::int32_t n_fixed_ = 0;
+};
+
+/// The triangles about all cuts of a face: piece by piece, then where pieces meet.
+class SeamBand {
+ public:
+  SeamBand(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, const FaceMeshOptions& options,
+           FaceMesh& mesh)
+      : surface_(surface),
+        boundary_(boundary),
+        field_(field),
+        options_(options),
+        mesh_(mesh),
+        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
+        is_gone_(mesh.inner.size(), 0) {}
+
+  void run(std::span<const std::int32_t> piece_of_cut) {
+    find_band(piece_of_cut);
+    improve_pieces();
+    improve_joints();
+    if (counted_.n_folds > 0) count_folds();
+    close_ranks();
+  }
+
+ private:
+  std::int32_t* corners(std::int32_t t) const { return &mesh_.corners[3 * static_cast<std::size_t>(t)]; }
+
+  /// Triangles in layers about the nodes of the cuts, and which piece each belongs to: the lowest of the nearest.
+  void find_band(std::span<const std::int32_t> piece_of_cut) {
+    constexpr std::size_t kPerPart = 65'536;
+    const std::size_t n_triangles = mesh_.corners.size() / 3;
+    layer_.assign(n_boundary_ + mesh_.inner.size(), kLayers + 1);
+    piece_.assign(layer_.size(), kNone);
+    std::fill_n(layer_.begin() + n_boundary_, piece_of_cut.size(), std::uint8_t{0});
+    std::copy(piece_of_cut.begin(), piece_of_cut.end(), piece_.begin() + n_boundary_);
+    std::vector<std::uint8_t> is_in(n_triangles, 0);
+    std::vector<std::vector<std::int32_t>> found(n_triangles / kPerPart + 1);
+    for (int layer = 0; layer < kLayers; ++layer) {
+      parallel_for(n_triangles, kPerPart, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::int32_t>& here = found[begin / kPerPart];
+        here.clear();
+        for (std::size_t t = begin; t < end; ++t) {
+          const std::int32_t* c = &mesh_.corners[3 * t];
+          if (is_in[t] || std::min({layer_[c[0]], layer_[c[1]], layer_[c[2]]}) > layer) continue;
+          is_in[t] = 1;
+          here.push_back(static_cast<std::int32_t>(t));
+        }
+      });
+      for (const auto& here : found)
+        for (const std::int32_t t : here) add_triangle(t, layer);
     }
-    for (const PlaneTriangle& t : work_.mesh.triangles) {
-      if (t.state == kDead) continue;
-      for (const std::int32_t v : t.v) {
-        const std::int32_t corner = of_number_[v < n_fixed_ ? v : v - 4];
-        if (corner >= n_boundary_) is_gone[corner - n_boundary_] = 0;
-        corners.push_back(corner);
+  }
+
+  void add_triangle(std::int32_t t, int layer) {
+    const std::int32_t* c = corners(t);
+    std::int32_t piece = kNone;
+    for (int k = 0; k < 3; ++k)
+      if (layer_[c[k]] <= layer && (piece == kNone || piece_[c[k]] < piece)) piece = piece_[c[k]];
+    band_.push_back(t);
+    piece_of_.push_back(piece);
+    for (int k = 0; k < 3; ++k) {
+      if (layer_[c[k]] <= layer) continue;
+      piece_[c[k]] = layer_[c[k]] == layer + 1 ? std::min(piece_[c[k]], piece) : piece;
+      layer_[c[k]] = static_cast<std::uint8_t>(layer + 1);
+    }
+  }
+
+  /// All triangles of the node are in the band.
+  bool is_inside(std::int32_t corner) const { return corner >= n_boundary_ && layer_[corner] < kLayers; }
+
+  /// Each with the nodes that no other has.
+  void improve_pieces() {
+    constexpr std::int32_t kShared = -2;
+    std::vector<std::int32_t> owner(layer_.size(), kNone);
+    std::map<std::int32_t, std::vector<std::int32_t>> pieces;
+    for (std::size_t i = 0; i < band_.size(); ++i) {
+      pieces[piece_of_[i]].push_back(band_[i]);
+      for (int k = 0; k < 3; ++k) {
+        std::int32_t& own = owner[corners(band_[i])[k]];
+        own = own == kNone || own == piece_of_[i] ? piece_of_[i] : kShared;
       }
     }
+    improve(std::move(pieces), [&](std::int32_t c) { return is_inside(c) && owner[c] != kShared; });
+    is_joint_.assign(layer_.size(), 0);
+    for (std::size_t c = 0; c < owner.size(); ++c)
+      is_joint_[c] = owner[c] == kShared && is_inside(static_cast<std::int32_t>(c));
+  }
+
+  /// Layers about the nodes that pieces share, as pieces of their own.
+  void improve_joints() {
+    std::vector<std::uint8_t> layer(layer_.size(), kLayers + 1), is_in(band_.size(), 0);
+    for (std::size_t c = 0; c < layer.size(); ++c)
+      if (is_joint_[c]) layer[c] = 0;
+    DisjointSets sets(static_cast<std::int64_t>(layer.size()));
+    for (int l = 0; l < kLayers; ++l)
+      for (std::size_t i = 0; i < band_.size(); ++i) {
+        const std::int32_t* c = corners(band_[i]);
+        if (is_in[i] || c[0] == kNone || std::min({layer[c[0]], layer[c[1]], layer[c[2]]}) > l) continue;
+        is_in[i] = 1;
+        for (int k = 0; k < 3; ++k) {
+          layer[c[k]] = std::min(layer[c[k]], static_cast<std::uint8_t>(l + 1));
+          sets.join(c[0], c[k]);
+        }
+      }
+    std::map<std::int32_t, std::vector<std::int32_t>> joints;
+    for (std::size_t i = 0; i < band_.size(); ++i)
+      if (is_in[i]) joints[sets.find(corners(band_[i])[0])].push_back(band_[i]);
+    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[c] < kLayers; });
+  }
+
+  template <class IsInner>
+  void improve(std::map<std::int32_t, std::vector<std::int32_t>> parts, const IsInner& is_inner) {
+    std::vector<std::vector<std::int32_t>> triangles;
+    for (auto& [own, some] : parts) triangles.push_back(std::move(some));
+    std::vector<FaceMesh> counts(triangles.size());
+    parallel_for(triangles.size(), 1, [&](std::size_t i, std::size_t) {
+      SeamPiece piece(surface_, boundary_, field_, mesh_, std::move(triangles[i]), is_inner);
+      piece.enhance_it(options_);
+      piece.count_folds(counts[i]);
+      piece.store(is_gone_);
+    });
+    for (const FaceMesh& c : counts) counted_.n_folds += c.n_folds;
+  }
+
+  /// Of the whole band, as it is now.
+  void count_folds() {
+    std::erase_if(band_, [&](std::int32_t t) { return corners(t)[0] == kNone; });
+    const SeamPiece all(surface_, boundary_, field_, mesh_, band_, [&](std::int32_t c) { return is_inside(c); });
+    all.count_folds(mesh_);
+  }
+
+  /// Without triangles and nodes that are gone.
+  void close_ranks() {
     std::vector<std::int32_t> place(mesh_.inner.size());
     std::int32_t n = 0;
     for (std::size_t i = 0; i < mesh_.inner.size(); ++i) {
-      if (is_gone[i]) continue;
+      if (is_gone_[i]) continue;
       place[i] = n_boundary_ + n;
       mesh_.inner[n++] = mesh_.inner[i];
     }
     mesh_.inner.resize(n);
-    for (std::int32_t& c : corners)
+    std::erase(mesh_.corners, kNone);
+    for (std::int32_t& c : mesh_.corners)
       if (c >= n_boundary_) c = place[c - n_boundary_];
-    mesh_.corners = std::move(corners);
   }
 
+  const Surface& surface_;
   const FaceBoundary& boundary_;
+  const SizeField& field_;
+  const FaceMeshOptions& options_;
   FaceMesh& mesh_;
   const std::int32_t n_boundary_;
-  FaceWork work_;
-  std::vector<std::uint8_t> is_in_;      // [n_triangles]
-  std::vector<std::int32_t> number_;     // in the band, of each corner
-  std::vector<std::int32_t> of_number_;  // the corner of each node of the band
-  std::int32_t n_fixed_ = 0;
+  std::vector<std::uint8_t> is_gone_;   // [n_inner]
+  std::vector<std::uint8_t> layer_;     // of each corner: steps from a cut, kLayers + 1: more
+  std::vector<std::int32_t> piece_;     // of each corner, where it has one
+  std::vector<std::int32_t> band_;      // triangles
+  std::vector<std::int32_t> piece_of_;  // [n_band]
+  std::vector<std::uint8_t> is_joint_;  // of each corner: pieces share it
+  FaceMesh counted_;                    // folds of the pieces, for the count alone
 };
 
 }  // namespace
 
 void improve_seams(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
-                   const FaceMeshOptions& options, std::int32_t n_cut, FaceMesh& mesh) {
-  SeamBand(surface, boundary, field, mesh).run(n_cut, options);
+                   const FaceMeshOptions& options, std::span<const std::int32_t> piece_of_cut, FaceMesh& mesh) {
+  SeamBand(surface, boundary, field, options, mesh).run(piece_of_cut);
 }
 
 }  // namespace st

@@ -128,8 +128,9 @@ TEST(SecondsInLoops, count_the_outermost_loop_of_this_thread) {
     EXPECT_GE(seconds_in_loops().all - before, 0.005);
     EXPECT_LT(seconds_in_loops().all - before, 5);
     if (n_threads == 1) {
-      EXPECT_LT(seconds_in_loops().longest - longest, seconds_in_loops().all - before);
-      EXPECT_GE(seconds_in_loops().longest - longest, 0.01) << "two pieces of an inner loop";
+      const double all = seconds_in_loops().all - before, of_longest = seconds_in_loops().longest - longest;
+      EXPECT_GE(of_longest, 0.005);
+      EXPECT_GE(all - of_longest, 0.015) << "three pieces of the four could run beside the longest";
     }
     const double after = seconds_in_loops().all;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

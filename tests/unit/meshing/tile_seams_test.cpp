@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "base/threads.h"
 #include "unit/meshing/faces.h"
 
 namespace st {
@@ -33,6 +34,40 @@ std::pair<FaceMesh, std::int32_t> with_cut(const FaceCase& face, const SizeField
   return {sorted, static_cast<std::int32_t>(end - order.begin())};
 }
 
+std::vector<std::int32_t> one_piece(std::int32_t n_cut) { return std::vector<std::int32_t>(n_cut, 0); }
+
+/// With nodes of the cut moved along it.
+FaceMesh unevenly(const FaceCase& face, FaceMesh mesh, std::int32_t n_cut) {
+  for (std::int32_t i = 0; i < n_cut; ++i) {
+    FaceNode& n = mesh.inner[i];
+    n.uv.y += (i % 2 ? 0.3 : -0.3) * kLength;
+    n.x = face.surface->point(n.uv);
+  }
+  return mesh;
+}
+
+TEST(TileSeams, smooth_pieces_and_the_places_where_they_meet_the_same_on_all_threads) {
+  const UniformField field(kLength);
+  const FaceCase face("square", field);
+  const auto [even, n_cut] = with_cut(face, field);
+  std::vector<std::int32_t> pieces;  // one half and the other
+  for (std::int32_t i = 0; i < n_cut; ++i) pieces.push_back(even.inner[i].uv.y < 5 ? 0 : 1);
+  const FaceMesh uneven = unevenly(face, even, n_cut);
+  FaceMesh whole = uneven, mesh[2] = {uneven, uneven};
+  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), whole);
+  for (int k = 0; k < 2; ++k) {
+    set_thread_count(1 + 2 * k);
+    improve_seams(*face.surface, face.boundary, field, {}, pieces, mesh[k]);
+  }
+  set_thread_count(1);
+  test::expect_valid(face.boundary, mesh[0]);
+  EXPECT_EQ(mesh[0].corners, mesh[1].corners);
+  for (std::size_t i = 0; i < mesh[0].inner.size(); ++i) EXPECT_EQ(mesh[0].inner[i].uv, mesh[1].inner[i].uv);
+  const MeshView one{face.boundary, whole}, two{face.boundary, mesh[0]};
+  EXPECT_NEAR(two.qualities().front(), one.qualities().front(), 0.1);
+  EXPECT_NEAR(two.mean_quality(), one.mean_quality(), 0.005);
+}
+
 TEST(TileSeams, smooth_what_is_uneven_at_a_cut_and_leave_the_rest_alone) {
   const UniformField field(kLength);
   const FaceCase face("square", field);
@@ -45,7 +80,7 @@ TEST(TileSeams, smooth_what_is_uneven_at_a_cut_and_leave_the_rest_alone) {
   }
   const FaceMesh uneven = mesh;
   mesh.n_folds = 0;
-  improve_seams(*face.surface, face.boundary, field, {}, n_cut, mesh);
+  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), mesh);
   test::expect_valid(face.boundary, mesh);
   const MeshView before{face.boundary, uneven}, after{face.boundary, mesh};
   EXPECT_GT(after.qualities().front(), before.qualities().front() + 0.1);
@@ -65,7 +100,7 @@ TEST(TileSeams, count_the_folds_of_the_band_alone) {
   FaceMesh far = mesh;
   for (FaceNode& n : far.inner)
     if (std::abs(n.x.x - 1) < 0.1 && std::abs(n.x.y - 5) < 0.3) n.x.x = n.uv.x = 4 * kLength + 1;
-  improve_seams(*face.surface, face.boundary, field, {}, n_cut, far);
+  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), far);
   EXPECT_EQ(far.n_folds, 0);
 }
 
@@ -76,7 +111,7 @@ TEST(TileSeams, count_folds_that_stay_in_the_band) {
   mesh.inner[n_cut / 2].x.x = mesh.inner[n_cut / 2].uv.x = 5 + 3 * kLength;
   FaceMeshOptions options;
   options.enhance_rounds = 0;
-  improve_seams(*face.surface, face.boundary, field, options, n_cut, mesh);
+  improve_seams(*face.surface, face.boundary, field, options, one_piece(n_cut), mesh);
   EXPECT_GT(mesh.n_folds, 0);
 }
 
@@ -95,7 +130,7 @@ TEST(TileSeams, keep_an_edge_that_lies_inside_the_face) {
   test::expect_valid(boundary, mesh);
   for (FaceNode& n : mesh.inner)  // the slit would be swapped away
     if (std::abs(n.x.y - 5) < 0.7 && std::abs(n.x.x - 5) < 1.7) n.x.x = n.uv.x += 0.2;
-  improve_seams(test::kPlane, boundary, field, {}, static_cast<std::int32_t>(mesh.inner.size()), mesh);
+  improve_seams(test::kPlane, boundary, field, {}, one_piece(static_cast<std::int32_t>(mesh.inner.size())), mesh);
   test::expect_valid(boundary, mesh);
 }
 
