@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/log.h"
+#include "base/processor_time.h"
 
 namespace st {
 namespace {
@@ -31,13 +31,13 @@ class LoopTimer {
     if (!is_counted_) return;
     t_timer = outer_;
     LoopSeconds& sum = outer_ ? outer_->inner_ : t_loops;
-    sum.all += timer_.seconds();
+    sum.all += thread_seconds() - start_;
     sum.longest += longest_;
   }
   /// Between pieces. Of loops in it the longest pieces count alone.
   void end_piece() {
     if (!is_counted_) return;
-    const double now = timer_.seconds();
+    const double now = thread_seconds() - start_;
     longest_ = std::max(longest_, now - last_ - inner_.all + inner_.longest);
     last_ = now;
     inner_ = {};
@@ -50,7 +50,7 @@ class LoopTimer {
   const bool is_counted_;
   LoopSeconds inner_;  // of loops in this piece
   double last_ = 0, longest_ = 0;
-  Timer timer_;
+  const double start_ = thread_seconds();
   static thread_local LoopTimer* t_timer;
 };
 thread_local LoopTimer* LoopTimer::t_timer = nullptr;

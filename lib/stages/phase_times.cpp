@@ -1,25 +1,13 @@
 #include "stages/phase_times.h"
 
-#include <ctime>
-
 #include "base/packer.h"
+#include "base/processor_time.h"
 
 namespace st {
-namespace {
-
-/// Of this process with all its threads, seconds.
-double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-}  // namespace
-
-PhaseTimes::PhaseTimes() : processor_at_last_(processor_seconds()) {}
+PhaseTimes::PhaseTimes() : processor_at_last_(process_seconds()) {}
 
 void PhaseTimes::end(const std::string& part) {
-  const double now = processor_seconds();
+  const double now = process_seconds();
   parts_.push_back({part, since_last_.seconds(), {now - processor_at_last_}});
   since_last_ = Timer();
   processor_at_last_ = now;

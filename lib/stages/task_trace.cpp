@@ -3,23 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "base/packer.h"
+#include "base/processor_time.h"
 #include "io/file/text_file.h"
 
 namespace st {
-namespace {
-
-/// Of this thread, or of the process with all its threads, seconds.
-double processor_seconds(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-}  // namespace
 
 TaskTrace::TaskTrace(const Executor& inner, std::string path) : inner_(inner), path_(std::move(path)) {
   begin_serial();
@@ -28,7 +18,7 @@ TaskTrace::TaskTrace(const Executor& inner, std::string path) : inner_(inner), p
 void TaskTrace::begin_serial() const {
   serial_start_ = clock_.seconds();
   serial_loops_ = seconds_in_loops();
-  serial_processor_ = processor_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  serial_processor_ = process_seconds();
 }
 
 /// What rank 0 did since then.
@@ -38,7 +28,7 @@ void TaskTrace::end_serial() const {
   row.call = n_calls_;
   row.start = serial_start_;
   row.wall = clock_.seconds() - serial_start_;
-  row.processor = processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - serial_processor_;
+  row.processor = process_seconds() - serial_processor_;
   row.loops = seconds_in_loops().all - serial_loops_.all;
   row.longest = seconds_in_loops().longest - serial_loops_.longest;
   const std::lock_guard lock(mutex_);
@@ -83,9 +73,9 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     const TaskLabel label = tasks.label(task);
     Row row{"task", label.kind, label.id + 1, label.part, call, rank()};
     row.start = clock_.seconds();
-    const double before = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+    const double before = thread_seconds();
     Bytes result = compute(task);
-    row.processor = processor_seconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    row.processor = thread_seconds() - before;
     row.wall = clock_.seconds() - row.start;
     row.bytes = result.size();
     const std::lock_guard lock(mutex_);
@@ -94,9 +84,9 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     return result;
   };
   inner_.run_named_tasks(tasks, timed, [&](std::int32_t task, Bytes&& result) {
-    const double before = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
+    const double before = thread_seconds();
     collect(task, std::move(result));
-    collect_seconds += processor_seconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    collect_seconds += thread_seconds() - before;
   });
   begin_serial();
   if (!is_root()) return;

@@ -45,7 +45,7 @@ class TaskTrace : public Executor {
     std::int32_t call = 0, rank = 0, thread = 0;
     double start = 0, wall = 0, processor = 0;  // seconds
     std::uint64_t bytes = 0;                    // of the result, or sent to each rank
-    double loops = 0, longest = 0;              // seconds of the wall time in loops over the threads, see LoopSeconds
+    double loops = 0, longest = 0;              // see LoopSeconds
 
     static auto fields(auto& r) {
       return std::tie(r.event, r.name, r.id, r.part, r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes,
