@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 #include "base/limits.h"
+#include "base/threads.h"
 
 namespace st {
 
@@ -52,6 +53,46 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
     for (const NodeId n : t.n)
       if (n < 0 || n >= n_nodes)
         throw_bad_patch(p.face, "has a triangle with node " + std::to_string(n) + " of " + std::to_string(n_nodes));
+}
+
+/// Nodes of a patch that its triangles have, ascending.
+struct UsedNodes {
+  std::vector<std::int32_t> boundary;  // of the patch's boundary nodes
+  std::vector<std::int32_t> inner;     // places in inner_*
+};
+
+UsedNodes used_nodes(const FacePatch& p) {
+  std::vector<char> is_used(p.n_boundary + p.inner_xyz.size(), 0);
+  for (const Triangle& t : p.triangles)
+    for (const NodeId n : t.n) is_used[n] = 1;
+  UsedNodes used;
+  used.inner.reserve(p.inner_xyz.size());
+  for (std::int32_t i = 0; i < p.n_boundary; ++i)
+    if (is_used[i]) used.boundary.push_back(i);
+  for (std::size_t i = 0; i < p.inner_xyz.size(); ++i)
+    if (is_used[p.n_boundary + i]) used.inner.push_back(static_cast<std::int32_t>(i));
+  return used;
+}
+
+/// What is inside patch i, and its triangles, in their places.
+void place_patch(const EdgeMesh& edges, std::size_t n_vertices, const FacePatch& p, const UsedNodes& used,
+                 std::size_t i, WeldedPatches& welded) {
+  constexpr std::size_t kPerPiece = 65'536;
+  std::vector<NodeId> number(p.n_boundary + p.inner_xyz.size(), kNone);
+  for (const std::int32_t n : used.boundary)
+    number[n] = welded.boundary[boundary_id_of(static_cast<VertexId>(n_vertices), edges, p, n)];
+  const std::int32_t begin = welded.inner_begin[i];
+  for (std::size_t k = 0; k < used.inner.size(); ++k) {
+    const NodeId n = welded.n_boundary + begin + static_cast<NodeId>(k);
+    number[p.n_boundary + used.inner[k]] = n;
+    welded.points[n] = p.inner_xyz[used.inner[k]];
+    welded.inner[begin + k] = used.inner[k];
+  }
+  Triangle* const triangles = &welded.triangles[welded.patch_begin[i]];
+  parallel_for(p.triangles.size(), kPerPiece, [&](std::size_t first, std::size_t last) {
+    for (std::size_t t = first; t < last; ++t)
+      for (int k = 0; k < 3; ++k) triangles[t].n[k] = number[p.triangles[t].n[k]];
+  });
 }
 
 /// Requested length at each vertex: from the edge of lowest id that ends there.
@@ -205,22 +246,6 @@ void Welder::number_boundary(std::size_t n_inner, std::size_t n_triangles) {
   welded_.n_boundary = static_cast<NodeId>(welded_.points.size());
 }
 
-void Welder::append(const FacePatch& p) {
-  std::vector<NodeId> number(p.n_boundary + p.inner_xyz.size(), kNone);
-  for (const Triangle& t : p.triangles)
-    for (const NodeId n : t.n) number[n] = 0;
-  for (std::int32_t i = 0; i < p.n_boundary; ++i) number[i] = boundary(id_of(p, i));
-  for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) {
-    NodeId& n = number[p.n_boundary + i];
-    if (n == kNone) continue;
-    n = add_point(p.inner_xyz[i]);
-    welded_.inner.push_back(static_cast<std::int32_t>(i));
-  }
-  for (const Triangle& t : p.triangles) add_triangle(number[t.n[0]], number[t.n[1]], number[t.n[2]]);
-  welded_.patch_begin.push_back(static_cast<TriangleId>(welded_.triangles.size()));
-  welded_.inner_begin.push_back(static_cast<NodeId>(welded_.inner.size()));
-}
-
 void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size) {
   mesh.node_entity_dim.push_back(static_cast<std::uint8_t>(dim));
   mesh.node_entity.push_back(entity);
@@ -232,18 +257,30 @@ WeldedPatches weld_patches(const EdgeMesh& edges, std::span<const Vec3> vertex_x
                            std::span<const FacePatch* const> patches) {
   ST_ASSERT(std::is_sorted(edges.edge_offsets.begin(), edges.edge_offsets.end()));
   Welder welder(edges, vertex_xyz);
+  std::vector<UsedNodes> used(patches.size());
+  parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+    require_valid(edges, vertex_xyz.size(), *patches[i]);
+    used[i] = used_nodes(*patches[i]);
+  });
   std::size_t n_inner = 0, n_triangles = 0;
-  for (const FacePatch* p : patches) {
-    require_valid(edges, vertex_xyz.size(), *p);
-    for (const Triangle& t : p->triangles)
-      for (const NodeId n : t.n)
-        if (n < p->n_boundary) welder.use(welder.id_of(*p, n));
-    n_inner += p->inner_xyz.size();
-    n_triangles += p->triangles.size();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (const std::int32_t n : used[i].boundary) welder.use(welder.id_of(*patches[i], n));
+    n_inner += used[i].inner.size();
+    n_triangles += patches[i]->triangles.size();
   }
   welder.number_boundary(n_inner, n_triangles);
-  for (const FacePatch* p : patches) welder.append(*p);
-  return welder.take();
+  WeldedPatches welded = welder.take();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    welded.patch_begin.push_back(welded.patch_begin.back() + static_cast<TriangleId>(patches[i]->triangles.size()));
+    welded.inner_begin.push_back(welded.inner_begin.back() + static_cast<std::int32_t>(used[i].inner.size()));
+  }
+  welded.points.resize(static_cast<std::size_t>(welded.n_boundary) + n_inner);
+  welded.triangles.resize(n_triangles);
+  welded.inner.resize(n_inner);
+  parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+    place_patch(edges, vertex_xyz.size(), *patches[i], used[i], i, welded);
+  });
+  return welded;
 }
 
 SurfaceMesh describe_boundary(const MergeInput& in, const WeldedPatches& w) {

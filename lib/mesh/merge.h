@@ -49,8 +49,6 @@ class Welder {
     return static_cast<NodeId>(welded_.points.size()) - 1;
   }
   void add_triangle(NodeId a, NodeId b, NodeId c) { welded_.triangles.push_back({{a, b, c}}); }
-  /// All of a patch.
-  void append(const FacePatch& p);
   std::int32_t id_of(const FacePatch& p, std::int32_t boundary_node) const;
   const WeldedPatches& welded() const { return welded_; }
   WeldedPatches take() { return std::move(welded_); }

@@ -102,32 +102,46 @@ class Forest {
   struct Job {
     std::int32_t a, b;
   };
-  /// What is to be tested of these nodes within, as many small jobs.
-  std::vector<Job> split_within(std::vector<std::int32_t> nodes) {
-    std::vector<Job> jobs;
-    while (!nodes.empty()) {
-      std::vector<std::int32_t> left(nodes.size(), kNone);
-      parallel_for(nodes.size(), 1, [&](std::size_t i, std::size_t) {
-        if (nodes_[nodes[i]].near == 0 && nodes_[nodes[i]].size() > kLargeJob) left[i] = split(nodes[i]);
-      });
-      std::vector<std::int32_t> parts;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (left[i] == kNone) {
-          jobs.push_back({nodes[i], nodes[i]});
-        } else {
-          parts.insert(parts.end(), {left[i], left[i] + 1});
-          jobs.push_back({left[i], left[i] + 1});
-        }
-      }
-      nodes = std::move(parts);
+  /// What is to be tested of these, as many small jobs.
+  std::vector<Job> split_jobs(std::vector<Job> jobs) {
+    std::vector<Job> small;
+    while (!jobs.empty()) {
+      const auto large = std::partition(jobs.begin(), jobs.end(), [&](const Job& job) { return !is_large(job); });
+      small.insert(small.end(), jobs.begin(), large);
+      jobs.erase(jobs.begin(), large);
+      std::vector<std::vector<Job>> parts(jobs.size());
+      parallel_for(jobs.size(), 1, [&](std::size_t i, std::size_t) { parts[i] = parts_of(jobs[i]); });
+      jobs.clear();
+      for (const std::vector<Job>& p : parts) jobs.insert(jobs.end(), p.begin(), p.end());
     }
-    return jobs;
+    return small;
   }
   void test(const Job& job, Pairs& pairs) {
     job.a == job.b ? test_within(job.a, pairs) : test_between(job.a, job.b, pairs);
   }
 
  private:
+  bool is_large(const Job& job) const { return nodes_[job.a].size() + nodes_[job.b].size() > kLargeJob; }
+
+  /// Of a large job: the same comparisons but one step down the trees, without those that need none.
+  std::vector<Job> parts_of(Job job) {
+    if (job.a == job.b) {
+      if (nodes_[job.a].near != 0) return {};
+      const std::int32_t left = split(job.a);
+      return {{left, left}, {left + 1, left + 1}, {left, left + 1}};
+    }
+    if (!nodes_[job.a].box.meets(nodes_[job.b].box)) return {};
+    const auto [left, other] = split_larger(job);
+    return {{left, other}, {left + 1, other}};
+  }
+
+  /// The first child of the node of larger extent, or of the other one where that is a leaf, and the node that stays.
+  std::pair<std::int32_t, std::int32_t> split_larger(Job job) {
+    if (nodes_[job.a].box.extent() < nodes_[job.b].box.extent()) std::swap(job.a, job.b);
+    if (const std::int32_t left = split(job.a); left != kNone) return {left, job.b};
+    return {split(job.b), job.a};
+  }
+
   void test_within(std::int32_t n, Pairs& pairs) {
     if (nodes_[n].near != 0 || nodes_[n].size() < 2) return;
     const std::int32_t left = split(n);
@@ -141,15 +155,9 @@ class Forest {
   }
   void test_between(std::int32_t a, std::int32_t b, Pairs& pairs) {
     if (!nodes_[a].box.meets(nodes_[b].box)) return;
-    if (nodes_[a].box.extent() < nodes_[b].box.extent()) std::swap(a, b);
-    std::int32_t left = split(a);
-    if (left == kNone) {
-      std::swap(a, b);
-      left = split(a);
-    }
-    if (left != kNone) {
-      test_between(left, b, pairs);
-      test_between(left + 1, b, pairs);
+    if (const auto [left, other] = split_larger({a, b}); left != kNone) {
+      test_between(left, other, pairs);
+      test_between(left + 1, other, pairs);
       return;
     }
     for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
@@ -157,7 +165,7 @@ class Forest {
   }
 
   static constexpr std::int32_t kLeafSize = 12;
-  static constexpr std::int32_t kLargeJob = 20'000;
+  static constexpr std::int32_t kLargeJob = 20'000;  // triangles: tested by several threads
   static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
   static constexpr std::size_t kItemsPerPiece = 16'384, kFacesPerPiece = 8, kLocks = 256;
 
@@ -271,15 +279,15 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
   const auto n_faces = static_cast<FaceId>(mesh.face_body.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
   Forest forest(mesh);
-  std::vector<std::int32_t> dirty;
+  std::vector<Forest::Job> jobs;
   for (FaceId f = 0; f < n_faces; ++f)
-    if (is_dirty(f)) dirty.push_back(f);
-  std::vector<Forest::Job> jobs = forest.split_within(std::move(dirty));
+    if (is_dirty(f)) jobs.push_back({f, f});
   for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
     if (!is_dirty(f) && !is_dirty(g)) return;
     if (mesh.face_body[f] == mesh.face_body[g] || (mesh.are_compared && mesh.are_compared(f, g)))
       jobs.push_back({f, g});
   });
+  jobs = forest.split_jobs(std::move(jobs));
   constexpr std::size_t kJobsPerPiece = 4;
   std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
   parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
