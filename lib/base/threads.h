@@ -22,7 +22,8 @@ int processor_count();
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Processor seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads speed up.
+/// Processor seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads
+/// speed up.
 struct LoopSeconds {
   double all = 0;
   double longest = 0;  ///< of the longest piece of each, of which loops in it count likewise: more threads cannot speed

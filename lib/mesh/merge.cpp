@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/threads.h"
+#include "mesh/corner_uv.h"
 
 namespace st {
 
@@ -32,7 +33,7 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
   const auto n_boundary = static_cast<std::size_t>(p.n_boundary);
   if (p.n_boundary < 0 || p.boundary_dim.size() != n_boundary || p.boundary_entity.size() != n_boundary ||
       p.boundary_index.size() != n_boundary || p.inner_uv.size() != p.inner_xyz.size() ||
-      p.inner_size.size() != p.inner_xyz.size() || p.corner_uv.size() != 3 * p.triangles.size() ||
+      p.inner_size.size() != p.inner_xyz.size() ||
       (!p.inner_previous.empty() && p.inner_previous.size() != p.inner_xyz.size()) ||
       (!p.triangle_previous.empty() && p.triangle_previous.size() != p.triangles.size()))
     throw_bad_patch(p.face, "has arrays of inconsistent lengths");
@@ -53,6 +54,7 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
     for (const NodeId n : t.n)
       if (n < 0 || n >= n_nodes)
         throw_bad_patch(p.face, "has a triangle with node " + std::to_string(n) + " of " + std::to_string(n_nodes));
+  if (!has_all_uv(p)) throw_bad_patch(p.face, "lacks the (u,v) of corners on its boundary");
 }
 
 /// Nodes of a patch that its triangles have, ascending.
@@ -111,7 +113,8 @@ std::vector<double> vertex_sizes(const MergeInput& in) {
 /// What the mesh says of the inner nodes and the triangles of one face. `inner`: its inner nodes that are in the mesh.
 void describe_patch(const MergeInput& in, const FacePatch& p, std::span<const std::int32_t> inner, SurfaceMesh& mesh) {
   for (const std::int32_t i : inner) describe_node(mesh, EntityDim::kFace, p.face, 0, p.inner_size[i]);
-  mesh.corner_uv.insert(mesh.corner_uv.end(), p.corner_uv.begin(), p.corner_uv.end());
+  const std::vector<Vec2> uv = corner_uvs(p);
+  mesh.corner_uv.insert(mesh.corner_uv.end(), uv.begin(), uv.end());
   const bool has_group = static_cast<std::size_t>(p.face) < in.face_group.size();
   mesh.triangle_face.insert(mesh.triangle_face.end(), p.triangles.size(), p.face);
   mesh.triangle_group.insert(mesh.triangle_group.end(), p.triangles.size(), has_group ? in.face_group[p.face] : 0);
@@ -203,14 +206,15 @@ FacePatch patch_of(const SurfaceMesh& mesh, const FaceRange& r, const std::vecto
   part(p.inner_previous, mesh.node_previous, r.first, r.last);
   part(p.triangles, mesh.triangles, r.begin, r.end);
   part(p.triangle_previous, mesh.triangle_previous, r.begin, r.end);
-  part(p.corner_uv, mesh.corner_uv, 3 * std::size_t(r.begin), 3 * std::size_t(r.end));
+  const std::span<const Vec2> uv = std::span(mesh.corner_uv).subspan(3 * std::size_t(r.begin), 3 * p.triangles.size());
   p.inner_uv.resize(p.inner_xyz.size());
-  for (std::size_t corner = 0; corner < p.corner_uv.size(); ++corner) {
+  for (std::size_t corner = 0; corner < uv.size(); ++corner) {
     NodeId& n = p.triangles[corner / 3].n[corner % 3];
-    if (n >= r.first) p.inner_uv[n - r.first] = p.corner_uv[corner];
+    if (n >= r.first) p.inner_uv[n - r.first] = uv[corner];
     n = n >= r.first ? p.n_boundary + n - r.first
                      : static_cast<NodeId>(std::lower_bound(boundary.begin(), boundary.end(), n) - boundary.begin());
   }
+  set_corner_uvs(uv, p);
   return p;
 }
 

@@ -166,7 +166,7 @@ class Forest {
 
   static constexpr std::int32_t kLeafSize = 12;
   static constexpr std::int32_t kLargeJob = 20'000;  // triangles: tested by several threads
-  static constexpr std::int32_t kMaxLopsided = 8;  // a part smaller than 1/8 of the whole is no split
+  static constexpr std::int32_t kMaxLopsided = 8;    // a part smaller than 1/8 of the whole is no split
   static constexpr std::size_t kItemsPerPiece = 16'384, kFacesPerPiece = 8, kLocks = 256;
 
   /// Without an id where the triangle has no area.

@@ -30,14 +30,16 @@ struct FacePatch {
   std::vector<Vec2> inner_uv;                 ///< [n_inner]
   std::vector<double> inner_size;             ///< [n_inner] requested length
   std::vector<Triangle> triangles;            ///< patch node ids; already oriented out of the solid
-  std::vector<Vec2> corner_uv;                ///< [3*n_triangles] (u,v) of each corner: a seam node has two
-  std::vector<NodeId> inner_previous;  ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone:
-                                       ///< new
+  std::vector<std::int32_t> uv_corner;  ///< ascending: corners 3*t + k whose (u,v) is not inner_uv of their node, as on
+                                        ///< the boundary, where a node on a seam has two; see corner_uv()
+  std::vector<Vec2> own_uv;             ///< likewise: their (u,v)
+  std::vector<NodeId> inner_previous;   ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone:
+                                        ///< new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
 
   static auto fields(auto& p) {
     return std::tie(p.face, p.n_boundary, p.boundary_dim, p.boundary_entity, p.boundary_index, p.inner_xyz, p.inner_uv,
-                    p.inner_size, p.triangles, p.corner_uv, p.inner_previous, p.triangle_previous);
+                    p.inner_size, p.triangles, p.uv_corner, p.own_uv, p.inner_previous, p.triangle_previous);
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/hdf5/artifact_checks.h"
+#include "mesh/corner_uv.h"
 
 namespace st {
 namespace {
@@ -108,8 +109,9 @@ class MergedRows {
   template <class Take>
   void take_corner_uv(std::size_t i, const Take& take) const {
     const PatchPlace& p = patches_[i];
+    const FacePatch patch = p.file->corners(p.patch);
     in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
-      std::vector<Vec2> uv = read<Vec2>(p, &PatchRows::corner_uv, 3 * (p.file->triangle_begin(p.patch) + begin), 3 * n);
+      std::vector<Vec2> uv = corner_uvs(patch, static_cast<std::size_t>(begin), static_cast<std::size_t>(begin + n));
       for (std::size_t c = 0; order_.is_turned[i] && c < uv.size(); c += 3) std::swap(uv[c + 1], uv[c + 2]);
       take(uv);
     });

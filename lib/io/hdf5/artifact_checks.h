@@ -8,11 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/ids.h"
 #include "base/vec.h"
 #include "io/hdf5/hdf5_file.h"
 
 namespace st {
+
+/// Older versions lack what this build needs: throws Error(kInput) that says which tool is to run again.
+inline void require_version(const Hdf5Reader& file, int version, const std::string& tool) {
+  const ArtifactHeader& header = file.header();
+  if (header.schema_version < version)
+    throw Error(ExitCode::kInput, file.path() + ": " + header.schema + " schema version " +
+                                      std::to_string(header.schema_version) + " of an older " + tool + "; run " + tool +
+                                      " again");
+}
 
 /// Offsets start at 0, never decrease and end at n_items. Throws Error(kInput) naming the dataset.
 template <class Offset>

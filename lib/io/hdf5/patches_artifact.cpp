@@ -3,6 +3,7 @@
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/merged_features.h"
 #include "io/hdf5/patches_file.h"
+#include "mesh/corner_uv.h"
 
 namespace st {
 namespace {
@@ -44,6 +45,7 @@ void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
   w.write("/st/patch/boundary_offsets", offsets_of(patches, &FacePatch::boundary_dim));
   w.write("/st/patch/inner_offsets", offsets_of(patches, &FacePatch::inner_xyz));
   w.write("/st/patch/triangle_offsets", offsets_of(patches, &FacePatch::triangles));
+  w.write("/st/patch/corner_offsets", offsets_of(patches, &FacePatch::uv_corner));
   write_all(w, "/st/boundary/dim", patches, &FacePatch::boundary_dim);
   write_all(w, "/st/boundary/entity", patches, &FacePatch::boundary_entity);
   write_all(w, "/st/boundary/index", patches, &FacePatch::boundary_index);
@@ -51,7 +53,8 @@ void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
   write_all(w, "/st/inner/uv", patches, &FacePatch::inner_uv);
   write_all(w, "/st/inner/size", patches, &FacePatch::inner_size);
   write_all(w, "/st/triangle/nodes", patches, &FacePatch::triangles);
-  write_all(w, "/st/triangle/corner_uv", patches, &FacePatch::corner_uv);
+  write_all(w, "/st/corner/number", patches, &FacePatch::uv_corner);
+  write_all(w, "/st/corner/uv", patches, &FacePatch::own_uv);
 }
 
 /// Offsets of one kind of rows of the patches; `array` is one that they point into.
@@ -62,13 +65,19 @@ std::vector<std::int64_t> read_offsets(const Hdf5Reader& r, const std::string& n
   return offsets;
 }
 
-/// Triangles name nodes of their patch, boundary nodes entities of the model.
-void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesArtifact& a) {
-  const std::int64_t n_nodes = p.n_boundary + static_cast<std::int64_t>(p.inner_xyz.size());
-  const std::string label = "patch of face " + std::to_string(p.face + 1);
+std::string label_of(const FacePatch& p) { return "patch of face " + std::to_string(p.face + 1); }
+
+void require_nodes(const Hdf5Reader& r, const FacePatch& p, std::int64_t n_inner) {
   for (const Triangle& t : p.triangles)
     for (const NodeId n : t.n)
-      if (n < 0 || n >= n_nodes) r.fail("/st/triangle/nodes", label + " has no node " + std::to_string(n));
+      if (n < 0 || n >= p.n_boundary + n_inner)
+        r.fail("/st/triangle/nodes", label_of(p) + " has no node " + std::to_string(n));
+}
+
+/// Triangles name nodes of their patch, boundary nodes entities of the model.
+void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesArtifact& a) {
+  const std::string label = label_of(p);
+  require_nodes(r, p, static_cast<std::int64_t>(p.inner_xyz.size()));
   for (std::int32_t i = 0; i < p.n_boundary; ++i) {
     const std::int64_t entity = p.boundary_entity[i], index = p.boundary_index[i];
     if (p.boundary_dim[i] == 0) {
@@ -82,6 +91,11 @@ void require_consistent(const Hdf5Reader& r, const FacePatch& p, const PatchesAr
                label + ": no node " + std::to_string(index) + " on edge " + std::to_string(entity + 1));
     }
   }
+}
+
+void require_corners(const Hdf5Reader& r, const FacePatch& p) {
+  if (!has_all_uv(p))
+    r.fail("/st/corner/number", label_of(p) + ": these are not the corners on its boundary, in order");
 }
 
 std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtifact& a) {
@@ -98,11 +112,14 @@ std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtif
   distribute(r, "/st/inner/size", inner, patches, &FacePatch::inner_size);
   const auto triangle = read_offsets(r, "/st/patch/triangle_offsets", face.size(), "/st/triangle/nodes");
   distribute(r, "/st/triangle/nodes", triangle, patches, &FacePatch::triangles);
-  distribute(r, "/st/triangle/corner_uv", triangle, patches, &FacePatch::corner_uv, 3);
+  const auto corner = read_offsets(r, "/st/patch/corner_offsets", face.size(), "/st/corner/number");
+  distribute(r, "/st/corner/number", corner, patches, &FacePatch::uv_corner);
+  distribute(r, "/st/corner/uv", corner, patches, &FacePatch::own_uv);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     patches[i].face = face[i];
     patches[i].n_boundary = static_cast<std::int32_t>(patches[i].boundary_dim.size());
     require_consistent(r, patches[i], a);
+    require_corners(r, patches[i]);
   }
   return patches;
 }
@@ -244,6 +261,7 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
 
 PatchesArtifact read_patches(const std::string& path) {
   const Hdf5Reader r(path, "patches", kPatchesVersion);
+  require_version(r, kPatchesVersion, "st-mesh");
   PatchesArtifact a;
   read_rest(r, a);
   a.patches = read_patch_arrays(r, a);
@@ -254,6 +272,7 @@ PatchesArtifact read_patches(const std::string& path) {
 PatchesFile::PatchesFile(const std::string& path)
     : reader_(path, "patches", kPatchesVersion), row_reader_(path, reader_) {
   const Hdf5Reader& r = reader_;
+  require_version(r, kPatchesVersion, "st-mesh");
   read_rest(r, rest_);
   if (r.has("/st/edge_node/previous_id"))
     rest_.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", rest_.edges.node_t.size());
@@ -262,6 +281,7 @@ PatchesFile::PatchesFile(const std::string& path)
   boundary_ = read_offsets(r, "/st/patch/boundary_offsets", face_.size(), "/st/boundary/dim");
   inner_ = read_offsets(r, "/st/patch/inner_offsets", face_.size(), "/st/inner/xyz");
   triangle_ = read_offsets(r, "/st/patch/triangle_offsets", face_.size(), "/st/triangle/nodes");
+  own_uv_ = read_offsets(r, "/st/patch/corner_offsets", face_.size(), "/st/corner/number");
   find_rows();
 }
 
@@ -279,10 +299,11 @@ void PatchesFile::find_rows() {
   rows_.boundary_entity = find("/st/boundary/entity", n_boundary, std::int32_t());
   rows_.boundary_index = find("/st/boundary/index", n_boundary, std::int32_t());
   rows_.inner_xyz = find("/st/inner/xyz", n_inner, Vec3());
-  find("/st/inner/uv", n_inner, Vec2());
+  rows_.inner_uv = find("/st/inner/uv", n_inner, Vec2());
   rows_.inner_size = find("/st/inner/size", n_inner, double());
   rows_.nodes = find("/st/triangle/nodes", n_triangles, Triangle());
-  rows_.corner_uv = find("/st/triangle/corner_uv", 3 * n_triangles, Vec2());
+  rows_.uv_corner = find("/st/corner/number", own_uv_.back(), std::int32_t());
+  rows_.own_uv = find("/st/corner/uv", own_uv_.back(), Vec2());
   if (!rest_.edges.node_previous.empty()) {
     rows_.inner_previous = find("/st/inner/previous_id", n_inner, NodeId());
     rows_.triangle_previous = find("/st/triangle/previous_id", n_triangles, TriangleId());
@@ -307,6 +328,22 @@ FacePatch PatchesFile::shape(std::size_t patch) const {
   p.triangles = row_reader_.read<Triangle>(rows_.nodes, triangle_begin(patch), n_triangles(patch));
   require_finite(reader_, rows_.inner_xyz.name, p.inner_xyz);
   require_consistent(reader_, p, rest_);
+  return p;
+}
+
+FacePatch PatchesFile::corners(std::size_t patch) const {
+  const std::int64_t begin = own_uv_[patch], n = own_uv_[patch + 1] - begin, n_inside = n_inner(patch);
+  FacePatch p;
+  p.face = face_[patch];
+  p.n_boundary = static_cast<std::int32_t>(boundary_[patch + 1] - boundary_[patch]);
+  p.inner_uv = row_reader_.read<Vec2>(rows_.inner_uv, inner_begin(patch), n_inside);
+  p.triangles = row_reader_.read<Triangle>(rows_.nodes, triangle_begin(patch), n_triangles(patch));
+  p.uv_corner = row_reader_.read<std::int32_t>(rows_.uv_corner, begin, n);
+  p.own_uv = row_reader_.read<Vec2>(rows_.own_uv, begin, n);
+  require_finite(reader_, rows_.inner_uv.name, p.inner_uv);
+  require_finite(reader_, rows_.own_uv.name, p.own_uv);
+  require_nodes(reader_, p, n_inside);
+  require_corners(reader_, p);
   return p;
 }
 

@@ -12,7 +12,7 @@ namespace st {
 
 /// Rows of all patches, those of one after those of the other.
 struct PatchRows {
-  RowPlace boundary_dim, boundary_entity, boundary_index, inner_xyz, inner_size, nodes, corner_uv;
+  RowPlace boundary_dim, boundary_entity, boundary_index, inner_xyz, inner_uv, inner_size, nodes, uv_corner, own_uv;
   RowPlace inner_previous, triangle_previous;  ///< where st-remesh made the patches
 };
 
@@ -37,6 +37,8 @@ class PatchesFile {
   FacePatch boundary(std::size_t patch) const;
   /// And inner_xyz and triangles; checked.
   FacePatch shape(std::size_t patch) const;
+  /// Triangles, inner_uv and what else corner_uv() needs; checked.
+  FacePatch corners(std::size_t patch) const;
   const PatchRows& rows() const { return rows_; }
   const RowReader& row_reader() const { return row_reader_; }
   const Hdf5Reader& reader() const { return reader_; }
@@ -48,7 +50,7 @@ class PatchesFile {
   RowReader row_reader_;
   PatchesArtifact rest_;
   std::vector<FaceId> face_;
-  std::vector<std::int64_t> boundary_, inner_, triangle_;  // [n_patches+1]
+  std::vector<std::int64_t> boundary_, inner_, triangle_, own_uv_;  // [n_patches+1]
   PatchRows rows_;
 };
 

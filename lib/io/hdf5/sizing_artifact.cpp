@@ -105,15 +105,6 @@ SizingNumbers read_numbers(const Hdf5Reader& file) {
           is_stretched ? get(kMaxAspect) : 1.0};
 }
 
-/// Older versions lack what this build needs.
-void require_version(const Hdf5Reader& file, int version, const std::string& tool) {
-  const ArtifactHeader& header = file.header();
-  if (header.schema_version < version)
-    throw Error(ExitCode::kInput, file.path() + ": " + header.schema + " schema version " +
-                                      std::to_string(header.schema_version) + " of an older " + tool + "; run " + tool +
-                                      " again");
-}
-
 void write_shape(Hdf5Writer& file, const OctreeShape& shape) {
   file.write<double>(kRoot, std::vector<double>{shape.lo.x, shape.lo.y, shape.lo.z, shape.edge});
   file.write<std::uint64_t>(kLeafKey, shape.leaf_keys);

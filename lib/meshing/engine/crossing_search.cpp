@@ -7,6 +7,7 @@
 #include "base/threads.h"
 #include "geometry/model/bodies.h"
 #include "geometry/shape/wall_gap.h"
+#include "mesh/corner_uv.h"
 #include "mesh/patch_crossing.h"
 
 namespace st {
@@ -201,7 +202,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<cons
       WallTriangle t;
       for (int k = 0; k < 3; ++k) {
         t.x[k] = mesh.points[mesh.triangles[mesh.patch_begin[f] + index].n[k]];
-        t.uv[k] = patches[f].corner_uv[3 * static_cast<std::size_t>(index) + k];
+        t.uv[k] = corner_uv(patches[f], 3 * static_cast<std::size_t>(index) + k);
       }
       return t;
     };

@@ -23,18 +23,25 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
     }
     number[by_id[i].second] = patch.n_boundary - 1;
   }
+  patch.inner_xyz.reserve(mesh.inner.size());
+  patch.inner_uv.reserve(mesh.inner.size());
+  patch.inner_size.reserve(mesh.inner.size());
+  patch.triangles.reserve(mesh.corners.size() / 3);
   for (const FaceNode& n : mesh.inner) {
     patch.inner_xyz.push_back(n.x);
     patch.inner_uv.push_back(n.uv);
     patch.inner_size.push_back(n.h);
   }
   const auto node = [&](std::int32_t c) { return c < n_local ? number[c] : patch.n_boundary + c - n_local; };
-  const auto uv = [&](std::int32_t c) { return c < n_local ? boundary.nodes[c].uv : mesh.inner[c - n_local].uv; };
   for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
     std::int32_t c[3] = {mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]};
     if (t.face_is_reversed[face]) std::swap(c[1], c[2]);
     patch.triangles.push_back({{node(c[0]), node(c[1]), node(c[2])}});
-    for (std::int32_t k : c) patch.corner_uv.push_back(uv(k));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (c[k] >= n_local) continue;
+      patch.uv_corner.push_back(static_cast<std::int32_t>(i + k));
+      patch.own_uv.push_back(boundary.nodes[c[k]].uv);
+    }
   }
   return patch;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/adjacency.h"
+#include "mesh/corner_uv.h"
 #include "meshing/face/face_mesher.h"
 #include "meshing/face/triangle_places.h"
 
@@ -150,25 +151,26 @@ void drop_unused(FacePatch& patch) {
 
 /// The patch without the triangles of a place, with others at its end.
 void exchange(const TrianglePlace& place, const std::vector<Triangle>& added, FacePatch& patch) {
+  const std::vector<Vec2> before = corner_uvs(patch);
   std::map<NodeId, Vec2> uv;
   for (const std::size_t t : place.triangles)
-    for (std::size_t k = 0; k < 3; ++k) uv.emplace(patch.triangles[t].n[k], patch.corner_uv[3 * t + k]);
+    for (std::size_t k = 0; k < 3; ++k) uv.emplace(patch.triangles[t].n[k], before[3 * t + k]);
   std::vector<Triangle> triangles;
-  std::vector<Vec2> corner_uv;
+  std::vector<Vec2> after;
   std::vector<TriangleId> previous;
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     if (std::binary_search(place.triangles.begin(), place.triangles.end(), t)) continue;
     triangles.push_back(patch.triangles[t]);
-    for (std::size_t k = 0; k < 3; ++k) corner_uv.push_back(patch.corner_uv[3 * t + k]);
+    for (std::size_t k = 0; k < 3; ++k) after.push_back(before[3 * t + k]);
     if (!patch.triangle_previous.empty()) previous.push_back(patch.triangle_previous[t]);
   }
   for (const Triangle& t : added) {
     triangles.push_back(t);
-    for (const NodeId n : t.n) corner_uv.push_back(uv.at(n));
+    for (const NodeId n : t.n) after.push_back(uv.at(n));
     if (!patch.triangle_previous.empty()) previous.push_back(kNone);
   }
   patch.triangles = std::move(triangles);
-  patch.corner_uv = std::move(corner_uv);
+  set_corner_uvs(after, patch);
   patch.triangle_previous = std::move(previous);
 }
 

@@ -1,5 +1,7 @@
 #include "io/hdf5/artifact.h"
 #include "io/file/temporary_file.h"
+#include "io/hdf5/patches_file.h"
+#include "mesh/corner_uv.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -145,7 +147,7 @@ TEST_P(Artifact, of_a_newer_version_is_refused) {
   header.schema = GetParam();
   header.schema_version = 99;
   Hdf5Writer(file(), header).commit();
-  EXPECT_ERROR(kind().rewrite(file(), file("b.hdf")), kInput, "schema version 99 is newer than this tool knows (1)");
+  EXPECT_ERROR(kind().rewrite(file(), file("b.hdf")), kInput, "schema version 99 is newer than this tool knows (");
 }
 
 TEST_P(Artifact, replaces_an_older_file_at_once_and_leaves_it_when_writing_fails) {
@@ -303,7 +305,8 @@ TEST(PatchesArtifact, gives_back_every_array) {
     EXPECT_SAME(patches[i].inner_uv);
     EXPECT_SAME(patches[i].inner_size);
     EXPECT_SAME(patches[i].triangles);
-    EXPECT_SAME(patches[i].corner_uv);
+    EXPECT_SAME(patches[i].uv_corner);
+    EXPECT_SAME(patches[i].own_uv);
   }
   ASSERT_EQ(b.failures.size(), 1u);
   EXPECT_EQ(b.failures[0].face, 1);
@@ -324,6 +327,7 @@ TEST(PatchesArtifact, refuses_indices_that_point_nowhere) {
   };
   expect_refused([](auto& p) { p.patches[0].triangles[0].n[1] = 6; }, "/st/triangle/nodes");
   expect_refused([](auto& p) { p.patches[0].triangles[0].n[1] = -1; }, "/st/triangle/nodes");
+  expect_refused([](auto& p) { p.patches[0].uv_corner[0] = 1; }, "/st/corner/number");
   expect_refused([](auto& p) { p.patches[0].boundary_entity[0] = 3; }, "/st/boundary/entity");
   expect_refused([](auto& p) { p.patches[0].boundary_entity[1] = 3; }, "/st/boundary/entity");
   expect_refused([](auto& p) { p.patches[0].boundary_index[1] = 3; }, "/st/boundary/index");
@@ -332,6 +336,39 @@ TEST(PatchesArtifact, refuses_indices_that_point_nowhere) {
   expect_refused([](auto& p) { p.edges.edge_offsets[1] = 7; }, "/st/edge/node_offsets");
   expect_refused([](auto& p) { p.labels.face_group[1] = 1; }, "/st/face/group");
   expect_refused([](auto& p) { p.face_area.pop_back(); }, "/st/face/area");
+}
+
+/// What a streaming reader gives of the first patch.
+TEST(PatchesArtifact, refuses_corners_that_point_nowhere_patch_by_patch_too) {
+  TemporaryDirectory dir;
+  const auto corners = [&](const PatchesArtifact& p) {
+    write_patches(dir / "p.hdf", p);
+    return corner_uvs(PatchesFile(dir / "p.hdf").corners(0));
+  };
+  PatchesArtifact p = sample_patches();
+  EXPECT_EQ(corners(p), corner_uvs(p.patches[0]));
+  const PatchesArtifact whole = p;
+  p.patches[0].uv_corner[1] = 0;
+  EXPECT_ERROR(corners(p), kInput, "/st/corner/number");
+  p = whole;
+  p.patches[0].triangles[0].n[2] = 6;
+  EXPECT_ERROR(corners(p), kInput, "/st/triangle/nodes");
+  p = whole;
+  p.patches[0].own_uv[2].y = std::nan("");
+  EXPECT_ERROR(corners(p), kInput, "/st/corner/uv");
+  p = whole;
+  p.patches[0].inner_uv[0].y = std::nan("");
+  EXPECT_ERROR(corners(p), kInput, "/st/inner/uv");
+}
+
+TEST(PatchesArtifact, of_an_older_tool_is_to_be_made_again) {
+  TemporaryDirectory dir;
+  ArtifactHeader header = sample_header();
+  header.schema = "patches";
+  header.schema_version = 1;
+  Hdf5Writer(dir / "p.hdf", header).commit();
+  EXPECT_ERROR(read_patches(dir / "p.hdf"), kInput, "schema version 1 of an older st-mesh; run st-mesh again");
+  EXPECT_ERROR(PatchesFile(dir / "p.hdf"), kInput, "schema version 1 of an older st-mesh; run st-mesh again");
 }
 
 TEST(MeshArtifact, gives_back_every_array) {

@@ -3,6 +3,7 @@
 
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/failure_artifact.h"
+#include "mesh/corner_uv.h"
 
 namespace st {
 
@@ -106,8 +107,10 @@ inline PatchesArtifact sample_patches() {
   patch.triangles = {{{0, 1, 5}}, {{1, 2, 5}}, {{2, 3, 5}}, {{3, 4, 5}}, {{4, 0, 5}}};
   patch.inner_previous = {kNone};
   patch.triangle_previous = {4, 7, kNone, kNone, kNone};
+  std::vector<Vec2> uv;
   for (const Triangle& t : patch.triangles)
-    for (const NodeId n : t.n) patch.corner_uv.push_back({0.1 * n, 0.2 * n});
+    for (const NodeId n : t.n) uv.push_back({0.1 * n, 0.2 * n});
+  set_corner_uvs(uv, patch);
   FacePatch empty;
   empty.face = 1;
   p.patches = {patch, empty};

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "mesh/corner_uv.h"
 #include "mesh/merge.h"
 
 namespace st::shapes {
+
+/// The patch with other triangles; those in the place of others keep the (u,v) of their corners.
+inline void set_triangles(FacePatch& patch, std::vector<Triangle> triangles) {
+  std::vector<Vec2> uv = corner_uvs(patch);
+  uv.resize(3 * triangles.size());
+  patch.triangles = std::move(triangles);
+  set_corner_uvs(uv, patch);
+}
 
 /// What a mesher hands over: edges, vertices and patches of a unit cube with two segments per edge and a node in each
 /// face.
@@ -58,7 +68,9 @@ struct CubePatches {
     p.inner_xyz = {0.5 * (vertices[ring[0]] + vertices[ring[2]]), {7, 7, 7}};  // the second belongs to no triangle
     p.inner_uv.resize(2);
     p.inner_size = {0.25, 0.25};
-    for (std::size_t c = 0; c < 3 * p.triangles.size(); ++c) p.corner_uv.push_back({double(f), double(c)});
+    std::vector<Vec2> uv;
+    for (std::size_t c = 0; c < 3 * p.triangles.size(); ++c) uv.push_back({double(f), double(c)});
+    set_corner_uvs(uv, p);
     patches.push_back(p);
   }
   MergeInput input() const { return {edges, vertices, edge_vertices, patches, groups}; }
@@ -68,10 +80,12 @@ struct CubePatches {
     return merge(report);
   }
   void turn(FaceId f) {
+    std::vector<Vec2> uv = corner_uvs(patches[f]);
     for (std::size_t t = 0; t < patches[f].triangles.size(); ++t) {
       std::swap(patches[f].triangles[t].n[1], patches[f].triangles[t].n[2]);
-      std::swap(patches[f].corner_uv[3 * t + 1], patches[f].corner_uv[3 * t + 2]);
+      std::swap(uv[3 * t + 1], uv[3 * t + 2]);
     }
+    set_corner_uvs(uv, patches[f]);
   }
 };
 

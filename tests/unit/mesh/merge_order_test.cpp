@@ -47,7 +47,8 @@ void expect_same_as_merged(const CubePatches& cube) {
   EXPECT_EQ(order.facts.volume, measure.volume);
   ASSERT_EQ(order.is_turned.size(), cube.patches.size());
   for (std::size_t i = 0; i < cube.patches.size(); ++i)
-    EXPECT_EQ(order.is_turned[i] != 0, mesh.corner_uv[3 * order.triangle_begin[i] + 1] != cube.patches[i].corner_uv[1]);
+    EXPECT_EQ(order.is_turned[i] != 0,
+              mesh.corner_uv[3 * order.triangle_begin[i] + 1] != corner_uv(cube.patches[i], 1));
 }
 
 TEST(MergeOrder, is_that_of_the_merged_mesh) { expect_same_as_merged({}); }
@@ -64,11 +65,13 @@ TEST(MergeOrder, turns_faces_that_disagree_and_bodies_that_are_inside_out) {
 TEST(MergeOrder, counts_open_misoriented_and_nonmanifold_edges_on_boundaries_and_inside) {
   CubePatches missing, hole, twice, turned, repeated, apart;
   missing.patches.erase(missing.patches.begin() + 2);
-  hole.patches[1].triangles.pop_back();
-  hole.patches[1].corner_uv.resize(21);
+  std::vector<Triangle> seven = hole.patches[1].triangles;
+  seven.pop_back();
+  shapes::set_triangles(hole.patches[1], seven);
   const auto add = [](FacePatch& p, const Triangle& t) {
-    p.triangles.push_back(t);
-    p.corner_uv.resize(3 * p.triangles.size());
+    std::vector<Triangle> triangles = p.triangles;
+    triangles.push_back(t);
+    shapes::set_triangles(p, triangles);
   };
   add(twice.patches[4], {twice.patches[4].triangles[2]});
   std::swap(turned.patches[5].triangles[3].n[0], turned.patches[5].triangles[3].n[1]);

@@ -55,7 +55,7 @@ TEST(Merge, gives_the_mesh_again_for_the_patches_that_it_splits_into) {
   for (const FacePatch& p : c.patches) {
     EXPECT_EQ(p.n_boundary, 8);
     EXPECT_EQ(p.inner_xyz.size(), 1u) << "that no triangle uses is left out";
-    EXPECT_EQ(p.inner_uv[0], p.corner_uv.back());
+    EXPECT_EQ(p.inner_uv[0], corner_uvs(p).back());
     EXPECT_TRUE(p.inner_previous.empty() && p.triangle_previous.empty());
   }
   EXPECT_TRUE(same(c.merge(), m));
@@ -148,7 +148,7 @@ TEST(Merge, refuses_patches_that_name_what_does_not_exist) {
   EXPECT_TRUE(fails([](FacePatch& p) { p.boundary_index[1] = 2; })) << "an end node is the vertex";
   EXPECT_TRUE(fails([](FacePatch& p) { p.boundary_dim[1] = 2; }));
   EXPECT_TRUE(fails([](FacePatch& p) { p.triangles[5].n[2] = 10; }));
-  EXPECT_TRUE(fails([](FacePatch& p) { p.corner_uv.pop_back(); }));
+  EXPECT_TRUE(fails([](FacePatch& p) { p.own_uv.erase(p.own_uv.begin()), p.uv_corner.erase(p.uv_corner.begin()); }));
   CubePatches twice;
   twice.patches.push_back(twice.patches[0]);
   EXPECT_THROW(twice.merge(), Error);

@@ -34,8 +34,6 @@ inline FacePatch grid_patch(int n) {
   for (const Vec3 x : patch.inner_xyz) patch.inner_uv.push_back({x.x, x.y});
   patch.inner_size.assign(patch.inner_xyz.size(), 1);
   patch.triangles = grid_triangles(n);
-  for (const Triangle& t : patch.triangles)
-    for (const NodeId k : t.n) patch.corner_uv.push_back(patch.inner_uv[k]);
   return patch;
 }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "mesh/corner_uv.h"
 #include "unit/meshing/grid_patch.h"
 
 namespace st {
@@ -44,12 +45,12 @@ TEST(Refill, unfolds_what_a_misplaced_node_folds) {
   EXPECT_TRUE(find_flawed(patch.inner_xyz, patch).empty());
   EXPECT_NEAR(area(patch), 64, 1e-9);
   EXPECT_EQ(rim(patch), before) << "what is around stays";
-  EXPECT_EQ(patch.corner_uv.size(), 3 * patch.triangles.size());
+  EXPECT_TRUE(has_all_uv(patch));
   EXPECT_EQ(patch.inner_uv.size(), patch.inner_xyz.size());
   EXPECT_LT(patch.inner_xyz.size(), 81u) << "nodes inside are gone";
   for (std::size_t t = 0; t < patch.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_TRUE(patch.corner_uv[3 * t + k] == patch.inner_uv[patch.triangles[t].n[k]]);
+      EXPECT_TRUE(corner_uv(patch, 3 * t + k) == patch.inner_uv[patch.triangles[t].n[k]]);
 }
 
 TEST(Refill, removes_triangles_without_area) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/corner_uv.h"
 #include "mesh/merge.h"
 #include "unit/meshing/faces.h"
 
@@ -48,10 +49,12 @@ struct ShapeMesh {
       p.inner_size.push_back(n.h);
     }
     const MeshView view{boundary, m};
+    std::vector<Vec2> uv;
     for (std::size_t i = 0; i < m.corners.size(); i += 3) {
       p.triangles.push_back({{m.corners[i], m.corners[i + 1], m.corners[i + 2]}});
-      for (int k = 0; k < 3; ++k) p.corner_uv.push_back(view.uv(m.corners[i + k]));
+      for (int k = 0; k < 3; ++k) uv.push_back(view.uv(m.corners[i + k]));
     }
+    set_corner_uvs(uv, p);
     return p;
   }
 

@@ -29,7 +29,7 @@ TEST(InfoStage, says_where_an_artifact_comes_from) {
   const StageSummary summary = run_info(dir / "p.hdf");
   const Json json = Json::parse(summary.json);
   EXPECT_EQ(json["schema"], "patches");
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["written_by"], "st-test");
   EXPECT_EQ(json["unit"], "mm");
   EXPECT_EQ(json["unit_in_m"], 0.001);
@@ -38,7 +38,7 @@ TEST(InfoStage, says_where_an_artifact_comes_from) {
   EXPECT_EQ(json["geometry_hash"], "0123");
   EXPECT_EQ(json["properties"]["is_complete"], false);
   EXPECT_EQ(json["hash"], hash);
-  for (const std::string& text : {std::string("patches (schema version 1)"), std::string("ra ster.hdf 4567"), hash})
+  for (const std::string& text : {std::string("patches (schema version 2)"), std::string("ra ster.hdf 4567"), hash})
     EXPECT_NE(summary.line.find(text), std::string::npos) << summary.line;
   EXPECT_EQ(summary.json.find('\n'), std::string::npos);
 }

@@ -149,8 +149,9 @@ TEST_F(MergeCheck, refuses_parts_that_do_not_belong_together) {
 
 TEST_F(MergeCheck, says_which_check_failed_how_often_and_where) {
   PatchesArtifact a = artifact({});
-  a.patches[1].triangles.pop_back();
-  a.patches[1].corner_uv.resize(3 * a.patches[1].triangles.size());
+  std::vector<Triangle> triangles = a.patches[1].triangles;
+  triangles.pop_back();
+  shapes::set_triangles(a.patches[1], triangles);
   run_merge(options({write("p.hdf", a)}));
   const StageSummary checked = check();
   EXPECT_EQ(checked.code, ExitCode::kIncomplete);
