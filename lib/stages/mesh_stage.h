@@ -31,7 +31,7 @@ struct MeshStageOptions {
   static constexpr NumberOption kMaxTurning{
       "--max-turning", "DEG", "[0.001, 60]",
       "largest angle in degrees by which a CAD edge turns along one mesh segment"};
-  double tile_triangles = 50'000;
+  double tile_triangles = 25'000;
   static constexpr NumberOption kTile{
       "--tile", "N", "[0, 1e9]",
       "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none"};

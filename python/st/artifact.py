@@ -5,7 +5,7 @@ import h5py
 import numpy
 
 MAX_LEVEL = 20  # of an octree: keys have this many bits along each axis
-NEWEST_VERSION = {"geometry": 1, "raster": 6, "sizing": 5, "patches": 1, "mesh": 1, "failures": 1}
+NEWEST_VERSION = {"geometry": 1, "raster": 6, "sizing": 5, "patches": 2, "mesh": 1, "failures": 1}
 CELL_CHUNK = 65536  # points whose sizes are computed at once
 
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/current_work.h"
 #include "base/error.h"
@@ -30,6 +29,7 @@ namespace {
 constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
+constexpr double kLight = 0.25;     // of a tile: such faces take less time than cutting a heavy one
 constexpr int kFewPairs = 50;       // of crossing triangles: else faces that cross each other stay as they are
 constexpr double kWorthIt = 0.9;    // of the bad triangles before: as many or less are left by a refill that stays
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
@@ -254,22 +254,31 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
   return nodes;
 }
 
-/// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all.
+/// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all. While heavy
+/// faces are cut the others that are light are meshed.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   const WorkLimit tile_limit = time_limit(options_.tile_triangles);
   TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
   if (options_.tile_triangles > 0 && !expected_.empty())
-    tiled.cut(without_left_out(dirty_faces_), expected_, options_.tile_triangles, executor_);
-  std::vector<FaceId> whole;
-  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
-               [&](FaceId f) { return !tiled.is_cut(f); });
+    tiled.choose(without_left_out(dirty_faces_), expected_, options_.tile_triangles);
   wanted_.assign(outcomes_.size(), {});
-  run_tasks(whole, tiled);
+  double all_weights = 0;
+  for (const FaceId f : dirty_faces_) all_weights += weight(f);
+  Progress progress("meshing", all_weights, expected_.empty() ? "" : "triangles");
+  std::vector<FaceId> light, whole;
+  if (!tiled.chosen().empty()) {
+    for (const FaceId f : dirty_faces_)
+      if (expected_[f] < kLight * options_.tile_triangles) light.push_back(f);
+    cut_and_mesh(light, tiled, progress);
+  }
+  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
+               [&](FaceId f) { return !tiled.is_cut(f) && !std::binary_search(light.begin(), light.end(), f); });
+  mesh_faces(whole, tiled, progress);
   executor_.begin_phase("join tiles");
   std::vector<FaceId> failed = join(tiled);
   share(executor_, failed);
   TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
-  if (!failed.empty()) run_tasks(failed, none);
+  if (!failed.empty()) mesh_faces(failed, none, progress);
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
@@ -292,32 +301,51 @@ std::string FaceRounds::made_from() const {
   return hash_hex(bytes.data(), bytes.size());
 }
 
+void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
+  FaceResult result;
+  unpack(bytes, result);
+  take_face(f, std::move(result));
+}
+
+/// Tasks: the cuts, then light faces.
+void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledFaces& tiled, Progress& progress) {
+  const std::vector<FaceId>& cut = tiled.chosen();
+  const auto n_cuts = static_cast<std::int32_t>(cut.size());
+  std::vector<double> work;
+  for (const FaceId f : cut) work.push_back(weight(f));
+  for (const FaceId f : light) work.push_back(weight(f));
+  executor_.run_named_tasks(
+      {heaviest_first(work),
+       [&](std::int32_t task) {
+         return task < n_cuts ? TaskLabel{"cut", cut[task]} : TaskLabel{"face", light[task - n_cuts]};
+       },
+       made_from()},
+      [&](std::int32_t task) { return task < n_cuts ? tiled.cut(task) : packed(mesh_whole(light[task - n_cuts])); },
+      [&](std::int32_t task, Bytes&& bytes) {
+        if (task < n_cuts) return tiled.take_cut(task, bytes);
+        take_whole(light[task - n_cuts], bytes);
+        progress.advance(work[task]);
+      });
+  tiled.share_cuts(executor_);
+}
+
 /// Tasks: `whole`, then the tiles.
-void FaceRounds::run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled) {
+void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledFaces& tiled, Progress& progress) {
   const auto n_whole = static_cast<std::int32_t>(whole.size());
-  std::vector<double> weight;
-  for (const FaceId f : whole) weight.push_back(expected_.empty() ? tables_.face_area[f] : expected_[f]);
-  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) weight.push_back(tiled.weight(t));
-  Progress progress("meshing", std::accumulate(weight.begin(), weight.end(), 0.0),
-                    expected_.empty() ? "" : "triangles");
-  double done = 0;
+  std::vector<double> work;
+  for (const FaceId f : whole) work.push_back(weight(f));
+  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
   const auto label = [&](std::int32_t task) {
     return task < n_whole ? TaskLabel{"face", whole[task]} : tiled.label(task - n_whole);
   };
   executor_.run_named_tasks(
-      {heaviest_first(weight), label, made_from()},
+      {heaviest_first(work), label, made_from()},
       [&](std::int32_t task) {
         return task < n_whole ? packed(mesh_whole(whole[task])) : tiled.compute(task - n_whole);
       },
       [&](std::int32_t task, Bytes&& bytes) {
-        if (task < n_whole) {
-          FaceResult result;
-          unpack(bytes, result);
-          take_face(whole[task], std::move(result));
-        } else {
-          tiled.take(task - n_whole, bytes);
-        }
-        progress.update(done += weight[task]);
+        task < n_whole ? take_whole(whole[task], bytes) : tiled.take(task - n_whole, bytes);
+        progress.advance(work[task]);
       });
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/progress.h"
 #include "geometry/model/model.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/mesh_plan.h"
@@ -77,7 +78,10 @@ class FaceRounds : public MeshRounds {
   WorkLimit time_limit(double n_triangles) const;
   std::vector<FaceId> without_left_out(std::vector<FaceId> faces) const;
   std::string made_from() const;
-  void run_tasks(const std::vector<FaceId>& whole, TiledFaces& tiled);
+  void mesh_faces(const std::vector<FaceId>& whole, TiledFaces& tiled, Progress& progress);
+  void cut_and_mesh(const std::vector<FaceId>& light, TiledFaces& tiled, Progress& progress);
+  void take_whole(FaceId f, const Bytes& bytes);
+  double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
   std::vector<FaceId> join(TiledFaces& tiled);
   void take_face(FaceId f, FaceResult&& result);
   bool has_holes() const;

@@ -18,7 +18,7 @@ struct MeshOptions {
   int enhance_rounds = 5;          ///< of the enhancer in each face or hole
   double max_turning_deg = 30;     ///< of a CAD edge along one segment
   double merge_below = 0.05;       ///< of the requested length, see find_merged_features(); 0: nothing is merged
-  double tile_triangles = 50'000;  ///< faces that expect one and a half times as many are cut; 0: none is
+  double tile_triangles = 25'000;  ///< faces that expect one and a half times as many are cut; 0: none is
   std::map<FaceId, std::string> left_out = {};  ///< they fail, with this cause: meshing them ended an earlier run
   std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails

@@ -1,6 +1,7 @@
 #include "meshing/engine/tiled_faces.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/share.h"
@@ -24,43 +25,34 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
   return places;
 }
 
-TileCut TiledFaces::cut_one(FaceId f, double tile_triangles) const {
+TileCut TiledFaces::cut_face_of(FaceId f) const {
   const CurrentWork at_face("face", f + 1, limit_);
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary boundary = make_face_boundary(model_, *surface, f, numbering_);
-    return cut_face(*surface, boundary, boundary_places(boundary, numbering_), field_of(f).get(), tile_triangles);
+    return cut_face(*surface, boundary, boundary_places(boundary, numbering_), field_of(f).get(), tile_triangles_);
   } catch (const Error&) {  // the face as a whole will say what is wrong
     return {};
   }
 }
 
-void TiledFaces::cut(const std::vector<FaceId>& faces, const std::vector<double>& expected, double tile_triangles,
-                     const Executor& executor) {
-  std::vector<FaceId> heavy;
-  std::vector<double> work;
-  for (const FaceId f : faces) {
-    if (expected[f] <= kWorthCutting * tile_triangles) continue;
-    heavy.push_back(f);
-    work.push_back(expected[f]);
-  }
-  if (heavy.empty()) return;
-  std::vector<TileCut> cuts(heavy.size());
-  executor.run_named_tasks(
-      {heaviest_first(work),
-       [&](std::int32_t task) {
-         return TaskLabel{"cut", heavy[task]};
-       },
-       ""},
-      [&](std::int32_t task) { return packed(cut_one(heavy[task], tile_triangles)); },
-      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, cuts[task]); });
-  share(executor, cuts);
-  for (std::size_t i = 0; i < heavy.size(); ++i) {
-    if (cuts[i].tiles.empty()) continue;
-    const auto n = static_cast<std::int32_t>(cuts[i].tiles.size());
-    for (std::int32_t t = 0; t < n; ++t) tiles_.push_back({heavy[i], t});
-    meshes_[heavy[i]].resize(cuts[i].tiles.size());
-    cuts_.emplace(heavy[i], std::move(cuts[i]));
+void TiledFaces::choose(const std::vector<FaceId>& faces, const std::vector<double>& expected, double tile_triangles) {
+  tile_triangles_ = tile_triangles;
+  std::copy_if(faces.begin(), faces.end(), std::back_inserter(chosen_),
+               [&](FaceId f) { return expected[f] > kWorthCutting * tile_triangles; });
+  chosen_cuts_.resize(chosen_.size());
+}
+
+Bytes TiledFaces::cut(std::int32_t i) const { return packed(cut_face_of(chosen_[i])); }
+
+void TiledFaces::share_cuts(const Executor& executor) {
+  share(executor, chosen_cuts_);
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    if (chosen_cuts_[i].tiles.empty()) continue;
+    const auto n = static_cast<std::int32_t>(chosen_cuts_[i].tiles.size());
+    for (std::int32_t t = 0; t < n; ++t) tiles_.push_back({chosen_[i], t});
+    meshes_[chosen_[i]].resize(chosen_cuts_[i].tiles.size());
+    cuts_.emplace(chosen_[i], std::move(chosen_cuts_[i]));
   }
 }
 

@@ -32,7 +32,8 @@ class FaceField {
 /// Where the boundary's nodes lie on their edges.
 std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering);
 
-/// The faces of one round that are cut. All tasks are pure functions of the boundary and the sizes.
+/// The faces of one round that are cut: choose(), the cuts, share_cuts(), the tiles, then the joins. All tasks are pure
+/// functions of the boundary and the sizes.
 class TiledFaces {
  public:
   /// All references outlive the object. `limit`: of a tile.
@@ -45,10 +46,14 @@ class TiledFaces {
         options_(options),
         limit_(limit) {}
 
-  /// Collective. Cuts those of `faces` that expect more than one and a half tiles; `expected`: triangles by face,
-  /// [n_faces]. Where a face cannot be cut it stays whole.
-  void cut(const std::vector<FaceId>& faces, const std::vector<double>& expected, double tile_triangles,
-           const Executor& executor);
+  /// Those of `faces` that expect more than one and a half tiles, to be cut; `expected`: triangles by face, [n_faces].
+  void choose(const std::vector<FaceId>& faces, const std::vector<double>& expected, double tile_triangles);
+  /// They, as tasks: local, the cut of one, packed; and on rank 0, what it packed.
+  const std::vector<FaceId>& chosen() const { return chosen_; }
+  Bytes cut(std::int32_t i) const;
+  void take_cut(std::int32_t i, const Bytes& bytes) { unpack(bytes, chosen_cuts_[i]); }
+  /// Collective, when all were taken: every rank has the tiles. Where a face could not be cut it stays whole.
+  void share_cuts(const Executor& executor);
 
   bool is_cut(FaceId f) const { return cuts_.contains(f); }
   std::int32_t n_tiles() const { return static_cast<std::int32_t>(tiles_.size()); }
@@ -69,7 +74,7 @@ class TiledFaces {
     FaceId face;
     std::int32_t index;
   };
-  TileCut cut_one(FaceId f, double tile_triangles) const;
+  TileCut cut_face_of(FaceId f) const;
   FaceField field_of(FaceId f) const { return FaceField(field_, refinements_, model_.tables().face_box[f]); }
 
   const Model& model_;
@@ -78,6 +83,9 @@ class TiledFaces {
   const Refinements& refinements_;
   const FaceMeshOptions options_;
   const WorkLimit limit_;
+  double tile_triangles_ = 0;
+  std::vector<FaceId> chosen_;
+  std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
   std::map<FaceId, TileCut> cuts_;
   std::vector<TileOf> tiles_;
   std::map<FaceId, std::vector<FaceMesh>> meshes_;  // on rank 0

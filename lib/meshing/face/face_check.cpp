@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.h"
+
 namespace st {
 namespace {
 
@@ -19,24 +21,20 @@ class EdgeCheck {
       : boundary_(boundary), r_(mesh), n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {}
 
   void run() {
+    constexpr std::size_t kPerPiece = 65'536;
+    const std::size_t n = r_.corners.size() / 3;
+    std::vector<Scan> scans((n + kPerPiece - 1) / kPerPiece);
+    parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) { scan(begin, end, scans[begin / kPerPiece]); });
     std::vector<NodePair> uses, loop_uses;  // of edges with a boundary node
-    for (std::size_t i = 0; i < r_.corners.size(); i += 3) {
-      const std::int32_t* c = &r_.corners[i];
-      if (c[0] == kNone || c[1] == kNone || c[2] == kNone) {
-        r_.cause = FailureCause::kOutsideLoops;
-        return;
+    for (const Scan& s : scans) {
+      for (const RefinementPoint& p : s.narrow) {
+        r_.cause = FailureCause::kNarrowPart;
+        refine(r_, p.x, p.length);
       }
-      const std::int64_t key[3] = {node_key(c[0]), node_key(c[1]), node_key(c[2])};
-      for (int k = 0; k < 3; ++k) {
-        const int l = (k + 1) % 3;
-        if (key[k] == key[l]) {
-          r_.cause = FailureCause::kNarrowPart;
-          refine(r_, position(c[k]),
-                 0.5 * distance(position(c[0]), position(c[1])) + 0.25 * distance(position(c[1]), position(c[2])));
-          break;
-        }
-        if (c[k] < n_boundary_ || c[l] < n_boundary_) uses.push_back(std::minmax({key[k], key[l]}));
-      }
+      uses.insert(uses.end(), s.uses.begin(), s.uses.end());
+      if (!s.is_outside) continue;
+      r_.cause = FailureCause::kOutsideLoops;
+      return;
     }
     for (const auto& [a, b] : boundary_.segments)
       if (boundary_.nodes[a].id != boundary_.nodes[b].id) loop_uses.push_back(std::minmax({node_key(a), node_key(b)}));
@@ -46,6 +44,34 @@ class EdgeCheck {
   }
 
  private:
+  struct Scan {  // of some triangles
+    std::vector<NodePair> uses;
+    std::vector<RefinementPoint> narrow;  // triangles with two corners at one node
+    bool is_outside = false;              // one has a corner outside the loops
+  };
+
+  /// Up to the first triangle outside.
+  void scan(std::size_t begin, std::size_t end, Scan& found) const {
+    for (std::size_t t = begin; t < end && !found.is_outside; ++t) {
+      const std::int32_t* c = &r_.corners[3 * t];
+      found.is_outside = c[0] == kNone || c[1] == kNone || c[2] == kNone;
+      if (!found.is_outside) scan_triangle(c, found);
+    }
+  }
+
+  void scan_triangle(const std::int32_t* c, Scan& found) const {
+    const std::int64_t key[3] = {node_key(c[0]), node_key(c[1]), node_key(c[2])};
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3;
+      if (key[k] == key[l]) {
+        const Vec3 a = position(c[0]), b = position(c[1]), d = position(c[2]);
+        found.narrow.push_back({position(c[k]), 0.5 * distance(a, b) + 0.25 * distance(b, d)});
+        return;
+      }
+      if (c[k] < n_boundary_ || c[l] < n_boundary_) found.uses.push_back(std::minmax({key[k], key[l]}));
+    }
+  }
+
   std::int64_t node_key(std::int32_t corner) const {
     return corner < n_boundary_ ? boundary_.nodes[corner].id : (std::int64_t{1} << 31) + corner;
   }

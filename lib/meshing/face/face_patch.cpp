@@ -1,8 +1,53 @@
 #include "meshing/face/face_patch.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/threads.h"
 
 namespace st {
+namespace {
+
+constexpr std::size_t kPerPiece = 65'536;
+
+void fill_inside(const FaceMesh& mesh, FacePatch& patch) {
+  const std::size_t n = mesh.inner.size();
+  patch.inner_xyz.resize(n);
+  patch.inner_uv.resize(n);
+  patch.inner_size.resize(n);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      patch.inner_xyz[i] = mesh.inner[i].x;
+      patch.inner_uv[i] = mesh.inner[i].uv;
+      patch.inner_size[i] = mesh.inner[i].h;
+    }
+  });
+}
+
+/// `number`: the patch's boundary node of each of the face's, [n_boundary_nodes].
+void fill_triangles(const FaceBoundary& boundary, const FaceMesh& mesh, const std::vector<std::int32_t>& number,
+                    bool is_reversed, FacePatch& patch) {
+  const auto n_local = static_cast<std::int32_t>(number.size());
+  const std::size_t n = mesh.corners.size() / 3;
+  std::vector<std::vector<std::pair<std::int32_t, Vec2>>> own(n / kPerPiece + 1);  // (corner, (u,v)) by piece
+  patch.triangles.resize(n);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t c = mesh.corners[3 * t + (is_reversed ? (3 - k) % 3 : k)];
+        patch.triangles[t].n[k] = c < n_local ? number[c] : patch.n_boundary + c - n_local;
+        if (c < n_local) own[begin / kPerPiece].push_back({static_cast<std::int32_t>(3 * t + k), boundary.nodes[c].uv});
+      }
+  });
+  for (const auto& some : own)
+    for (const auto& [corner, uv] : some) {
+      patch.uv_corner.push_back(corner);
+      patch.own_uv.push_back(uv);
+    }
+}
+
+}  // namespace
 
 FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
                      const BoundaryNumbering& numbering) {
@@ -23,26 +68,9 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
     }
     number[by_id[i].second] = patch.n_boundary - 1;
   }
-  patch.inner_xyz.reserve(mesh.inner.size());
-  patch.inner_uv.reserve(mesh.inner.size());
-  patch.inner_size.reserve(mesh.inner.size());
-  patch.triangles.reserve(mesh.corners.size() / 3);
-  for (const FaceNode& n : mesh.inner) {
-    patch.inner_xyz.push_back(n.x);
-    patch.inner_uv.push_back(n.uv);
-    patch.inner_size.push_back(n.h);
-  }
-  const auto node = [&](std::int32_t c) { return c < n_local ? number[c] : patch.n_boundary + c - n_local; };
-  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
-    std::int32_t c[3] = {mesh.corners[i], mesh.corners[i + 1], mesh.corners[i + 2]};
-    if (t.face_is_reversed[face]) std::swap(c[1], c[2]);
-    patch.triangles.push_back({{node(c[0]), node(c[1]), node(c[2])}});
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (c[k] >= n_local) continue;
-      patch.uv_corner.push_back(static_cast<std::int32_t>(i + k));
-      patch.own_uv.push_back(boundary.nodes[c[k]].uv);
-    }
-  }
+  fill_inside(mesh, patch);
+  const bool is_reversed = t.face_is_reversed[face] != 0;
+  fill_triangles(boundary, mesh, number, is_reversed, patch);
   return patch;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/threads.h"
 #include "meshing/face/face_check.h"
 #include "meshing/face/scaled_field.h"
 #include "meshing/face/tile_seams.h"
@@ -362,23 +363,31 @@ FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const 
                     const FaceMeshOptions& options, std::vector<FaceMesh> meshes) {
   const auto n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
   FaceMesh joined;
-  joined.inner = cut.nodes;
-  for (FaceNode& n : joined.inner) n.id = kNone;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    FaceMesh& mesh = meshes[i];
+  std::vector<std::size_t> first_inner{cut.nodes.size()}, first_corner{0};
+  for (const FaceMesh& mesh : meshes) {
     if (joined.cause == FailureCause::kNone) joined.cause = mesh.cause;
     joined.n_folds += mesh.n_folds;
     for (const RefinementPoint& p : mesh.refinement)
       if (joined.refinement.size() < kMostRefined) joined.refinement.push_back(p);
-    const std::vector<std::int32_t> nodes = nodes_of(cut.tiles[i]);
-    const auto n_own = static_cast<std::int32_t>(nodes.size());
-    const auto first_inner = n_boundary + static_cast<std::int32_t>(joined.inner.size());
-    for (const std::int32_t c : mesh.corners)
-      joined.corners.push_back(c == kNone ? kNone : c < n_own ? nodes[c] : first_inner + c - n_own);
-    joined.inner.insert(joined.inner.end(), mesh.inner.begin(), mesh.inner.end());
-    mesh = {};
+    first_inner.push_back(first_inner.back() + mesh.inner.size());
+    first_corner.push_back(first_corner.back() + mesh.corners.size());
   }
   if (joined.cause != FailureCause::kNone) return joined;
+  joined.inner = cut.nodes;
+  for (FaceNode& n : joined.inner) n.id = kNone;
+  joined.inner.resize(first_inner.back());
+  joined.corners.resize(first_corner.back());
+  parallel_for(meshes.size(), 1, [&](std::size_t i, std::size_t) {
+    const std::vector<std::int32_t> nodes = nodes_of(cut.tiles[i]);
+    const auto n_own = static_cast<std::int32_t>(nodes.size());
+    const auto first = n_boundary + static_cast<std::int32_t>(first_inner[i]);
+    std::transform(meshes[i].corners.begin(), meshes[i].corners.end(), joined.corners.begin() + first_corner[i],
+                   [&](std::int32_t c) { return c == kNone  ? kNone
+                                                : c < n_own ? nodes[c]
+                                                            : first + c - n_own; });
+    std::copy(meshes[i].inner.begin(), meshes[i].inner.end(), joined.inner.begin() + first_inner[i]);
+    meshes[i] = {};
+  });
   improve_seams(surface, boundary, field, options, pieces_of_cuts(cut, n_boundary), joined);
   check_edges(boundary, joined);
   return joined;
