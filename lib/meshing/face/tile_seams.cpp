@@ -250,7 +250,7 @@ class SeamBand {
   }
 
   template <class IsInner>
-  void improve(std::map<std::int32_t, std::vector<std::int32_t>> parts, const IsInner& is_inner) {
+  void improve(std::map<std::int32_t, std::vector<std::int32_t>>&& parts, const IsInner& is_inner) {
     std::vector<std::vector<std::int32_t>> triangles;
     for (auto& [own, some] : parts) triangles.push_back(std::move(some));
     std::vector<FaceMesh> counts(triangles.size());
