@@ -114,16 +114,33 @@ TEST(PatchCrossing, finds_every_folded_triangle_in_a_large_smooth_face) {
   EXPECT_GT(n_folded, 0);
 }
 
-TEST(PatchCrossing, finds_a_face_that_turns_back_through_itself) {
-  SurfaceMesh m = sheet(40, flat);
-  for (Vec3& p : m.node_xyz) {  // a ribbon along the loop of a trochoid
+/// One face along the loop of a trochoid: it crosses itself.
+SurfaceMesh ribbon(int n) {
+  SurfaceMesh m = sheet(n, flat);
+  for (Vec3& p : m.node_xyz) {
     const double angle = 5.2 * (p.x - 0.5);
     p = {angle - 2 * std::sin(angle), p.y, 1 - 2 * std::cos(angle)};
   }
-  const Patches p(m);
+  return m;
+}
+
+TEST(PatchCrossing, finds_a_face_that_turns_back_through_itself) {
+  const Patches p(ribbon(40));
   const auto expected = p.find_all();
   ASSERT_FALSE(expected.empty());
   EXPECT_TRUE(same(p.find(), expected));
+}
+
+TEST(PatchCrossing, finds_the_same_in_faces_that_are_tested_in_parts) {
+  const SurfaceMesh flat_one = sheet(110, flat);  // 24,200 triangles
+  const auto dip = [](double x, double y) { return 0.05 - 0.1 * x * y; };
+  for (const SurfaceMesh& m : {ribbon(110), shapes::join(flat_one, sheet(20, dip)),
+                               shapes::join(sheet(20, dip), flat_one), shapes::join(flat_one, sheet(107, dip))}) {
+    const Patches p(m);
+    const auto expected = p.find_all();
+    ASSERT_FALSE(expected.empty());
+    EXPECT_TRUE(same(p.find(), expected));
+  }
 }
 
 TEST(PatchCrossing, finds_sheets_of_the_same_direction_that_dip_into_each_other) {
