@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
 #include "io/foreign/node_array.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
@@ -27,6 +29,7 @@
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
 #include "stages/patches_result.h"
+#include "stages/resumption.h"
 #include "stages/same_inputs.h"
 #include "stages/stored_model.h"
 
@@ -279,6 +282,8 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
                                     {"triangles", artifact.mesh.n_triangles()},
                                     {"nodes", artifact.mesh.n_nodes()},
                                     {"ranks", facts.n_ranks},
+                                    {"parts", facts.n_parts},
+                                    {"parts_resumed", facts.n_resumed},
                                     {"seconds", seconds},
                                     {"seconds_load", facts.load_seconds},
                                     {"seconds_write", write_seconds}});
@@ -340,6 +345,21 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
   return mark;
 }
 
+/// Digest of what the results depend on. The contents of files without a hash of their own count by the file's.
+std::string run_of(const RemeshStageOptions& o, const RemeshInput& in) {
+  const std::string nodes_file = o.sizes_on_nodes.substr(0, o.sizes_on_nodes.rfind(':'));
+  Hasher hasher;
+  for (const std::string& text :
+       {in.old.header.content_hash, in.geometry.content_hash, in.sizing.header.content_hash, o.keep, o.tolerance,
+        o.sizes_on_nodes, fmt::format("{} {} {} {}", o.too_long, o.too_short, o.moved, o.merged.empty())}) {
+    hasher.add(std::string_view(text));
+    hasher.add(std::string_view("\n"));
+  }
+  for (const std::string& path : {o.made_for, nodes_file})
+    if (!path.empty()) hasher.add(std::string_view(read_text_file(path)));
+  return hasher.hex();
+}
+
 /// How well the nodes of a foreign mesh lie on the CAD.
 std::optional<StageSummary> tell_association(const RemeshStageOptions& o, const RemeshInput& in,
                                              const Communicator& comm) {
@@ -372,10 +392,16 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
   if (o.dry_run) return with_association(dry_run_summary(holes), association);
   const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
-  MeshResult result = mesh_regions(holes, field, output, {}, comm);
+  Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in), {o.journal_after, o.begins_new});
+  MeshOptions options;
+  options.left_out = resumption.left_out();
+  MeshResult result = mesh_regions(holes, field, output, options, resumption);
+  resumption.end();
   if (!comm.is_root()) return {};
-  return with_association(write_result(o, in, holes, std::move(result), {timer, load_seconds, comm.size()}),
-                          association);
+  StageSummary summary = write_result(o, in, holes, std::move(result),
+                                      {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
+  resumption.remove();
+  return with_association(std::move(summary), association);
 }
 
 }  // namespace st

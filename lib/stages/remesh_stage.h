@@ -29,6 +29,11 @@ struct RemeshStageOptions {
   std::string tolerance;  ///< length: how far nodes of a foreign mesh may lie from the CAD; empty: by its edges
   std::string made_for;   ///< sizing artifact that a foreign mesh was made for; empty: unknown
   bool dry_run = false;   ///< say how much would change, write nothing
+  double journal_after = 2;
+  static constexpr NumberOption kJournalAfter{
+      "--journal-after", "SECONDS", "[0, 1e9]",
+      "keep finished places in OUTPUT.journal from then on: the same command goes on there after a sudden end"};
+  bool begins_new = false;  ///< without what an earlier run has kept
 };
 
 /// Collective. Throws Error.

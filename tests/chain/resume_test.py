@@ -1,4 +1,4 @@
-"""st-mesh goes on after a sudden end: the same bytes, and nothing that was finished is made again.
+"""st-mesh and st-remesh go on after a sudden end: the same bytes, and nothing that was finished is made again.
 
 ST_MOMENTS: at how many random moments each job is killed (default 2).
 """
@@ -230,6 +230,38 @@ class Resume(ToolTest):
         """Until work has begun, or the run is over."""
         while run.poll() is None and not (path.exists() and path.stat().st_size > HEAD.size):
             time.sleep(0.001)
+
+
+class RemeshResume(ToolTest):
+    def test_a_killed_remeshing_goes_on_to_the_same_bytes(self):
+        folder, out = self.folder, self.folder / "out"
+        out.mkdir()
+        must("st-import", MODELS / "assembly.step", "-o", folder / "g.hdf")
+        must("st-raster", folder / "g.hdf", "-o", folder / "r.hdf", "--lmax", "0.4%", "--lmin", "0.3%")
+        must("st-prolong", folder / "r.hdf", "-o", folder / "s.hdf")
+        must("st-prolong", folder / "r.hdf", "-o", folder / "fine.hdf", "--scale", "0.3")
+        must("st-mesh", folder / "g.hdf", folder / "s.hdf", "-o", folder / "p.hdf")
+        must("st-merge", folder / "p.hdf", "-o", folder / "m.hdf")
+        words = [str(w) for w in ("st-remesh", folder / "m.hdf", folder / "g.hdf", folder / "fine.hdf", "--merged",
+                                  out / "m.hdf", "--threads", "1", "--journal-after", "0", "--json")]
+        n_parts = Run(*words).json()["parts"]
+        whole = (out / "m.hdf").read_bytes()
+        journal = out / "m.hdf.journal"
+        (out / "m.hdf").unlink()
+        for n_wanted in (1, n_parts // 2):
+            run = subprocess.Popen([BIN / words[0], *words[1:]], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+            while run.poll() is None and len(finished(journal)) < n_wanted:
+                time.sleep(0.001)
+            run.kill()
+            run.wait(timeout=60)
+            n_done = len(finished(journal))
+            self.assertGreaterEqual(n_done, n_wanted)
+            again = must(*words).json()
+            self.assertEqual((again["parts"], again["parts_resumed"]), (n_parts, n_done))
+            self.assertEqual((out / "m.hdf").read_bytes(), whole)
+            self.expect_nothing_left(out, "m.hdf")
+            (out / "m.hdf").unlink()
 
 
 if __name__ == "__main__":

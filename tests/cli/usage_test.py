@@ -52,7 +52,8 @@ REFUSED = {
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],
                 "--tile": ["-1", "999", "1e10"], "--np": ["0"], "--threads": ["0", "x"],
                 "--time-limit": ["0", "x"], "--journal-after": ["-1", "x"]},
-    "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"], "--threads": ["0"]},
+    "st-remesh": {"--too-long": ["1", "x"], "--too-short": ["0", "1"], "--np": ["0"], "--threads": ["0"],
+                  "--journal-after": ["-1", "x"]},
     "st-merge": {"--threads": ["0", "x"]},
     "st-check": {
         "--threads": ["0", "x"],

@@ -1,4 +1,5 @@
 // st-remesh: redo only what no longer respects the sizes.
+#include "common/crash_handler.h"
 #include "common/tool_main.h"
 #include "stages/remesh_stage.h"
 
@@ -23,6 +24,12 @@ int main(int argc, char** argv) {
                       "sizing artifact that the mesh of another program was made for; default: sizes are measured");
   tool.flag("--moved", o.moved, "move the mesh onto a changed geometry of the same topology");
   tool.flag("--dry-run", o.dry_run, "print how much would change and write nothing");
+  tool.number(o.kJournalAfter, o.journal_after);
+  tool.flag("--no-resume", o.begins_new, "begin anew, without what an earlier run has kept in OUTPUT.journal");
+  tool.restart_after_crash();
   tool.examples({"st-remesh mesh.hdf geometry.hdf new_sizing.hdf --merged remeshed.hdf --np 8"});
-  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_remesh(o, comm); });
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
+    o.begins_new = o.begins_new && st::n_tries() == 0;  // a new try of this run goes on
+    return st::run_remesh(o, comm);
+  });
 }

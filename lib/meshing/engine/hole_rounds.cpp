@@ -5,6 +5,7 @@
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
@@ -92,9 +93,11 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
   return rims;
 }
 
+/// Without triangles where it cannot be filled, or where earlier runs ended at its face.
 HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
   const CurrentWork at_face("face", rim.face + 1);
   HoleFill fill;
+  if (options_.left_out.contains(rim.face)) return fill;
   try {
     const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
     const auto surface = model_.surface(rim.face);
@@ -111,6 +114,21 @@ HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
   return fill;
 }
 
+/// Collective. A fill is a function of the inputs, of the new nodes on curves, of what was refined, and of the
+/// triangles in all holes, which rank 0 knows.
+std::string HoleRounds::made_from(const std::vector<HoleRim>& rims) const {
+  std::string digest;
+  if (executor_.is_root()) {
+    Hasher hasher;
+    const Bytes bytes = packed(result_.edges, refinements_.all());
+    hasher.add(bytes.data(), bytes.size());
+    for (const HoleRim& rim : rims) hasher.add(std::span<const TriangleId>(rim.triangles));
+    digest = hasher.hex();
+  }
+  share(executor_, digest);
+  return digest;
+}
+
 /// Collective. Fills the holes; returns those where it failed, ascending.
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   std::vector<double> weight;
@@ -120,8 +138,12 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   std::vector<std::int32_t> failed;
   Progress progress("filling holes", std::accumulate(weight.begin(), weight.end(), 0.0));
   double done = 0;
-  executor_.run_tasks(
-      static_cast<std::int32_t>(rims.size()), heaviest_first(weight),
+  executor_.run_named_tasks(
+      {heaviest_first(weight),
+       [&](std::int32_t task) {
+         return TaskLabel{"hole", rims[task].face, task};
+       },
+       made_from(rims)},
       [&](std::int32_t task) { return packed(fill_hole(rims[task])); },
       [&](std::int32_t task, Bytes&& result) {
         unpack(result, fills[task]);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "meshing/engine/hole_marker.h"
@@ -40,6 +41,7 @@ class HoleRounds : public MeshRounds {
   void request_curve_lengths();
   std::vector<HoleRim> find_rims(const std::vector<FaceId>& faces) const;
   std::vector<std::int32_t> fill(const std::vector<HoleRim>& rims);
+  std::string made_from(const std::vector<HoleRim>& rims) const;
   HoleFill fill_hole(const HoleRim& rim) const;
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
