@@ -90,7 +90,7 @@ void place_patch(const EdgeMesh& edges, std::size_t n_vertices, const FacePatch&
     welded.points[n] = p.inner_xyz[used.inner[k]];
     welded.inner[begin + k] = used.inner[k];
   }
-  Triangle* const triangles = &welded.triangles[welded.patch_begin[i]];
+  Triangle* const triangles = welded.triangles.data() + welded.patch_begin[i];
   parallel_for(p.triangles.size(), kPerPiece, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t)
       for (int k = 0; k < 3; ++k) triangles[t].n[k] = number[p.triangles[t].n[k]];

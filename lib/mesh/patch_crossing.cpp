@@ -188,7 +188,7 @@ class Forest {
 
   /// Over the triangles of a face that have an area.
   TreeNode root_of(FaceId f) {
-    Item *first = &items_[mesh_.face_begin[f]], *last = &items_[mesh_.face_begin[f + 1]];
+    Item *first = items_.get() + mesh_.face_begin[f], *last = items_.get() + mesh_.face_begin[f + 1];
     last = std::remove_if(first, last, [](const Item& i) { return i.id == kNone; });
     return node_over(mesh_.face_begin[f], static_cast<std::int32_t>(last - items_.get()));
   }
