@@ -152,6 +152,22 @@ void say_bodies(const ImportStageOptions& o, const ImportResult& r) {
                           o.unite ? "repair them in the CAD system" : "--unite makes them one body"));
 }
 
+/// Faces that cross each other or themselves: no size makes their mesh valid there.
+void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> names;
+  for (const ImportFinding& f : r.findings) {
+    if (f.kind == FindingKind::kCrossingFaces) names.push_back(f.detail);
+    if (f.kind == FindingKind::kSelfCrossingFace) names.push_back(f.entity + " itself");
+  }
+  if (names.empty()) return;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(names.size(), kNamed); ++k) text += (k > 0 ? ", " : "") + names[k];
+  log_warning(fmt::format(
+      "{}: the CAD crosses itself in {} {}: {}{}; triangles will cross there, so repair it in the CAD system", o.model,
+      names.size(), names.size() == 1 ? "place" : "places", text, names.size() > kNamed ? " ..." : ""));
+}
+
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
@@ -166,6 +182,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
     log_warning(
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
   say_bodies(o, r);
+  say_crossing_faces(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {

@@ -325,6 +325,19 @@ void add_domains(Factories& all) {
         };
 }
 
+/// The loop (t^2 - 1, t^3 - t), which meets itself at t = -1 and 1, between two t; 10 high.
+TopoDS_Shape looped_sheet(double a, double b) {
+  TColgp_Array2OfPnt poles(1, 4, 1, 2);
+  const double t[4][3] = {{a, a, a}, {a, a, b}, {a, b, b}, {b, b, b}};
+  for (int i = 0; i < 4; ++i) {
+    const auto& [r, s, q] = t[i];
+    const double x = (r * s + s * q + q * r) / 3 - 1, y = r * s * q - (r + s + q) / 3;
+    poles(i + 1, 1) = gp_Pnt(x, y, 0);
+    poles(i + 1, 2) = gp_Pnt(x, y, 10);
+  }
+  return BRepBuilderAPI_MakeFace(new Geom_BezierSurface(poles), 1e-7).Shape();
+}
+
 /// Bodies that touch, cross, or hold others, and machine parts.
 void add_bodies(Factories& all) {
   const Factories bodies{
@@ -344,6 +357,12 @@ void add_bodies(Factories& all) {
       {"crossing_boxes",
        [] {
          return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(5, 5, 5), 10, 10, 10).Shape()});
+       }},
+      {"looped_sheet", [] { return looped_sheet(-1.5, 1.5); }},
+      {"open_loop", [] { return looped_sheet(-0.9, 1.5); }},
+      {"swallow_tail",
+       [] {
+         return compound({looped_sheet(-1.5, 0), looped_sheet(0, 1.5)});
        }},
       {"far_circle", far_circle},
       {"wing_in_body", wing_in_body},

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
+#include "geometry/import/crossing_faces.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
 #include "geometry/import/half_model.h"
@@ -198,6 +199,16 @@ void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing
                         part_name(t, c.of_edge) + " and " + part_name(t, c.face)});
 }
 
+void say_which_faces_cross(const ImportedShape& model, const ModelTables& t, std::vector<ImportFinding>& findings) {
+  for (const occt::FaceCrossing& c : occt::find_crossing_faces(model, t)) {
+    if (c.first == c.second)
+      findings.push_back({FindingKind::kSelfCrossingFace, t.face_label(c.first), c.xyz, c.size, false});
+    else
+      findings.push_back({FindingKind::kCrossingFaces, t.face_label(c.first), c.xyz, c.size, false,
+                          t.face_label(c.first) + " and " + t.face_label(c.second)});
+  }
+}
+
 /// Solids that cross others cannot be joined where they touch.
 std::set<int> crossing_solids(const ModelTables& t, const std::vector<occt::BodyCrossing>& crossings) {
   std::set<int> solids;
@@ -205,14 +216,14 @@ std::set<int> crossing_solids(const ModelTables& t, const std::vector<occt::Body
   return solids;
 }
 
-/// Bodies that overlap are united where asked; those that touch are joined.
+/// Bodies that overlap are united where asked, those that touch are joined; what touches itself always is.
 void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
                    std::vector<ImportFinding>& findings, const std::string& path) {
   if (options.unite) occt::unite_solids(model, tables, findings, path);
   const std::vector<occt::BodyCrossing> crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
   say_what_crosses(tables.tables, crossings, findings);
-  if (options.join_touching)
-    occt::join_touching_solids(model, tables, crossing_solids(tables.tables, crossings), findings, path);
+  const auto join = options.join_touching ? occt::join_touching_solids : occt::join_self_touching_solids;
+  join(model, tables, crossing_solids(tables.tables, crossings), findings, path);
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
@@ -255,6 +266,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");
   progress.step("looking for defects", 0.8);
   occt::report_topology(model, tables.measures, small, result);
+  say_which_faces_cross(model, result.tables, result.findings);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
   result.brep = occt::brep_bytes(model.shape);

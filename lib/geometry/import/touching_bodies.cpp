@@ -489,6 +489,18 @@ class TouchingSolids {
   TopTools_IndexedMapOfShape solids_;  ///< before anything was joined
 };
 
+/// Solids that have common edges with others in the file are not joined alone.
+void leave_out_sharers(const TopoDS_Shape& shape, std::set<int>& solids) {
+  TopTools_IndexedMapOfShape numbers;
+  TopExp::MapShapes(shape, TopAbs_SOLID, numbers);
+  std::map<const TopoDS_TShape*, int> owner;
+  for (int i = 1; i <= numbers.Extent(); ++i)
+    for (TopExp_Explorer e(numbers(i), TopAbs_EDGE); e.More(); e.Next()) {
+      const auto [it, is_new] = owner.emplace(e.Current().TShape().get(), i - 1);
+      if (!is_new && it->second != i - 1) solids.erase(i - 1), solids.erase(it->second);
+    }
+}
+
 }  // namespace
 
 TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTables& tables) {
@@ -512,6 +524,18 @@ void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const
   if (touching.groups.empty()) return;
   TouchingSolids solids(model, model_tables, findings, path);
   for (const std::vector<int>& group : touching.groups) solids.join(group, touching.self_touching);
+}
+
+void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
+                               std::vector<ImportFinding>& findings, const std::string& path) {
+  const ModelTables& t = model_tables.tables;
+  Joined joined(t.n_solids);
+  std::set<int> self_touching = add_edge_contacts(model, t, kSamePlace * t.box().diagonal(), joined);
+  std::erase_if(self_touching, [&](int i) { return left_out.count(i) > 0; });
+  if (self_touching.empty()) return;
+  leave_out_sharers(model.shape, self_touching);
+  TouchingSolids solids(model, model_tables, findings, path);
+  for (const int i : self_touching) solids.join({i}, self_touching);
 }
 
 }  // namespace st::occt

@@ -28,4 +28,8 @@ TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTable
 void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                           std::vector<ImportFinding>& findings, const std::string& path);
 
+/// The same for solids that touch themselves along edges: two meshes of one edge would lie on each other.
+void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
+                               std::vector<ImportFinding>& findings, const std::string& path);
+
 }  // namespace st::occt

@@ -55,6 +55,8 @@ constexpr Wording kWordings[] = {
     {"bodies that overlap united", "bodies that overlap united: {}"},
     {"bodies that overlap not united", "bodies that overlap not united: {}"},
     {"parts cross", "parts cross: {}"},
+    {"faces cross", "faces cross beside their common edge: {}"},
+    {"face crosses itself", "face crosses itself"},
     {"repair taken back", "repair taken back: {}"},
     {"edge away from its faces, made again from them", "edge away from its faces, made again from them"},
     {"other", "{}"},

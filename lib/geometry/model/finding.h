@@ -46,6 +46,8 @@ enum class FindingKind : std::uint8_t {
   kUnited,                 ///< bodies that overlap made one
   kNotUnited,              ///< bodies that could not be made one
   kOverlap,                ///< bodies that overlap, left as they are
+  kCrossingFaces,          ///< faces that pass through each other beside their common edge
+  kSelfCrossingFace,       ///< a face that passes through itself
   kUndoneRepair,           ///< a repair that made things worse was taken back
   kSpaceCurve,             ///< a space curve away from its faces, made again
   kOther                   ///< written by another version

@@ -1,0 +1,211 @@
+#include "geometry/import/crossing_faces.h"
+
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "geometry/brep/face_domain.h"
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/model/cad_tolerance.h"
+#include "geometry/shape/loop_polygons.h"
+#include "geometry/shape/projection.h"
+#include "geometry/shape/surface_crossing.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // of the diagonal: the tolerance of places
+constexpr double kDeep = 10;         // times the tolerance: what counts as a crossing
+constexpr int kStations = 32;        // along an edge, every eighth of them first
+constexpr double kSideBySide = 0.7;  // cosine of the angle between walls that may come close
+constexpr double kLeastSine = 0.02;  // of the angle of faces that pass through each other
+constexpr int kMarch = 28;           // steps away from it,
+constexpr double kReach = 0.95;      // of the range of u and v,
+constexpr double kFirstStep = 2e-4;  // the first of them
+
+bool is_formula(SurfaceType type) { return type < SurfaceType::kBezier || type == SurfaceType::kExtrusion; }
+
+/// The way from a place of an edge into a face.
+struct Section {
+  Vec3 tangent;  ///< of the edge
+  std::vector<Vec3> x;
+  std::vector<Vec2> uv;
+};
+
+class CrossingFaces {
+ public:
+  CrossingFaces(const ImportedShape& model, const ModelTables& t)
+      : model_(model), t_(t), tolerance_(kSamePlace * t.box().diagonal()), domains_(t.n_faces()) {}
+
+  std::vector<FaceCrossing> find() {
+    for (FaceId f = 0; f < t_.n_faces(); ++f)
+      if (!is_formula(t_.face_type[f])) look_within(f);
+    std::vector<std::int32_t> offsets;
+    std::vector<FaceId> faces;
+    t_.edge_faces(offsets, faces);
+    TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+      if (t_.edge_is_degenerate[e] || offsets[e + 1] - offsets[e] != 2) continue;
+      const FaceId f = faces[offsets[e]], g = faces[offsets[e] + 1];
+      if (f == g || (is_formula(t_.face_type[f]) && is_formula(t_.face_type[g]))) continue;
+      if (!known_.contains(std::minmax(f, g))) look_beside(e, f, g);
+    }
+    return found_;
+  }
+
+ private:
+  struct Domain {
+    FaceDomain face;
+    LoopPolygons loops;
+  };
+
+  const Domain& domain(FaceId f) {
+    if (!domains_[f]) {
+      Domain d{make_domain(TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD))), {}};
+      std::vector<LoopSide> sides;
+      for (const LoopUv& loop : d.face.loops) {
+        const std::vector<Vec2> p = loop.polygon();
+        for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
+      }
+      d.loops = LoopPolygons(std::move(sides));
+      domains_[f] = std::make_unique<Domain>(std::move(d));
+    }
+    return *domains_[f];
+  }
+
+  double tolerance_of(FaceId f) const { return kDeep * std::max(tolerance_, cad_tolerance(t_, f)); }
+
+  void look_within(FaceId f) {
+    const Domain& d = domain(f);
+    const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), [&](Vec2 uv) { return d.loops.contains(uv); });
+    if (!p) return;
+    const double size = distance(d.face.surface->point(0.5 * (p->uv_a + p->uv_b)), p->x);
+    found_.push_back({f, f, p->x, size});
+  }
+
+  /// Everywhere along the edge where both faces turn the same way beside it.
+  void look_beside(EdgeId e, FaceId f, FaceId g) {
+    bool is_near = false;
+    for (int k = 4; k < kStations && !is_near; k += 8) {
+      const double station = static_cast<double>(k) / kStations;
+      is_near = run_side_by_side(section(f, e, station), section(g, e, station));
+    }
+    for (int k = 1; is_near && k < kStations; ++k) {
+      const double station = static_cast<double>(k) / kStations;
+      if (const auto place = crossing_of(section(f, e, station), f, section(g, e, station), g)) {
+        known_.insert(std::minmax(f, g));
+        found_.push_back({std::min(f, g), std::max(f, g), place->xyz, place->size});
+        return;
+      }
+    }
+  }
+
+  static bool run_side_by_side(const Section& a, const Section& b) {
+    for (std::size_t i = 1; i < std::min(a.x.size(), b.x.size()); ++i)
+      if (dot(normalized(a.x[i] - a.x[i - 1]), normalized(b.x[i] - b.x[i - 1])) > kSideBySide) return true;
+    return false;
+  }
+
+  Section section(FaceId f, EdgeId e, double station) {
+    const FaceDomain& d = domain(f).face;
+    for (const LoopUv& loop : d.loops)
+      for (const CoedgeUv& c : loop.coedges) {
+        if (c.curve.IsNull() || loop.is_turned || !c.edge.IsSame(edges_(e + 1))) continue;
+        const double lo = std::min(c.t_start, c.t_end), hi = std::max(c.t_start, c.t_end);
+        gp_Pnt2d p;
+        gp_Vec2d along;
+        c.curve->D1(lo + station * (hi - lo), p, along);
+        if (c.t_end < c.t_start) along.Reverse();
+        return march(*d.surface, {p.X(), p.Y()}, {along.X(), along.Y()});
+      }
+    return {};
+  }
+
+  /// To the left of `along` in (u,v): lengths there do not tell, at noses they change from step to step.
+  static Section march(const Surface& surface, Vec2 start, Vec2 along) {
+    const double range_u = surface.u_max() - surface.u_min(), range_v = surface.v_max() - surface.v_min();
+    Vec2 left{-along.y / range_v, along.x / range_u};
+    if (!(norm(left) > 0)) return {};
+    left = left * (1 / norm(left));
+    const SurfacePoint at = surface.evaluate(start);
+    Section s{normalized(along.x * at.du + along.y * at.dv), {at.x}, {start}};
+    const double growth = std::pow(kReach / kFirstStep, 1.0 / kMarch);
+    for (double way = kFirstStep; way < kReach; way *= growth) {
+      const Vec2 uv = start + Vec2{way * left.x * range_u, way * left.y * range_v};
+      if (uv.x < surface.u_min() || uv.x > surface.u_max() || uv.y < surface.v_min() || uv.y > surface.v_max()) break;
+      s.x.push_back(surface.point(uv));
+      s.uv.push_back(uv);
+    }
+    return s;
+  }
+
+  struct Place {
+    Vec3 xyz;
+    double size;
+  };
+
+  /// Where two sections cross, confirmed on the surfaces.
+  std::optional<Place> crossing_of(const Section& a, FaceId f, const Section& b, FaceId g) {
+    if (a.x.size() < 3 || b.x.size() < 3) return std::nullopt;
+    const Vec3 e1 = normalized(cross(a.tangent, std::abs(a.tangent.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})),
+               e2 = cross(a.tangent, e1);
+    const auto flat = [&](Vec3 x) { return Vec2{dot(x - a.x[0], e1), dot(x - a.x[0], e2)}; };
+    for (std::size_t i = 0; i + 1 < a.x.size(); ++i)
+      for (std::size_t k = 0; k + 1 < b.x.size(); ++k) {
+        if (i == 0 && k == 0) continue;
+        if (!cross_properly({flat(a.x[i]), flat(a.x[i + 1])}, {flat(b.x[k]), flat(b.x[k + 1])})) continue;
+        if (const auto place = confirmed(f, 0.5 * (a.uv[i] + a.uv[i + 1]), g, 0.5 * (b.uv[k] + b.uv[k + 1])))
+          return place;
+      }
+    return std::nullopt;
+  }
+
+  std::optional<Place> confirmed(FaceId f, Vec2 uv_f, FaceId g, Vec2 uv_g) {
+    const Domain &a = domain(f), &b = domain(g);
+    const auto p = common_point(*a.face.surface, uv_f, *b.face.surface, uv_g, 1e-3 * tolerance_);
+    if (!p || !a.loops.contains(p->uv_a) || !b.loops.contains(p->uv_b)) return std::nullopt;
+    const double size = distance_from_common(f, g, p->x);
+    const double exact = kDeep * std::max(cad_tolerance(t_, f), cad_tolerance(t_, g));
+    if (size < kDeep * tolerance_ || p->sine < kLeastSine || p->sine * size < exact) return std::nullopt;
+    return Place{p->x, size};
+  }
+
+  double distance_from_common(FaceId f, FaceId g, Vec3 x) const {
+    const auto of_f = t_.edges_of(f), of_g = t_.edges_of(g);
+    double least = std::numeric_limits<double>::max();
+    for (const EdgeId e : of_f) {
+      if (t_.edge_is_degenerate[e] || std::find(of_g.begin(), of_g.end(), e) == of_g.end()) continue;
+      double t0, t1;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges_(e + 1)), t0, t1);
+      if (!curve.IsNull()) least = std::min(least, closest_point(*make_curve(curve, t0, t1), x).distance);
+    }
+    return least;
+  }
+
+  const ImportedShape& model_;
+  const ModelTables& t_;
+  double tolerance_;
+  std::vector<std::unique_ptr<Domain>> domains_;
+  TopTools_IndexedMapOfShape edges_;
+  std::set<std::pair<FaceId, FaceId>> known_;
+  std::vector<FaceCrossing> found_;
+};
+
+}  // namespace
+
+std::vector<FaceCrossing> find_crossing_faces(const ImportedShape& model, const ModelTables& tables) {
+  try {
+    return CrossingFaces(model, tables).find();
+  } catch (const Standard_Failure&) {
+    return {};
+  }
+}
+
+}  // namespace st::occt

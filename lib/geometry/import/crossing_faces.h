@@ -1,0 +1,22 @@
+// Faces that pass through each other beside their common edge, and faces that pass through themselves.
+#pragma once
+
+#include <vector>
+
+#include "geometry/model/imported_shape.h"
+#include "geometry/model/model_tables.h"
+
+namespace st::occt {
+
+/// A point of both surfaces, inside both faces, away from their common edges.
+struct FaceCrossing {
+  FaceId first = kNone, second = kNone;  ///< equal: the face passes through itself
+  Vec3 xyz;                              ///< model unit
+  double size = 0;  ///< distance from the common edge; of one face: how far it goes away in between
+};
+
+/// One place for each face or pair of neighbours, at most. Faces and neighbours of faces without a formula (splines,
+/// revolutions, offsets) are looked at. `tables` are those of `model`.
+std::vector<FaceCrossing> find_crossing_faces(const ImportedShape& model, const ModelTables& tables);
+
+}  // namespace st::occt
