@@ -358,6 +358,12 @@ void add_bodies(Factories& all) {
        [] {
          return compound({box(10, 10, 10), BRepPrimAPI_MakeBox(gp_Pnt(5, 5, 5), 10, 10, 10).Shape()});
        }},
+      {"pinched_block",
+       [] {
+         const TopoDS_Shape outline = polygon_face(
+             {{0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {15, 20, 0}, {20, 10, 0}, {10, 10, 0}, {15, 20, 0}, {0, 20, 0}});
+         return BRepPrimAPI_MakePrism(outline, gp_Vec(0, 0, 10)).Shape();
+       }},
       {"looped_sheet", [] { return looped_sheet(-1.5, 1.5); }},
       {"open_loop", [] { return looped_sheet(-0.9, 1.5); }},
       {"swallow_tail",

@@ -15,6 +15,7 @@ namespace st::test {
 ///   pin_in_plate     a plate 40 x 40 x 10 with a bore of radius 5, and a pin of that radius, 30 long, in it
 ///   boxes_along_edge two boxes of 10 that touch along an edge
 ///   box_twice        a box of 10, two solids at one place
+///   pinched_block    a block 30 x 20 x 10, one edge of a hole in it lies on its side
 ///   looped_sheet     a sheet of free form, 10 high, that passes through itself along the z axis
 ///   open_loop        that sheet, cut off before it comes to itself
 ///   swallow_tail     the two halves of that sheet, with a common edge at x = -1

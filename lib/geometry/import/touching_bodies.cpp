@@ -534,8 +534,11 @@ void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, 
   std::erase_if(self_touching, [&](int i) { return left_out.count(i) > 0; });
   if (self_touching.empty()) return;
   leave_out_sharers(model.shape, self_touching);
-  TouchingSolids solids(model, model_tables, findings, path);
+  std::vector<ImportFinding> own;
+  TouchingSolids solids(model, model_tables, own, path);
   for (const int i : self_touching) solids.join({i}, self_touching);
+  std::erase_if(own, [](const ImportFinding& f) { return f.kind == FindingKind::kTouchingApart; });  // nobody asked
+  findings.insert(findings.end(), own.begin(), own.end());
 }
 
 }  // namespace st::occt

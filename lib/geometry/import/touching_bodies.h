@@ -29,6 +29,7 @@ void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const
                           std::vector<ImportFinding>& findings, const std::string& path);
 
 /// The same for solids that touch themselves along edges: two meshes of one edge would lie on each other.
+/// Nothing is said where one stays as it is.
 void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                                std::vector<ImportFinding>& findings, const std::string& path);
 

@@ -89,6 +89,16 @@ TEST(TouchingBodies, stay_apart_where_nobody_asks) {
   EXPECT_EQ(import_broken("touching_boxes").tables.n_faces(), 12);
 }
 
+TEST(TouchingBodies, that_touch_themselves_along_an_edge_have_it_once_unasked) {
+  const ImportResult r = import_broken("pinched_block");
+  EXPECT_EQ(r.tables.n_vertices(), 14);
+  EXPECT_EQ(r.tables.n_edges(), 23);
+  EXPECT_EQ(r.tables.n_faces(), 10);
+  EXPECT_EQ(r.n_nonmanifold_edges, 1);
+  EXPECT_NEAR(r.volume, 10 * (30 * 20 - 50), 1e-6);
+  EXPECT_EQ(findings_of(r, "bodies that touch joined").size(), 1u);
+}
+
 TEST(TouchingBodies, are_none_where_solids_are_apart_or_cross) {
   for (const char* shape : {"crossing_boxes", "box_in_box"}) {
     const ImportResult r = join_broken(shape);
