@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <ctime>
+#include <exception>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -16,6 +17,8 @@ thread_local double t_deadline = std::numeric_limits<double>::infinity();
 thread_local double t_seconds = std::numeric_limits<double>::infinity();
 thread_local bool t_throws = false;
 thread_local unsigned t_n_asked = 0;
+thread_local const char* t_ended_kind = nullptr;
+thread_local std::int64_t t_ended_number = 0;
 
 constexpr unsigned kAsksPerLook = 64;  // of throw_if_late(): looking at the clock takes 30 ns
 
@@ -42,11 +45,13 @@ double now() {
 }  // namespace
 
 CurrentWork::CurrentWork(const char* kind, std::int64_t number, const WorkLimit& limit)
-    : seconds_before_(std::exchange(t_seconds, limit.seconds)),
+    : n_exceptions_before_(std::uncaught_exceptions()),
+      seconds_before_(std::exchange(t_seconds, limit.seconds)),
       throws_before_(std::exchange(t_throws, limit.when_late == WhenLate::kThrow)),
       kind_before_(std::exchange(t_kind, kind)),
       number_before_(std::exchange(t_number, number)),
       deadline_before_(std::exchange(t_deadline, now() + limit.seconds)) {
+  forget_ended_work();
   const std::lock_guard lock(g_mutex);
   watch_ = watches().insert(watches().end(), {pthread_self(), t_deadline});
 }
@@ -55,6 +60,10 @@ CurrentWork::~CurrentWork() {
   {
     const std::lock_guard lock(g_mutex);
     watches().erase(watch_);
+  }
+  if (std::uncaught_exceptions() > n_exceptions_before_ && !t_ended_kind) {
+    t_ended_kind = t_kind;
+    t_ended_number = t_number;
   }
   t_seconds = seconds_before_;
   t_throws = throws_before_;
@@ -76,6 +85,12 @@ bool describe_current_work(char* text, int size) {
   text[n] = '\0';
   return true;
 }
+
+std::string ended_work() {
+  return t_ended_kind ? std::string(t_ended_kind) + " " + std::to_string(t_ended_number) + ": " : "";
+}
+
+void forget_ended_work() { t_ended_kind = nullptr; }
 
 bool is_current_work_late() { return now() > t_deadline; }
 

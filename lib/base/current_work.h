@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <list>
+#include <new>
+#include <string>
 
 #include "base/error.h"
 
@@ -39,6 +41,7 @@ class CurrentWork {
   CurrentWork& operator=(const CurrentWork&) = delete;
 
  private:
+  int n_exceptions_before_;
   double seconds_before_;
   bool throws_before_;
   const char* kind_before_;
@@ -50,6 +53,23 @@ class CurrentWork {
 /// Writes "face 12" into `text` (zero-terminated) for this thread; false, and nothing is written, while it works on
 /// nothing that has a name. Async-signal-safe. Precondition: `size` is at least 2.
 bool describe_current_work(char* text, int size);
+
+/// The innermost work of this thread that an exception has ended: "face 12: ". "" when forgotten, or when other work
+/// has begun since.
+std::string ended_work();
+void forget_ended_work();
+
+/// What `compute()` returns. A std::bad_alloc out of it becomes an Error(kMemory) that begins with the innermost work
+/// of this thread that it has ended: "face 12: out of memory; ...".
+template <class Compute>
+auto with_memory_named(const Compute& compute) {
+  forget_ended_work();
+  try {
+    return compute();
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(ended_work());
+  }
+}
 
 /// Whether this thread's work is late. Async-signal-safe.
 bool is_current_work_late();

@@ -15,6 +15,7 @@ enum class ExitCode : int {
   kIncomplete = 5,  ///< faces not meshed, or a check failed
   kOutput = 6,      ///< output cannot be written
   kMismatch = 7,    ///< inputs do not belong together
+  kMemory = 8,      ///< there is not enough memory
   kInternal = 70    ///< a defect of ours
 };
 
@@ -28,5 +29,11 @@ class Error : public std::runtime_error {
  private:
   ExitCode code_;
 };
+
+/// Instead of a std::bad_alloc. `where`: "rank 1: face 12: ", or nothing.
+inline Error out_of_memory(const std::string& where) {
+  return {ExitCode::kMemory,
+          where + "out of memory; use larger lengths, fewer ranks or threads, or a machine with more memory"};
+}
 
 }  // namespace st

@@ -1,17 +1,20 @@
 #include "base/supervised_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 
 #include "base/error.h"
+#include "base/stopped_processes.h"
 
 namespace st {
 namespace {
@@ -101,11 +104,56 @@ struct Pipe {
   _exit(127);
 }
 
+/// Looks at the processes of a program from time to time, and ends it where one stands still.
+class Watcher {
+ public:
+  Watcher(pid_t program, const StopWatch& watch)
+      : program_(program),
+        watch_(watch),
+        interval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(watch.seconds / kLooks))),
+        processes_(program, kLooks) {}
+
+  /// Until there is something to read.
+  void wait_for(int fd) {
+    pollfd wanted{fd, POLLIN, 0};
+    while (watch_.on_stopped && !has_ended_) {
+      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(next_ - Clock::now()).count();
+      if (rest > 0 && poll(&wanted, 1, static_cast<int>(rest)) > 0) return;
+      if (rest <= 0) look();
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int kLooks = 30;
+
+  void look() {
+    next_ = Clock::now() + interval_;
+    std::vector<pid_t> ended = processes_.look();
+    if (ended.empty()) return;
+    has_ended_ = true;
+    watch_.on_stopped(ended[0]);
+    ended.insert(ended.begin(), program_);
+    for (const pid_t process : ended) {
+      kill(process, SIGTERM);
+      kill(process, SIGCONT);  // else it would not get the other one
+    }
+  }
+
+  const pid_t program_;
+  const StopWatch& watch_;
+  const Clock::duration interval_;
+  Clock::time_point next_ = Clock::now() + interval_;
+  StoppedProcesses processes_;
+  bool has_ended_ = false;
+};
+
 /// Up to the end of the file.
-void read_lines(int fd, const std::function<void(const std::string&)>& on_line) {
+void read_lines(int fd, const std::function<void(const std::string&)>& on_line, Watcher& watcher) {
   std::string text;
   char buffer[4096];
   for (;;) {
+    watcher.wait_for(fd);
     const ssize_t n = read(fd, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
@@ -132,7 +180,7 @@ void require_started(int failure, const std::string& program) {
 std::string signal_text(int signal) { return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"; }
 
 ProgramEnd run_supervised(const std::vector<std::string>& words,
-                          const std::function<void(const std::string& line)>& on_error_line) {
+                          const std::function<void(const std::string& line)>& on_error_line, const StopWatch& watch) {
   Pipe errors, failure;
   std::fflush(nullptr);
   const HeldSignals signals;
@@ -145,7 +193,8 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
   signals.release();
   errors.close_end(1);
   failure.close_end(1);
-  read_lines(errors.ends[0], on_error_line);
+  Watcher watcher(program, watch);
+  read_lines(errors.ends[0], on_error_line, watcher);
   int status = 0;
   while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
   }

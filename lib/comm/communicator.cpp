@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/current_work.h"
 #include "base/error.h"
 #include "base/supervised_program.h"
 #include "base/threads.h"
@@ -168,7 +169,7 @@ void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_
   if (impl_->size == 1) {
     std::mutex mutex;
     parallel_for(order.size(), 1, [&](std::size_t i, std::size_t) {
-      Bytes result = compute(order[i]);
+      Bytes result = with_memory_named([&] { return compute(order[i]); });
       const std::lock_guard lock(mutex);
       collect(order[i], std::move(result));
     });
@@ -201,10 +202,18 @@ void set_launch_environment() {
   if (!may_read_other_processes()) setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
 }
 
+/// How long a rank may stand still.
+double longest_stop() {
+  constexpr double kSeconds = 30;
+  const char* text = std::getenv("ST_STOPPED_SECONDS");
+  const double seconds = text ? std::atof(text) : 0;
+  return seconds > 0 ? seconds : kSeconds;
+}
+
 /// The code of the job, or what ended it as an Error.
 int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
   if (end.passed_signal > 0) return 128 + end.passed_signal;
-  if (lost) throw Error(static_cast<ExitCode>(128 + lost->signal), describe_lost_rank(*lost));
+  if (lost) throw LostRankError(static_cast<ExitCode>(128 + lost->signal), lost->rank, describe_lost_rank(*lost));
   if (end.is_signalled)
     throw Error(static_cast<ExitCode>(end.exit_code),
                 "mpirun was ended by " + signal_text(end.exit_code - 128) + ", and with it all ranks; run again");
@@ -243,11 +252,16 @@ std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& argum
   words.insert(words.end(), arguments_without_np.begin(), arguments_without_np.end());
   MpirunReport report;
   ProgramEnd end;
+  std::optional<LostRankError> stopped;
+  const double seconds = longest_stop();
+  const StopWatch watch{seconds, [&](pid_t process) { stopped = stopped_rank(process, seconds); }};
   try {
-    end = run_supervised(words, [&](const std::string& line) { on_error_text(report.add(line)); });
+    end = run_supervised(
+        words, [&](const std::string& line) { on_error_text(report.add(line)); }, watch);
   } catch (const Error& e) {
     throw Error(e.code(), std::string(e.what()) + "; install Open MPI (openmpi-bin) or leave --np out");
   }
+  if (stopped && end.passed_signal == 0) throw LostRankError(*stopped);
   on_error_text(report.rest());
   return code_of(end, report.lost_rank());
 }

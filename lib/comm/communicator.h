@@ -53,9 +53,11 @@ class Communicator : public Executor {
 
 /// Runs `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than cores,
 /// idle ranks that yield, no binding) and waits for its end. Returns the exit code of the job; nothing, and nothing was
-/// run, when n == 1 or a launcher already started us. Without mpirun's banners: a rank that a signal ended is an Error
-/// with rank, host and signal, of code 128 + signal. Signals to this process reach the ranks. `on_error_text` gets what
-/// the ranks write to stderr. Throws Error(kUsage) when n < 1 and Error(kInternal) when mpirun is missing.
+/// run, when n == 1 or a launcher already started us. Without mpirun's banners: a rank that a signal ended is a
+/// LostRankError with rank, host and signal, of code 128 + signal. So is one that a signal stopped for 30 s (or
+/// ST_STOPPED_SECONDS of the environment): the job is ended then. Signals to this process reach the ranks.
+/// `on_error_text` gets what the ranks write to stderr. Throws Error(kUsage) when n < 1 and Error(kInternal) when
+/// mpirun is missing.
 std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& arguments_without_np,
                                     const std::function<void(const std::string& text)>& on_error_text);
 

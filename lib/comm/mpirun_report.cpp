@@ -1,7 +1,12 @@
 #include "comm/mpirun_report.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <csignal>
+#include <fstream>
 #include <regex>
+#include <sstream>
 #include <utility>
 
 #include "base/supervised_program.h"
@@ -22,11 +27,11 @@ bool tells_the_end(const std::string& line) {
   return std::regex_search(line, beginnings);
 }
 
-/// What Open MPI adds when several ranks abort.
+/// What Open MPI adds when several ranks abort, or when a terminal stops them.
 bool is_repetition(const std::string& line) {
   static const std::regex repetition(
-      "^\\[.*\\] (\\d+ more process(es)? .*mpi-abort|Set MCA parameter .orte_base_help_aggregate.|.*ORTE_ERROR_LOG: "
-      ".*show_help)");
+      "^(\\[.*\\] (\\d+ more process(es)? .*mpi-abort|Set MCA parameter .orte_base_help_aggregate.|.*ORTE_ERROR_LOG: "
+      ".*show_help)|mpirun: Forwarding signal \\d+ to job)");
   return std::regex_search(line, repetition);
 }
 
@@ -48,6 +53,22 @@ std::string advice(int signal) {
     default:
       return "somebody or the batch system ended it: run again";
   }
+}
+
+/// The rank that this process is, by its environment; -1 for any other process.
+int rank_of(int process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/environ");
+  const std::string name = "OMPI_COMM_WORLD_RANK=";
+  for (std::string entry; std::getline(file, entry, '\0');)
+    if (entry.starts_with(name)) return std::stoi(entry.substr(name.size()));
+  return -1;
+}
+
+std::string host_name() {
+  std::array<char, 256> text{};
+  if (gethostname(text.data(), text.size() - 1) != 0) return "this host";
+  const std::string name = text.data();
+  return name.substr(0, name.find('.'));
 }
 
 }  // namespace
@@ -90,6 +111,17 @@ void MpirunReport::read_line(const std::string& line) {
 std::string describe_lost_rank(const LostRank& lost) {
   return "rank " + std::to_string(lost.rank) + (lost.host.empty() ? "" : " on " + lost.host) + " was ended by " +
          signal_text(lost.signal) + "; " + advice(lost.signal);
+}
+
+std::string rank_on_this_host(int rank) { return "rank " + std::to_string(rank) + " on " + host_name(); }
+
+LostRankError stopped_rank(int process, double seconds) {
+  const int rank = rank_of(process);
+  std::ostringstream text;
+  text << (rank < 0 ? "mpirun on " + host_name() : rank_on_this_host(rank)) << " (process " << process
+       << ") stood still for " << seconds
+       << " s, stopped by a signal; somebody or the batch system did that: run again";
+  return {static_cast<ExitCode>(128 + SIGSTOP), rank, text.str()};
 }
 
 }  // namespace st

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "base/error.h"
+
 namespace st {
 
 /// A rank that a signal ended.
@@ -33,7 +35,24 @@ class MpirunReport {
   std::optional<LostRank> lost_;
 };
 
+/// A rank was ended, or stood still. What it was at may be found in a journal.
+class LostRankError : public Error {
+ public:
+  LostRankError(ExitCode code, int rank, const std::string& message) : Error(code, message), rank_(rank) {}
+  int rank() const { return rank_; }
+
+ private:
+  int rank_;
+};
+
+/// "rank 1 on node17", this host.
+std::string rank_on_this_host(int rank);
+
 /// "rank 1 on node17 was ended by signal 9 (Killed); out of memory? ..."
 std::string describe_lost_rank(const LostRank& lost);
+
+/// A process of the job on this machine, rank or mpirun, that stood still for so long: "rank 1 on node17 (process 123)
+/// stood still for 30 s, stopped by a signal; ...". Call it while the process is there.
+LostRankError stopped_rank(int process, double seconds);
 
 }  // namespace st

@@ -9,12 +9,13 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <thread>
 
+#include "base/current_work.h"
 #include "base/error.h"
 #include "base/threads.h"
+#include "comm/mpirun_report.h"
 
 namespace st {
 namespace {
@@ -52,7 +53,7 @@ Bytes to_bytes(const std::string& text) {
 }
 
 /// Runs one task; every exception becomes data, for it has to travel.
-Outcome run_task(std::int32_t task, const Compute& compute) {
+Outcome run_task(std::int32_t task, int rank, const Compute& compute) {
   Outcome outcome;
   outcome.task = task;
   const auto start = Clock::now();
@@ -61,11 +62,9 @@ Outcome run_task(std::int32_t task, const Compute& compute) {
     outcome.bytes = to_bytes(text);
   };
   try {
-    outcome.bytes = compute(task);
+    outcome.bytes = with_memory_named([&] { return compute(task); });
   } catch (const Error& e) {
-    fail(e.code(), e.what());
-  } catch (const std::bad_alloc&) {
-    fail(ExitCode::kInternal, "out of memory; use larger lengths, fewer ranks or a machine with more memory");
+    fail(e.code(), (e.code() == ExitCode::kMemory ? rank_on_this_host(rank) + ": " : "") + e.what());
   } catch (const std::exception& e) {
     fail(ExitCode::kInternal, std::string("internal error: ") + e.what());
   } catch (...) {
@@ -154,7 +153,9 @@ bool probe(int source, int tag, MPI_Status& status) {
 class WorkerThreads {
  public:
   explicit WorkerThreads(const Compute& compute) {
-    for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, &compute] { work(compute); });
+    int rank = 0;
+    require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
+    for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, rank, &compute] { work(rank, compute); });
   }
   ~WorkerThreads() {
     {
@@ -195,7 +196,7 @@ class WorkerThreads {
     return outcome;
   }
 
-  void work(const Compute& compute) {
+  void work(int rank, const Compute& compute) {
     while (true) {
       std::int32_t task = kStop;
       {
@@ -205,7 +206,7 @@ class WorkerThreads {
         tasks_.pop_front();
       }
       if (task == kStop) return;
-      Outcome outcome = run_task(task, compute);
+      Outcome outcome = run_task(task, rank, compute);
       {
         const std::lock_guard lock(mutex_);
         outcomes_.push_back(std::move(outcome));

@@ -1,20 +1,26 @@
 #!/usr/bin/env python3
 """Faults from outside: kills at random moments, full disks, odd surroundings. Afterwards the same hash, nothing left.
 
-usage: tests/fuzz/faults.py BIN_DIR [--kills N] [--disks N] [--seed N] [--model NAME]
+usage: tests/fuzz/faults.py BIN_DIR [--kills N] [--disks N] [--resumed N] [--seed N] [--model NAME]
 
 Kills: SIGKILL, SIGTERM or SIGINT to the tool, its process group or one of two ranks, at a random moment of a stage.
 The output is absent or whole, the code is that of the signal, a killed rank is named, and the repeated run gives the
 same hash and leaves no temporary. Disks: a tmpfs of a few kB; the code is 6, one message names the output, nothing
 is left, and with more space the hash is the same. Needs root (skipped without). Surroundings: German locale, empty
 environment, no HOME, wrong TMPDIR, stack of 1 MB, two runs into one output. Exit 1 when a case fails.
+--resumed N does something else: N times st-mesh on the D150 of ST_CORPUS with a million triangles, at 1, 2 and 3 ranks.
+SIGKILL to the tool, its group, or a rank at a random moment; the run goes on by itself or is given again. The hash is
+that of an undisturbed run, and no part whose end is in a journal is made again; prints both counts of each case.
 """
 import argparse
 import collections
+import json
 import os
 import random
+import re
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -151,6 +157,97 @@ def full_disk(stages, rng, folder):
         subprocess.run(["umount", folder], check=True)
 
 
+RECORD = struct.Struct("<8siiqQ32s32sQ")  # of a journal, lib/io/file/journal.cpp
+DONE = 3
+
+
+def parts_done(journal):
+    """Parts that the files of a journal have finished; a torn record ends a file."""
+    done = set()
+    for path in journal.glob("*-*"):
+        data, at = path.read_bytes(), 0
+        while at + RECORD.size <= len(data):
+            magic, kind, _, _, n_bytes, key, _, _ = RECORD.unpack_from(data, at)
+            at += RECORD.size + n_bytes
+            if magic != b"ST-jrnl1" or at > len(data):
+                break
+            if kind == DONE:
+                done.add(key)
+    return len(done)
+
+
+class Resumed:
+    """st-mesh on a model of a million triangles, killed and given again."""
+
+    def __init__(self, bin_dir, folder):
+        self.bin, self.folder = bin_dir, folder
+        model = Path(os.environ.get("ST_CORPUS") or Path(__file__).parents[3] / "shared/corpus")
+        g, r, s, p = (folder / f"{n}.hdf" for n in "grsp")
+        for command in (["st-import", model / "aero_d150_wing_body_half.brep", "-o", g], ["st-raster", g, "-o", r],
+                        ["st-prolong", r, "-o", s, "--target-triangles", 1000000]):
+            subprocess.run([str(bin_dir / command[0]), *map(str, command[1:]), "-q"], check=True)
+        start = time.monotonic()
+        subprocess.run(self.command(p, 1), check=True, capture_output=True)
+        self.seconds = time.monotonic() - start
+        self.hash = self.hash_of(p)
+
+    def command(self, output, ranks):
+        return [str(self.bin / "st-mesh"), str(self.folder / "g.hdf"), str(self.folder / "s.hdf"), "-o", str(output),
+                "--json", "--threads", "1", "--journal-after", "0.2", "--np", str(ranks)]
+
+    def start(self, output, ranks, seconds):
+        process = subprocess.Popen(self.command(output, ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, start_new_session=True)
+        time.sleep(seconds)
+        return process
+
+    def hash_of(self, path):
+        return subprocess.run([self.bin / "st-info", path, "--hash"], capture_output=True, text=True).stdout.strip()
+
+    def case(self, rng, k):
+        """(what was done, what is wrong or "")."""
+        output, ranks = self.folder / f"k{k}" / "p.hdf", k % 3 + 1
+        output.parent.mkdir()
+        target, moment = rng.choice(["tool", "group", "rank"][:3 if ranks > 1 else 2]), rng.random()
+        process = self.start(output, ranks, moment * self.seconds)
+        while process.poll() is not None:  # too late: it was done
+            process.communicate()
+            output.unlink()
+            moment *= 0.8
+            process = self.start(output, ranks, moment * self.seconds)
+        of_ranks = ranks_of(process, "st-mesh") if target == "rank" or ranks > 1 else []
+        if target == "group":
+            os.killpg(process.pid, signal.SIGKILL)
+            for rank in of_ranks:  # mpirun gives each a group of its own
+                os.kill(rank, signal.SIGKILL)
+        else:
+            os.kill(rng.choice(of_ranks) if target == "rank" and of_ranks else process.pid, signal.SIGKILL)
+        out, err = process.communicate(timeout=300)
+        what = f"np {ranks} {target} at {moment:.2f}"
+        by_itself = process.returncode == 0
+        if by_itself:
+            found = re.findall(r"ended: (\d+) parts", err)
+            n_done = int(found[-1]) if found else 0
+        else:
+            deadline = time.monotonic() + 20
+            while time.monotonic() < deadline and any(str(output) in line for _, line in processes()):
+                time.sleep(0.1)
+            n_done = parts_done(Path(f"{output}.journal"))
+            again = subprocess.run(self.command(output, ranks), capture_output=True, text=True)
+            if again.returncode != 0:
+                return what, f"again: exit {again.returncode}: {again.stderr}"
+            out = again.stdout
+        report = json.loads(out.strip().split("\n")[-1])
+        same, resumed = self.hash_of(output) == self.hash, report["parts_resumed"]
+        left = [p.name for p in output.parent.iterdir() if p != output]
+        print(f"{what}: {n_done} of {report['parts']} parts were finished, {resumed} taken over, "
+              f"{report['parts'] - resumed} made again{', by itself' if by_itself else ''}", flush=True)
+        output.unlink()
+        if not same or left or resumed != n_done:
+            return what, f"same hash: {same}, left {left}, {n_done} finished, {resumed} taken over"
+        return what, ""
+
+
 def surroundings(stages, folder):
     """(what, what is wrong) of each."""
     def small_stack():
@@ -174,15 +271,28 @@ def surroundings(stages, folder):
         (folder / "x.hdf").unlink(missing_ok=True)
 
 
+def kill_and_resume(args):
+    with tempfile.TemporaryDirectory() as top:
+        runs, rng = Resumed(args.bin_dir, Path(top)), random.Random(args.seed)
+        wrong = [(what, text) for what, text in (runs.case(rng, k) for k in range(args.resumed)) if text]
+    for what, text in wrong:
+        print(f"FAILED {what}: {text}")
+    print(f"{args.resumed} killed and resumed, {len(wrong)} failed")
+    return 1 if wrong else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin_dir", type=Path)
     parser.add_argument("--kills", type=int, default=300)
     parser.add_argument("--disks", type=int, default=50)
+    parser.add_argument("--resumed", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--model", default="dome")
     args = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in background jobs of a shell
+    if args.resumed:
+        return kill_and_resume(args)
     model = next(Path(os.environ.get("ST_MODELS") or args.bin_dir.parent / "test_models").glob(args.model + ".*"))
     counts, failed = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as top:

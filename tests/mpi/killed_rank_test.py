@@ -40,12 +40,13 @@ def ranks_of(launcher):
 
 
 class KilledRank(ToolTest):
-    def start(self, *options):
+    def start(self, *options, environment=None):
         self.out = self.folder / "out"
         self.out.mkdir(exist_ok=True)
         command = [BIN / "st-raster", artifacts_of("torus") / "geometry.hdf", *SLOW, "--np", 3, *options, "-o",
                    self.out / "x.hdf"]
-        return subprocess.Popen([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen([*map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                env=os.environ | (environment or {}))
 
     def find_ranks(self, process):
         for _ in range(1000):
@@ -66,6 +67,13 @@ class KilledRank(ToolTest):
         os.kill(pid, number)
         out, err = process.communicate(timeout=60)
         return process.returncode, out, err
+
+    def expect_gone(self, pid):
+        for _ in range(1000):
+            if not Path(f"/proc/{pid}").exists():
+                return
+            time.sleep(0.01)
+        self.fail("a rank goes on")
 
     def expect_named(self, rank, number, text, *arguments):
         code, _, err = self.kill(rank, number, *arguments)
@@ -88,6 +96,18 @@ class KilledRank(ToolTest):
     def test_the_first_rank_killed_while_it_writes_leaves_nothing(self):
         self.expect_named(0, signal.SIGKILL, "Killed", "writing")
 
+    def test_a_stopped_rank_ends_the_job_and_is_named(self):
+        process = self.start("-q", environment={"ST_STOPPED_SECONDS": "0.6"})
+        pid = self.find_ranks(process)[1]
+        os.kill(pid, signal.SIGSTOP)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGSTOP, err)
+        self.assertEqual(len(err.strip().split("\n")), 1, err)
+        self.assertIn("rank 1 on", err)
+        self.assertIn(f"(process {pid}) stood still for 0.6 s", err)
+        self.expect_nothing_left(self.out)
+        self.expect_gone(pid)
+
     def test_json_says_so_too(self):
         code, out, _ = self.kill(1, signal.SIGKILL, "computing", "--json")
         report = json.loads(out.strip().split("\n")[-1])
@@ -101,11 +121,7 @@ class KilledRank(ToolTest):
         _, err = process.communicate(timeout=60)
         self.assertEqual((process.returncode, err), (128 + signal.SIGTERM, ""))
         for pid in ranks.values():
-            for _ in range(300):
-                if not Path(f"/proc/{pid}").exists():
-                    break
-                time.sleep(0.01)
-            self.assertFalse(Path(f"/proc/{pid}").exists(), "a rank goes on")
+            self.expect_gone(pid)
         self.expect_nothing_left(self.out)
 
     def test_ranks_end_with_the_tool_that_started_them(self):
@@ -114,11 +130,7 @@ class KilledRank(ToolTest):
         process.kill()
         process.communicate(timeout=60)
         for pid in ranks.values():
-            for _ in range(1000):
-                if not Path(f"/proc/{pid}").exists():
-                    break
-                time.sleep(0.01)
-            self.assertFalse(Path(f"/proc/{pid}").exists(), "a rank goes on")
+            self.expect_gone(pid)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ WORK = Path(os.environ["ST_WORK"])
 TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info",
          "st-diff", "st-export"]
 PARALLEL = {"st-raster", "st-mesh", "st-remesh"}
-OK, USAGE, INPUT, GEOMETRY, INCOMPLETE, OUTPUT, MISMATCH, INTERNAL = 0, 2, 3, 4, 5, 6, 7, 70
+OK, USAGE, INPUT, GEOMETRY, INCOMPLETE, OUTPUT, MISMATCH, MEMORY, INTERNAL = 0, 2, 3, 4, 5, 6, 7, 8, 70
 
 
 class Run:

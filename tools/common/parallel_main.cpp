@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "base/threads.h"
 #include "comm/communicator.h"
+#include "comm/mpirun_report.h"
 #include "common/crash_handler.h"
 #include "common/tool_main.h"
 #include "io/file/journal.h"
@@ -48,11 +49,24 @@ bool is_defect_or_kill(ExitCode code) {
          signal == SIGKILL;
 }
 
+/// Likewise, of ranks that ended themselves: a late face, or no memory.
+bool is_defect_or_memory(int code) {
+  return code == static_cast<int>(ExitCode::kInternal) || code == static_cast<int>(ExitCode::kMemory);
+}
+
 /// Deaths and crashes in the journals of these outputs.
 std::size_t n_noted(const std::vector<std::string>& outputs) {
   std::size_t n = 0;
   for (const std::string& path : outputs) n += count_deaths(path);
   return n;
+}
+
+/// "; it was at face 12", by the journals of these outputs; "" where they do not know.
+std::string faces_of(int rank, const std::vector<std::string>& outputs) {
+  std::string text;
+  for (const std::string& path : outputs)
+    for (const FaceId face : faces_under_way(path, rank)) text += (text.empty() ? "" : ", ") + std::to_string(face + 1);
+  return text.empty() ? "" : "; it was at face " + text;
 }
 
 /// What ranks say, as it comes.
@@ -65,10 +79,16 @@ void print_error_text(const std::string& text) {
 }  // namespace
 
 std::optional<int> ToolMain::start_ranks_once(const std::vector<std::string>& arguments) const {
+  const auto clean_up = [&] {
+    for (const std::string& path : output_paths()) remove_left_temporaries(path);
+  };
   try {
     return run_under_mpirun(n_ranks_, arguments, print_error_text);
+  } catch (const LostRankError& e) {
+    clean_up();
+    throw Error(e.code(), e.what() + faces_of(e.rank(), output_paths()));
   } catch (const Error&) {
-    for (const std::string& path : output_paths()) remove_left_temporaries(path);
+    clean_up();
     throw;
   }
 }
@@ -81,7 +101,7 @@ std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& argumen
     const auto has_news = [&] { return !is_last && n_noted(output_paths()) > n_before; };
     try {
       const std::optional<int> code = start_ranks_once(arguments);
-      if (!code || *code != static_cast<int>(ExitCode::kInternal) || !has_news()) return code;
+      if (!code || !is_defect_or_memory(*code) || !has_news()) return code;
       log_warning("going on with what is finished");
     } catch (const Error& e) {
       if (!is_defect_or_kill(e.code()) || !has_news()) throw;
@@ -114,7 +134,9 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
   };
   const auto report = [&](ExitCode code, const std::string& message) {
     if (comm) wait_for_lower_ranks(comm->rank());
-    print_error(code, message);
+    const bool has_rank = !comm || comm->size() == 1 || message.starts_with("rank ");
+    print_error(code,
+                code == ExitCode::kMemory && !has_rank ? rank_on_this_host(comm->rank()) + ": " + message : message);
     if (comm && comm->size() > 1) comm->abort(static_cast<int>(code));
   };
   const auto action = [&] {

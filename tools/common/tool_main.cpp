@@ -36,7 +36,7 @@ namespace {
 constexpr const char* kFooter =
     "Lengths: 3 (model unit), 0.25mm, 2in, 0.1% (of the model's diagonal).\n"
     "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong "
-    "together, 70 internal.";
+    "together, 8 out of memory, 70 internal.";
 /// Where the package puts the pages.
 constexpr const char* kPages = "/usr/share/doc/st/docs/";
 
@@ -396,7 +396,7 @@ ExitCode ToolMain::guard(const std::function<ExitCode()>& action,
   } catch (const Error& e) {
     return fail(e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    return fail(ExitCode::kInternal, "out of memory; use larger lengths, fewer ranks or a machine with more memory");
+    return fail(ExitCode::kMemory, out_of_memory("").what());
   } catch (const std::exception& e) {
     return fail(ExitCode::kInternal, std::string("internal error: ") + e.what());
   } catch (...) {

@@ -1,6 +1,7 @@
 #include "io/file/journal.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -312,6 +314,26 @@ std::size_t count_deaths(const std::string& output) {
     close(file);
   }
   return n;
+}
+
+std::vector<FaceId> faces_under_way(const std::string& output, int rank) {
+  const std::string folder = journal_folder(output);
+  const std::string end = fmt::format("-{}", rank);
+  int file = -1;
+  for (const std::string& name : files_of(folder)) {  // by run
+    if (!name.ends_with(end)) continue;
+    if (file >= 0) close(file);
+    file = open((folder + "/" + name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  }
+  std::map<WorkKey, FaceId> begun;
+  for_each_record(file, [&](const RecordHead& head, std::uint64_t) {
+    if (head.kind == kBegun && head.face != kNone) begun[head.key] = static_cast<FaceId>(head.face);
+    if (head.kind == kDone || head.kind == kFailed) begun.erase(head.key);
+  });
+  if (file >= 0) close(file);
+  std::set<FaceId> faces;
+  for (const auto& [key, face] : begun) faces.insert(face);
+  return {faces.begin(), faces.end()};
 }
 
 void remove_journal(const std::string& output) {

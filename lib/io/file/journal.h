@@ -122,6 +122,10 @@ void note_end() noexcept;
 /// Processes that crashed, or were ended without having a say, by the journal of this output. Local.
 std::size_t count_deaths(const std::string& output);
 
+/// Faces (0-based, ascending) that were under way in the latest process of this rank, by the journal of this output.
+/// The process may still live. Local.
+std::vector<FaceId> faces_under_way(const std::string& output, int rank);
+
 /// Removes the journal of this output, if there is one. Local.
 void remove_journal(const std::string& output);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <new>
 #include <string>
 #include <thread>
 
@@ -23,6 +24,36 @@ TEST(CurrentWork, is_the_innermost_one_of_this_thread) {
     std::thread([] { EXPECT_EQ(current(), "nothing"); }).join();
   }
   EXPECT_EQ(current(), "face 12");
+}
+
+/// What is said of a std::bad_alloc out of `work`.
+template <class Work>
+std::string memory_message(const Work& work) {
+  try {
+    with_memory_named(work);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kMemory);
+    return e.what();
+  }
+  return "none";
+}
+
+TEST(CurrentWork, is_named_where_memory_ends) {
+  const auto fail_inside = [] {
+    const CurrentWork face("face", 12);
+    { const CurrentWork edge("edge", 3); }
+    throw std::bad_alloc();
+    return 0;
+  };
+  EXPECT_EQ(memory_message(fail_inside).rfind("face 12: out of memory; use larger lengths", 0), 0u);
+  EXPECT_EQ(memory_message([]() -> int { throw std::bad_alloc(); }).rfind("out of memory; ", 0), 0u) << "no old work";
+  EXPECT_EQ(memory_message([&] {
+              const CurrentWork outer("face", 7);
+              return fail_inside();
+            }).rfind("face 12: ", 0),
+            0u)
+      << "the innermost one";
+  EXPECT_EQ(with_memory_named([] { return 5; }), 5);
 }
 
 int g_n_signals = 0;  // of late work, counted by the thread that is late

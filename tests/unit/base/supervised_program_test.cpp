@@ -38,6 +38,24 @@ TEST(SupervisedProgram, passes_signals_on) {
   EXPECT_EQ(end.passed_signal, SIGTERM);
 }
 
+/// Runs a shell script that is watched; how often a process was found to stand still.
+int n_stops(const std::string& script, double seconds) {
+  int n = 0;
+  run_supervised({"sh", "-c", script}, [](const std::string&) {}, {seconds, [&](pid_t) { ++n; }});
+  return n;
+}
+
+TEST(SupervisedProgram, is_ended_when_it_or_a_process_below_stands_still) {
+  EXPECT_EQ(n_stops("kill -STOP $$; exec sleep 60", 0.06), 1);
+  EXPECT_EQ(n_stops("sleep 60 & kill -STOP $!; wait", 0.06), 1);
+}
+
+TEST(SupervisedProgram, goes_on_when_its_stop_ends_in_time) {
+  EXPECT_EQ(n_stops("(sleep 0.01; kill -CONT $$) & kill -STOP $$; echo >&2", 30), 0);
+}
+
+TEST(SupervisedProgram, is_not_ended_for_being_silent) { EXPECT_EQ(n_stops("sleep 0.05", 0.01), 0); }
+
 TEST(SupervisedProgram, cannot_be_one_that_does_not_exist) {
   try {
     run_supervised({"/no/such/program"}, [](const std::string&) {});

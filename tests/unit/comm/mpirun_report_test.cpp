@@ -2,7 +2,9 @@
 #include "comm/mpirun_report.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <sstream>
 
 namespace st {
@@ -61,6 +63,19 @@ TEST(MpirunReport, drops_what_several_aborting_ranks_repeat) {
                      "[vm:17] [[21004,0],0] ORTE_ERROR_LOG: Data unpack had inadequate space in file "
                      "orte/util/show_help.c at line 513\n"),
             "");
+}
+
+TEST(MpirunReport, drops_what_mpirun_says_when_a_terminal_stops_it) {
+  MpirunReport report;
+  EXPECT_EQ(filtered(report, "mpirun: Forwarding signal 20 to job\nmpirun: Forwarding signal 18 to job\n"), "");
+}
+
+TEST(MpirunReport, tells_what_stood_still) {
+  const LostRankError stopped = stopped_rank(getpid(), 30);
+  EXPECT_EQ(static_cast<int>(stopped.code()), 128 + SIGSTOP);
+  EXPECT_EQ(stopped.rank(), -1) << "no rank in this test's environment";
+  EXPECT_EQ(std::string(stopped.what()).rfind("mpirun on ", 0), 0u);
+  EXPECT_NE(std::string(stopped.what()).find(") stood still for 30 s, stopped by a signal"), std::string::npos);
 }
 
 TEST(MpirunReport, passes_on_what_ranks_say_and_other_banners) {

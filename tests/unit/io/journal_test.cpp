@@ -76,6 +76,21 @@ TEST_F(JournalTest, passes_over_a_torn_end) {
   }
 }
 
+TEST_F(JournalTest, tells_the_faces_under_way_while_its_process_lives) {
+  const auto faces = [&](int rank) { return faces_under_way(output(), rank); };
+  EXPECT_TRUE(faces(0).empty()) << "no journal";
+  {
+    Journal journal(place());
+    journal.begin(work_at(9));
+  }
+  Journal journal(place(10));
+  for (const FaceId f : {7, 5, 3}) journal.begin(work_at(f));
+  journal.begin(work_at(kNone));
+  journal.finish(work_at(5), bytes_of(10, 1));
+  EXPECT_EQ(faces(0), (std::vector<FaceId>{3, 7})) << "of the latest run alone";
+  EXPECT_TRUE(faces(1).empty()) << "another rank";
+}
+
 TEST_F(JournalTest, does_not_believe_changed_bytes) {
   {
     Journal journal(place());
