@@ -1,5 +1,6 @@
 #include "base/stopped_processes.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -12,13 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the state in /proc/PID/stat, which follows the name in parentheses, says so.
-bool is_stopped(pid_t process) {
+/// That in /proc/PID/stat, which follows the name in parentheses; 'X' where there is none.
+char state_of(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;
   std::getline(file, text);
   const std::size_t end = text.rfind(") ");
-  return end != std::string::npos && end + 2 < text.size() && text[end + 2] == 'T';
+  return end != std::string::npos && end + 2 < text.size() ? text[end + 2] : 'X';
 }
 
 void add_children(pid_t process, std::vector<pid_t>& to) {
@@ -32,6 +33,12 @@ void add_children(pid_t process, std::vector<pid_t>& to) {
 
 }  // namespace
 
+bool has_unreaped_child(pid_t process) {
+  std::vector<pid_t> children;
+  add_children(process, children);
+  return std::any_of(children.begin(), children.end(), [](pid_t child) { return state_of(child) == 'Z'; });
+}
+
 std::vector<pid_t> StoppedProcesses::look() {
   std::map<pid_t, int> looks;
   std::vector<pid_t> processes = {root_}, stopped;
@@ -39,7 +46,7 @@ std::vector<pid_t> StoppedProcesses::look() {
   for (std::size_t i = 0; i < processes.size(); ++i) {
     const pid_t process = processes[i];
     add_children(process, processes);
-    if (!is_stopped(process)) continue;
+    if (state_of(process) != 'T') continue;
     looks[process] = looks_[process] + 1;
     const bool is_first = !is_enough && looks[process] >= n_looks_;
     is_enough |= is_first;

@@ -1,4 +1,5 @@
-// Processes that a signal has stopped (SIGSTOP), which wait for somebody to let them go on.
+// Processes that a signal has stopped (SIGSTOP), which wait for somebody to let them go on; and those that are
+// deaf to the end of their children.
 #pragma once
 
 #include <sys/types.h>
@@ -7,6 +8,9 @@
 #include <vector>
 
 namespace st {
+
+/// Whether a child of the process has ended and the process has not taken note of it. False where there is no /proc.
+bool has_unreaped_child(pid_t process);
 
 /// Looks at a process and all below it. Counts looks, not seconds: who looks may have been stopped as well, and then
 /// nobody was waited for.

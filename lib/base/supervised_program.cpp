@@ -104,7 +104,8 @@ struct Pipe {
   _exit(127);
 }
 
-/// Looks at the processes of a program from time to time, and ends it where one stands still.
+/// Looks at the processes of a program from time to time. Ends it where one stands still, or the program no
+/// longer takes note of the end of its children.
 class Watcher {
  public:
   Watcher(pid_t program, const StopWatch& watch)
@@ -112,6 +113,8 @@ class Watcher {
         watch_(watch),
         interval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(watch.seconds / kLooks))),
         processes_(program, kLooks) {}
+
+  bool was_deaf() const { return was_deaf_; }
 
   /// Until there is something to read.
   void wait_for(int fd) {
@@ -125,10 +128,11 @@ class Watcher {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int kLooks = 30;
+  static constexpr int kLooks = 30, kLooksDeaf = 10;
 
   void look() {
     next_ = Clock::now() + interval_;
+    end_deaf();
     std::vector<pid_t> ended = processes_.look();
     if (ended.empty()) return;
     has_ended_ = true;
@@ -140,12 +144,21 @@ class Watcher {
     }
   }
 
+  /// mpirun may wait for a lock of its own for ever, when a rank is killed as it begins.
+  void end_deaf() {
+    n_deaf_ = has_unreaped_child(program_) ? n_deaf_ + 1 : 0;
+    if (n_deaf_ < kLooksDeaf) return;
+    has_ended_ = was_deaf_ = true;
+    kill(program_, SIGKILL);
+  }
+
   const pid_t program_;
   const StopWatch& watch_;
   const Clock::duration interval_;
   Clock::time_point next_ = Clock::now() + interval_;
   StoppedProcesses processes_;
-  bool has_ended_ = false;
+  int n_deaf_ = 0;  // looks at which it had not taken note of the end of a child
+  bool has_ended_ = false, was_deaf_ = false;
 };
 
 /// Up to the end of the file.
@@ -199,7 +212,8 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
   while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
   }
   require_started(failure.ends[0], words[0]);
-  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), WIFSIGNALED(status), g_passed_signal};
+  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), WIFSIGNALED(status), watcher.was_deaf(),
+          g_passed_signal};
 }
 
 }  // namespace st

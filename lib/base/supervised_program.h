@@ -12,10 +12,12 @@ namespace st {
 struct ProgramEnd {
   int exit_code = 0;          ///< its own, or 128 + the signal that ended it
   bool is_signalled = false;  ///< a signal ended the program itself
+  bool was_deaf = false;      ///< was killed: it took no note of the end of a child
   int passed_signal = 0;      ///< > 0: the signal that this process got meanwhile and passed on
 };
 
-/// For programs whose processes wait for each other: what happens where a signal has stopped one of them.
+/// For programs whose processes wait for each other: what happens where a signal has stopped one of them. A
+/// program that takes no note of the end of a child for a third of that time is killed.
 struct StopWatch {
   double seconds = 30;                              ///< > 0, that it may stand still while this process runs
   std::function<void(pid_t process)> on_stopped{};  ///< called once, before the program is ended; empty: nobody looks

@@ -214,6 +214,8 @@ double longest_stop() {
 int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
   if (end.passed_signal > 0) return 128 + end.passed_signal;
   if (lost) throw LostRankError(static_cast<ExitCode>(128 + lost->signal), lost->rank, describe_lost_rank(*lost));
+  if (end.was_deaf)
+    throw Error(ExitCode::kInternal, "mpirun took no note of the end of a rank (a defect of Open MPI); run again");
   if (end.is_signalled)
     throw Error(static_cast<ExitCode>(end.exit_code),
                 "mpirun was ended by " + signal_text(end.exit_code - 128) + ", and with it all ranks; run again");

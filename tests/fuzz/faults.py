@@ -72,7 +72,11 @@ class Stages:
 
 def children(pid):
     for task in Path("/proc").glob(f"{pid}/task/*/children"):
-        for child in map(int, task.read_text().split()):
+        try:
+            own = [int(child) for child in task.read_text().split()]
+        except OSError:  # it has ended
+            continue
+        for child in own:
             yield child
             yield from children(child)
 
@@ -110,7 +114,7 @@ def kill(stages, rng, folder):
         err = process.communicate(timeout=60)[1]
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
-        return f"{tool} {target}", "does not end"
+        return f"{tool} {target} {sent.name}", "does not end"
     code, what = process.returncode, f"{tool} {target} {sent.name}"
     allowed = {0, -sent, 128 + sent}
     if code not in allowed:

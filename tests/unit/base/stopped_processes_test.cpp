@@ -58,6 +58,16 @@ TEST(StoppedProcesses, begins_anew_when_it_goes_on) {
   EXPECT_EQ(processes.look(), std::vector{child.id()});
 }
 
+TEST(StoppedProcesses, are_not_those_that_ended_unnoticed) {
+  EXPECT_FALSE(has_unreaped_child(getpid()));
+  const Child child;
+  EXPECT_FALSE(has_unreaped_child(getpid())) << "it lives";
+  kill(child.id(), SIGKILL);
+  siginfo_t end;
+  waitid(P_PID, child.id(), &end, WEXITED | WNOWAIT);
+  EXPECT_TRUE(has_unreaped_child(getpid()));
+}
+
 TEST(StoppedProcesses, finds_none_where_there_is_none) {
   EXPECT_TRUE(StoppedProcesses(getpid(), 1).look().empty());
   EXPECT_TRUE(StoppedProcesses(0x7ffffff0, 1).look().empty()) << "no such process";

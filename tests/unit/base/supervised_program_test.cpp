@@ -56,6 +56,18 @@ TEST(SupervisedProgram, goes_on_when_its_stop_ends_in_time) {
 
 TEST(SupervisedProgram, is_not_ended_for_being_silent) { EXPECT_EQ(n_stops("sleep 0.05", 0.01), 0); }
 
+TEST(SupervisedProgram, is_killed_when_it_takes_no_note_of_the_end_of_a_child) {
+  const auto run = [](const std::string& script) {
+    return run_supervised({"sh", "-c", script}, [](const std::string&) {}, {0.06, [](pid_t) {}});
+  };
+  const ProgramEnd deaf = run("sleep 0.01 & exec sleep 60");
+  EXPECT_TRUE(deaf.was_deaf);
+  EXPECT_EQ(deaf.exit_code, 128 + SIGKILL);
+  const ProgramEnd attentive = run("sleep 0.01; sleep 0.05; exit 4");
+  EXPECT_FALSE(attentive.was_deaf);
+  EXPECT_EQ(attentive.exit_code, 4);
+}
+
 TEST(SupervisedProgram, cannot_be_one_that_does_not_exist) {
   try {
     run_supervised({"/no/such/program"}, [](const std::string&) {});
