@@ -248,6 +248,7 @@ std::set<int> add_edge_contacts(const ImportedShape& model, const ModelTables& t
         if (std::abs(t.edge_length[a] - t.edge_length[b]) > 10 * tolerance + 1e-3 * t.edge_length[a]) continue;
         if (edges.IsEmpty()) TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
         const double near = std::max({tolerance, t.edge_tolerance[a], t.edge_tolerance[b]});
+        if (solid[a] == solid[b] && t.edge_length[a] <= near) continue;  // a point, which all edges there have
         if (!passes(edges(b + 1), middle_of(edges(a + 1)), near)) continue;
         joined.join(solid[a], solid[b]);
         if (solid[a] == solid[b]) self_touching.insert(solid[a]);
