@@ -9,6 +9,7 @@
 #include "geometry/shape/wall_gap.h"
 #include "mesh/corner_uv.h"
 #include "mesh/patch_crossing.h"
+#include "mesh/touching_triangles.h"
 
 namespace st {
 namespace {
@@ -236,6 +237,30 @@ std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) 
     if (p.face_b == f) triangles.insert(static_cast<std::size_t>(p.index_b));
   }
   return {triangles.begin(), triangles.end()};
+}
+
+std::map<FaceId, std::vector<Vec3>> CrossingSearch::move_touching_apart(const BoundaryNumbering& numbering,
+                                                                        std::vector<FacePatch>& patches) {
+  WeldedPatches m = weld(numbering, patches);
+  std::vector<TouchingPair> touching;
+  for (const FacetPair& p : pairs_) {
+    const Triangle &a = m.triangles[m.patch_begin[p.face_a] + p.index_a],
+                   &b = m.triangles[m.patch_begin[p.face_b] + p.index_b];
+    if (std::none_of(std::begin(a.n), std::end(a.n), [&](NodeId n) { return std::ranges::count(b.n, n) > 0; }))
+      touching.push_back({a, b, meeting_distance(model_.tables(), p.face_a, p.face_b)});
+  }
+  std::map<FaceId, std::vector<Vec3>> before;
+  if (!st::move_touching_apart(touching, m.n_boundary, m.points)) return before;
+  std::set<FaceId> faces;
+  for (const FacetPair& p : pairs_) faces.insert({p.face_a, p.face_b});
+  for (const FaceId f : faces) {
+    std::vector<Vec3> xyz = patches[f].inner_xyz;
+    for (std::int32_t i = m.inner_begin[f]; i < m.inner_begin[f + 1]; ++i) xyz[m.inner[i]] = m.points[m.n_boundary + i];
+    if (xyz == patches[f].inner_xyz) continue;
+    before[f] = std::exchange(patches[f].inner_xyz, std::move(xyz));
+    renew(f);
+  }
+  return before;
 }
 
 }  // namespace st

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -45,6 +46,11 @@ class CrossingSearch {
   /// Triangles of the face, by their places in its patch, that cross others of it, or also of other faces; by the last
   /// run, ascending.
   std::vector<std::size_t> crossing_in(FaceId f, bool others_too) const;
+  /// Moves nodes inside faces where triangles of the last run touch as the CAD does, to part them: by less than
+  /// surfaces that meet are apart (meeting_distance()). Returns the places of the nodes before, by changed face; these
+  /// are renewed.
+  std::map<FaceId, std::vector<Vec3>> move_touching_apart(const BoundaryNumbering& numbering,
+                                                          std::vector<FacePatch>& patches);
 
  private:
   struct FacetPair {  // two triangles by face and place in its patch

@@ -188,8 +188,24 @@ void FaceRounds::refill_bad() {
   }
 }
 
+/// Triangles that touch because the CAD touches itself: a hair apart. Stays only where fewer are left.
+void FaceRounds::part_touching() {
+  const int n_pairs = crossings_.n_pairs();
+  if (n_pairs == 0) return;
+  std::map<FaceId, std::vector<Vec3>> before = crossings_.move_touching_apart(*numbering_, result_.patches);
+  if (before.empty()) return;
+  crossings_.run(*numbering_, result_.patches);
+  if (crossings_.n_pairs() < n_pairs) return;
+  for (auto& [f, xyz] : before) {
+    result_.patches[f].inner_xyz = std::move(xyz);
+    crossings_.renew(f);
+  }
+  crossings_.run(*numbering_, result_.patches);
+}
+
 void FaceRounds::report() {
   refill_bad();
+  part_touching();
   result_.n_crossing_pairs = crossings_.n_pairs();
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];

@@ -88,6 +88,7 @@ class FaceRounds : public MeshRounds {
   void close_holes();
   void close_hole(FaceId f);
   void refill_bad();
+  void part_touching();
   std::map<FaceId, std::vector<std::size_t>> bad_triangles() const;
   std::vector<Vec3> nodes_of(const FacePatch& patch) const;
   void keep_whole();

@@ -67,6 +67,28 @@ TEST(CrossingSearch, measures_what_it_takes_to_part_bodies_and_leaves_those_in_c
   EXPECT_TRUE(touching.run(boxes.numbering(), boxes.result.patches).empty());
 }
 
+TEST(CrossingSearch, parts_faces_that_touch_in_a_node) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  const Box3 all = m.model.tables().box();
+  const auto is_low = [&](FaceId f) { return m.model.tables().face_box[f].hi.z < all.lo.z + 1e-6; };
+  const auto is_high = [&](FaceId f) { return m.model.tables().face_box[f].lo.z > all.hi.z - 1e-6; };
+  FaceId low = 0, high = 0;
+  while (!is_low(low)) ++low;
+  while (!is_high(high)) ++high;
+  patches[high].inner_xyz.at(patches[high].inner_xyz.size() / 2).z = all.lo.z;
+  CrossingSearch search(m.model);
+  search.run(m.numbering(), patches);
+  ASSERT_GT(search.n_pairs(), 0);
+  const auto moved = search.move_touching_apart(m.numbering(), patches);
+  EXPECT_TRUE(moved.contains(high));
+  for (const auto& [f, xyz] : moved)
+    for (std::size_t i = 0; i < xyz.size(); ++i)
+      EXPECT_LT(distance(xyz[i], patches[f].inner_xyz[i]), 2e-6 * all.diagonal());
+  search.run(m.numbering(), patches);
+  EXPECT_EQ(search.n_pairs(), 0);
+}
+
 TEST(CrossingSearch, halves_the_longest_side_of_a_triangle_at_its_centre) {
   const RefinementPoint p = halve_triangle({0, 0, 0}, {3, 0, 0}, {0, 4, 0});
   EXPECT_EQ(p.length, 2.5);
