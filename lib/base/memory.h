@@ -8,6 +8,10 @@ namespace st {
 /// glibc.
 void keep_freed_memory();
 
+/// What is freed and still kept goes back to the system: between two steps, of which the later one needs large arrays
+/// that do not fit into what the pieces of the earlier one left.
+void return_freed_memory();
+
 /// Memory that this process may use, bytes: the machine's, or less where a control group (container, batch job) or a
 /// resource limit says so.
 double memory_limit();

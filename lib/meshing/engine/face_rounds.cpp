@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
@@ -377,6 +378,7 @@ std::vector<FaceId> FaceRounds::join(TiledFaces& tiled) {
       return tiled.join(surface, cut[i], boundary);
     });
   });
+  return_freed_memory();
   for (std::size_t i = 0; i < cut.size(); ++i) {
     if (results[i].cause == FailureCause::kNone)
       take_face(cut[i], std::move(results[i]));

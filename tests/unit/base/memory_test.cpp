@@ -1,9 +1,14 @@
-// memory_limit(): never more than the machine has, and what a limit of the process leaves.
+// memory_limit(): never more than the machine has, and what a limit of the process leaves. Memory that goes back.
 #include "base/memory.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <vector>
 
 namespace st {
 namespace {
@@ -23,6 +28,24 @@ TEST(MemoryLimit, is_that_of_the_process_where_it_has_one) {
   const double limit = memory_limit();
   setrlimit(RLIMIT_DATA, &old);
   EXPECT_LE(limit, 3 << 28);
+}
+
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+TEST(FreedMemory, goes_back_to_the_system_from_between_what_is_used) {
+  constexpr std::size_t kPieces = 2000, kBytes = 20'000;
+  std::vector<std::unique_ptr<char[]>> pieces(kPieces);
+  for (auto& piece : pieces) piece.reset(new char[kBytes]), std::memset(piece.get(), 1, kBytes);
+  for (std::size_t i = 0; i < kPieces; ++i)
+    if (i % 10 != 0) pieces[i].reset();
+  const double kept = resident_bytes();
+  return_freed_memory();
+  EXPECT_LT(resident_bytes(), kept - 0.5 * kPieces * kBytes);
 }
 
 }  // namespace
