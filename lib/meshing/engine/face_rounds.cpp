@@ -275,7 +275,7 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 /// faces are cut the others that are light are meshed.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   const WorkLimit tile_limit = time_limit(options_.tile_triangles);
-  TiledFaces tiled(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
+  TiledRegions tiled(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (options_.tile_triangles > 0 && !expected_.empty())
     tiled.choose(without_left_out(dirty_faces_), expected_, options_.tile_triangles);
   wanted_.assign(outcomes_.size(), {});
@@ -294,11 +294,17 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   executor_.begin_phase("join tiles");
   std::vector<FaceId> failed = join(tiled);
   share(executor_, failed);
-  TiledFaces none(model_, *numbering_, field_, refinements_, face_options(), tile_limit);
+  TiledRegions none(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (!failed.empty()) mesh_faces(failed, none, progress);
   std::vector<RefinementPoint> all;
   for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
   return all;
+}
+
+Regions FaceRounds::faces_as_regions() const {
+  return {[](FaceId f) { return f; },
+          [this](FaceId f, const Surface& surface) { return make_face_boundary(model_, surface, f, *numbering_); },
+          [this](const FaceBoundary& boundary) { return boundary_places(boundary, *numbering_); }};
 }
 
 /// After it something must be wrong with so many triangles.
@@ -325,7 +331,7 @@ void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
 }
 
 /// Tasks: the cuts, then light faces.
-void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledFaces& tiled, Progress& progress) {
+void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress) {
   const std::vector<FaceId>& cut = tiled.chosen();
   const auto n_cuts = static_cast<std::int32_t>(cut.size());
   std::vector<double> work;
@@ -347,13 +353,15 @@ void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledFaces& tile
 }
 
 /// Tasks: `whole`, then the tiles.
-void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledFaces& tiled, Progress& progress) {
+void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress) {
   const auto n_whole = static_cast<std::int32_t>(whole.size());
   std::vector<double> work;
   for (const FaceId f : whole) work.push_back(weight(f));
   for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
   const auto label = [&](std::int32_t task) {
-    return task < n_whole ? TaskLabel{"face", whole[task]} : tiled.label(task - n_whole);
+    if (task < n_whole) return TaskLabel{"face", whole[task]};
+    const TiledRegions::Tile& tile = tiled.tile(task - n_whole);
+    return TaskLabel{"tile", tile.region, tile.index};
   };
   executor_.run_named_tasks(
       {heaviest_first(work), label, made_from()},
@@ -367,11 +375,10 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledFaces& tiled,
 }
 
 /// Local. Joins the tiles of each face on rank 0; returns the faces of which a tile failed, or whose tiles do not fit.
-std::vector<FaceId> FaceRounds::join(TiledFaces& tiled) {
-  std::vector<FaceId> cut, failed;
+std::vector<FaceId> FaceRounds::join(TiledRegions& tiled) {
+  std::vector<FaceId> failed;
   if (!executor_.is_root()) return failed;
-  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(cut),
-               [&](FaceId f) { return tiled.is_cut(f); });
+  const std::vector<FaceId> cut = tiled.cut_regions();
   std::vector<FaceResult> results(cut.size());
   parallel_for(cut.size(), 1, [&](std::size_t i, std::size_t) {
     results[i] = make_face(cut[i], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {

@@ -14,7 +14,7 @@
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
-#include "meshing/engine/tiled_faces.h"
+#include "meshing/engine/tiled_regions.h"
 
 namespace st {
 
@@ -78,11 +78,12 @@ class FaceRounds : public MeshRounds {
   WorkLimit time_limit(double n_triangles) const;
   std::vector<FaceId> without_left_out(std::vector<FaceId> faces) const;
   std::string made_from() const;
-  void mesh_faces(const std::vector<FaceId>& whole, TiledFaces& tiled, Progress& progress);
-  void cut_and_mesh(const std::vector<FaceId>& light, TiledFaces& tiled, Progress& progress);
+  void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
+  void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
   void take_whole(FaceId f, const Bytes& bytes);
   double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
-  std::vector<FaceId> join(TiledFaces& tiled);
+  std::vector<FaceId> join(TiledRegions& tiled);
+  Regions faces_as_regions() const;
   void take_face(FaceId f, FaceResult&& result);
   bool has_holes() const;
   void close_holes();

@@ -1,6 +1,7 @@
 #include "meshing/engine/hole_rounds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "base/current_work.h"
@@ -9,6 +10,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
+#include "base/threads.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/hole/hole_crossing.h"
@@ -94,7 +96,7 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
 }
 
 /// Without triangles where it cannot be filled, or where earlier runs ended at its face.
-HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
+HoleFill HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const {
   const CurrentWork at_face("face", rim.face + 1);
   HoleFill fill;
   if (options_.left_out.contains(rim.face)) return fill;
@@ -102,9 +104,7 @@ HoleFill HoleRounds::fill_hole(const HoleRim& rim) const {
     const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
     const auto surface = model_.surface(rim.face);
     const FaceBoundary boundary = make_hole_boundary(model_, *surface, rim, holes_.marks(), *numbering_, field);
-    FaceMeshOptions options;
-    options.enhance_rounds = options_.enhance_rounds;
-    const FaceMesh filled = mesh_face(*surface, boundary, field, options);
+    const FaceMesh filled = make_mesh(*surface, boundary, field);
     if (filled.cause == FailureCause::kNone && filled.n_folds == 0) fill = make_hole_fill(rim, boundary, filled);
   } catch (const Error&) {  // no triangles: the hole grows
   }
@@ -129,31 +129,132 @@ std::string HoleRounds::made_from(const std::vector<HoleRim>& rims) const {
   return digest;
 }
 
-/// Collective. Fills the holes; returns those where it failed, ascending.
+FaceMeshOptions HoleRounds::face_options() const {
+  FaceMeshOptions options;
+  options.enhance_rounds = options_.enhance_rounds;
+  return options;
+}
+
+/// By the sizes over the marked triangles.
+double HoleRounds::expected_triangles(const HoleRim& rim) const {
+  constexpr std::size_t kPerPiece = 8192;
+  const SurfaceMesh& m = old_.mesh;
+  const FaceField field(field_, refinements_, model_.tables().face_box[rim.face]);
+  std::vector<double> pieces(rim.triangles.size() / kPerPiece + 1, 0);
+  parallel_for(rim.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    int hint = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const NodeId* n = m.triangles[rim.triangles[k]].n;
+      const Vec3 a = m.node_xyz[n[0]], b = m.node_xyz[n[1]], c = m.node_xyz[n[2]];
+      const double h = field.get().size((a + b + c) / 3, hint);
+      pieces[begin / kPerPiece] += kTrianglesPerWeight * 0.5 * norm(cross(b - a, c - a)) / (h * h);
+    }
+  });
+  return std::accumulate(pieces.begin(), pieces.end(), 0.0);
+}
+
+/// Collective. By hole, from rank 0, which knows their triangles.
+std::vector<double> HoleRounds::expected_triangles(const std::vector<HoleRim>& rims) const {
+  std::vector<double> expected(rims.size(), 0);
+  for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) try {
+      expected[i] = expected_triangles(rims[i]);
+    } catch (const Error&) {  // filling it will say what is wrong
+    }
+  share(executor_, expected);
+  return expected;
+}
+
+Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
+  return {[&rims](std::int32_t i) { return rims[i].face; },
+          [this, &rims](std::int32_t i, const Surface& surface) {
+            const RefinedField field(field_, refinements_.near(model_.tables().face_box[rims[i].face]));
+            return make_hole_boundary(model_, surface, rims[i], holes_.marks(), *numbering_, field);
+          },
+          [this](const FaceBoundary& boundary) { return hole_places(boundary, *numbering_); }};
+}
+
+/// Collective. Fills the holes, heavy ones tile by tile, or as a whole where that fails; returns those that stay open,
+/// ascending.
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
-  std::vector<double> weight;
-  for (const HoleRim& rim : rims) weight.push_back(static_cast<double>(rim.triangles.size()));
-  share(executor_, weight);
+  const std::vector<double> expected = expected_triangles(rims);
   std::vector<HoleFill> fills(rims.size());
-  std::vector<std::int32_t> failed;
-  Progress progress("filling holes", std::accumulate(weight.begin(), weight.end(), 0.0));
-  double done = 0;
-  executor_.run_named_tasks(
-      {heaviest_first(weight),
-       [&](std::int32_t task) {
-         return TaskLabel{"hole", rims[task].face, task};
-       },
-       made_from(rims)},
-      [&](std::int32_t task) { return packed(fill_hole(rims[task])); },
-      [&](std::int32_t task, Bytes&& result) {
-        unpack(result, fills[task]);
-        progress.update(done += weight[task]);
-      });
+  std::vector<std::int32_t> closed, whole, failed;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(rims.size()); ++i)
+    if (!options_.left_out.contains(rims[i].face)) closed.push_back(i);
+  TiledRegions tiled(model_, holes_as_regions(rims), field_, refinements_, face_options(), {}),
+      none(model_, holes_as_regions(rims), field_, refinements_, face_options(), {});
+  if (options_.tile_triangles > 0) tiled.choose(closed, expected, options_.tile_triangles);
+  if (!tiled.chosen().empty()) cut_holes(rims, expected, tiled);
+  std::copy_if(closed.begin(), closed.end(), std::back_inserter(whole),
+               [&](std::int32_t i) { return !tiled.is_cut(i); });
+  fill_holes(rims, whole, expected, tiled, fills);
+  if (executor_.is_root()) failed = join_tiles_of(rims, tiled, fills);
+  share(executor_, failed);
+  if (!failed.empty()) fill_holes(rims, failed, expected, none, fills);
+  failed.clear();
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
     if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
   share(executor_, failed);
+  return failed;
+}
+
+void HoleRounds::cut_holes(const std::vector<HoleRim>& rims, const std::vector<double>& expected,
+                           TiledRegions& tiled) const {
+  const std::vector<std::int32_t>& cut = tiled.chosen();
+  std::vector<double> work;
+  for (const std::int32_t i : cut) work.push_back(expected[i]);
+  executor_.run_named_tasks(
+      {heaviest_first(work),
+       [&](std::int32_t task) {
+         return TaskLabel{"hole cut", rims[cut[task]].face, cut[task]};
+       },
+       made_from(rims)},
+      [&](std::int32_t task) { return tiled.cut(task); },
+      [&](std::int32_t task, Bytes&& bytes) { tiled.take_cut(task, bytes); });
+  tiled.share_cuts(executor_);
+}
+
+/// Tasks: `whole`, then the tiles.
+void HoleRounds::fill_holes(const std::vector<HoleRim>& rims, const std::vector<std::int32_t>& whole,
+                            const std::vector<double>& expected, TiledRegions& tiled,
+                            std::vector<HoleFill>& fills) const {
+  const auto n_whole = static_cast<std::int32_t>(whole.size());
+  std::vector<double> work;
+  for (const std::int32_t i : whole) work.push_back(expected[i]);
+  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
+  const auto label = [&](std::int32_t task) {
+    if (task < n_whole) return TaskLabel{"hole", rims[whole[task]].face, whole[task]};
+    return TaskLabel{"hole tile", rims[tiled.tile(task - n_whole).region].face, task - n_whole};
+  };
+  const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
+    return mesh_face(surface, boundary, field, face_options());
+  };
+  Progress progress("filling holes", std::accumulate(work.begin(), work.end(), 0.0));
+  double done = 0;
+  executor_.run_named_tasks(
+      {heaviest_first(work), label, made_from(rims)},
+      [&](std::int32_t task) {
+        return task < n_whole ? packed(fill_hole(rims[whole[task]], make)) : tiled.compute(task - n_whole);
+      },
+      [&](std::int32_t task, Bytes&& result) {
+        task < n_whole ? unpack(result, fills[whole[task]]) : tiled.take(task - n_whole, result);
+        progress.update(done += work[task]);
+      });
+}
+
+/// Local, on rank 0. Returns the holes of which a tile failed, or whose tiles do not fit.
+std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& rims, TiledRegions& tiled,
+                                                    std::vector<HoleFill>& fills) const {
+  const std::vector<std::int32_t> cut = tiled.cut_regions();
+  parallel_for(cut.size(), 1, [&](std::size_t i, std::size_t) {
+    fills[cut[i]] = fill_hole(rims[cut[i]], [&](const Surface& surface, const FaceBoundary& boundary,
+                                                const SizeField&) { return tiled.join(surface, cut[i], boundary); });
+  });
+  std::vector<std::int32_t> failed;
+  std::copy_if(cut.begin(), cut.end(), std::back_inserter(failed),
+               [&](std::int32_t i) { return fills[i].triangles.empty(); });
   return failed;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "meshing/engine/hole_marker.h"
 #include "meshing/engine/mesh_rounds.h"
+#include "meshing/engine/tiled_regions.h"
 #include "meshing/hole/hole_filler.h"
 
 namespace st {
@@ -40,9 +42,19 @@ class HoleRounds : public MeshRounds {
 
   void request_curve_lengths();
   std::vector<HoleRim> find_rims(const std::vector<FaceId>& faces) const;
+  using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
   std::vector<std::int32_t> fill(const std::vector<HoleRim>& rims);
+  double expected_triangles(const HoleRim& rim) const;
+  std::vector<double> expected_triangles(const std::vector<HoleRim>& rims) const;
+  Regions holes_as_regions(const std::vector<HoleRim>& rims) const;
+  void fill_holes(const std::vector<HoleRim>& rims, const std::vector<std::int32_t>& whole,
+                  const std::vector<double>& expected, TiledRegions& tiled, std::vector<HoleFill>& fills) const;
+  void cut_holes(const std::vector<HoleRim>& rims, const std::vector<double>& expected, TiledRegions& tiled) const;
+  std::vector<std::int32_t> join_tiles_of(const std::vector<HoleRim>& rims, TiledRegions& tiled,
+                                          std::vector<HoleFill>& fills) const;
   std::string made_from(const std::vector<HoleRim>& rims) const;
-  HoleFill fill_hole(const HoleRim& rim) const;
+  HoleFill fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
+  FaceMeshOptions face_options() const;
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
 

@@ -43,22 +43,76 @@ class TileCutter {
   }
 
  private:
-  /// The segment that leaves each node. False: a node has not exactly one.
+  /// The node after each; of those where several parts of the loops meet, any. False: a loop is open.
   bool follow_loops() {
     next_.assign(boundary_.nodes.size(), kNone);
+    is_meeting_.assign(boundary_.nodes.size(), 0);
+    std::vector<std::int32_t> n_ends(boundary_.nodes.size(), 0);
     for (const auto& [a, b] : boundary_.segments) {
-      if (next_[a] != kNone) return false;
+      if (next_[a] != kNone) is_meeting_[a] = 1;
       next_[a] = b;
+      ++n_ends[b];
     }
-    return std::find(next_.begin(), next_.end(), kNone) == next_.end();
+    for (std::size_t i = 0; i < next_.size(); ++i)
+      if (next_[i] == kNone || (n_ends[i] > 1 && !is_meeting_[i])) return false;
+    return true;
   }
 
-  /// Vertices, poles, and nodes that are the further apart the further from the end of their edge.
+  /// Vertices, poles, where parts of the loops meet, and nodes that are the further apart the further from the end of
+  /// their edge.
   bool is_kept(std::int32_t node, std::int32_t step) const {
     const BoundaryPlace& p = places_[node];
-    if (p.to_end == 0 || boundary_.nodes[node].is_pole) return true;
+    if (p.to_end == 0 || boundary_.nodes[node].is_pole || is_meeting_[node]) return true;
     const auto graded = static_cast<std::int32_t>(std::bit_floor(static_cast<unsigned>(std::max(1, p.to_end / 2))));
     return p.index % std::min(step, graded) == 0;
+  }
+
+  /// A part of a loop, from one coarse node to the next.
+  struct Part {
+    std::int32_t begin, second, end;
+  };
+
+  std::vector<Part> parts_between(const std::vector<char>& is_node) const {
+    std::vector<Part> parts;
+    for (const auto& [a, b] : boundary_.segments) {
+      if (!is_node[a]) continue;
+      std::int32_t end = b;
+      while (!is_node[end]) end = next_[end];
+      parts.push_back({a, b, end});
+    }
+    return parts;
+  }
+
+  /// Calls visit(a, b) for each segment of the part.
+  template <class Visit>
+  void for_each_segment(const Part& part, const Visit& visit) const {
+    visit(part.begin, part.second);
+    for (std::int32_t i = part.second; i != part.end; i = next_[i]) visit(i, next_[i]);
+  }
+
+  /// The nodes of the coarse loops. Along the rough rim of a hole these lie within the hole: no cut meets the rim.
+  std::vector<char> coarse_nodes(std::int32_t step) const {
+    std::vector<char> is_node(boundary_.nodes.size());
+    for (std::int32_t i = 0; i < n_boundary_; ++i) is_node[i] = is_kept(i, step);
+    std::vector<Part> open = parts_between(is_node);
+    while (!open.empty()) {
+      const Part part = open.back();
+      open.pop_back();
+      if (!places_[part.second].is_rough) continue;
+      const Vec2 from = boundary_.nodes[part.begin].uv, along = boundary_.nodes[part.end].uv - from;
+      std::int32_t innermost = kNone;
+      double most = 0;
+      for (std::int32_t i = part.second; i != part.end; i = next_[i]) {
+        const Vec2 to = boundary_.nodes[i].uv - from;
+        const double left = along.x * to.y - along.y * to.x;
+        if (left > most) most = left, innermost = i;
+      }
+      if (innermost == kNone) continue;
+      is_node[innermost] = 1;
+      open.push_back({part.begin, part.second, innermost});
+      open.push_back({innermost, next_[innermost], part.end});
+    }
+    return is_node;
   }
 
   /// Sets coarse_ and what tells its corners. False: the coarse loops cross, or its mesh has folds.
@@ -66,20 +120,21 @@ class TileCutter {
     FaceBoundary loops;
     of_coarse_.clear();
     std::vector<std::int32_t> coarse_of(boundary_.nodes.size(), kNone);
+    const std::vector<char> is_node = coarse_nodes(step);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
-      if (!is_kept(i, step)) continue;
+      if (!is_node[i]) continue;
       coarse_of[i] = static_cast<std::int32_t>(of_coarse_.size());
       of_coarse_.push_back(i);
       loops.nodes.push_back(boundary_.nodes[i]);
     }
-    for (std::size_t c = 0; c < of_coarse_.size(); ++c) {
+    parts_ = parts_between(is_node);
+    for (const Part& part : parts_) {
       double length = 0;
-      std::int32_t i = of_coarse_[c];
-      do {
-        length += distance(boundary_.nodes[i].x, boundary_.nodes[next_[i]].x);
-        i = next_[i];
-      } while (coarse_of[i] == kNone);
-      loops.segments.push_back({static_cast<std::int32_t>(c), coarse_of[i]});
+      for_each_segment(part, [&](std::int32_t i, std::int32_t j) {
+        length += distance(boundary_.nodes[i].x, boundary_.nodes[j].x);
+      });
+      const std::int32_t c = coarse_of[part.begin];
+      loops.segments.push_back({c, coarse_of[part.end]});
       if (length > 0) loops.nodes[c].h = std::max(loops.nodes[c].h, length);
     }
     coarse_segments_ = loops.segments;
@@ -214,7 +269,8 @@ class TileCutter {
     std::vector<std::uint8_t> is_used(of_coarse_.size(), 0);
     for (const std::int32_t c : coarse_.corners)
       if (c < static_cast<std::int32_t>(of_coarse_.size())) is_used[c] = 1;
-    for (const auto& [a, b] : coarse_segments_) {
+    for (std::size_t s = 0; s < coarse_segments_.size(); ++s) {
+      const auto [a, b] = coarse_segments_[s];
       const std::int32_t from = standing_for(a, is_used), to = standing_for(b, is_used);
       std::int32_t part = kNone;
       if (node(a).is_pole && node(a).id == node(b).id) {
@@ -225,8 +281,9 @@ class TileCutter {
         is_boundary_[{from, to}] = 1;
       }
       if (part == kNone) return false;
-      for (std::int32_t i = of_coarse_[a]; i != of_coarse_[b]; i = next_[i])
-        result_.tiles[part].segments.push_back({i, next_[i]});
+      for_each_segment(parts_[s], [&](std::int32_t i, std::int32_t j) {
+        result_.tiles[part].segments.push_back({i, j});
+      });
     }
     return true;
   }
@@ -294,9 +351,11 @@ class TileCutter {
   const std::int32_t n_boundary_;
   int hint_ = 0;
   std::vector<std::int32_t> next_;       // boundary node after each
+  std::vector<char> is_meeting_;         // more than one comes after it
   FaceMesh coarse_;                      // its corners: coarse boundary nodes, then its inner ones
   std::vector<std::int32_t> of_coarse_;  // boundary node of each coarse boundary node
   std::vector<Corners> coarse_segments_;
+  std::vector<Part> parts_;  // what each of these stands for
   std::map<Corners, std::int32_t> triangle_left_of_;
   std::map<Corners, char> is_boundary_;
   std::vector<double> weight_;  // of the coarse triangles: triangles expected in each
@@ -340,6 +399,18 @@ std::vector<std::int32_t> pieces_of_cuts(const TileCut& cut, std::int32_t n_boun
 }
 
 }  // namespace
+
+BoundaryPlace place_on_edge(std::int32_t id, const BoundaryNumbering& numbering) {
+  const BoundaryNumbering::Entity own = numbering.entity(id);
+  if (own.dim == EntityDim::kVertex) return {};
+  return {own.index, std::min(own.index, numbering.edges.n_nodes(own.entity) - 1 - own.index)};
+}
+
+std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering) {
+  std::vector<BoundaryPlace> places;
+  for (const FaceNode& n : boundary.nodes) places.push_back(place_on_edge(n.id, numbering));
+  return places;
+}
 
 TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
                  const SizeField& field, double tile_triangles) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
 
 namespace st {
@@ -15,7 +16,13 @@ namespace st {
 struct BoundaryPlace {
   std::int32_t index = 0;   ///< on the edge; the same for both uses of a seam
   std::int32_t to_end = 0;  ///< nodes to the nearer end of the edge; 0: a vertex
+  bool is_rough = false;    ///< on no edge, but on the sides of triangles that stay
 };
+
+/// Of the node with this number of `numbering`.
+BoundaryPlace place_on_edge(std::int32_t id, const BoundaryNumbering& numbering);
+/// Of all nodes of a face's boundary.
+std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering);
 
 /// Boundary of a tile, its interior on the left. Nodes: boundary node i of the face as i, cut node j as
 /// n_boundary + j.

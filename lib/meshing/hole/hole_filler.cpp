@@ -20,6 +20,7 @@ struct ChainLink {
   CoedgeId coedge;
   std::int32_t segment;
   std::int32_t start, end;  // corners' local nodes at the segment's lower and upper end
+  bool is_along;            // the triangle's side runs from start to end
 };
 
 class HoleBoundaryMaker {
@@ -44,6 +45,8 @@ class HoleBoundaryMaker {
     close_poles();
     for (const auto& [a, b] : free_) emit(a, b);
     replace_runs();
+    if (rim_.is_turned)
+      for (auto& [a, b] : result_.segments) std::swap(a, b);
     limit_sizes();
     return std::move(result_);
   }
@@ -92,7 +95,7 @@ class HoleBoundaryMaker {
         const double cost = mismatch(c, s, start, end) + (runs_along ? 0 : 1e-6);
         if (cost >= best) continue;
         best = cost;
-        link = {c, s.index, start, end};
+        link = {c, s.index, start, end, start == a};
         found = true;
       }
     }
@@ -133,8 +136,8 @@ class HoleBoundaryMaker {
   }
 
   bool close_pole(HoleRim::Side x, HoleRim::Side y) {
-    std::int32_t p = kNone, q = kNone;
-    if (x.first == y.second) p = x.second, q = y.first;
+    std::int32_t p = kNone, q = kNone;  // the hole's side along the pole runs from p to q
+    if (x.first == y.second) p = y.first, q = x.second;
     if (x.second == y.first) p = x.first, q = y.second;
     if (p == kNone || p == q || node_of(p) != node_of(q)) return false;
     emit(p, q);
@@ -179,15 +182,18 @@ class HoleBoundaryMaker {
                        to = numbering_.update.old_to_new[last.segment + 1];
     if (from == kNone || to == kNone) fail("a run of segments is not complete");
     const EdgeMesh& m = numbering_.update.edges;
+    const auto add_segment = [&](std::int32_t lower, std::int32_t upper) {
+      result_.segments.push_back({first.is_along ? lower : upper, first.is_along ? upper : lower});
+    };
     std::int32_t previous = boundary_node(first.start);
     for (std::int32_t k = from + 1; k < to; ++k) {
       result_.nodes.push_back({pcurve(first.coedge).point(m.node_t[k]), m.node_xyz[k], m.node_size[k],
                                numbering_.boundary.edge_node(e, k - begin), false});
       const auto next = static_cast<std::int32_t>(result_.nodes.size()) - 1;
-      result_.segments.push_back({previous, next});
+      add_segment(previous, next);
       previous = next;
     }
-    result_.segments.push_back({previous, boundary_node(last.end)});
+    add_segment(previous, boundary_node(last.end));
   }
 
   /// Where the sides around a node are much shorter than the size, the mesh grows from them.
@@ -245,6 +251,37 @@ FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, cons
                                 const HoleNumbering& numbering, const SizeField& field) {
   if (rim.is_whole_face) return make_face_boundary(model, surface, rim.face, numbering.boundary);
   return HoleBoundaryMaker(model, surface, rim, marks, numbering, field).run();
+}
+
+std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleNumbering& numbering) {
+  const std::size_t n_nodes = boundary.nodes.size();
+  std::vector<BoundaryPlace> places(n_nodes);
+  std::vector<std::int32_t> next(n_nodes, kNone);
+  std::vector<char> is_inner(n_nodes);
+  for (const auto& [a, b] : boundary.segments) next[a] = b;
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    is_inner[i] = numbering.is_inner(boundary.nodes[i].id);
+    if (!is_inner[i]) places[i] = place_on_edge(boundary.nodes[i].id, numbering.boundary);
+  }
+  std::vector<char> is_open = is_inner;
+  const auto number_run = [&](std::int32_t first) {
+    std::vector<std::int32_t> run;
+    std::int32_t i = first;
+    for (; i != kNone && is_open[i]; i = next[i]) {
+      is_open[i] = 0;
+      run.push_back(i);
+    }
+    if (i != kNone && !is_inner[i]) places[i] = {};
+    const auto n = static_cast<std::int32_t>(run.size());
+    for (std::int32_t k = 0; k < n; ++k) places[run[k]] = {k, std::max(1, std::min(k, n - k)), true};
+  };
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    if (is_inner[i] || next[i] == kNone || !is_inner[next[i]]) continue;
+    places[i] = {};
+    number_run(next[i]);
+  }
+  for (std::size_t i = 0; i < n_nodes; ++i) number_run(static_cast<std::int32_t>(i));  // loops inside the face
+  return places;
 }
 
 HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh) {

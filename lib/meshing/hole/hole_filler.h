@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/face_tiles.h"
 #include "meshing/hole/hole_curves.h"
 #include "meshing/hole/hole_rim.h"
 
@@ -33,6 +34,10 @@ struct HoleNumbering {
 /// Throws Error(kInternal) when marks and runs do not fit. Of `marks` the segments are used.
 FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, const HoleRim& rim, const HoleMarks& marks,
                                 const HoleNumbering& numbering, const SizeField& field);
+
+/// Where the nodes of such a boundary lie: on their edges, or in a run of inner nodes along it. Those where runs and
+/// edges meet are like vertices.
+std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleNumbering& numbering);
 
 /// A filled hole.
 struct HoleFill {

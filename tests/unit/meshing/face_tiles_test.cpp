@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshing/engine/tiled_faces.h"
+#include "meshing/engine/tiled_regions.h"
 #include "unit/meshing/faces.h"
 
 namespace st {

@@ -27,6 +27,19 @@ void expect_closed(const FaceBoundary& b) {
   for (std::size_t i = 0; i < degree.size(); ++i) EXPECT_EQ(degree[i] % 2, 0) << "node " << i;
 }
 
+/// The hole is on the left of its boundary.
+void expect_on_the_left(const FaceBoundary& b) {
+  double twice_area = 0;
+  std::vector<int> balance(b.nodes.size(), 0);
+  for (const auto& [i, j] : b.segments) {
+    const Vec2 from = b.nodes[i].uv - b.nodes[0].uv, to = b.nodes[j].uv - b.nodes[0].uv;
+    twice_area += from.x * to.y - from.y * to.x;
+    ++balance[i], --balance[j];
+  }
+  EXPECT_GT(twice_area, 0);
+  for (std::size_t i = 0; i < balance.size(); ++i) EXPECT_EQ(balance[i], 0) << "node " << i;
+}
+
 /// A solid whose sizes fall towards its first vertex, as at a corner.
 class HoleFiller : public testing::TestWithParam<const char*> {};
 
@@ -69,6 +82,7 @@ TEST_P(HoleFiller, closes_the_boundary_of_every_hole) {
       ASSERT_GE(b.segments.size(), 3u);
       expect_closed(b);
       expect_sizes_of_sides(b);
+      expect_on_the_left(b);
     }
 }
 
@@ -90,7 +104,8 @@ TEST_P(HoleFiller, takes_the_sides_to_triangles_that_stay_as_they_are) {
         const std::int32_t first = hole.numbering.number(rim.nodes[s.first].id),
                            second = hole.numbering.number(rim.nodes[s.second].id);
         if (first == second) continue;
-        EXPECT_TRUE(segments.count({first, second})) << first << " - " << second;
+        EXPECT_TRUE(segments.contains(rim.is_turned ? std::pair{second, first} : std::pair{first, second}))
+            << first << " - " << second;
         ++n_free;
       }
       for (const FaceNode& n : b.nodes) {
@@ -193,6 +208,31 @@ TEST(HoleBoundary, has_a_pole_where_its_triangles_go) {
   ASSERT_EQ(pole_nodes.size(), 1u) << "one vertex";
   EXPECT_GE(pole_nodes.begin()->second, 3) << "at several places in (u,v)";
   EXPECT_TRUE(check_topology(hole.merged(), edges_of(hole.merged())).passes());
+}
+
+TEST(HolePlaces, count_along_edges_and_along_the_runs_between_them) {
+  const ShapeMesh box("box", 0.05);
+  const LinearField finer = finer_at_a_corner(box);
+  const Refilled hole(box, finer);
+  int n_runs = 0;
+  for (FaceId f = 0; f < 6; ++f)
+    for (const FaceBoundary& b : hole.bounds[f]) {
+      const std::vector<BoundaryPlace> places = hole_places(b, hole.numbering);
+      ASSERT_EQ(places.size(), b.nodes.size());
+      for (const auto& [i, j] : b.segments) {
+        const bool from_run = hole.numbering.is_inner(b.nodes[i].id), to_run = hole.numbering.is_inner(b.nodes[j].id);
+        if (from_run && to_run) {
+          EXPECT_EQ(places[j].index, places[i].index + 1);
+          EXPECT_GT(places[j].to_end, 0);
+        } else if (from_run != to_run) {
+          EXPECT_EQ(places[to_run ? i : j].to_end, 0) << "where a run begins or ends";
+          n_runs += to_run;
+        } else if (places[i].to_end > 0 && places[j].to_end > 0) {
+          EXPECT_EQ(std::abs(places[j].index - places[i].index), 1);
+        }
+      }
+    }
+  EXPECT_EQ(n_runs, 3) << "one on each face at the corner";
 }
 
 TEST(HoleBoundary, refuses_marks_that_do_not_fit_the_new_nodes) {

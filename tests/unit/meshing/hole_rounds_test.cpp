@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "meshing/engine/mesh_regions.h"
+#include "support/backward_executor.h"
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/hole_case.h"
 
@@ -35,7 +36,9 @@ struct Marked {
               one_rank) {
     set_verbosity(Verbosity::kQuiet);
   }
-  MeshResult fill(HoleOutput output = HoleOutput::kMesh) { return mesh_regions(holes, field, output, {}, one_rank); }
+  MeshResult fill(HoleOutput output = HoleOutput::kMesh, const MeshOptions& o = {}, const Executor& on = one_rank) {
+    return mesh_regions(holes, field, output, o, on);
+  }
   SurfaceMesh merged(const MeshResult& r) const {
     OrientationReport report;
     return merge_patches(
@@ -111,6 +114,25 @@ TEST_P(RefilledSolid, for_a_finer_corner_is_closed_and_unchanged_elsewhere_to_th
   Marked again(solid, field);
   EXPECT_TRUE(shapes::same(after, again.merged(again.fill(HoleOutput::kPatches))))
       << "what st-merge would make of the patches";
+}
+
+TEST_P(RefilledSolid, in_tiles_is_closed_and_the_same_in_whatever_order_they_are_done) {
+  const ShapeMesh solid(GetParam(), 0.05);
+  const test::LinearField fine(solid.model.tables().vertex_xyz[0], 0.03 * solid.field.min_size(), 0.05);
+  MeshOptions tiles, whole;
+  tiles.tile_triangles = 1000;
+  whole.tile_triangles = 0;
+  const test::BackwardExecutor backward, counted;
+  Marked forward(solid, fine), again(solid, fine), uncut(solid, fine);
+  const MeshResult r = forward.fill(HoleOutput::kMesh, tiles);
+  EXPECT_TRUE(r.failures.empty());
+  EXPECT_EQ(r.n_grown, 0);
+  EXPECT_TRUE(check_topology(r.mesh, edges_of(r.mesh)).passes());
+  EXPECT_TRUE(check_shape(r.mesh, edges_of(r.mesh)).passes());
+  EXPECT_TRUE(shapes::same(r.mesh, again.fill(HoleOutput::kMesh, tiles, backward).mesh));
+  const MeshResult one_by_one = uncut.fill(HoleOutput::kMesh, whole, counted);
+  EXPECT_GT(backward.n_tasks, counted.n_tasks + 3) << "tiles, of " << r.mesh.n_triangles();
+  EXPECT_NEAR(r.mesh.n_triangles(), one_by_one.mesh.n_triangles(), 0.05 * one_by_one.mesh.n_triangles());
 }
 
 TEST_P(RefilledSolid, done_again_as_a_whole_is_what_st_mesh_makes) {

@@ -1,25 +1,14 @@
 // Heavy faces as several tasks.
-#include "meshing/engine/tiled_faces.h"
+#include "meshing/engine/tiled_regions.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "support/backward_executor.h"
 #include "support/meshed.h"
 
 namespace st {
 namespace {
-
-/// Tasks in the opposite order, as they may arrive.
-class BackwardExecutor : public SerialExecutor {
- public:
-  void run_tasks(std::int32_t, const std::vector<std::int32_t>& order,
-                 const std::function<Bytes(std::int32_t)>& compute,
-                 const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
-    for (auto task = order.rbegin(); task != order.rend(); ++task) collect(*task, compute(*task));
-    n_tasks += order.size();
-  }
-  mutable std::size_t n_tasks = 0;
-};
 
 MeshPlan weighed_plan(const MeshTopology& topology, double length) {
   MeshPlan plan = plan_all(topology);
@@ -38,7 +27,7 @@ MeshResult mesh(const Model& model, const SizeField& field, double length, doubl
 TEST(TiledFaces, make_the_same_mesh_in_whatever_order_tiles_are_done) {
   const Model model = test::make_model("drilled_block");
   const UniformField field(0.35);
-  const BackwardExecutor backward;
+  const test::BackwardExecutor backward;
   const MeshResult a = mesh(model, field, 0.35, 1000, test::one_rank), b = mesh(model, field, 0.35, 1000, backward);
   EXPECT_TRUE(a.failures.empty());
   EXPECT_EQ(a.n_crossing_pairs, 0);
@@ -79,7 +68,7 @@ class NoSizeInTheMiddle : public UniformField {
 
 TEST(TiledFaces, of_which_a_tile_fails_are_tried_whole_and_reported) {
   const Model box = test::make_model("box");
-  const BackwardExecutor counted, without;
+  const test::BackwardExecutor counted, without;
   const MeshResult r = mesh(box, NoSizeInTheMiddle(0.8), 0.8, 1000, counted);
   mesh(box, UniformField(0.8), 0.8, 1000, without);
   EXPECT_EQ(counted.n_tasks, without.n_tasks + 1);

@@ -1,0 +1,25 @@
+// Tasks as they may arrive from other ranks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/executor.h"
+
+namespace st::test {
+
+/// Tasks in the opposite order, as they may arrive.
+class BackwardExecutor : public SerialExecutor {
+ public:
+  void run_tasks(std::int32_t, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t)>& compute,
+                 const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    for (auto task = order.rbegin(); task != order.rend(); ++task) collect(*task, compute(*task));
+    n_tasks += order.size();
+  }
+  mutable std::size_t n_tasks = 0;
+};
+
+}  // namespace st::test
