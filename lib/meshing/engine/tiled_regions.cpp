@@ -74,8 +74,9 @@ void TiledRegions::take(std::int32_t tile, const Bytes& bytes) {
 
 FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary) {
   std::vector<FaceMesh> meshes = std::move(meshes_.at(region));
-  return join_tiles(surface, boundary, cuts_.at(region), field_of(regions_.face(region)).get(), options_,
-                    std::move(meshes));
+  const FaceId f = regions_.face(region);
+  const auto make_surface = [&] { return model_.surface(f); };
+  return join_tiles(surface, make_surface, boundary, cuts_.at(region), field_of(f).get(), options_, std::move(meshes));
 }
 
 }  // namespace st

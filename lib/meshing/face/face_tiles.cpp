@@ -11,7 +11,6 @@
 #include "base/threads.h"
 #include "meshing/face/face_check.h"
 #include "meshing/face/scaled_field.h"
-#include "meshing/face/tile_seams.h"
 
 namespace st {
 namespace {
@@ -430,8 +429,9 @@ FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, con
   return own;
 }
 
-FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const TileCut& cut, const SizeField& field,
-                    const FaceMeshOptions& options, std::vector<FaceMesh> meshes) {
+FaceMesh join_tiles(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+                    const TileCut& cut, const SizeField& field, const FaceMeshOptions& options,
+                    std::vector<FaceMesh> meshes) {
   const auto n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
   FaceMesh joined;
   std::vector<std::size_t> first_inner{cut.nodes.size()}, first_corner{0};
@@ -459,7 +459,7 @@ FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const 
     std::copy(meshes[i].inner.begin(), meshes[i].inner.end(), joined.inner.begin() + first_inner[i]);
     meshes[i] = {};
   });
-  improve_seams(surface, boundary, field, options, pieces_of_cuts(cut, n_boundary), joined);
+  improve_seams(surface, make_surface, boundary, field, options, pieces_of_cuts(cut, n_boundary), joined);
   check_edges(boundary, joined);
   return joined;
 }

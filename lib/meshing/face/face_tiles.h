@@ -9,6 +9,7 @@
 
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/tile_seams.h"
 
 namespace st {
 
@@ -50,9 +51,10 @@ TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span
 /// What mesh_face() needs of one tile.
 FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, const Tile& tile);
 
-/// The mesh of the face from the meshes of its tiles ([n_tiles]), improved in a band about the cuts. Its cause is that
-/// of the first tile that failed. Local, pure.
-FaceMesh join_tiles(const Surface& surface, const FaceBoundary& boundary, const TileCut& cut, const SizeField& field,
-                    const FaceMeshOptions& options, std::vector<FaceMesh> meshes);
+/// The mesh of the face from the meshes of its tiles ([n_tiles]), improved in a band about the cuts: see
+/// improve_seams(). Its cause is that of the first tile that failed. Local, pure.
+FaceMesh join_tiles(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+                    const TileCut& cut, const SizeField& field, const FaceMeshOptions& options,
+                    std::vector<FaceMesh> meshes);
 
 }  // namespace st

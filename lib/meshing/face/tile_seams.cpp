@@ -145,9 +145,10 @@ class SeamPiece {
 /// The triangles about all cuts of a face: piece by piece, then where pieces meet.
 class SeamBand {
  public:
-  SeamBand(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, const FaceMeshOptions& options,
-           FaceMesh& mesh)
+  SeamBand(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+           const SizeField& field, const FaceMeshOptions& options, FaceMesh& mesh)
       : surface_(surface),
+        make_surface_(make_surface),
         boundary_(boundary),
         field_(field),
         options_(options),
@@ -255,7 +256,8 @@ class SeamBand {
     for (auto& [own, some] : parts) triangles.push_back(std::move(some));
     std::vector<FaceMesh> counts(triangles.size());
     parallel_for(triangles.size(), 1, [&](std::size_t i, std::size_t) {
-      SeamPiece piece(surface_, boundary_, field_, mesh_, std::move(triangles[i]), is_inner);
+      const std::unique_ptr<Surface> own = make_surface_ ? make_surface_() : nullptr;
+      SeamPiece piece(own ? *own : surface_, boundary_, field_, mesh_, std::move(triangles[i]), is_inner);
       piece.enhance_it(options_);
       piece.count_folds(counts[i]);
       piece.store(is_gone_);
@@ -286,6 +288,7 @@ class SeamBand {
   }
 
   const Surface& surface_;
+  const SurfaceMaker& make_surface_;
   const FaceBoundary& boundary_;
   const SizeField& field_;
   const FaceMeshOptions& options_;
@@ -302,9 +305,10 @@ class SeamBand {
 
 }  // namespace
 
-void improve_seams(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
-                   const FaceMeshOptions& options, std::span<const std::int32_t> piece_of_cut, FaceMesh& mesh) {
-  SeamBand(surface, boundary, field, options, mesh).run(piece_of_cut);
+void improve_seams(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+                   const SizeField& field, const FaceMeshOptions& options, std::span<const std::int32_t> piece_of_cut,
+                   FaceMesh& mesh) {
+  SeamBand(surface, make_surface, boundary, field, options, mesh).run(piece_of_cut);
 }
 
 }  // namespace st

@@ -26,7 +26,7 @@ FaceMesh mesh_tiles(const FaceCase& face, const TileCut& cut, const SizeField& f
   std::vector<FaceMesh> meshes;
   for (const Tile& tile : cut.tiles)
     meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, cut, tile), field, {}));
-  return join_tiles(*face.surface, face.boundary, cut, field, {}, std::move(meshes));
+  return join_tiles(*face.surface, {}, face.boundary, cut, field, {}, std::move(meshes));
 }
 
 /// Face `id` of a shape, with the length that gives about ten tiles.
@@ -108,7 +108,7 @@ TEST(JoinTiles, says_of_the_first_tile_that_failed_why) {
   ASSERT_GE(tiles.tiles.size(), 2u);
   std::vector<FaceMesh> meshes(tiles.tiles.size());
   meshes[1].cause = FailureCause::kTooManyNodes;
-  EXPECT_EQ(join_tiles(*face.surface, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kTooManyNodes);
+  EXPECT_EQ(join_tiles(*face.surface, {}, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kTooManyNodes);
 }
 
 TEST(JoinTiles, sees_a_tile_that_is_missing) {
@@ -119,7 +119,7 @@ TEST(JoinTiles, sees_a_tile_that_is_missing) {
   for (const Tile& tile : tiles.tiles)
     meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, tiles, tile), field, {}));
   meshes.back() = {};
-  EXPECT_NE(join_tiles(*face.surface, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kNone);
+  EXPECT_NE(join_tiles(*face.surface, {}, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kNone);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 
 #include "base/threads.h"
@@ -54,10 +55,10 @@ TEST(TileSeams, smooth_pieces_and_the_places_where_they_meet_the_same_on_all_thr
   for (std::int32_t i = 0; i < n_cut; ++i) pieces.push_back(even.inner[i].uv.y < 5 ? 0 : 1);
   const FaceMesh uneven = unevenly(face, even, n_cut);
   FaceMesh whole = uneven, mesh[2] = {uneven, uneven};
-  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), whole);
+  improve_seams(*face.surface, {}, face.boundary, field, {}, one_piece(n_cut), whole);
   for (int k = 0; k < 2; ++k) {
     set_thread_count(1 + 2 * k);
-    improve_seams(*face.surface, face.boundary, field, {}, pieces, mesh[k]);
+    improve_seams(*face.surface, {}, face.boundary, field, {}, pieces, mesh[k]);
   }
   set_thread_count(1);
   test::expect_valid(face.boundary, mesh[0]);
@@ -66,6 +67,21 @@ TEST(TileSeams, smooth_pieces_and_the_places_where_they_meet_the_same_on_all_thr
   const MeshView one{face.boundary, whole}, two{face.boundary, mesh[0]};
   EXPECT_NEAR(two.qualities().front(), one.qualities().front(), 0.1);
   EXPECT_NEAR(two.mean_quality(), one.mean_quality(), 0.005);
+}
+
+TEST(TileSeams, take_a_surface_of_its_own_for_each_piece) {
+  const UniformField field(kLength);
+  const FaceCase face("square", field);
+  auto [mesh, n_cut] = with_cut(face, field);
+  std::vector<std::int32_t> pieces;
+  for (std::int32_t i = 0; i < n_cut; ++i) pieces.push_back(mesh.inner[i].uv.y < 5 ? 0 : 1);
+  std::atomic<int> n_made = 0;
+  const auto make_surface = [&] {
+    ++n_made;
+    return face.model.surface(face.id);
+  };
+  improve_seams(*face.surface, make_surface, face.boundary, field, {}, pieces, mesh);
+  EXPECT_EQ(n_made, 3) << "both halves, and where they meet";
 }
 
 TEST(TileSeams, smooth_what_is_uneven_at_a_cut_and_leave_the_rest_alone) {
@@ -80,7 +96,7 @@ TEST(TileSeams, smooth_what_is_uneven_at_a_cut_and_leave_the_rest_alone) {
   }
   const FaceMesh uneven = mesh;
   mesh.n_folds = 0;
-  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), mesh);
+  improve_seams(*face.surface, {}, face.boundary, field, {}, one_piece(n_cut), mesh);
   test::expect_valid(face.boundary, mesh);
   const MeshView before{face.boundary, uneven}, after{face.boundary, mesh};
   EXPECT_GT(after.qualities().front(), before.qualities().front() + 0.1);
@@ -100,7 +116,7 @@ TEST(TileSeams, count_the_folds_of_the_band_alone) {
   FaceMesh far = mesh;
   for (FaceNode& n : far.inner)
     if (std::abs(n.x.x - 1) < 0.1 && std::abs(n.x.y - 5) < 0.3) n.x.x = n.uv.x = 4 * kLength + 1;
-  improve_seams(*face.surface, face.boundary, field, {}, one_piece(n_cut), far);
+  improve_seams(*face.surface, {}, face.boundary, field, {}, one_piece(n_cut), far);
   EXPECT_EQ(far.n_folds, 0);
 }
 
@@ -111,7 +127,7 @@ TEST(TileSeams, count_folds_that_stay_in_the_band) {
   mesh.inner[n_cut / 2].x.x = mesh.inner[n_cut / 2].uv.x = 5 + 3 * kLength;
   FaceMeshOptions options;
   options.enhance_rounds = 0;
-  improve_seams(*face.surface, face.boundary, field, options, one_piece(n_cut), mesh);
+  improve_seams(*face.surface, {}, face.boundary, field, options, one_piece(n_cut), mesh);
   EXPECT_GT(mesh.n_folds, 0);
 }
 
@@ -130,7 +146,7 @@ TEST(TileSeams, keep_an_edge_that_lies_inside_the_face) {
   test::expect_valid(boundary, mesh);
   for (FaceNode& n : mesh.inner)  // the slit would be swapped away
     if (std::abs(n.x.y - 5) < 0.7 && std::abs(n.x.x - 5) < 1.7) n.x.x = n.uv.x += 0.2;
-  improve_seams(test::kPlane, boundary, field, {}, one_piece(static_cast<std::int32_t>(mesh.inner.size())), mesh);
+  improve_seams(test::kPlane, {}, boundary, field, {}, one_piece(static_cast<std::int32_t>(mesh.inner.size())), mesh);
   test::expect_valid(boundary, mesh);
 }
 
