@@ -35,6 +35,11 @@ struct FloatBox {
   }
 };
 
+FloatBox rounded(const Box3& box) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  return {{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}};
+}
+
 // --- normals ---
 
 /// One bit per direction that a set of normals agrees with: of all normals within 60 degrees.
@@ -82,21 +87,27 @@ class Forest {
  public:
   using Pairs = std::vector<TrianglePair>;
 
-  explicit Forest(const PatchTriangles& mesh)
+  /// Trees of some faces, by `is_wanted` [n_faces].
+  Forest(const PatchTriangles& mesh, const std::vector<char>& is_wanted)
       : mesh_(mesh),
         n_faces_(static_cast<std::int32_t>(mesh.face_begin.size()) - 1),
         items_(new Item[mesh.triangles.size()]),
         nodes_(new TreeNode[n_faces_ + 2 * mesh.triangles.size()]),  // a node has two children, none of them empty
         n_nodes_(n_faces_) {
-    parallel_for(mesh.triangles.size(), kItemsPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) items_[t] = item_of(static_cast<TriangleId>(t));
+    std::vector<TriangleId> pieces;  // where each begins
+    for (FaceId f = 0; f < n_faces_; ++f)
+      for (TriangleId t = mesh.face_begin[f]; is_wanted[f] && t < mesh.face_begin[f + 1]; t += kItemsPerPiece)
+        pieces.push_back(t);
+    parallel_for(pieces.size(), 1, [&](std::size_t i, std::size_t) {
+      const auto next_face = std::upper_bound(mesh.face_begin.begin(), mesh.face_begin.end(), pieces[i]);
+      const TriangleId end = std::min(*next_face, pieces[i] + kItemsPerPiece);
+      for (TriangleId t = pieces[i]; t < end; ++t) items_[t] = item_of(t);
     });
     parallel_for(n_faces_, kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) nodes_[f] = root_of(static_cast<FaceId>(f));
+      for (std::size_t f = begin; f < end; ++f)
+        if (is_wanted[f]) nodes_[f] = root_of(static_cast<FaceId>(f));
     });
   }
-  const FloatBox& box(FaceId f) const { return nodes_[f].box; }
-  bool is_empty(FaceId f) const { return nodes_[f].size() == 0; }
 
   /// Nodes to be tested: within one, or between two.
   struct Job {
@@ -167,7 +178,8 @@ class Forest {
   static constexpr std::int32_t kLeafSize = 12;
   static constexpr std::int32_t kLargeJob = 20'000;  // triangles: tested by several threads
   static constexpr std::int32_t kMaxLopsided = 8;    // a part smaller than 1/8 of the whole is no split
-  static constexpr std::size_t kItemsPerPiece = 16'384, kFacesPerPiece = 8, kLocks = 256;
+  static constexpr TriangleId kItemsPerPiece = 16'384;
+  static constexpr std::size_t kFacesPerPiece = 8, kLocks = 256;
 
   /// Without an id where the triangle has no area.
   Item item_of(TriangleId t) const {
@@ -180,10 +192,7 @@ class Forest {
     Box3 box{a, a};
     box.add(b);
     box.add(c);
-    const auto f = [](double x) { return static_cast<float>(x); };
-    return {{{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}},
-            length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0,
-            t};
+    return {rounded(box), length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0, t};
   }
 
   /// Over the triangles of a face that have an area.
@@ -246,25 +255,38 @@ class Forest {
   std::array<std::mutex, kLocks> locks_;
 };
 
+/// Of the triangles of each face; that of a face without any is not used.
+std::vector<FloatBox> boxes_of_faces(const PatchTriangles& mesh) {
+  std::vector<FloatBox> boxes(mesh.face_body.size());
+  parallel_for(boxes.size(), 1, [&](std::size_t f, std::size_t) {
+    Box3 box;
+    for (TriangleId t = mesh.face_begin[f]; t < mesh.face_begin[f + 1]; ++t)
+      for (const NodeId n : mesh.triangles[t].n) box.add(mesh.points[n]);
+    boxes[f] = rounded(box);
+  });
+  return boxes;
+}
+
 /// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the
 /// model.
 template <class Visit>
-void for_each_face_pair(const Forest& forest, FaceId n_faces, const Visit& visit) {
+void for_each_face_pair(const PatchTriangles& mesh, const Visit& visit) {
+  const std::vector<FloatBox> boxes = boxes_of_faces(mesh);
   std::vector<FaceId> order;
-  for (FaceId f = 0; f < n_faces; ++f)
-    if (!forest.is_empty(f)) order.push_back(f);
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    if (mesh.face_begin[f] < mesh.face_begin[f + 1]) order.push_back(static_cast<FaceId>(f));
   if (order.empty()) return;
-  FloatBox all = forest.box(order[0]);
-  for (const FaceId f : order) all.add(forest.box(f));
+  FloatBox all = boxes[order[0]];
+  for (const FaceId f : order) all.add(boxes[f]);
   const int axis = all.longest_axis();
   std::sort(order.begin(), order.end(), [&](FaceId f, FaceId g) {
-    return std::pair(forest.box(f).lo[axis], f) < std::pair(forest.box(g).lo[axis], g);
+    return std::pair(boxes[f].lo[axis], f) < std::pair(boxes[g].lo[axis], g);
   });
   std::vector<FaceId> open;
   for (const FaceId f : order) {
-    std::erase_if(open, [&](FaceId g) { return forest.box(g).hi[axis] < forest.box(f).lo[axis]; });
+    std::erase_if(open, [&](FaceId g) { return boxes[g].hi[axis] < boxes[f].lo[axis]; });
     for (const FaceId g : open)
-      if (forest.box(f).meets(forest.box(g))) visit(f, g);
+      if (boxes[f].meets(boxes[g])) visit(f, g);
     open.push_back(f);
   }
 }
@@ -278,15 +300,19 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
   ST_ASSERT(mesh.face_is_dirty.empty() || mesh.face_is_dirty.size() == mesh.face_body.size());
   const auto n_faces = static_cast<FaceId>(mesh.face_body.size());
   const auto is_dirty = [&](FaceId f) { return mesh.face_is_dirty.empty() || mesh.face_is_dirty[f]; };
-  Forest forest(mesh);
   std::vector<Forest::Job> jobs;
+  std::vector<char> is_wanted(mesh.face_body.size(), 0);
+  const auto add = [&](FaceId f, FaceId g) {
+    jobs.push_back({f, g});
+    is_wanted[f] = is_wanted[g] = 1;
+  };
   for (FaceId f = 0; f < n_faces; ++f)
-    if (is_dirty(f)) jobs.push_back({f, f});
-  for_each_face_pair(forest, n_faces, [&](FaceId f, FaceId g) {
+    if (is_dirty(f)) add(f, f);
+  for_each_face_pair(mesh, [&](FaceId f, FaceId g) {
     if (!is_dirty(f) && !is_dirty(g)) return;
-    if (mesh.face_body[f] == mesh.face_body[g] || (mesh.are_compared && mesh.are_compared(f, g)))
-      jobs.push_back({f, g});
+    if (mesh.face_body[f] == mesh.face_body[g] || (mesh.are_compared && mesh.are_compared(f, g))) add(f, g);
   });
+  Forest forest(mesh, is_wanted);
   jobs = forest.split_jobs(std::move(jobs));
   constexpr std::size_t kJobsPerPiece = 4;
   std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
