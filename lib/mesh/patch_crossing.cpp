@@ -279,9 +279,8 @@ void for_each_face_pair(const PatchTriangles& mesh, const Visit& visit) {
   FloatBox all = boxes[order[0]];
   for (const FaceId f : order) all.add(boxes[f]);
   const int axis = all.longest_axis();
-  std::sort(order.begin(), order.end(), [&](FaceId f, FaceId g) {
-    return std::pair(boxes[f].lo[axis], f) < std::pair(boxes[g].lo[axis], g);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](FaceId f, FaceId g) { return std::pair(boxes[f].lo[axis], f) < std::pair(boxes[g].lo[axis], g); });
   std::vector<FaceId> open;
   for (const FaceId f : order) {
     std::erase_if(open, [&](FaceId g) { return boxes[g].hi[axis] < boxes[f].lo[axis]; });

@@ -45,33 +45,47 @@ struct EdgeUse {
   auto operator<=>(const EdgeUse&) const = default;
 };
 
-/// Uses of edges between two nodes on boundaries, sorted.
-std::vector<EdgeUse> uses_between_boundaries(const WeldedPatches& mesh) {
+/// Segments of the CAD edges, as pairs of nodes.
+class BoundarySegments {
+ public:
+  BoundarySegments(const BoundaryNumbering& numbering, const WeldedPatches& mesh) : joins_next_(mesh.n_boundary, 0) {
+    const auto node = [&](EdgeId e, std::int32_t index) { return mesh.boundary[numbering.edge_node(e, index)]; };
+    for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e)
+      for (std::int32_t i = 1; i < numbering.edges.n_nodes(e); ++i) {
+        const auto [a, b] = std::minmax({node(e, i - 1), node(e, i)});
+        if (a != kNone && b == a + 1)
+          joins_next_[a] = 1;
+        else
+          others_.push_back({a, b});
+      }
+    std::sort(others_.begin(), others_.end());
+  }
+  /// `a` < `b`
+  bool contain(NodeId a, NodeId b) const {
+    return (b == a + 1 && joins_next_[a]) || std::binary_search(others_.begin(), others_.end(), std::pair{a, b});
+  }
+
+ private:
+  std::vector<char> joins_next_;  // by node: a segment joins it and the next one
+  std::vector<std::pair<NodeId, NodeId>> others_;
+};
+
+/// Uses of edges between two nodes on boundaries that are no segments of these, sorted.
+std::vector<EdgeUse> uses_of_chords(const BoundarySegments& segments, const WeldedPatches& mesh) {
   constexpr std::size_t kPerPiece = 65'536;
   std::vector<std::vector<EdgeUse>> found(mesh.triangles.size() / kPerPiece + 1);
   parallel_for(mesh.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (int k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax(mesh.triangles[i].n[k], mesh.triangles[i].n[(k + 1) % 3]);
-        if (b < mesh.n_boundary) found[begin / kPerPiece].push_back({a, b, static_cast<TriangleId>(i)});
+        if (b < mesh.n_boundary && !segments.contain(a, b))
+          found[begin / kPerPiece].push_back({a, b, static_cast<TriangleId>(i)});
       }
   });
   std::vector<EdgeUse> uses;
   for (const auto& some : found) uses.insert(uses.end(), some.begin(), some.end());
   std::sort(uses.begin(), uses.end());
   return uses;
-}
-
-/// Segments of the CAD edges, sorted.
-std::vector<std::pair<NodeId, NodeId>> boundary_segments(const BoundaryNumbering& numbering,
-                                                         const WeldedPatches& mesh) {
-  const auto node = [&](EdgeId e, std::int32_t index) { return mesh.boundary[numbering.edge_node(e, index)]; };
-  std::vector<std::pair<NodeId, NodeId>> segments;
-  for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e)
-    for (std::int32_t i = 1; i < numbering.edges.n_nodes(e); ++i)
-      segments.push_back(std::minmax({node(e, i - 1), node(e, i)}));
-  std::sort(segments.begin(), segments.end());
-  return segments;
 }
 
 WeldedPatches weld(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches) {
@@ -90,16 +104,13 @@ bool share_a_vertex(const ModelTables& t, FaceId a, FaceId b) {
 
 std::vector<TrianglePair> find_repeated_chords(const BoundaryNumbering& numbering, const WeldedPatches& mesh,
                                                std::span<const char> face_is_fresh) {
-  const std::vector<EdgeUse> uses = uses_between_boundaries(mesh);
-  const auto segments = boundary_segments(numbering, mesh);
+  const std::vector<EdgeUse> uses = uses_of_chords(BoundarySegments(numbering, mesh), mesh);
   std::vector<TrianglePair> pairs;
   for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
     while (j < uses.size() && uses[j].a == uses[i].a && uses[j].b == uses[i].b) ++j;
     const TriangleId first = uses[i].triangle, last = uses[j - 1].triangle;
     const FaceId f = face_of(mesh, first), g = face_of(mesh, last);
-    if (j - i < 3 || f == g || !(face_is_fresh[f] || face_is_fresh[g])) continue;
-    if (!std::binary_search(segments.begin(), segments.end(), std::pair{uses[i].a, uses[i].b}))
-      pairs.push_back({first, last, 2});
+    if (j - i >= 3 && f != g && (face_is_fresh[f] || face_is_fresh[g])) pairs.push_back({first, last, 2});
   }
   return pairs;
 }
