@@ -265,6 +265,7 @@ std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& argum
   }
   if (stopped && end.passed_signal == 0) throw LostRankError(*stopped);
   on_error_text(report.rest());
+  if (!end.is_signalled) report.add_exit_code(end.exit_code);
   return code_of(end, report.lost_rank());
 }
 

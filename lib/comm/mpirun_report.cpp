@@ -93,6 +93,11 @@ std::string MpirunReport::rest() {
   return text;
 }
 
+void MpirunReport::add_exit_code(int code) {
+  const int signal = code - 128;
+  if (!lost_ && signal > 0 && signal < NSIG) lost_ = LostRank{-1, "", signal};
+}
+
 void MpirunReport::read_line(const std::string& line) {
   static const std::regex signalled(
       "noticed that process rank (\\d+) with PID \\d+ on node (\\S+) exited on signal (\\d+)");
@@ -109,8 +114,9 @@ void MpirunReport::read_line(const std::string& line) {
 }
 
 std::string describe_lost_rank(const LostRank& lost) {
-  return "rank " + std::to_string(lost.rank) + (lost.host.empty() ? "" : " on " + lost.host) + " was ended by " +
-         signal_text(lost.signal) + "; " + advice(lost.signal);
+  return (lost.rank < 0 ? "a rank" : "rank " + std::to_string(lost.rank)) +
+         (lost.host.empty() ? "" : " on " + lost.host) + " was ended by " + signal_text(lost.signal) + "; " +
+         advice(lost.signal);
 }
 
 std::string rank_on_this_host(int rank) { return "rank " + std::to_string(rank) + " on " + host_name(); }

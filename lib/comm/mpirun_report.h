@@ -10,7 +10,7 @@ namespace st {
 
 /// A rank that a signal ended.
 struct LostRank {
-  int rank = 0;
+  int rank = 0;      ///< -1: not said
   std::string host;  ///< empty: not said
   int signal = 0;
 };
@@ -23,7 +23,9 @@ class MpirunReport {
   std::string add(const std::string& line);
   /// What is still held back, at the end.
   std::string rest();
-  /// The first rank that a signal ended, if mpirun named one.
+  /// The code that mpirun ended with. It may be all that tells of a rank that was killed as it began.
+  void add_exit_code(int code);
+  /// The first rank that a signal ended, if mpirun or its code told of one.
   const std::optional<LostRank>& lost_rank() const { return lost_; }
 
  private:

@@ -47,6 +47,19 @@ TEST(MpirunReport, names_a_rank_that_ended_itself_on_a_signal) {
   EXPECT_EQ(report.lost_rank()->signal, 15);
 }
 
+TEST(MpirunReport, tells_of_a_rank_that_mpirun_does_not_name_by_its_exit_code) {
+  MpirunReport killed, failed, named;
+  killed.add_exit_code(128 + SIGKILL);
+  ASSERT_TRUE(killed.lost_rank());
+  EXPECT_EQ(describe_lost_rank(*killed.lost_rank()).find("a rank was ended by signal 9 (Killed); out of memory?"), 0u);
+  for (const int code : {0, 5, 70, 128, 213, 255}) failed.add_exit_code(code);
+  EXPECT_FALSE(failed.lost_rank());
+  named.add("mpirun noticed that process rank 1 with PID 7 on node n exited on signal 11 (x).\n");
+  named.add_exit_code(128 + SIGKILL);
+  ASSERT_TRUE(named.lost_rank());
+  EXPECT_EQ(named.lost_rank()->rank, 1) << "what mpirun says comes first";
+}
+
 TEST(MpirunReport, takes_an_exit_code_for_no_signal) {
   MpirunReport report;
   EXPECT_EQ(
