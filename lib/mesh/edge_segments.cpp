@@ -1,11 +1,14 @@
 #include "mesh/edge_segments.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 #include <utility>
 
 namespace st {
 namespace {
+
+constexpr std::int32_t kLastNumber = std::numeric_limits<std::int32_t>::max();
 
 /// Finds nodes of a mesh in canonical order by what they lie on.
 class NodeFinder {
@@ -54,19 +57,17 @@ std::vector<std::string> tables_of(const std::vector<EntityGroup>& groups) {
   return tables;
 }
 
-/// Number of the table's group that an entity is in, from 1; 0: none. For the ids up to the largest in a group.
-std::vector<std::int32_t> numbers_of(const std::vector<EntityGroup>& groups, const std::string& table,
-                                     NodeGroups& out) {
-  std::vector<std::int32_t> number;
+/// The entities in a table's groups, with the number of the last of these, from 1, ascending. Ids may be anything.
+std::vector<std::pair<std::int32_t, std::int32_t>> numbers_of(const std::vector<EntityGroup>& groups,
+                                                              const std::string& table, NodeGroups& out) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> numbers;
   for (const EntityGroup& g : groups) {
     if (g.table != table) continue;
     out.group_name.push_back(g.name);
-    for (const std::int32_t id : g.ids) {
-      number.resize(std::max<std::size_t>(number.size(), id + 1), 0);
-      number[id] = static_cast<std::int32_t>(out.group_name.size());
-    }
+    for (const std::int32_t id : g.ids) numbers.push_back({id, static_cast<std::int32_t>(out.group_name.size())});
   }
-  return number;
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
 }
 
 NodeGroups table_groups(const SurfaceMesh& m, const std::string& name, const std::vector<EntityGroup>& groups,
@@ -74,8 +75,11 @@ NodeGroups table_groups(const SurfaceMesh& m, const std::string& name, const std
   NodeGroups out;
   out.name = name + (table.empty() ? "" : "_" + table);
   out.of_node.assign(m.node_xyz.size(), 0);
-  const std::vector<std::int32_t> number = numbers_of(groups, table, out);
-  const auto number_of = [&](std::int32_t id) { return static_cast<std::size_t>(id) < number.size() ? number[id] : 0; };
+  const std::vector<std::pair<std::int32_t, std::int32_t>> numbers = numbers_of(groups, table, out);
+  const auto number_of = [&](std::int32_t id) {
+    const auto after = std::upper_bound(numbers.begin(), numbers.end(), std::pair(id, kLastNumber));
+    return after != numbers.begin() && after[-1].first == id ? after[-1].second : 0;
+  };
   const auto set = [&](NodeId n, std::int32_t g) {
     if (g > 0 && (out.of_node[n] == 0 || g < out.of_node[n])) out.of_node[n] = g;
   };
@@ -122,13 +126,13 @@ void add_all_segments(SurfaceMesh& mesh, std::span<const VertexId> edge_vertices
     }
   std::sort(sides.begin(), sides.end());
   const std::size_t n_edges = edge_vertices.size() / 2;
-  std::vector<NodeId> vertex_node;
+  const auto last = std::max_element(edge_vertices.begin(), edge_vertices.end());
+  std::vector<NodeId> vertex_node(last == edge_vertices.end() ? 0 : static_cast<std::size_t>(*last) + 1, kNone);
   std::vector<std::vector<NodeId>> chain(n_edges);
   for (std::size_t n = 0; n < mesh.node_entity.size(); ++n) {
     const auto entity = static_cast<std::size_t>(mesh.node_entity[n]);
     if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex)) {
-      vertex_node.resize(std::max(vertex_node.size(), entity + 1), kNone);
-      vertex_node[entity] = static_cast<NodeId>(n);
+      if (entity < vertex_node.size()) vertex_node[entity] = static_cast<NodeId>(n);
     } else if (is_on_edge(static_cast<NodeId>(n)) && entity < n_edges) {
       chain[entity].push_back(static_cast<NodeId>(n));
     }

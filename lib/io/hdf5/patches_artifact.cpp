@@ -211,6 +211,7 @@ void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
   require_finite(r, "/st/edge_node/xyz", e.node_xyz);
   require_lengths(r, "/st/edge_node/size", e.node_size);
   if (r.has("/st/edge_node/request")) e.node_request = r.read_rows<double>("/st/edge_node/request", e.node_t.size());
+  require_lengths(r, "/st/edge_node/request", e.node_request);
   e.edge_offsets = r.read_rows<std::int32_t>("/st/edge/node_offsets", a.edge_vertices.size() / 2 + 1);
   require_offsets(r, "/st/edge/node_offsets", e.edge_offsets, e.node_t.size());
 }

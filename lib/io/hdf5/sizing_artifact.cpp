@@ -96,13 +96,10 @@ SizingNumbers read_numbers(const Hdf5Reader& file) {
     if (!is_finite(get(name)) || get(name) < 0) file.fail(std::string(kSizing) + "@" + name, "is no length");
   for (const char* name : {"max_length", "far_length"})
     if (get(name) == 0) file.fail(std::string(kSizing) + "@" + name, "is no length > 0");
-  return {get("min_length"),
-          get("max_length"),
-          get("far_length"),
-          get("alpha_deg"),
-          get("cell_per_length"),
-          get("diagonal"),
-          is_stretched ? get(kMaxAspect) : 1.0};
+  const double max_aspect = is_stretched ? get(kMaxAspect) : 1;
+  if (!is_finite(max_aspect) || max_aspect < 1) file.fail(std::string(kSizing) + "@" + kMaxAspect, "is no ratio >= 1");
+  return {get("min_length"),      get("max_length"), get("far_length"), get("alpha_deg"),
+          get("cell_per_length"), get("diagonal"),   max_aspect};
 }
 
 void write_shape(Hdf5Writer& file, const OctreeShape& shape) {

@@ -1,0 +1,58 @@
+// A small raster, and sizings made of it.
+#pragma once
+
+#include <vector>
+
+#include "io/hdf5/sizing_artifact.h"
+#include "unit/io/sample_artifacts.h"
+
+namespace st {
+
+inline RasterArtifact sample_raster() {
+  RasterArtifact raster;
+  raster.header = sample_header();
+  raster.header.schema = "raster";
+  raster.numbers = {0.01, 0.1, 0.2, 10, 2, 1.7};
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < 40; ++i)
+    boxes.push_back({{0.02 * i, 0.5, 0.3},
+                     0.01F * static_cast<float>(1 + i % 5),
+                     0.01F * static_cast<float>(1 + i % 5),
+                     pack_cause(CauseKind::kEdge, i)});
+  raster.octree = build_octree({{0, 0, 0}, {1, 1, 1}}, boxes);
+  raster.samples = sorted_samples(boxes);
+  raster.faces.append_face(std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
+  raster.faces.append_face({});
+  raster.edge_name = {"TE", ""};
+  raster.labels.face_name = {"wing", "tip"};
+  return raster;
+}
+
+inline SizingArtifact sample_sizing() {
+  RasterArtifact raster = sample_raster();
+  SizingArtifact sizing;
+  sizing.header = raster.header;
+  sizing.header.schema = "sizing";
+  sizing.numbers = raster.numbers;
+  sizing.slope = 0.2;
+  sizing.scale = 1.5;
+  sizing.lengths = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
+                           raster.octree.stored_cause, {0.2, 0.2});
+  sizing.face_weight = {12.5, 0};
+  sizing.names = raster.cause_names();
+  sizing.names.source = {"wake"};
+  sizing.shape = raster.octree.shape;
+  return sizing;
+}
+
+inline SizingArtifact stretched_sizing() {
+  SizingArtifact sizing = sample_sizing();
+  sizing.numbers.max_aspect = 8;
+  for (const CellLength& cell : sizing.lengths.cells) {
+    sizing.stretched.along.push_back({6 * cell.length, {0, 0, 0}, 6 * cell.length});
+    sizing.stretched.direction.push_back(SmallNormal(Vec3{0, 1, 0}));
+  }
+  return sizing;
+}
+
+}  // namespace st
