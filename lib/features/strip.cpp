@@ -15,6 +15,8 @@ constexpr int kMaxStations = 2048;
 constexpr double kStationTurning = radians(10);  // of a strip's edge, between two stations
 constexpr int kTurningSamples = 512;             // of an edge
 constexpr double kNarrow = 0.25;                 // of its length: wider faces are no strips
+constexpr double kAlike = 0.2;                   // of its length: how much longer or shorter what lies across may be
+constexpr double kEnd = 4;                       // widths: shorter edges are ends of a strip
 constexpr double kShortEnd = 0.5;                // of the long edges: all other edges of a strip together are shorter
 
 /// How often each edge is used by coedges of any face.
@@ -80,7 +82,51 @@ void measure_strip(const Model& model, Strip& strip) {
   }
 }
 
+/// The coedges of a loop after `single`, without short ones at both ends.
+std::vector<CoedgeId> edges_across(const ModelTables& t, IdRange loop, CoedgeId single, double width) {
+  std::vector<CoedgeId> rest;
+  for (CoedgeId i = 1; i < loop.size(); ++i) rest.push_back(loop.first() + (single - loop.first() + i) % loop.size());
+  const auto is_end = [&](CoedgeId c) { return t.edge_length[t.coedge_edge[c]] < kEnd * width; };
+  while (!rest.empty() && is_end(rest.back())) rest.pop_back();
+  rest.erase(rest.begin(), std::find_if_not(rest.begin(), rest.end(), is_end));
+  return rest;
+}
+
+/// Of a face with one loop; false when it is none.
+bool find_sides(const ModelTables& t, FaceId f, const std::vector<int>& uses, StripSides& strip) {
+  if (t.loops(f).size() != 1 || t.coedges(f).empty()) return false;
+  const IdRange loop = t.coedges(f);
+  const auto edge = [&](CoedgeId c) { return t.coedge_edge[c]; };
+  CoedgeId single = loop.first();
+  for (const CoedgeId c : loop)
+    if (t.edge_length[edge(c)] > t.edge_length[edge(single)]) single = c;
+  const double length = t.edge_length[edge(single)];
+  if (!(t.face_area[f] < kNarrow * length * length)) return false;
+  strip = {f, edge(single), {}, t.face_area[f] / length};
+  std::vector<CoedgeId> across = edges_across(t, loop, single, strip.width);
+  double sum = 0;
+  for (const CoedgeId c : across) sum += t.edge_length[edge(c)];
+  if (std::abs(sum - length) > kAlike * length) return false;
+  const auto is_side = [&](CoedgeId c) {
+    const EdgeId e = edge(c);
+    return !t.edge_is_degenerate[e] && t.edge_vertices[2 * e] != t.edge_vertices[2 * e + 1] && uses[e] == 2;
+  };
+  if (!is_side(single) || !std::all_of(across.begin(), across.end(), is_side)) return false;
+  const auto is_reversed = [&](CoedgeId c) { return t.coedge_is_reversed[c] != 0; };
+  for (const CoedgeId c : across) strip.across.push_back({edge(c), is_reversed(c) == is_reversed(single)});
+  if (!is_reversed(single)) std::reverse(strip.across.begin(), strip.across.end());  // the loop comes back along it
+  return true;
+}
+
 }  // namespace
+
+std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
+  const std::vector<int> uses = count_uses(tables);
+  std::vector<StripSides> strips;
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    if (StripSides strip; find_sides(tables, f, uses, strip)) strips.push_back(std::move(strip));
+  return strips;
+}
 
 std::vector<Strip> find_strips(const Model& model) {
   const ModelTables& t = model.tables();

@@ -26,4 +26,20 @@ struct Strip {
 /// than the face is wide on average, ascending. Local.
 std::vector<Strip> find_strips(const Model& model);
 
+/// The two sides of a face with one loop: one edge, and across from it one or several end to end.
+struct StripSides {
+  struct Side {
+    EdgeId edge = kNone;
+    bool is_opposed = false;  ///< it runs against `single`
+  };
+  FaceId face = kNone;
+  EdgeId single = kNone;
+  std::vector<Side> across;  ///< in the direction of `single`
+  double width = 0;          ///< on the mean, model unit
+};
+
+/// Faces whose two sides are open, belong to one other face each, are of about equal length and four times longer than
+/// the face is wide on average, ascending. Cheap. Local.
+std::vector<StripSides> find_strip_sides(const ModelTables& tables);
+
 }  // namespace st

@@ -397,6 +397,17 @@ TopoDS_Shape shallow_prism() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 40)).Shape();
 }
 
+/// A part of a cylinder in three layers, the one in the middle 0.002 high, the upper one in two parts of its angle.
+TopoDS_Shape banded_pie() {
+  const auto pie = [](double z, double height, double from, double to) {
+    const gp_Ax2 axes(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1), gp_Dir(std::cos(from), std::sin(from), 0));
+    return BRepPrimAPI_MakeCylinder(axes, 10, height, to - from).Shape();
+  };
+  const TopoDS_Shape lower = BRepAlgoAPI_Fuse(pie(0, 2, 0, 2.5), pie(2, 0.002, 0, 2.5)).Shape();
+  const TopoDS_Shape upper = BRepAlgoAPI_Fuse(pie(2.002, 2, 0, 0.8), pie(2.002, 2, 0.8, 2.5)).Shape();
+  return BRepAlgoAPI_Fuse(lower, upper).Shape();
+}
+
 /// Three faces on one edge.
 TopoDS_Shape t_junction() {
   BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, true);
@@ -471,6 +482,7 @@ const std::map<std::string, Factory>& factories() {
          return face.Shape();
        }},
       {"shallow_prism", shallow_prism},
+      {"banded_pie", banded_pie},
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},

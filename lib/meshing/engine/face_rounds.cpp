@@ -12,7 +12,6 @@
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
-#include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/engine/dirty_parts.h"
@@ -68,62 +67,23 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
   result_.edges = std::move(plan_.kept_edges);
   result_.patches = std::move(plan_.kept_patches);
   result_.patches.resize(tables_.n_faces());
-  if (field.is_stretched()) find_followers();
+  facing_ = find_facing_edges(topology, field.is_stretched());
 }
 
-/// The two long edges of each strip, chains of them behind one leader.
-void FaceRounds::find_followers() {
-  std::vector<std::int32_t> role(tables_.n_edges(), kNone);  // in followers_; -2: leads
-  constexpr std::int32_t kLeads = -2;
-  const auto is_free = [&](EdgeId e) { return !topology_.strip_closed_at(e) && !topology_.strip_kept_at(e); };
-  for (const Strip& strip : find_strips(model_)) {
-    auto [leader, follower] = std::pair{strip.edges[0], strip.edges[1]};
-    if (!is_free(leader) || !is_free(follower)) continue;
-    if (role[follower] != kNone) std::swap(leader, follower);
-    if (role[follower] != kNone) continue;
-    bool is_opposed = strip.is_opposed;
-    if (role[leader] >= 0) {
-      is_opposed ^= followers_[role[leader]].is_opposed;
-      leader = followers_[role[leader]].leader;
-    } else {
-      role[leader] = kLeads;
-    }
-    role[follower] = static_cast<std::int32_t>(followers_.size());
-    followers_.push_back({follower, leader, is_opposed});
-  }
-}
-
-/// Where lengths along both are long and about the same.
-bool FaceRounds::follows(const Follower& f, const EdgeMesh& own, const EdgeMesh& leader) const {
-  constexpr double kStretched = 2;  // length along over length across, in the middle
-  constexpr double kAlike = 0.15;   // between the numbers of segments
-  const double n_own = static_cast<double>(own.node_t.size()) - 1, n = static_cast<double>(leader.node_t.size()) - 1;
-  if (n_own < 2 || n < 2 || std::abs(n_own - n) > std::max(1.0, kAlike * n)) return false;
-  const auto curve = model_.curve(f.edge);
-  const CurvePoint middle = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
-  int hint = 0;
-  const LocalSize local = field_.local(middle.x, hint);
-  return local.in(middle.d1) > kStretched * local.length;
-}
-
-/// The fresh nodes of followers; their leaders are fresh, too, or as before.
+/// The fresh nodes of edges that follow others; their leaders are fresh, too, or as before.
 void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) const {
-  std::vector<const Follower*> dirty;
-  for (const Follower& f : followers_)
+  std::vector<const FacingEdges*> dirty;
+  for (const FacingEdges& f : facing_)
     if (place[f.edge] != kNone) dirty.push_back(&f);
   const auto nodes_of = [&](EdgeId e) {
     EdgeMesh nodes;
+    if (place[e] == kNone && result_.edges.n_nodes(e) == 0) return make_edge(e);  // of another part
     place[e] == kNone ? nodes.append(result_.edges, e) : nodes.append(fresh, place[e]);
     return nodes;
   };
   const auto make = [&](std::int32_t i) {
-    const Follower& f = *dirty[i];
-    const EdgeMesh own = nodes_of(f.edge);
-    const bool has_leader = place[f.leader] != kNone || result_.edges.n_nodes(f.leader) > 0;
-    const EdgeMesh leader = has_leader ? nodes_of(f.leader) : make_edge(f.leader);  // of another part
-    if (!follows(f, own, leader)) return own;
-    EdgeMesh nodes = mirror_nodes(*model_.curve(f.leader), leader, *model_.curve(f.edge), f.is_opposed, {});
-    end_at_vertices(f.edge, nodes);
+    EdgeMesh nodes = facing_nodes(model_, field_, *dirty[i], nodes_of(dirty[i]->edge), nodes_of);
+    end_at_vertices(dirty[i]->edge, nodes);
     return nodes;
   };
   const EdgeMesh followed = make_curve_nodes(static_cast<std::int32_t>(dirty.size()), make, executor_);
@@ -531,7 +491,8 @@ void FaceRounds::keep_whole() {
 /// Edges and faces of the plan that refinements from this one on reach.
 void FaceRounds::find_dirty(std::size_t first_refinement) {
   std::vector<std::pair<EdgeId, EdgeId>> followers;
-  for (const Follower& f : followers_) followers.push_back({f.edge, f.leader});
+  for (const FacingEdges& f : facing_)
+    for (const FacingEdges::Leader& l : f.leaders) followers.push_back({f.edge, l.edge});
   const DirtyParts dirty_parts =
       find_dirty_parts(topology_, result_.edges, std::span(refinements_.all()).subspan(first_refinement), followers);
   const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {

@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "geometry/model/model.h"
 #include "meshing/engine/crossing_search.h"
+#include "meshing/engine/facing_edges.h"
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
 #include "meshing/engine/tiled_regions.h"
@@ -50,13 +51,6 @@ class FaceRounds : public MeshRounds {
   std::vector<RefinementPoint> find_crossings() override;
   void choose_again(std::size_t first_refinement) override;
 
-  /// An edge whose nodes are those of another, along which sizes are stretched: opposite nodes make rows.
-  struct Follower {
-    EdgeId edge, leader;
-    bool is_opposed;
-  };
-  void find_followers();
-  bool follows(const Follower& f, const EdgeMesh& own, const EdgeMesh& leader) const;
   void follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) const;
   EdgeMesh make_edge(EdgeId e) const;
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
@@ -103,7 +97,7 @@ class FaceRounds : public MeshRounds {
   std::vector<double> expected_;        // [n_faces] triangles, by the weights of the plan; empty: it has none
   std::vector<double> face_tolerance_;  // [n_faces] of their groups, or empty
   std::vector<int> min_segments_;
-  std::vector<Follower> followers_;  // empty unless sizes are stretched
+  std::vector<FacingEdges> facing_;
   std::vector<EdgeId> dirty_edges_;  // to be meshed in this round
   std::vector<FaceId> dirty_faces_;
   std::optional<BoundaryNumbering> numbering_;        // of the present edges

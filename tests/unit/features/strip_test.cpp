@@ -22,5 +22,33 @@ TEST(Strip, knows_its_width_along_its_length) {
   for (const Strip::Station& s : strip.stations) EXPECT_NEAR(s.width, 0.02 + 0.98 * s.x.x / 20, 2e-3);
 }
 
+/// The sides of the band about the shape banded_pie.
+StripSides sides_of_band(const Model& model) {
+  for (const StripSides& s : find_strip_sides(model.tables()))
+    if (model.tables().face_type[s.face] == SurfaceType::kCylinder && s.width < 0.01) return s;
+  return {};
+}
+
+TEST(StripSides, may_be_one_edge_and_several_end_to_end) {
+  const Model model = test::make_model("banded_pie");
+  const StripSides band = sides_of_band(model);
+  ASSERT_NE(band.face, kNone);
+  EXPECT_NEAR(band.width, 0.002, 1e-6);
+  ASSERT_EQ(band.across.size(), 2);
+  const auto single = model.curve(band.single);
+  Vec3 at = single->point(single->t_min());
+  for (const StripSides::Side& s : band.across) {
+    const auto curve = model.curve(s.edge);
+    EXPECT_NEAR(distance(curve->point(s.is_opposed ? curve->t_max() : curve->t_min()), at), 0, 0.0021);
+    at = curve->point(s.is_opposed ? curve->t_min() : curve->t_max());
+  }
+  EXPECT_NEAR(distance(single->point(single->t_max()), at), 0, 0.0021);
+}
+
+TEST(StripSides, are_no_sides_of_wide_faces) {
+  EXPECT_TRUE(find_strip_sides(test::make_model("box").tables()).empty());
+  EXPECT_TRUE(find_strip_sides(test::make_model("cylinder").tables()).empty());
+}
+
 }  // namespace
 }  // namespace st
