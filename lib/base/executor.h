@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <numeric>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/packer.h"
@@ -27,12 +29,26 @@ struct TaskLabel {
   std::int32_t part = 0;  ///< of it
 };
 
-/// Tasks with names: results of one run are of use to another.
+/// Tasks with names: results of one run are of use to another. They may stay on the rank that computes them.
 struct NamedTasks {
   std::vector<std::int32_t> order;  ///< as for Executor::run_tasks
   std::function<TaskLabel(std::int32_t task)> label;
   std::string made_from;  ///< digest of all that the results depend on, but for the inputs and options of the run; the
                           ///< same on every rank. Empty: not worth keeping
+  std::vector<std::int32_t> home = {};  ///< [n_tasks] the rank that runs each; empty: any rank
+  /// Local, on the thread of the task: takes a result and returns what collect() gets of it. Results of an earlier run
+  /// come on rank 0. Empty: collect() gets results as they are.
+  std::function<Bytes(std::int32_t task, Bytes&& result)> keep = {};
+  /// Local, one call at a time, while tasks run: what a task of another rank has asked for by Executor::ask.
+  std::function<Bytes(const Bytes& request)> answer = {};
+
+  Bytes kept(std::int32_t task, Bytes&& result) const { return keep ? keep(task, std::move(result)) : std::move(result); }
+};
+
+/// Of a task, to another rank.
+struct Request {
+  int rank;
+  Bytes bytes;
 };
 
 /// The ranks of a job. `comm` has the one over MPI; SerialExecutor is the one of tests and of callers without ranks.
@@ -62,7 +78,14 @@ class Executor {
   /// The same, for tasks that are pure functions of what they are made from: some results may come from an earlier run.
   virtual void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                                const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
-    run_tasks(static_cast<std::int32_t>(tasks.order.size()), tasks.order, compute, collect);
+    run_tasks(
+        static_cast<std::int32_t>(tasks.order.size()), tasks.order,
+        [&](std::int32_t task) { return tasks.kept(task, compute(task)); }, collect);
+  }
+  /// Within `compute` of run_named_tasks: what NamedTasks::answer of these other ranks returns, in their order. Waits.
+  virtual std::vector<Bytes> ask(const std::vector<Request>& requests) const {
+    if (!requests.empty()) throw std::logic_error("ask: there is no other rank");
+    return {};
   }
 };
 

@@ -160,25 +160,34 @@ void Communicator::abort(int exit_code) const {
 void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                              const std::function<Bytes(std::int32_t task)>& compute,
                              const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
-  std::vector<char> is_listed(std::max(n_tasks, 0), 0);
-  for (const std::int32_t task : order)
-    if (task < 0 || task >= n_tasks || is_listed[task]++)
-      throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
-  if (n_tasks < 0 || order.size() != is_listed.size())
+  if (n_tasks < 0 || order.size() != static_cast<std::size_t>(n_tasks))
     throw Error(ExitCode::kInternal, "run_tasks: the order does not list every task once");
+  run_named_tasks({order, {}, {}}, compute, collect);
+}
+
+void Communicator::run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
+                                   const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
+  const std::vector<std::int32_t>& order = tasks.order;
+  std::vector<char> is_listed(order.size(), 0);
+  for (const std::int32_t task : order)
+    if (task < 0 || static_cast<std::size_t>(task) >= order.size() || is_listed[task]++)
+      throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
+  const auto kept = [&](std::int32_t task) { return tasks.kept(task, compute(task)); };
   if (impl_->size == 1) {
     std::mutex mutex;
     parallel_for(order.size(), 1, [&](std::size_t i, std::size_t) {
-      Bytes result = with_memory_named([&] { return compute(order[i]); });
+      Bytes result = with_memory_named([&] { return kept(order[i]); });
       const std::lock_guard lock(mutex);
       collect(order[i], std::move(result));
     });
   } else if (impl_->rank == 0) {
-    distribute_tasks(impl_->size, order, compute, collect);
+    distribute_tasks(impl_->size, order, tasks.home, kept, collect, tasks.answer);
   } else {
-    work_on_tasks(compute);
+    work_on_tasks(kept, tasks.answer);
   }
 }
+
+std::vector<Bytes> Communicator::ask(const std::vector<Request>& requests) const { return ask_ranks(requests); }
 
 namespace {
 

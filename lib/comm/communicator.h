@@ -45,6 +45,9 @@ class Communicator : public Executor {
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                  const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
+  void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
+                       const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
+  std::vector<Bytes> ask(const std::vector<Request>& requests) const override;
 
  private:
   struct Impl;

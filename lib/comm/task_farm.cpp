@@ -4,9 +4,11 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,8 +22,14 @@
 namespace st {
 namespace {
 
-constexpr int kTagTask = 1, kTagResult = 2, kTagPayload = 3;
+constexpr int kTagTask = 1;
 constexpr std::int32_t kStop = -1;
+
+/// Messages of a kind: what each is, and its bytes.
+struct Channel {
+  int head, bytes;
+};
+constexpr Channel kResults{2, 3}, kRequests{4, 5}, kAnswers{6, 7};
 // Whose tasks are short gets as many ahead as make up this time, so that no answer is waited for.
 constexpr double kAheadSeconds = 0.010;
 constexpr int kMaxAhead = 16;
@@ -78,31 +86,32 @@ Outcome run_task(std::int32_t task, int rank, const Compute& compute) {
 /// on computing.
 class Transfer {
  public:
-  /// Worker: sends what rank 0 has to know, then the bytes.
-  static Transfer send(Outcome&& outcome) {
-    Transfer transfer(std::move(outcome));
+  /// Sends what the other rank has to know, then the bytes.
+  static Transfer send(Outcome&& outcome, int rank, Channel channel) {
+    Transfer transfer(std::move(outcome), rank);
     OutcomeMessage& message = *transfer.message_;
     MPI_Request request;
-    require_mpi(MPI_Isend(&message, sizeof message, MPI_BYTE, 0, kTagResult, MPI_COMM_WORLD, &request), "MPI_Isend");
+    require_mpi(MPI_Isend(&message, sizeof message, MPI_BYTE, rank, channel.head, MPI_COMM_WORLD, &request),
+                "MPI_Isend");
     transfer.requests_.push_back(request);
     transfer.for_each_piece(
         [&](std::byte* piece, int count) {
-          return MPI_Isend(piece, count, MPI_BYTE, 0, kTagPayload, MPI_COMM_WORLD, &request);
+          return MPI_Isend(piece, count, MPI_BYTE, rank, channel.bytes, MPI_COMM_WORLD, &request);
         },
         request);
     return transfer;
   }
 
-  /// Rank 0: receives the message that a probe has announced from `rank`, and starts to receive the bytes.
-  static Transfer receive(int rank) {
+  /// Receives the message that a probe has announced from `rank`, and starts to receive the bytes.
+  static Transfer receive(int rank, Channel channel) {
     OutcomeMessage message{};
-    require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, kTagResult, MPI_COMM_WORLD, MPI_STATUS_IGNORE),
+    require_mpi(MPI_Recv(&message, sizeof message, MPI_BYTE, rank, channel.head, MPI_COMM_WORLD, MPI_STATUS_IGNORE),
                 "MPI_Recv");
-    Transfer transfer({message.task, message.code, message.seconds, Bytes(message.n_bytes)});
+    Transfer transfer({message.task, message.code, message.seconds, Bytes(message.n_bytes)}, rank);
     MPI_Request request;
     transfer.for_each_piece(
         [&](std::byte* piece, int count) {
-          return MPI_Irecv(piece, count, MPI_BYTE, rank, kTagPayload, MPI_COMM_WORLD, &request);
+          return MPI_Irecv(piece, count, MPI_BYTE, rank, channel.bytes, MPI_COMM_WORLD, &request);
         },
         request);
     return transfer;
@@ -115,12 +124,14 @@ class Transfer {
     return done != 0;
   }
 
+  int rank() const { return rank_; }
   const Outcome& outcome() const { return outcome_; }
   Outcome take() { return std::move(outcome_); }
 
  private:
-  explicit Transfer(Outcome&& outcome)
-      : outcome_(std::move(outcome)),
+  Transfer(Outcome&& outcome, int rank)
+      : rank_(rank),
+        outcome_(std::move(outcome)),
         message_(std::make_unique<OutcomeMessage>(
             OutcomeMessage{outcome_.task, outcome_.code, outcome_.seconds, outcome_.bytes.size()})) {}
 
@@ -134,6 +145,7 @@ class Transfer {
     }
   }
 
+  int rank_;  ///< the other one
   Outcome outcome_;
   std::unique_ptr<OutcomeMessage> message_;  ///< stays where it is while it is sent
   std::vector<MPI_Request> requests_;
@@ -149,21 +161,35 @@ bool probe(int source, int tag, MPI_Status& status) {
   return false;
 }
 
+/// A request to another rank, and who waits for the answer.
+struct Question {
+  Request request;
+  Bytes* answer;
+  std::size_t* n_missing;  ///< answers of the thread that asks
+};
+
+class WorkerThreads;
+std::atomic<WorkerThreads*> g_threads = nullptr;  // of the tasks that run now
+
 /// The computing threads of a rank. They never call MPI.
 class WorkerThreads {
  public:
   explicit WorkerThreads(const Compute& compute) {
     int rank = 0;
     require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
+    g_threads = this;
     for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, rank, &compute] { work(rank, compute); });
   }
   ~WorkerThreads() {
     {
       const std::lock_guard lock(mutex_);
       tasks_.assign(threads_.size(), kStop);
+      is_ending_ = true;
     }
     has_task_.notify_all();
+    has_answers_.notify_all();
     for (std::thread& thread : threads_) thread.join();
+    g_threads = nullptr;
   }
   WorkerThreads(const WorkerThreads&) = delete;
   WorkerThreads& operator=(const WorkerThreads&) = delete;
@@ -182,10 +208,37 @@ class WorkerThreads {
     return take_locked();
   }
 
-  /// Likewise, but sleeps until there is one or the time is over.
-  void wait_for_outcome(std::chrono::microseconds time) {
+  /// Sleeps until there is an outcome or a question, or the time is over.
+  void wait(std::chrono::microseconds time) {
     std::unique_lock lock(mutex_);
-    has_outcome_.wait_for(lock, time, [&] { return !outcomes_.empty(); });
+    has_news_.wait_for(lock, time, [&] { return !outcomes_.empty() || !questions_.empty(); });
+  }
+
+  /// On one of the threads: waits for the answers.
+  std::vector<Bytes> ask(const std::vector<Request>& requests) {
+    std::vector<Bytes> answers(requests.size());
+    std::size_t n_missing = requests.size();
+    std::unique_lock lock(mutex_);
+    for (std::size_t i = 0; i < requests.size(); ++i) questions_.push_back({requests[i], &answers[i], &n_missing});
+    has_news_.notify_one();
+    has_answers_.wait(lock, [&] { return n_missing == 0 || is_ending_; });
+    if (n_missing > 0) throw Error(ExitCode::kInternal, "a task waited for another rank when the job ended");
+    return answers;
+  }
+
+  /// A question that nobody has passed on, if there is one.
+  std::optional<Question> take_question() {
+    const std::lock_guard lock(mutex_);
+    if (questions_.empty()) return std::nullopt;
+    Question question = std::move(questions_.front());
+    questions_.pop_front();
+    return question;
+  }
+
+  void answer(const Question& question, Bytes&& bytes) {
+    const std::lock_guard lock(mutex_);
+    *question.answer = std::move(bytes);
+    if (--*question.n_missing == 0) has_answers_.notify_all();
   }
 
  private:
@@ -211,32 +264,110 @@ class WorkerThreads {
         const std::lock_guard lock(mutex_);
         outcomes_.push_back(std::move(outcome));
       }
-      has_outcome_.notify_one();
+      has_news_.notify_one();
     }
   }
 
   std::mutex mutex_;
-  std::condition_variable has_task_, has_outcome_;
+  std::condition_variable has_task_, has_news_, has_answers_;
   std::deque<std::int32_t> tasks_;
   std::deque<Outcome> outcomes_;
+  std::deque<Question> questions_;
+  bool is_ending_ = false;
   std::vector<std::thread> threads_;  // last: they use the members above
+};
+
+/// Passes questions of this rank's tasks on to other ranks, and answers theirs. For the main thread.
+class Courier {
+ public:
+  Courier(WorkerThreads& threads, const Answer& answer) : threads_(threads), answer_(answer) {}
+
+  /// True when there was something to do.
+  bool work() {
+    const bool has_asked = pass_on(), has_answered = answer_others(), has_received = receive_answers();
+    outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
+    return has_asked || has_answered || has_received;
+  }
+  /// Something is on its way: sleep no longer than needed.
+  bool is_busy() const { return !outgoing_.empty() || !incoming_.empty() || !answers_.empty() || !asked_.empty(); }
+
+ private:
+  bool pass_on() {
+    bool has_news = false;
+    for (; auto question = threads_.take_question(); has_news = true) {
+      const std::int32_t number = n_asked_++;
+      outgoing_.push_back(
+          Transfer::send({number, 0, 0, std::move(question->request.bytes)}, question->request.rank, kRequests));
+      asked_.emplace(number, std::move(*question));
+    }
+    return has_news;
+  }
+
+  bool answer_others() {
+    bool has_news = false;
+    for (MPI_Status status; probe(MPI_ANY_SOURCE, kRequests.head, status); has_news = true)
+      incoming_.push_back(Transfer::receive(status.MPI_SOURCE, kRequests));
+    return take_arrived(incoming_, [&](Transfer& request) {
+      Bytes answer = answer_(request.outcome().bytes);
+      outgoing_.push_back(Transfer::send({request.outcome().task, 0, 0, std::move(answer)}, request.rank(), kAnswers));
+    }) || has_news;
+  }
+
+  bool receive_answers() {
+    bool has_news = false;
+    for (MPI_Status status; probe(MPI_ANY_SOURCE, kAnswers.head, status); has_news = true)
+      answers_.push_back(Transfer::receive(status.MPI_SOURCE, kAnswers));
+    return take_arrived(answers_, [&](Transfer& answer) {
+      const auto question = asked_.find(answer.outcome().task);
+      threads_.answer(question->second, answer.take().bytes);
+      asked_.erase(question);
+    }) || has_news;
+  }
+
+  template <class Take>
+  static bool take_arrived(std::list<Transfer>& transfers, const Take& take) {
+    bool has_news = false;
+    for (auto it = transfers.begin(); it != transfers.end();) {
+      if (!it->is_done()) {
+        ++it;
+        continue;
+      }
+      take(*it);
+      it = transfers.erase(it);
+      has_news = true;
+    }
+    return has_news;
+  }
+
+  WorkerThreads& threads_;
+  const Answer& answer_;
+  std::int32_t n_asked_ = 0;
+  std::map<std::int32_t, Question> asked_;  ///< without an answer so far, by number
+  std::list<Transfer> outgoing_, incoming_, answers_;
 };
 
 /// Hands out tasks in order, and counts what is out.
 class Distributor {
  public:
-  Distributor(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute, const Collect& collect)
-      : order_(order), collect_(collect), n_pending_(n_ranks, 0), local_(compute) {}
+  Distributor(int n_ranks, const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& home,
+              const Compute& compute, const Collect& collect, const Answer& answer)
+      : n_tasks_(order.size()),
+        collect_(collect),
+        n_pending_(n_ranks, 0),
+        own_(n_ranks),
+        local_(compute),
+        courier_(local_, answer) {
+    for (const std::int32_t task : order) (home.empty() ? shared_ : own_.at(home[task])).push_back(task);
+  }
 
   void run() {
     for (int i = 0; i < thread_count(); ++i)
       for (int rank = 0; rank < static_cast<int>(n_pending_.size()); ++rank) give(rank);
     Backoff backoff;
-    while (n_collected_ < order_.size()) {
-      if (receive_all()) {
-        backoff.reset();
-      } else {
-        local_.wait_for_outcome(backoff.next());
+    while (n_collected_ < n_tasks_) {
+      if (receive_all() || courier_.is_busy()) backoff.reset();
+      if (received_.empty()) {
+        local_.wait(backoff.next());
         backoff.lengthen();
       }
       collect_all();
@@ -249,12 +380,15 @@ class Distributor {
     require_mpi(MPI_Send(&task, 1, MPI_INT32_T, rank, kTagTask, MPI_COMM_WORLD), "MPI_Send");
   }
 
-  /// The next task to a rank, if there is one.
-  void give(int rank) {
-    if (n_given_ == order_.size()) return;
-    const std::int32_t task = order_[n_given_++];
+  /// The next task to a rank. False: there is none.
+  bool give(int rank) {
+    std::deque<std::int32_t>& tasks = own_[rank].empty() ? shared_ : own_[rank];
+    if (tasks.empty()) return false;
+    const std::int32_t task = tasks.front();
+    tasks.pop_front();
     ++n_pending_[rank];
     rank == 0 ? local_.give(task) : send_task(rank, task);
+    return true;
   }
 
   /// One task less is out; keeps the rank busy. Comes before the bytes are there and before collecting: that may take
@@ -263,7 +397,8 @@ class Distributor {
     --n_pending_[rank];
     const int n_wanted =
         thread_count() + static_cast<int>(std::min<double>(kMaxAhead, kAheadSeconds / std::max(seconds, 1e-9)));
-    while (n_pending_[rank] < n_wanted && n_given_ < order_.size()) give(rank);
+    while (n_pending_[rank] < n_wanted && give(rank)) {
+    }
   }
 
   void accept(Outcome&& outcome) {
@@ -279,12 +414,12 @@ class Distributor {
       answer(0, outcome->seconds);
       accept(std::move(*outcome));
     }
-    for (MPI_Status status; probe(MPI_ANY_SOURCE, kTagResult, status);) {
-      incoming_.push_back(Transfer::receive(status.MPI_SOURCE));
+    for (MPI_Status status; probe(MPI_ANY_SOURCE, kResults.head, status);) {
+      incoming_.push_back(Transfer::receive(status.MPI_SOURCE, kResults));
       answer(status.MPI_SOURCE, incoming_.back().outcome().seconds);
     }
     const bool has_news = received_.size() + incoming_.size() != n_before;
-    return accept_arrived() || has_news;
+    return courier_.work() | accept_arrived() | has_news;
   }
 
   /// True when the bytes of an outcome are complete.
@@ -313,28 +448,32 @@ class Distributor {
     }
   }
 
-  const std::vector<std::int32_t>& order_;
+  const std::size_t n_tasks_;
   const Collect& collect_;
-  std::vector<int> n_pending_;  ///< per rank: tasks given, outcome not yet received
-  std::size_t n_given_ = 0, n_collected_ = 0;
+  std::vector<int> n_pending_;                 ///< per rank: tasks given, outcome not yet received
+  std::deque<std::int32_t> shared_;            ///< tasks to be given to any rank
+  std::vector<std::deque<std::int32_t>> own_;  ///< likewise to this one
+  std::size_t n_collected_ = 0;
   std::list<Transfer> incoming_;
   std::deque<Outcome> received_;
   WorkerThreads local_;
+  Courier courier_;
 };
 
 /// A worker's side: tasks to the threads, their results on the way. The main thread sleeps while there is nothing to
 /// pass on.
 class Worker {
  public:
-  explicit Worker(const Compute& compute) : threads_(compute) {}
+  Worker(const Compute& compute, const Answer& answer) : threads_(compute), courier_(threads_, answer) {}
 
   void run() {
-    for (Backoff backoff; !is_stopped_ || n_inside_ > 0 || !outgoing_.empty();) {
-      const bool has_news = receive_tasks() | send_outcomes();
+    for (Backoff backoff; !is_stopped_ || n_inside_ > 0 || !outgoing_.empty() || courier_.is_busy();) {
+      const bool has_news = receive_tasks() | send_outcomes() | courier_.work();
       outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
-      if (has_news || !outgoing_.empty()) backoff.reset();  // results need this process to get through
+      // results need this process to get through
+      if (has_news || !outgoing_.empty() || courier_.is_busy()) backoff.reset();
       if (has_news) continue;
-      threads_.wait_for_outcome(backoff.next());
+      threads_.wait(backoff.next());
       backoff.lengthen();
     }
   }
@@ -356,7 +495,7 @@ class Worker {
   bool send_outcomes() {
     bool has_news = false;
     for (; auto outcome = threads_.take(); has_news = true) {
-      outgoing_.push_back(Transfer::send(std::move(*outcome)));
+      outgoing_.push_back(Transfer::send(std::move(*outcome), 0, kResults));
       --n_inside_;
     }
     return has_news;
@@ -366,6 +505,7 @@ class Worker {
   int n_inside_ = 0;  ///< tasks whose outcome is not yet sent
   std::list<Transfer> outgoing_;
   WorkerThreads threads_;
+  Courier courier_;
 };
 
 }  // namespace
@@ -377,11 +517,18 @@ void Backoff::sleep() {
 
 void Backoff::lengthen() { next_ = std::min(next_ * 3 / 2, std::chrono::microseconds(1000)); }
 
-void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute,
-                      const Collect& collect) {
-  Distributor(n_ranks, order, compute, collect).run();
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& home,
+                      const Compute& compute, const Collect& collect, const Answer& answer) {
+  Distributor(n_ranks, order, home, compute, collect, answer).run();
 }
 
-void work_on_tasks(const Compute& compute) { Worker(compute).run(); }
+void work_on_tasks(const Compute& compute, const Answer& answer) { Worker(compute, answer).run(); }
+
+std::vector<Bytes> ask_ranks(const std::vector<Request>& requests) {
+  WorkerThreads* threads = g_threads;
+  if (requests.empty()) return {};
+  if (!threads) throw Error(ExitCode::kInternal, "no task runs that could ask other ranks");
+  return threads->ask(requests);
+}
 
 }  // namespace st

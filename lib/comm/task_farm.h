@@ -33,13 +33,18 @@ class Backoff {
 
 using Compute = std::function<Bytes(std::int32_t task)>;
 using Collect = std::function<void(std::int32_t task, Bytes&& result)>;
+using Answer = std::function<Bytes(const Bytes& request)>;
 
 /// Rank 0's side: returns when all results are collected. Throws Error with code and text of the first compute that
 /// failed, on any rank, and what `collect` throws; the other ranks then wait for more until the job is aborted.
-void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const Compute& compute,
-                      const Collect& collect);
+/// `home`: the rank that runs each task, or empty.
+void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const std::vector<std::int32_t>& home,
+                      const Compute& compute, const Collect& collect, const Answer& answer);
 
 /// Every other rank's side: returns when rank 0 says that there is no more.
-void work_on_tasks(const Compute& compute);
+void work_on_tasks(const Compute& compute, const Answer& answer);
+
+/// Within `compute`: the answers of these ranks, in order. Waits.
+std::vector<Bytes> ask_ranks(const std::vector<Request>& requests);
 
 }  // namespace st

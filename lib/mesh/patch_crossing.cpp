@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/threads.h"
+#include "mesh/patch_blocks.h"
 
 namespace st {
 
@@ -255,39 +256,31 @@ class Forest {
   std::array<std::mutex, kLocks> locks_;
 };
 
-/// Of the triangles of each face; that of a face without any is not used.
-std::vector<FloatBox> boxes_of_faces(const PatchTriangles& mesh) {
-  std::vector<FloatBox> boxes(mesh.face_body.size());
+/// Of the triangles of each face.
+std::vector<Box3> boxes_of_faces(const PatchTriangles& mesh) {
+  std::vector<Box3> boxes(mesh.face_body.size());
   parallel_for(boxes.size(), 1, [&](std::size_t f, std::size_t) {
-    Box3 box;
     for (TriangleId t = mesh.face_begin[f]; t < mesh.face_begin[f + 1]; ++t)
-      for (const NodeId n : mesh.triangles[t].n) box.add(mesh.points[n]);
-    boxes[f] = rounded(box);
+      for (const NodeId n : mesh.triangles[t].n) boxes[f].add(mesh.points[n]);
   });
   return boxes;
 }
 
-/// Calls visit(f, g) once for every two faces with triangles whose boxes meet: a sweep along the longest axis of the
-/// model.
-template <class Visit>
-void for_each_face_pair(const PatchTriangles& mesh, const Visit& visit) {
-  const std::vector<FloatBox> boxes = boxes_of_faces(mesh);
-  std::vector<FaceId> order;
-  for (std::size_t f = 0; f < boxes.size(); ++f)
-    if (mesh.face_begin[f] < mesh.face_begin[f + 1]) order.push_back(static_cast<FaceId>(f));
-  if (order.empty()) return;
-  FloatBox all = boxes[order[0]];
-  for (const FaceId f : order) all.add(boxes[f]);
-  const int axis = all.longest_axis();
-  std::sort(order.begin(), order.end(),
-            [&](FaceId f, FaceId g) { return std::pair(boxes[f].lo[axis], f) < std::pair(boxes[g].lo[axis], g); });
-  std::vector<FaceId> open;
-  for (const FaceId f : order) {
-    std::erase_if(open, [&](FaceId g) { return boxes[g].hi[axis] < boxes[f].lo[axis]; });
-    for (const FaceId g : open)
-      if (boxes[f].meets(boxes[g])) visit(f, g);
-    open.push_back(f);
-  }
+/// The pairs that these tests find, sorted. `is_wanted` [n_faces]: the faces of the jobs.
+std::vector<TrianglePair> find_pairs(const PatchTriangles& mesh, const std::vector<char>& is_wanted,
+                                     std::vector<Forest::Job> jobs) {
+  Forest forest(mesh, is_wanted);
+  jobs = forest.split_jobs(std::move(jobs));
+  constexpr std::size_t kJobsPerPiece = 4;
+  std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
+  parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) forest.test(jobs[i], found[begin / kJobsPerPiece]);
+  });
+  Forest::Pairs all;
+  for (const Forest::Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
+  std::sort(all.begin(), all.end(),
+            [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+  return all;
 }
 
 }  // namespace
@@ -307,22 +300,17 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
   };
   for (FaceId f = 0; f < n_faces; ++f)
     if (is_dirty(f)) add(f, f);
-  for_each_face_pair(mesh, [&](FaceId f, FaceId g) {
-    if (!is_dirty(f) && !is_dirty(g)) return;
-    if (mesh.face_body[f] == mesh.face_body[g] || (mesh.are_compared && mesh.are_compared(f, g))) add(f, g);
-  });
-  Forest forest(mesh, is_wanted);
-  jobs = forest.split_jobs(std::move(jobs));
-  constexpr std::size_t kJobsPerPiece = 4;
-  std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
-  parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) forest.test(jobs[i], found[begin / kJobsPerPiece]);
-  });
-  Forest::Pairs all;
-  for (const Forest::Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
-  std::sort(all.begin(), all.end(),
-            [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-  return all;
+  for (const auto& [f, g] : meeting_pairs(boxes_of_faces(mesh)))
+    if ((is_dirty(f) || is_dirty(g)) && mesh.face_body[f] == mesh.face_body[g]) add(f, g);
+  return find_pairs(mesh, is_wanted, std::move(jobs));
+}
+
+std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                                 std::int32_t n_first) {
+  const std::int32_t begin[] = {0, n_first, static_cast<std::int32_t>(triangles.size())}, body[] = {0, 0};
+  ST_ASSERT(0 <= n_first && n_first <= begin[2]);
+  if (n_first == 0 || n_first == begin[2]) return {};
+  return find_pairs({points, triangles, begin, body}, {1, 1}, {{0, 1}});
 }
 
 }  // namespace st

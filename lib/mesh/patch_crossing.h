@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct PatchTriangles {
                                              ///< common part)
   std::span<const char> face_is_dirty = {};  ///< [n_faces] pairs of triangles of clean faces are skipped; empty: all
                                              ///< faces are dirty
-  std::function<bool(FaceId, FaceId)> are_compared = {};  ///< faces of different bodies that are compared after all
 };
 
 /// The pairs of find_crossing_triangles, sorted by (a, b), that lie in faces of the same body, at least one of them
@@ -41,5 +39,9 @@ struct PatchTriangles {
 /// Linear in the triangles of smooth faces, as find_crossing_triangles elsewhere: trees are built only as deep as they
 /// are descended.
 std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh);
+
+/// Likewise the pairs of two faces alone: triangles [0, n_first) are of one, the others of the other.
+std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                                 std::int32_t n_first);
 
 }  // namespace st

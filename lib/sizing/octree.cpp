@@ -12,7 +12,7 @@
 #include "base/limits.h"
 #include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
-#include "sizing/radix_sort.h"
+#include "base/radix_sort.h"
 
 namespace st {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/ids.h"
 #include "base/vec.h"
-#include "sizing/morton.h"
+#include "base/morton.h"
 
 namespace st {
 

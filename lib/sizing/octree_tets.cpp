@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/limits.h"
-#include "sizing/radix_sort.h"
+#include "base/radix_sort.h"
 
 namespace st {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/hdf5/sizing_artifact.h"
-#include "sizing/morton.h"
+#include "base/morton.h"
 #include "sizing/moved_field.h"
 
 namespace st {

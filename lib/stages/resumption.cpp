@@ -102,19 +102,18 @@ void Resumption::remove() {
   if (journal_) remove_journal(output_);
 }
 
-/// Collective. What an earlier run has made is collected; what is left, in this order.
-std::vector<std::int32_t> Resumption::collect_done(const std::vector<Work>& works,
-                                                   const std::vector<std::int32_t>& order,
+/// Local, on rank 0. What an earlier run has made is collected; what is left, in this order.
+std::vector<std::int32_t> Resumption::collect_done(const std::vector<Work>& works, const NamedTasks& tasks,
                                                    const Collect& collect) const {
   std::vector<std::int32_t> rest;
-  for (const std::int32_t task : order) {
+  for (const std::int32_t task : tasks.order) {
     auto result = earlier_->result(works[task].key);
     if (!result)
       rest.push_back(task);
     else
-      collect(task, std::move(*result));
+      collect(task, tasks.kept(task, std::move(*result)));
   }
-  n_resumed_ += static_cast<std::int64_t>(order.size() - rest.size());
+  n_resumed_ += static_cast<std::int64_t>(tasks.order.size() - rest.size());
   return rest;
 }
 
@@ -127,7 +126,7 @@ void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute
   std::vector<std::int32_t> rest = tasks.order, suspects;
   if (is_resuming_) {
     if (is_root()) {
-      rest = collect_done(works, tasks.order, collect);
+      rest = collect_done(works, tasks, collect);
       const auto others = std::stable_partition(
           rest.begin(), rest.end(), [&](std::int32_t task) { return earlier_->deaths().contains(works[task].key); });
       suspects.assign(rest.begin(), others);
@@ -136,12 +135,12 @@ void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute
     share(inner_, rest, suspects);
   }
   const auto kept = [&](std::int32_t task) {
-    if (!journal_) return compute(task);
+    if (!journal_) return tasks.kept(task, compute(task));
     journal_->begin(works[task]);
     try {
       Bytes result = compute(task);
       journal_->finish(works[task], result);
-      return result;
+      return tasks.kept(task, std::move(result));
     } catch (const std::bad_alloc&) {
       journal_->fail(works[task]);
       throw;
@@ -151,7 +150,7 @@ void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute
   run_some(tasks, rest, kept, collect);
 }
 
-/// Collective. These of the tasks, in this order.
+/// Collective. These of the tasks, in this order. `compute` keeps their results.
 void Resumption::run_some(const NamedTasks& tasks, const std::vector<std::int32_t>& some, const Compute& compute,
                           const Collect& collect) const {
   NamedTasks of_some;
@@ -159,6 +158,9 @@ void Resumption::run_some(const NamedTasks& tasks, const std::vector<std::int32_
   std::iota(of_some.order.begin(), of_some.order.end(), 0);
   of_some.label = [&](std::int32_t i) { return tasks.label(some[i]); };
   of_some.made_from = tasks.made_from;
+  if (!tasks.home.empty())
+    for (const std::int32_t task : some) of_some.home.push_back(tasks.home[task]);
+  of_some.answer = tasks.answer;
   inner_.run_named_tasks(
       of_some, [&](std::int32_t i) { return compute(some[i]); },
       [&](std::int32_t i, Bytes&& bytes) { collect(some[i], std::move(bytes)); });

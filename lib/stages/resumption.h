@@ -50,6 +50,7 @@ class Resumption : public Executor {
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override {
     inner_.run_tasks(n_tasks, order, compute, collect);
   }
+  std::vector<Bytes> ask(const std::vector<Request>& requests) const override { return inner_.ask(requests); }
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                        const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
 
@@ -58,7 +59,7 @@ class Resumption : public Executor {
   using Collect = std::function<void(std::int32_t, Bytes&&)>;
 
   void read(const WorkKey& run_key, const ResumeOptions& options);
-  std::vector<std::int32_t> collect_done(const std::vector<Work>& works, const std::vector<std::int32_t>& order,
+  std::vector<std::int32_t> collect_done(const std::vector<Work>& works, const NamedTasks& tasks,
                                          const Collect& collect) const;
   void run_some(const NamedTasks& tasks, const std::vector<std::int32_t>& some, const Compute& compute,
                 const Collect& collect) const;

@@ -74,7 +74,7 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     Row row{"task", label.kind, label.id + 1, label.part, call, rank()};
     row.start = clock_.seconds();
     const double before = thread_seconds();
-    Bytes result = compute(task);
+    Bytes result = tasks.kept(task, compute(task));
     row.processor = thread_seconds() - before;
     row.wall = clock_.seconds() - row.start;
     row.bytes = result.size();
@@ -83,7 +83,9 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     rows_.push_back(row);
     return result;
   };
-  inner_.run_named_tasks(tasks, timed, [&](std::int32_t task, Bytes&& result) {
+  NamedTasks timed_tasks = tasks;
+  timed_tasks.keep = {};  // within the time of the task
+  inner_.run_named_tasks(timed_tasks, timed, [&](std::int32_t task, Bytes&& result) {
     const double before = thread_seconds();
     collect(task, std::move(result));
     collect_seconds += thread_seconds() - before;

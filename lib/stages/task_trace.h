@@ -36,6 +36,7 @@ class TaskTrace : public Executor {
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                        const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
+  std::vector<Bytes> ask(const std::vector<Request>& requests) const override { return inner_.ask(requests); }
   void begin_phase(const char* name) const override;
 
  private:

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -146,6 +147,81 @@ void moves_large_results(const Communicator& comm) {
   if (comm.is_root()) CHECK(n_right == 6);
 }
 
+/// Results stay on the ranks that are told to compute them; later tasks ask for them, all at once.
+void asks_other_ranks(const Communicator& comm) {
+  constexpr std::int32_t kTasks = 30;
+  constexpr std::size_t kBytes = 300000;
+  std::mutex mutex;
+  std::map<std::int32_t, Bytes> kept;
+  NamedTasks tasks;
+  tasks.order = descending(kTasks);
+  for (std::int32_t task = 0; task < kTasks; ++task) tasks.home.push_back((task * 7) % comm.size());
+  tasks.keep = [&](std::int32_t task, Bytes&& result) {
+    const std::lock_guard lock(mutex);
+    kept[task] = std::move(result);
+    return packed(static_cast<std::int32_t>(comm.rank()));
+  };
+  tasks.answer = [&](const Bytes& request) {
+    std::int32_t task = 0;
+    unpack(request, task);
+    const std::lock_guard lock(mutex);
+    return kept.at(task);
+  };
+  const auto home = tasks.home;
+  int n_right = 0;
+  comm.run_named_tasks(
+      tasks, [](std::int32_t task) { return Bytes(kBytes + task, static_cast<std::byte>(task)); },
+      [&](std::int32_t task, Bytes&& bytes) {
+        std::int32_t rank = 0;
+        unpack(bytes, rank);
+        n_right += rank == home[task];
+      });
+  if (comm.is_root()) CHECK(n_right == kTasks);
+  for (const auto& [task, bytes] : kept) CHECK(home[task] == comm.rank());
+  tasks.home.clear();
+  tasks.keep = {};
+  n_right = 0;
+  comm.run_named_tasks(
+      tasks,
+      [&](std::int32_t) {
+        std::vector<Request> requests;
+        std::vector<std::int32_t> asked;
+        for (std::int32_t task = 0; task < kTasks; ++task) {
+          if (home[task] == comm.rank()) continue;
+          requests.push_back({home[task], packed(task)});
+          asked.push_back(task);
+        }
+        const std::vector<Bytes> answers = comm.ask(requests);
+        CHECK(answers.size() == asked.size());
+        for (std::size_t i = 0; i < answers.size(); ++i)
+          CHECK(answers[i].size() == kBytes + asked[i] && answers[i].back() == static_cast<std::byte>(asked[i]));
+        return Bytes();
+      },
+      [&](std::int32_t, Bytes&&) { ++n_right; });
+  if (comm.is_root()) CHECK(n_right == kTasks);
+}
+
+/// A failure ends the job although tasks wait for answers.
+void fails_while_others_ask(const Communicator& comm) {
+  NamedTasks tasks;
+  tasks.order = descending(40);
+  tasks.answer = [](const Bytes&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return Bytes(1000);
+  };
+  comm.run_named_tasks(
+      tasks,
+      [&](std::int32_t task) {
+        if (task == 16) throw Error(ExitCode::kGeometry, "face 17 is unusable");
+        std::vector<Request> requests;
+        for (int rank = 0; rank < comm.size(); ++rank)
+          if (rank != comm.rank()) requests.push_back({rank, {}});
+        comm.ask(requests);
+        return Bytes();
+      },
+      [](std::int32_t, Bytes&&) {});
+}
+
 void rejects_a_wrong_order(const Communicator& comm) {
   const std::vector<std::vector<std::int32_t>> wrong = {{0, 1}, {0, 1, 1}, {0, 1, 3}, {0, 1, 2, 2}};
   for (const auto& order : wrong) {
@@ -227,6 +303,8 @@ int run(int argc, char** argv) {
       {"gathers_the_bytes_of_all_ranks", gathers_the_bytes_of_all_ranks},
       {"finds_the_smallest_values_of_all_ranks", finds_the_smallest_values_of_all_ranks},
       {"moves_large_results", moves_large_results},
+      {"asks_other_ranks", asks_other_ranks},
+      {"fails_while_others_ask", fails_while_others_ask},
       {"rejects_a_wrong_order", rejects_a_wrong_order},
       {"fails_in_compute", fails_in_compute},
       {"fails_with_foreign_exception", fails_with_foreign_exception},

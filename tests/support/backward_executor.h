@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "base/executor.h"
@@ -19,7 +21,13 @@ class BackwardExecutor : public SerialExecutor {
     for (auto task = order.rbegin(); task != order.rend(); ++task) collect(*task, compute(*task));
     n_tasks += order.size();
   }
+  void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t)>& compute,
+                       const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    for (const std::int32_t task : tasks.order) ++n_of[tasks.label(task).kind];
+    SerialExecutor::run_named_tasks(tasks, compute, collect);
+  }
   mutable std::size_t n_tasks = 0;
+  mutable std::map<std::string, std::size_t> n_of;  // named tasks by kind
 };
 
 }  // namespace st::test

@@ -11,7 +11,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "io/hdf5/vtu_arrays.h"
-#include "sizing/radix_sort.h"
+#include "base/radix_sort.h"
 
 namespace st {
 namespace {

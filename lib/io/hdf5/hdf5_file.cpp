@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -20,6 +21,7 @@
 #include "base/mapped_file.h"
 #include "base/threads.h"
 #include "io/file/json_text.h"
+#include "io/file/row_file.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/hdf5_open.h"
 
@@ -184,9 +186,6 @@ struct AppendedRows;
 
 struct Hdf5Writer::Impl {
   explicit Impl(const std::string& path) : temporary(path) {}
-  ~Impl();
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
   TemporaryFile temporary;
   File file;
   std::map<std::string, Group> groups;
@@ -207,15 +206,14 @@ struct Hdf5Writer::Impl {
   Dataset create_dataset(const std::string& name, hid_t type, hid_t space);
   void write_checksum(hid_t dataset, const std::string& checksum) const;
   void finish_dataset(hid_t dataset, DatasetInfo info);
-  void add_writes(hid_t dataset, const std::string& name, const std::vector<std::span<const std::byte>>& parts,
+  void add_writes(hid_t dataset, const std::string& name, std::span<const std::byte> bytes,
                   std::vector<std::function<void()>>& jobs);
-  void write_at(std::uint64_t offset, std::span<const std::byte> bytes, const std::string& name) const;
-
   std::uint64_t rows_begin(hid_t dataset, const std::string& name);
   void flush_rows(AppendedRows& rows) const;
+  void hash_elsewhere(AppendedRows& rows) const;
   void end_rows();
 
-  int rows_file = -1;  // the temporary file once more, for rows
+  std::optional<RowFile> rows_file;  // the temporary file once more, for rows
   std::vector<std::unique_ptr<AppendedRows>> appended;
 };
 
@@ -224,6 +222,7 @@ struct AppendedRows {
   Dataset dataset;
   DatasetInfo info;
   std::uint64_t at = 0, end = 0;  // in the file: of the next bytes, of the last
+  bool is_elsewhere = false;      // others write them
   std::vector<std::byte> waiting;
   Hasher hasher;
 };
@@ -318,41 +317,28 @@ void Hdf5Writer::write_raw(const std::string& name, ElementType type, const void
   if (columns == 0 || n_elements % columns != 0)
     throw Error(ExitCode::kInternal,
                 name + ": " + std::to_string(n_elements) + " values are not rows of " + std::to_string(columns));
-  write_bytes(name, type, {{static_cast<const std::byte*>(values), n_elements * element_size(type)}}, columns);
-}
-
-void Hdf5Writer::write_bytes(const std::string& name, ElementType type,
-                             const std::vector<std::span<const std::byte>>& parts, std::size_t columns) {
-  std::size_t n_bytes = 0;
-  for (const auto& part : parts) n_bytes += part.size();
-  const std::size_t n_rows = n_bytes / (columns * element_size(type));
-  const hsize_t dims[2] = {n_rows, columns};
+  const std::span bytes(static_cast<const std::byte*>(values), n_elements * element_size(type));
+  const hsize_t dims[2] = {n_elements / columns, columns};
   const Space space(H5Screate_simple(columns == 1 ? 1 : 2, dims, nullptr));
   const Dataset dataset = impl_->create_dataset(name, native_type(type), space);
   std::string checksum;
-  const auto hash = [&] {
+  std::vector<std::function<void()>> jobs = {[&] {
     Hasher hasher;
-    for (const auto& part : parts) hasher.add(part.data(), part.size());
+    hasher.add(bytes.data(), bytes.size());
     checksum = hasher.hex();
-  };
-  std::vector<std::function<void()>> jobs = {hash};
-  if (n_bytes > 0) impl_->add_writes(dataset, name, parts, jobs);
+  }};
+  if (!bytes.empty()) impl_->add_writes(dataset, name, bytes, jobs);
   run_jobs(jobs);
-  DatasetInfo info{name, type, {n_rows}, checksum, false};
+  DatasetInfo info{name, type, {dims[0]}, checksum, false};
   if (columns != 1) info.shape.push_back(columns);
   impl_->finish_dataset(dataset, std::move(info));
-}
-
-Hdf5Writer::Impl::~Impl() {
-  if (rows_file >= 0) close(rows_file);
 }
 
 /// Where the rows lie in the file, which is open for them.
 std::uint64_t Hdf5Writer::Impl::rows_begin(hid_t dataset, const std::string& name) {
   const haddr_t begin = H5Dget_offset(dataset);
   require(begin != HADDR_UNDEF, name);
-  if (rows_file < 0) rows_file = open(temporary.name().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-  require(rows_file >= 0, name);
+  if (!rows_file) rows_file.emplace(temporary.name(), temporary.path());
   return begin;
 }
 
@@ -370,6 +356,14 @@ std::size_t Hdf5Writer::begin_rows(const std::string& name, ElementType type, st
   return impl_->appended.size() - 1;
 }
 
+std::uint64_t Hdf5Writer::rows_elsewhere(std::size_t dataset) {
+  AppendedRows& rows = *impl_->appended.at(dataset);
+  rows.is_elsewhere = true;
+  return rows.at;
+}
+
+const std::string& Hdf5Writer::temporary_name() const { return impl_->temporary.name(); }
+
 void Hdf5Writer::append_bytes(std::size_t dataset, std::span<const std::byte> bytes) {
   constexpr std::size_t kWorthWriting = std::size_t{1} << 20;
   AppendedRows& rows = *impl_->appended.at(dataset);
@@ -385,12 +379,31 @@ void Hdf5Writer::Impl::flush_rows(AppendedRows& rows) const {
   if (rows.waiting.size() > rows.end - rows.at)
     throw Error(ExitCode::kInternal, rows.info.name + ": more rows than were announced");
   rows.hasher.add(std::span<const std::byte>(rows.waiting));
-  write_at(rows.at, rows.waiting, rows.info.name);
+  rows_file->write(rows.at, rows.waiting, rows.info.name);
   rows.at += rows.waiting.size();
   rows.waiting.clear();
 }
 
+/// By what is in the file.
+void Hdf5Writer::Impl::hash_elsewhere(AppendedRows& rows) const {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const int file = open(temporary.name().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  std::vector<std::byte> piece(std::min<std::uint64_t>(kPiece, rows.end - rows.at));
+  ssize_t n = file < 0 ? -1 : 1;
+  for (; n > 0 && rows.at < rows.end; rows.at += static_cast<std::uint64_t>(n)) {
+    const std::size_t n_wanted = std::min<std::uint64_t>(piece.size(), rows.end - rows.at);
+    n = pread(file, piece.data(), n_wanted, static_cast<off_t>(rows.at));
+    if (n > 0) rows.hasher.add(piece.data(), static_cast<std::size_t>(n));
+  }
+  if (file >= 0) close(file);
+  require(n > 0, rows.info.name);
+}
+
 void Hdf5Writer::Impl::end_rows() {
+  std::vector<std::function<void()>> jobs;
+  for (const auto& rows : appended)
+    if (rows->is_elsewhere && rows->at < rows->end) jobs.emplace_back([&] { hash_elsewhere(*rows); });
+  run_jobs(jobs);
   for (const auto& rows : appended) {
     flush_rows(*rows);
     if (rows->at != rows->end) throw Error(ExitCode::kInternal, rows->info.name + ": fewer rows than were announced");
@@ -405,37 +418,14 @@ void Hdf5Writer::Impl::end_rows() {
 
 /// Jobs that write the rows of a dataset. Its place in the file is known: they go there past HDF5, which has one
 /// thread.
-void Hdf5Writer::Impl::add_writes(hid_t dataset, const std::string& name,
-                                  const std::vector<std::span<const std::byte>>& parts,
+void Hdf5Writer::Impl::add_writes(hid_t dataset, const std::string& name, std::span<const std::byte> bytes,
                                   std::vector<std::function<void()>>& jobs) {
   constexpr std::size_t kPerJob = std::size_t{4} << 20;
   const std::uint64_t begin = rows_begin(dataset, name);
-  std::size_t at = 0, n_in_job = kPerJob;
-  std::vector<std::vector<std::pair<std::size_t, std::span<const std::byte>>>> pieces;
-  for (std::span<const std::byte> rest : parts)
-    while (!rest.empty()) {
-      if (n_in_job >= kPerJob) pieces.emplace_back(), n_in_job = 0;
-      const auto piece = rest.first(std::min(rest.size(), kPerJob - n_in_job));
-      pieces.back().emplace_back(at, piece);
-      rest = rest.subspan(piece.size());
-      at += piece.size();
-      n_in_job += piece.size();
-    }
-  for (auto& some : pieces)
-    jobs.emplace_back([this, begin, name, some = std::move(some)] {
-      for (const auto& [offset, bytes] : some) write_at(begin + offset, bytes, name);
+  for (std::size_t at = 0; at < bytes.size(); at += kPerJob)
+    jobs.emplace_back([this, name, begin, at, some = bytes.subspan(at, std::min(kPerJob, bytes.size() - at))] {
+      rows_file->write(begin + at, some, name);
     });
-}
-
-void Hdf5Writer::Impl::write_at(std::uint64_t offset, std::span<const std::byte> bytes, const std::string& name) const {
-  while (!bytes.empty()) {
-    errno = 0;
-    const ssize_t n = pwrite(rows_file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (n < 0 && errno == EINTR) continue;
-    require(n > 0, name);
-    offset += static_cast<std::uint64_t>(n);
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
-  }
 }
 
 void Hdf5Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {

@@ -112,14 +112,6 @@ class Hdf5Writer {
   void write(const std::string& name, const std::vector<T>& values, std::size_t columns = Element<T>::count) {
     write(name, std::span<const T>(values), columns);
   }
-  /// Rows that lie in several places, behind one another. Written by all threads, each at its own place in the file.
-  template <class T>
-  void write_parts(const std::string& name, const std::vector<std::span<const T>>& parts) {
-    static_assert(sizeof(T) == Element<T>::count * element_size(Element<T>::type), "no padding inside");
-    std::vector<std::span<const std::byte>> bytes;
-    for (const std::span<const T> part : parts) bytes.push_back(std::as_bytes(part));
-    write_bytes(name, Element<T>::type, bytes, Element<T>::count);
-  }
   /// Makes room for `n_rows` rows that append() brings, in order: all of them before commit(). Returns the number of
   /// the dataset for append(). One thread at a time.
   template <class T>
@@ -131,6 +123,10 @@ class Hdf5Writer {
   void append(std::size_t dataset, std::span<const T> rows) {
     append_bytes(dataset, std::as_bytes(rows));
   }
+  /// Instead of append(): others write the rows, from this place in the file on (bytes), before commit().
+  std::uint64_t rows_elsewhere(std::size_t dataset);
+  /// The file until commit().
+  const std::string& temporary_name() const;
   /// UTF-8 strings, fixed-length and padded with NUL (a NUL inside a string ends it), shape (n).
   void write_strings(const std::string& name, const std::vector<std::string>& values);
   /// UTF-8 strings of variable length, shape (n): the only kind that VTK's reader takes. Nobody reads them back, for
@@ -149,8 +145,6 @@ class Hdf5Writer {
  private:
   void write_raw(const std::string& name, ElementType type, const void* values, std::size_t n_elements,
                  std::size_t columns);
-  void write_bytes(const std::string& name, ElementType type, const std::vector<std::span<const std::byte>>& parts,
-                   std::size_t columns);
   std::size_t begin_rows(const std::string& name, ElementType type, std::size_t n_rows, std::size_t columns);
   void append_bytes(std::size_t dataset, std::span<const std::byte> bytes);
   struct Impl;

@@ -1,8 +1,10 @@
 // patches.hdf: docs/artifacts.md
+#include "base/threads.h"
 #include "io/hdf5/artifact_checks.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/merged_features.h"
 #include "io/hdf5/patches_file.h"
+#include "io/hdf5/patches_writer.h"
 #include "mesh/corner_uv.h"
 
 namespace st {
@@ -11,15 +13,7 @@ namespace {
 template <class T>
 using PatchArray = std::vector<T> FacePatch::*;
 
-/// One array of all patches, behind one another.
-template <class T>
-void write_all(Hdf5Writer& w, const std::string& name, const std::vector<FacePatch>& patches, PatchArray<T> array) {
-  std::vector<std::span<const T>> parts;
-  for (const FacePatch& p : patches) parts.emplace_back(p.*array);
-  w.write_parts(name, parts);
-}
-
-/// Where each patch starts in write_all(), [n_patches+1].
+/// Where the rows of each patch start among those of all, [n_patches+1].
 template <class T>
 std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, PatchArray<T> array) {
   std::vector<std::int64_t> offsets = {0};
@@ -27,7 +21,7 @@ std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, Patc
   return offsets;
 }
 
-/// The inverse of write_all() for an array with `factor` rows for each step of the offsets.
+/// The rows of all patches to these, for an array with `factor` rows for each step of the offsets.
 template <class T>
 void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets,
                 std::vector<FacePatch>& patches, PatchArray<T> array, std::int64_t factor = 1) {
@@ -36,25 +30,6 @@ void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<
     require_finite(r, name, all);
   for (std::size_t i = 0; i < patches.size(); ++i)
     (patches[i].*array).assign(all.begin() + factor * offsets[i], all.begin() + factor * offsets[i + 1]);
-}
-
-void write_patch_arrays(Hdf5Writer& w, const std::vector<FacePatch>& patches) {
-  std::vector<std::int32_t> face;
-  for (const FacePatch& p : patches) face.push_back(p.face);
-  w.write("/st/patch/face", face);
-  w.write("/st/patch/boundary_offsets", offsets_of(patches, &FacePatch::boundary_dim));
-  w.write("/st/patch/inner_offsets", offsets_of(patches, &FacePatch::inner_xyz));
-  w.write("/st/patch/triangle_offsets", offsets_of(patches, &FacePatch::triangles));
-  w.write("/st/patch/corner_offsets", offsets_of(patches, &FacePatch::uv_corner));
-  write_all(w, "/st/boundary/dim", patches, &FacePatch::boundary_dim);
-  write_all(w, "/st/boundary/entity", patches, &FacePatch::boundary_entity);
-  write_all(w, "/st/boundary/index", patches, &FacePatch::boundary_index);
-  write_all(w, "/st/inner/xyz", patches, &FacePatch::inner_xyz);
-  write_all(w, "/st/inner/uv", patches, &FacePatch::inner_uv);
-  write_all(w, "/st/inner/size", patches, &FacePatch::inner_size);
-  write_all(w, "/st/triangle/nodes", patches, &FacePatch::triangles);
-  write_all(w, "/st/corner/number", patches, &FacePatch::uv_corner);
-  write_all(w, "/st/corner/uv", patches, &FacePatch::own_uv);
 }
 
 /// Offsets of one kind of rows of the patches; `array` is one that they point into.
@@ -125,13 +100,6 @@ std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtif
 }
 
 /// What st-remesh kept: -1 for what is new. Absent when nothing was remeshed.
-void write_previous(Hdf5Writer& w, const PatchesArtifact& a) {
-  if (a.edges.node_previous.empty()) return;
-  w.write("/st/edge_node/previous_id", a.edges.node_previous);
-  write_all(w, "/st/inner/previous_id", a.patches, &FacePatch::inner_previous);
-  write_all(w, "/st/triangle/previous_id", a.patches, &FacePatch::triangle_previous);
-}
-
 void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
   if (!r.has("/st/edge_node/previous_id")) return;
   a.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", a.edges.node_t.size());
@@ -139,21 +107,6 @@ void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
              &FacePatch::inner_previous);
   distribute(r, "/st/triangle/previous_id", offsets_of(a.patches, &FacePatch::triangles), a.patches,
              &FacePatch::triangle_previous);
-}
-
-/// Of faces that were closed from their loops. Absent when none was.
-void write_closed(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
-  std::vector<std::uint8_t> is_closed, is_near;
-  std::vector<double> deviation;
-  for (const FaceFailure& f : failures) {
-    is_closed.push_back(f.is_closed);
-    is_near.push_back(f.is_near);
-    deviation.push_back(f.deviation);
-  }
-  if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
-  w.write("/st/failure/is_closed", is_closed);
-  w.write("/st/failure/is_near", is_near);
-  w.write("/st/failure/deviation", deviation);
 }
 
 void read_closed(const Hdf5Reader& r, std::vector<FaceFailure>& failures) {
@@ -167,23 +120,6 @@ void read_closed(const Hdf5Reader& r, std::vector<FaceFailure>& failures) {
     failures[i].is_near = is_near[i] != 0;
     failures[i].deviation = deviation[i];
   }
-}
-
-void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
-  std::vector<std::int32_t> face;
-  std::vector<std::string> cause, remedy;
-  std::vector<Vec3> xyz;
-  for (const FaceFailure& f : failures) {
-    face.push_back(f.face);
-    cause.push_back(f.cause);
-    remedy.push_back(f.remedy);
-    xyz.push_back(f.xyz);
-  }
-  w.write("/st/failure/face", face);
-  w.write_strings("/st/failure/cause", cause);
-  w.write_strings("/st/failure/remedy", remedy);
-  w.write("/st/failure/xyz", xyz);
-  write_closed(w, failures);
 }
 
 std::vector<FaceFailure> read_failures(const Hdf5Reader& r, std::size_t n_faces) {
@@ -234,30 +170,13 @@ void read_rest(const Hdf5Reader& r, PatchesArtifact& a) {
 }  // namespace
 
 std::string write_patches(const std::string& path, const PatchesArtifact& a) {
-  ArtifactHeader header = a.header;
-  header.schema = "patches";
-  header.schema_version = kPatchesVersion;
-  Hdf5Writer w(path, header);
-  w.write("/st/vertex/xyz", a.vertex_xyz);
-  w.write("/st/edge/vertices", a.edge_vertices, 2);
-  w.write("/st/edge/node_offsets", a.edges.edge_offsets);
-  w.write("/st/edge_node/t", a.edges.node_t);
-  w.write("/st/edge_node/xyz", a.edges.node_xyz);
-  w.write("/st/edge_node/size", a.edges.node_size);
-  if (!a.edges.node_request.empty()) w.write("/st/edge_node/request", a.edges.node_request);
-  w.write_strings("/st/face/name", a.labels.face_name);
-  w.write("/st/face/group", a.labels.face_group);
-  w.write("/st/face/shell", a.face_shell);
-  w.write("/st/face/area", a.face_area);
-  w.write_strings("/st/group/name", a.labels.group_name);
-  if (!a.labels.group_role.empty()) w.write_strings("/st/group/role", a.labels.group_role);
-  write_labels(w, a.labels);
-  write_patch_arrays(w, a.patches);
-  write_previous(w, a);
-  write_failures(w, a.failures);
-  write_merged(w, a.merged);
-  w.set_attribute("/st", "is_complete", std::int64_t{a.is_complete});
-  return w.commit();
+  std::vector<PatchCounts> counts;
+  for (const FacePatch& p : a.patches) counts.push_back(counts_of(p));
+  PatchesWriter writer(path, a, counts);
+  PatchRowsFile rows(writer.target());
+  parallel_for(a.patches.size(), 1, [&](std::size_t i, std::size_t) { rows.write(a.patches[i]); });
+  rows.close();
+  return writer.commit();
 }
 
 PatchesArtifact read_patches(const std::string& path) {

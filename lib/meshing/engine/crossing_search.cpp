@@ -1,13 +1,14 @@
 #include "meshing/engine/crossing_search.h"
 
 #include <algorithm>
-#include <set>
+#include <numeric>
 #include <utility>
 
+#include "base/share.h"
 #include "base/threads.h"
-#include "geometry/model/bodies.h"
 #include "geometry/shape/wall_gap.h"
 #include "mesh/corner_uv.h"
+#include "mesh/merge.h"
 #include "mesh/patch_crossing.h"
 #include "mesh/touching_triangles.h"
 
@@ -19,79 +20,12 @@ constexpr std::size_t kMaxWallPlaces = 8000;      // likewise, where walls are m
 constexpr double kAround = 4;                     // triangles that a place makes shorter, about
 constexpr double kCovering = 1.5;                 // of half a triangle's longest side: a circle that covers it
 constexpr double kWider = 0.75;                   // more than that in each later search: new places crossed beside
+constexpr double kPerWall = 1000;                 // triangles: the search among so many takes as long as a measurement
 constexpr double kLeastFactor = 1.0 / 32;         // of a triangle's length: walls that would need less cannot be parted
 
-FaceId face_of(const WeldedPatches& m, TriangleId t) {
-  return static_cast<FaceId>(std::upper_bound(m.patch_begin.begin(), m.patch_begin.end(), t) - m.patch_begin.begin()) -
-         1;
-}
-
-/// The longest side times `factor` where there is one, `covering` halves of it around. Else half of it; half the
-/// shortest side, or a quarter of the longest, where the triangle spans its face from boundary to boundary.
-RefinementPoint refinement_of(const WeldedPatches& m, TriangleId t, double factor, double covering) {
-  const NodeId* n = m.triangles[t].n;
-  const Vec3 a = m.points[n[0]], b = m.points[n[1]], c = m.points[n[2]];
-  RefinementPoint place = halve_triangle(a, b, c);
-  if (factor > 0) return {place.x, 2 * factor * place.length, covering * place.length, factor};
-  if (std::max({n[0], n[1], n[2]}) >= m.n_boundary) return place;
-  const auto [shortest, longest] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
-  place.length = 0.5 * std::max(shortest, 0.5 * longest);
-  return place;
-}
-
-struct EdgeUse {
-  NodeId a, b;  // a < b
-  TriangleId triangle;
-  auto operator<=>(const EdgeUse&) const = default;
-};
-
-/// Segments of the CAD edges, as pairs of nodes.
-class BoundarySegments {
- public:
-  BoundarySegments(const BoundaryNumbering& numbering, const WeldedPatches& mesh) : joins_next_(mesh.n_boundary, 0) {
-    const auto node = [&](EdgeId e, std::int32_t index) { return mesh.boundary[numbering.edge_node(e, index)]; };
-    for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e)
-      for (std::int32_t i = 1; i < numbering.edges.n_nodes(e); ++i) {
-        const auto [a, b] = std::minmax({node(e, i - 1), node(e, i)});
-        if (a != kNone && b == a + 1)
-          joins_next_[a] = 1;
-        else
-          others_.push_back({a, b});
-      }
-    std::sort(others_.begin(), others_.end());
-  }
-  /// `a` < `b`
-  bool contain(NodeId a, NodeId b) const {
-    return (b == a + 1 && joins_next_[a]) || std::binary_search(others_.begin(), others_.end(), std::pair{a, b});
-  }
-
- private:
-  std::vector<char> joins_next_;  // by node: a segment joins it and the next one
-  std::vector<std::pair<NodeId, NodeId>> others_;
-};
-
-/// Uses of edges between two nodes on boundaries that are no segments of these, sorted.
-std::vector<EdgeUse> uses_of_chords(const BoundarySegments& segments, const WeldedPatches& mesh) {
-  constexpr std::size_t kPerPiece = 65'536;
-  std::vector<std::vector<EdgeUse>> found(mesh.triangles.size() / kPerPiece + 1);
-  parallel_for(mesh.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const auto [a, b] = std::minmax(mesh.triangles[i].n[k], mesh.triangles[i].n[(k + 1) % 3]);
-        if (b < mesh.n_boundary && !segments.contain(a, b))
-          found[begin / kPerPiece].push_back({a, b, static_cast<TriangleId>(i)});
-      }
-  });
-  std::vector<EdgeUse> uses;
-  for (const auto& some : found) uses.insert(uses.end(), some.begin(), some.end());
-  std::sort(uses.begin(), uses.end());
-  return uses;
-}
-
-WeldedPatches weld(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches) {
-  std::vector<const FacePatch*> by_face;
-  for (const FacePatch& p : patches) by_face.push_back(&p);
-  return weld_patches(numbering.edges, numbering.tables.vertex_xyz, by_face);
+std::int64_t key_of(const BoundaryNumbering& numbering, std::int32_t id) {
+  const BoundaryNumbering::Entity e = numbering.entity(id);
+  return boundary_key(e.dim, e.entity, e.index);
 }
 
 /// Such faces meet, and where they cross beside what they share no length parts them.
@@ -102,15 +36,53 @@ bool share_a_vertex(const ModelTables& t, FaceId a, FaceId b) {
 
 }  // namespace
 
-std::vector<TrianglePair> find_repeated_chords(const BoundaryNumbering& numbering, const WeldedPatches& mesh,
-                                               std::span<const char> face_is_fresh) {
-  const std::vector<EdgeUse> uses = uses_of_chords(BoundarySegments(numbering, mesh), mesh);
-  std::vector<TrianglePair> pairs;
-  for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
-    while (j < uses.size() && uses[j].a == uses[i].a && uses[j].b == uses[i].b) ++j;
-    const TriangleId first = uses[i].triangle, last = uses[j - 1].triangle;
-    const FaceId f = face_of(mesh, first), g = face_of(mesh, last);
-    if (j - i >= 3 && f != g && (face_is_fresh[f] || face_is_fresh[g])) pairs.push_back({first, last, 2});
+BoundarySegments::BoundarySegments(const BoundaryNumbering& numbering) {
+  const EdgeMesh& edges = numbering.edges;
+  const auto key = [&](EdgeId e, std::int32_t index) { return key_of(numbering, numbering.edge_node(e, index)); };
+  for (EdgeId e = 0; e < numbering.tables.n_edges(); ++e) {
+    const std::int32_t n = edges.n_nodes(e);
+    const bool is_own = !numbering.topology.strip_closed_at(e);  // the nodes inside it are its own
+    for (std::int32_t i = 1; i < n; i += is_own && i == 1 && n > 2 ? n - 2 : 1) {
+      const auto [a, b] = std::minmax({key(e, i - 1), key(e, i)});
+      at_ends_.push_back({a, b});
+    }
+  }
+  std::sort(at_ends_.begin(), at_ends_.end());
+}
+
+bool BoundarySegments::contain(std::int64_t a, std::int64_t b) const {
+  constexpr std::int64_t kOnEdge = std::int64_t{1} << 62;
+  return (b == a + 1 && a >= kOnEdge) || std::binary_search(at_ends_.begin(), at_ends_.end(), std::pair{a, b});
+}
+
+std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch) {
+  constexpr std::size_t kPerPiece = 65'536;
+  std::vector<std::vector<Chord>> found(patch.triangles.size() / kPerPiece + 1);
+  parallel_for(patch.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId m = patch.triangles[i].n[k], n = patch.triangles[i].n[(k + 1) % 3];
+        if (std::max(m, n) >= patch.n_boundary) continue;
+        const auto [a, b] = std::minmax({boundary_key(patch, m), boundary_key(patch, n)});
+        if (segments.contain(a, b)) continue;
+        found[begin / kPerPiece].push_back({a, b, {patch.face, static_cast<std::int32_t>(i)}});
+      }
+  });
+  std::vector<Chord> chords;
+  for (const auto& some : found) chords.insert(chords.end(), some.begin(), some.end());
+  return chords;
+}
+
+std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> chords,
+                                                          std::span<const char> face_is_fresh) {
+  const auto key = [](const Chord& c) { return std::tuple(c.a, c.b, c.facet.face, c.facet.index); };
+  std::sort(chords.begin(), chords.end(), [&](const Chord& c, const Chord& d) { return key(c) < key(d); });
+  std::vector<std::pair<Facet, Facet>> pairs;
+  for (std::size_t i = 0, j = 0; i < chords.size(); i = j) {
+    while (j < chords.size() && chords[j].a == chords[i].a && chords[j].b == chords[i].b) ++j;
+    const Facet first = chords[i].facet, last = chords[j - 1].facet;
+    if (j - i >= 3 && first.face != last.face && (face_is_fresh[first.face] || face_is_fresh[last.face]))
+      pairs.push_back({first, last});
   }
   return pairs;
 }
@@ -119,49 +91,269 @@ RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c) {
   return {(a + b + c) / 3, 0.5 * std::max({distance(a, b), distance(b, c), distance(c, a)})};
 }
 
-std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& numbering,
-                                                 const std::vector<FacePatch>& patches) {
-  const WeldedPatches m = weld(numbering, patches);
-  std::erase_if(pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.face_a] || face_is_fresh_[p.face_b]; });
-  std::vector<TrianglePair> found =
-      find_crossing_patches({m.points, m.triangles, m.patch_begin, face_body_, face_is_fresh_,
-                             [&](FaceId a, FaceId b) { return may_be_apart(a, b); }});
-  // with two common nodes: folded flat onto each other
-  std::erase_if(found, [](const TrianglePair& p) { return p.n_shared == 1; });
-  const std::vector<TrianglePair> repeated = find_repeated_chords(numbering, m, face_is_fresh_);
-  found.insert(found.end(), repeated.begin(), repeated.end());
-  FacetPairs fresh;
-  for (const TrianglePair& p : found) {
-    const FaceId a = face_of(m, p.a), b = face_of(m, p.b);
-    fresh.push_back({a, b, p.a - m.patch_begin[a], p.b - m.patch_begin[b], p.n_shared > 0 ? kHalve : kUnknown});
+/// What the tasks of one run need.
+struct CrossingSearch::Search {
+  const PatchStore& store;
+  const Executor& executor;
+  const BoundaryNumbering& numbering;
+  const std::vector<PatchPlace>& places;
+  const BoundarySegments segments{numbering};
+
+  std::shared_ptr<const StoredPatch> own(FaceId f) const { return store.get(f, places[f].version); }
+  /// The rank that has more to lose by sending.
+  std::int32_t home(const Job& job) const {
+    return places[places[job.a].n_triangles < places[job.b].n_triangles ? job.b : job.a].rank;
   }
-  std::sort(fresh.begin(), fresh.end());
-  fresh = measured(fresh, m, patches);
-  pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
-  std::sort(pairs_.begin(), pairs_.end());
-  std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
-  std::vector<RefinementPoint> places = places_to_refine(m);
-  ++n_runs_;
-  return places;
+  /// About the time it takes.
+  double weight(const Job& job) const {
+    constexpr double kAcross = 0.1, kAlways = 500;  // triangles
+    const double n = places[job.a].n_triangles;
+    return kAlways + (job.a == job.b ? n : kAcross * (n + places[job.b].n_triangles));
+  }
+
+  Found within(FaceId f) const {
+    const auto stored = own(f);
+    const FacePatch& p = stored->patch;
+    const std::vector<Vec3> xyz = node_places(numbering.edges, numbering.tables.vertex_xyz, p);
+    const std::int32_t begin[] = {0, static_cast<std::int32_t>(p.triangles.size())}, body[] = {0};
+    Found found;
+    for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}))
+      add({f, pair.a}, {f, pair.b}, pair.n_shared, found.pairs);
+    found.chords = find_chords(segments, p);
+    return found;
+  }
+
+  /// Of `f`, at its rank: what is near `others`.
+  PatchPart near(FaceId f, const PatchBlocks& others) const {
+    const auto stored = own(f);
+    return part_of(numbering.edges, numbering.tables.vertex_xyz, stored->patch, stored->blocks,
+                   stored->blocks.meeting(others));
+  }
+  Bytes answer(const Bytes& request) const {
+    FaceId f = 0;
+    std::vector<Box3> boxes;
+    unpack(request, f, boxes);
+    return packed(near(f, PatchBlocks(std::move(boxes))));
+  }
+
+  /// What of `f` is near `other`, a patch of this rank, whoever has `f`.
+  PatchPart near_own(FaceId f, const StoredPatch& other) const {
+    if (store.is_own(places[f])) return near(f, other.blocks);
+    std::vector<Box3> boxes;
+    for (const PatchBlocks::Meeting& m : other.blocks.meeting(places[f].box)) boxes.push_back(other.blocks[m.block]);
+    PatchPart part;
+    if (!boxes.empty()) unpack(executor.ask({{places[f].rank, packed(f, boxes)}})[0], part);
+    return part;
+  }
+
+  Found between(const Job& job) const {
+    const bool has_a = store.is_own(places[job.a]);
+    const FaceId here = has_a ? job.a : job.b, there = has_a ? job.b : job.a;
+    const PatchPart other = near_own(there, *own(here));
+    Found found;
+    if (other.triangle.empty()) return found;
+    const PatchPart near_here = near(here, PatchBlocks(other.boxes));
+    const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
+    const TwoParts both = join_parts(a, b);
+    const auto n_first = static_cast<std::int32_t>(a.triangle.size());
+    for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first))
+      add({job.a, a.triangle[pair.a]}, {job.b, b.triangle[pair.b - n_first]}, pair.n_shared, found.pairs);
+    return found;
+  }
+
+  /// Of this rank.
+  Corners corners(const Facet& facet) const {
+    const auto stored = own(facet.face);
+    const FacePatch& p = stored->patch;
+    const NodeId* n = p.triangles[facet.index].n;
+    Corners corners{{}, std::max({n[0], n[1], n[2]}) < p.n_boundary};
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners.places.x[k] = node_place(numbering.edges, numbering.tables.vertex_xyz, p, n[k]);
+      corners.places.uv[k] = corner_uv(p, 3 * static_cast<std::size_t>(facet.index) + k);
+    }
+    return corners;
+  }
+  /// Of triangles of one face, whoever has it.
+  std::vector<Corners> corners(const std::vector<Facet>& facets) const {
+    const PatchPlace& place = places[facets.at(0).face];
+    std::vector<Corners> all;
+    if (store.is_own(place))
+      for (const Facet& f : facets) all.push_back(corners(f));
+    else
+      unpack(executor.ask({{place.rank, packed(facets)}})[0], all);
+    return all;
+  }
+  Bytes answer_corners(const Bytes& request) const {
+    std::vector<Facet> facets;
+    unpack(request, facets);
+    return packed(corners(facets));
+  }
+
+  /// With two common nodes: folded flat onto each other. With one they only meet there.
+  static void add(const Facet& a, const Facet& b, int n_shared, FacetPairs& pairs) {
+    if (n_shared != 1) pairs.push_back({a, b, n_shared > 0 ? kHalve : kUnknown});
+  }
+};
+
+namespace {
+
+/// Jobs of one rank that make up a task.
+struct Batch {
+  std::int32_t home;
+  double weight = 0;
+  std::vector<std::size_t> jobs;
+};
+
+/// So many that a message is worth it, not so many that one is long.
+template <class Job, class Home, class Weight>
+std::vector<Batch> batches_of(const std::vector<Job>& jobs, const Home& home, const Weight& weight) {
+  constexpr double kEnough = 20'000;
+  std::map<std::int32_t, Batch> open;  // by rank
+  std::vector<Batch> batches;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Batch& batch = open.try_emplace(home(jobs[i]), Batch{home(jobs[i]), 0, {}}).first->second;
+    batch.jobs.push_back(i);
+    batch.weight += weight(jobs[i]);
+    if (batch.weight < kEnough) continue;
+    batches.push_back(std::move(batch));
+    open.erase(batches.back().home);
+  }
+  for (auto& [rank, batch] : open) batches.push_back(std::move(batch));
+  return batches;
 }
 
-/// The first pairs whose walls are not measured, and pairs from all over the others.
-std::vector<RefinementPoint> CrossingSearch::places_to_refine(const WeldedPatches& m) const {
-  std::vector<RefinementPoint> places;
+NamedTasks tasks_of(const std::vector<Batch>& batches, const char* kind) {
+  NamedTasks tasks;
+  std::vector<double> weight;
+  for (const Batch& batch : batches) {
+    tasks.home.push_back(batch.home);
+    weight.push_back(batch.weight);
+  }
+  tasks.order = heaviest_first(weight);
+  tasks.label = [kind](std::int32_t task) { return TaskLabel{kind, task}; };
+  return tasks;
+}
+
+}  // namespace
+
+/// Faces that changed, and every two that meet of which one did. Local, on rank 0.
+std::vector<CrossingSearch::Job> CrossingSearch::jobs_of(const std::vector<PatchPlace>& places) const {
+  std::vector<Job> jobs;
+  std::vector<Box3> boxes;
+  for (FaceId f = 0; f < static_cast<FaceId>(places.size()); ++f) {
+    boxes.push_back(places[f].is_there() ? places[f].box : Box3());
+    if (places[f].is_there() && face_is_fresh_[f]) jobs.push_back({f, f});
+  }
+  for (const auto& [f, g] : meeting_pairs(boxes))
+    if ((face_is_fresh_[f] || face_is_fresh_[g]) && (face_body_[f] == face_body_[g] || may_be_apart(f, g)))
+      jobs.push_back({f, g});
+  return jobs;
+}
+
+std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& numbering, std::vector<PatchPlace> places) {
+  std::vector<Job> jobs;
+  if (executor_.is_root()) jobs = jobs_of(places);
+  share(executor_, places, jobs);
+  const Search search{store_, executor_, numbering, places};
+  const std::vector<Batch> batches = batches_of(
+      jobs, [&](const Job& job) { return search.home(job); }, [&](const Job& job) { return search.weight(job); });
+  NamedTasks tasks = tasks_of(batches, "crossings");
+  tasks.answer = [&](const Bytes& request) { return search.answer(request); };
+  std::erase_if(pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.a.face] || face_is_fresh_[p.b.face]; });
+  for (std::size_t f = 0; f < chords_.size(); ++f)
+    if (face_is_fresh_[f]) chords_[f].clear();
+  FacetPairs fresh;
+  executor_.run_named_tasks(
+      tasks,
+      [&](std::int32_t task) {
+        Found all;
+        for (const std::size_t i : batches[task].jobs) {
+          const Found found = jobs[i].a == jobs[i].b ? search.within(jobs[i].a) : search.between(jobs[i]);
+          all.pairs.insert(all.pairs.end(), found.pairs.begin(), found.pairs.end());
+          all.chords.insert(all.chords.end(), found.chords.begin(), found.chords.end());
+        }
+        return packed(all);
+      },
+      [&](std::int32_t, Bytes&& bytes) {
+        Found found;
+        unpack(bytes, found);
+        fresh.insert(fresh.end(), found.pairs.begin(), found.pairs.end());
+        for (const Chord& c : found.chords) chords_[c.facet.face].push_back(c);
+      });
+  if (executor_.is_root()) {
+    std::vector<Chord> chords;
+    for (const std::vector<Chord>& some : chords_) chords.insert(chords.end(), some.begin(), some.end());
+    for (const auto& [a, b] : find_repeated_chords(std::move(chords), face_is_fresh_)) fresh.push_back({a, b, kHalve});
+  }
+  const auto in_order = [](const FacetPair& p, const FacetPair& q) { return p.key() < q.key(); };
+  std::sort(fresh.begin(), fresh.end(), in_order);
+  fresh = measured(std::move(fresh), search);
+  pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
+  std::sort(pairs_.begin(), pairs_.end(), in_order);
+  std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
+  std::vector<RefinementPoint> refined = places_to_refine(search);
+  ++n_runs_;
+  return refined;
+}
+
+/// Collective. Corners of these triangles (rank 0's choice) on rank 0.
+std::vector<CrossingSearch::Corners> CrossingSearch::corners(std::vector<Facet> facets, const Search& search) const {
+  share(executor_, facets);
+  if (facets.empty()) return {};
+  const std::vector<Batch> batches = batches_of(
+      facets, [&](const Facet& f) { return search.places[f.face].rank; }, [](const Facet&) { return 1; });
+  std::vector<Corners> all(executor_.is_root() ? facets.size() : 0);
+  executor_.run_named_tasks(
+      tasks_of(batches, "corners"),
+      [&](std::int32_t task) {
+        std::vector<Corners> own;
+        for (const std::size_t i : batches[task].jobs) own.push_back(search.corners(facets[i]));
+        return packed(own);
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        std::vector<Corners> own;
+        unpack(bytes, own);
+        for (std::size_t k = 0; k < own.size(); ++k) all[batches[task].jobs[k]] = own[k];
+      });
+  return all;
+}
+
+/// Collective. The first pairs whose walls are not measured, and pairs from all over the others.
+std::vector<RefinementPoint> CrossingSearch::places_to_refine(const Search& search) const {
+  std::vector<Facet> facets;
+  std::vector<std::pair<double, double>> how;  // factor and triangles of each
   const auto add = [&](const FacetPair& p, double n_triangles) {
-    for (const TriangleId t : {m.patch_begin[p.face_a] + p.index_a, m.patch_begin[p.face_b] + p.index_b}) {
-      places.push_back(refinement_of(m, t, p.factor, kCovering + kWider * n_runs_));
-      places.back().n_triangles = n_triangles;
+    for (const Facet& f : {p.a, p.b}) {
+      facets.push_back(f);
+      how.push_back({p.factor, n_triangles});
     }
   };
   FacetPairs apart;
   for (const FacetPair& p : pairs_) {
     if (p.factor > 0) apart.push_back(p);
-    if (p.factor == kHalve && places.size() < kMaxCrossingPlaces) add(p, 1);
+    if (p.factor == kHalve && facets.size() < kMaxCrossingPlaces) add(p, 1);
   }
   const std::size_t step = 2 * apart.size() / kMaxWallPlaces + 1;
   for (std::size_t i = 0; i < apart.size(); i += step) add(apart[i], kAround * static_cast<double>(step));
+  const std::vector<Corners> all = corners(std::move(facets), search);
+  std::vector<RefinementPoint> places;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    places.push_back(refinement_of(all[i], how[i].first, kCovering + kWider * n_runs_));
+    places.back().n_triangles = how[i].second;
+  }
   return places;
+}
+
+/// The longest side times `factor` where there is one, `covering` halves of it around. Else half of it; half the
+/// shortest side, or a quarter of the longest, where the triangle spans its face from boundary to boundary.
+RefinementPoint CrossingSearch::refinement_of(const Corners& t, double factor, double covering) {
+  const auto& [a, b, c] = t.places.x;
+  RefinementPoint place = halve_triangle(a, b, c);
+  if (factor > 0) return {place.x, 2 * factor * place.length, covering * place.length, factor};
+  if (!t.is_spanning) return place;
+  const auto [shortest, longest] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
+  place.length = 0.5 * std::max(shortest, 0.5 * longest);
+  return place;
 }
 
 /// Plane walls have chords of their own shape: triangles of two bodies cross there where the CAD does.
@@ -171,54 +363,74 @@ bool CrossingSearch::may_be_apart(FaceId a, FaceId b) const {
          !touching_.contains(std::minmax(a, b));
 }
 
-/// With their factors, without pairs where two bodies meet. `pairs` sorted.
-CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, const WeldedPatches& mesh,
-                                                    const std::vector<FacePatch>& patches) {
-  std::vector<std::span<const FacetPair>> by_faces;
-  for (std::size_t i = 0, j = 0; i < pairs.size(); i = j) {
-    while (j < pairs.size() && pairs[j].face_a == pairs[i].face_a && pairs[j].face_b == pairs[i].face_b) ++j;
-    by_faces.push_back(std::span(pairs).subspan(i, j - i));
+/// Collective. With their factors, without pairs where two bodies meet. `pairs`: sorted, of rank 0.
+CrossingSearch::FacetPairs CrossingSearch::measured(FacetPairs pairs, const Search& search) {
+  FacetPairs known, unknown;  // those that share a vertex, and those whose walls are to be measured
+  for (const FacetPairs& some : by_faces(std::move(pairs))) {
+    const FaceId a = some[0].a.face, b = some[0].b.face;
+    const bool is_known = a == b || share_a_vertex(model_.tables(), a, b);
+    for (FacetPair p : some) {
+      if (is_known && p.factor == kUnknown) p.factor = kHalve;
+      (is_known ? known : unknown).push_back(p);
+    }
   }
-  std::vector<FacetPairs> kept(by_faces.size());
-  parallel_for(by_faces.size(), 1,
-               [&](std::size_t i, std::size_t) { kept[i] = measured_pair_of_faces(by_faces[i], mesh, patches); });
-  FacetPairs all;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i].empty()) touching_.insert({by_faces[i][0].face_a, by_faces[i][0].face_b});
-    all.insert(all.end(), kept[i].begin(), kept[i].end());
-  }
-  return all;
+  share(executor_, unknown);
+  const std::vector<FacetPairs> groups = by_faces(std::move(unknown));
+  if (groups.empty()) return known;
+  const auto home = [&](const FacetPairs& p) { return search.places[p[0].a.face].rank; };
+  const std::vector<Batch> batches =
+      batches_of(groups, home, [](const FacetPairs& p) { return kPerWall * static_cast<double>(p.size()); });
+  NamedTasks tasks = tasks_of(batches, "walls");
+  tasks.answer = [&](const Bytes& request) { return search.answer_corners(request); };
+  executor_.run_named_tasks(
+      tasks,
+      [&](std::int32_t task) {
+        FacetPairs kept;
+        for (const std::size_t i : batches[task].jobs) {
+          const FacetPairs some = measured_pair_of_faces(groups[i], search);
+          kept.insert(kept.end(), some.begin(), some.end());
+        }
+        return packed(kept);
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        FacetPairs kept;
+        unpack(bytes, kept);
+        for (const std::size_t i : batches[task].jobs) touching_.insert({groups[i][0].a.face, groups[i][0].b.face});
+        for (const FacetPair& p : kept) touching_.erase({p.a.face, p.b.face});
+        known.insert(known.end(), kept.begin(), kept.end());
+      });
+  return known;
 }
 
-/// Pairs of two faces. Where these are of two bodies, some places tell whether the bodies meet everywhere.
-CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<const FacetPair> pairs,
-                                                                  const WeldedPatches& mesh,
-                                                                  const std::vector<FacePatch>& patches) const {
+/// Sorted pairs, those of each two faces together.
+std::vector<CrossingSearch::FacetPairs> CrossingSearch::by_faces(FacetPairs pairs) {
+  std::vector<FacetPairs> groups;
+  for (const FacetPair& p : pairs) {
+    if (groups.empty() || groups.back()[0].a.face != p.a.face || groups.back()[0].b.face != p.b.face)
+      groups.emplace_back();
+    groups.back().push_back(p);
+  }
+  return groups;
+}
+
+/// Pairs of two faces, at the rank of the first. Where these are of two bodies, some places tell whether the bodies
+/// meet everywhere.
+CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kept, const Search& search) const {
   constexpr std::size_t kTried = 16;  // of two bodies: none apart, and they meet
   constexpr std::size_t kMostMeasured = 1000;
-  FacetPairs kept(pairs.begin(), pairs.end());
-  const FaceId a = pairs[0].face_a, b = pairs[0].face_b;
+  const FaceId a = kept[0].a.face, b = kept[0].b.face;
   const bool is_one_body = face_body_[a] == face_body_[b];
-  const auto set_unknown = [&](double factor) {
-    for (FacetPair& p : kept)
-      if (p.factor == kUnknown) p.factor = factor;
-  };
-  if (a == b || share_a_vertex(model_.tables(), a, b)) {
-    set_unknown(kHalve);
-    return kept;
+  std::vector<Facet> of_a, of_b;
+  for (const FacetPair& p : kept) {
+    of_a.push_back(p.a);
+    of_b.push_back(p.b);
   }
+  const std::vector<Corners> at_a = search.corners(of_a), at_b = search.corners(of_b);
   const auto surface_a = model_.surface(a), surface_b = model_.surface(b);
   const double tolerance = meeting_distance(model_.tables(), a, b);
-  const auto measure = [&](FacetPair& p) {
-    const auto wall = [&](FaceId f, std::int32_t index) {
-      WallTriangle t;
-      for (int k = 0; k < 3; ++k) {
-        t.x[k] = mesh.points[mesh.triangles[mesh.patch_begin[f] + index].n[k]];
-        t.uv[k] = corner_uv(patches[f], 3 * static_cast<std::size_t>(index) + k);
-      }
-      return t;
-    };
-    const auto gap = measure_gap(*surface_a, wall(a, p.index_a), *surface_b, wall(b, p.index_b), tolerance);
+  const auto measure = [&](std::size_t i) {
+    FacetPair& p = kept[i];
+    const auto gap = measure_gap(*surface_a, at_a[i].places, *surface_b, at_b[i].places, tolerance);
     if (gap && gap->is_apart)
       p.factor = gap->factor < kLeastFactor ? kHopeless : gap->factor;
     else
@@ -226,7 +438,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<cons
   };
   const auto measure_every = [&](std::size_t step) {
     for (std::size_t i = 0; i < kept.size(); i += step)
-      if (kept[i].factor == kUnknown) measure(kept[i]);
+      if (kept[i].factor == kUnknown) measure(i);
   };
   if (!is_one_body) {
     measure_every(std::max<std::size_t>(1, kept.size() / kTried));
@@ -235,43 +447,55 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(std::span<cons
       return {};
   }
   measure_every(kept.size() / kMostMeasured + 1);
-  set_unknown(is_one_body ? kHalve : kMeets);
+  for (FacetPair& p : kept)
+    if (p.factor == kUnknown) p.factor = is_one_body ? kHalve : kMeets;
   std::erase_if(kept, [](const FacetPair& p) { return p.factor == kMeets; });
   return kept;
+}
+
+std::vector<FaceId> CrossingSearch::crossing_faces(bool others_too) const {
+  std::set<FaceId> faces;
+  for (const FacetPair& p : pairs_)
+    if (p.a.face == p.b.face || others_too) faces.insert({p.a.face, p.b.face});
+  return {faces.begin(), faces.end()};
 }
 
 std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) const {
   std::set<std::size_t> triangles;
   for (const FacetPair& p : pairs_) {
-    if (p.face_a != p.face_b && !others_too) continue;
-    if (p.face_a == f) triangles.insert(static_cast<std::size_t>(p.index_a));
-    if (p.face_b == f) triangles.insert(static_cast<std::size_t>(p.index_b));
+    if (p.a.face != p.b.face && !others_too) continue;
+    if (p.a.face == f) triangles.insert(static_cast<std::size_t>(p.a.index));
+    if (p.b.face == f) triangles.insert(static_cast<std::size_t>(p.b.index));
   }
   return {triangles.begin(), triangles.end()};
 }
 
-std::map<FaceId, std::vector<Vec3>> CrossingSearch::move_touching_apart(const BoundaryNumbering& numbering,
-                                                                        std::vector<FacePatch>& patches) {
-  WeldedPatches m = weld(numbering, patches);
+std::vector<FaceId> CrossingSearch::move_touching_apart(const BoundaryNumbering& numbering,
+                                                        std::map<FaceId, FacePatch>& patches) const {
+  std::vector<const FacePatch*> welded;
+  std::map<FaceId, std::size_t> place;  // in these
+  for (const auto& [f, patch] : patches) {
+    place[f] = welded.size();
+    welded.push_back(&patch);
+  }
+  WeldedPatches m = weld_patches(numbering.edges, numbering.tables.vertex_xyz, welded);
   std::vector<TouchingPair> touching;
   for (const FacetPair& p : pairs_) {
-    const Triangle &a = m.triangles[m.patch_begin[p.face_a] + p.index_a],
-                   &b = m.triangles[m.patch_begin[p.face_b] + p.index_b];
+    const Triangle &a = m.triangles[m.patch_begin[place.at(p.a.face)] + p.a.index],
+                   &b = m.triangles[m.patch_begin[place.at(p.b.face)] + p.b.index];
     if (std::none_of(std::begin(a.n), std::end(a.n), [&](NodeId n) { return std::ranges::count(b.n, n) > 0; }))
-      touching.push_back({a, b, meeting_distance(model_.tables(), p.face_a, p.face_b)});
+      touching.push_back({a, b, meeting_distance(model_.tables(), p.a.face, p.b.face)});
   }
-  std::map<FaceId, std::vector<Vec3>> before;
-  if (!st::move_touching_apart(touching, m.n_boundary, m.points)) return before;
-  std::set<FaceId> faces;
-  for (const FacetPair& p : pairs_) faces.insert({p.face_a, p.face_b});
-  for (const FaceId f : faces) {
-    std::vector<Vec3> xyz = patches[f].inner_xyz;
-    for (std::int32_t i = m.inner_begin[f]; i < m.inner_begin[f + 1]; ++i) xyz[m.inner[i]] = m.points[m.n_boundary + i];
-    if (xyz == patches[f].inner_xyz) continue;
-    before[f] = std::exchange(patches[f].inner_xyz, std::move(xyz));
-    renew(f);
+  std::vector<FaceId> changed;
+  if (!st::move_touching_apart(touching, m.n_boundary, m.points)) return changed;
+  for (auto& [f, patch] : patches) {
+    const std::vector<Vec3> before = patch.inner_xyz;
+    const std::size_t at = place[f];
+    for (std::int32_t i = m.inner_begin[at]; i < m.inner_begin[at + 1]; ++i)
+      patch.inner_xyz[m.inner[i]] = m.points[m.n_boundary + i];
+    if (patch.inner_xyz != before) changed.push_back(f);
   }
-  return before;
+  return changed;
 }
 
 }  // namespace st

@@ -1,81 +1,133 @@
 // Triangles of patches that cross each other, as places where the sizes must become smaller.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/executor.h"
 #include "geometry/model/bodies.h"
 #include "geometry/model/model.h"
-#include "mesh/crossing.h"
-#include "mesh/merge.h"
+#include "geometry/shape/wall_gap.h"
+#include "meshing/engine/patch_store.h"
 #include "meshing/face/face_boundary.h"
 
 namespace st {
 
+/// A triangle of a face.
+struct Facet {
+  FaceId face = kNone;
+  std::int32_t index = 0;  ///< in its patch
+};
+
+/// An edge of a triangle between two nodes on boundaries that is no segment of these.
+struct Chord {
+  std::int64_t a = 0, b = 0;  ///< boundary_key() of its ends, a < b
+  Facet facet;
+};
+
+/// Segments of the CAD edges, as pairs of nodes.
+class BoundarySegments {
+ public:
+  explicit BoundarySegments(const BoundaryNumbering& numbering);
+  /// By boundary_key(), a < b.
+  bool contain(std::int64_t a, std::int64_t b) const;
+
+ private:
+  std::vector<std::pair<std::int64_t, std::int64_t>> at_ends_;  // all but those between two nodes inside one edge, sorted
+};
+
+/// The chords of a patch.
+std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch);
+
 /// Pairs of triangles of two faces about one chord: an edge between the same two nodes on boundaries inside both faces,
 /// sorted, at least one face fresh. Two faces along common edges, too flat for a node inside, lie on each other there.
-/// `mesh`: the patches by face.
-std::vector<TrianglePair> find_repeated_chords(const BoundaryNumbering& numbering, const WeldedPatches& mesh,
-                                               std::span<const char> face_is_fresh);
+/// `chords`: of all faces, in any order.
+std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> chords, std::span<const char> face_is_fresh);
 
 /// Half the longest of a triangle's sides, at its centre.
 RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c);
 
 /// Remembers the pairs that it found: searched are only those with a patch made since the last search. Triangles of
-/// two bodies count where the CAD keeps these apart; parts in contact cross as they like. Local.
+/// two bodies count where the CAD keeps these apart; parts in contact cross as they like. Each face, and every two that
+/// meet, are a task of the rank that has the larger patch.
 class CrossingSearch {
  public:
-  /// The model outlives the object. `across_bodies`: bodies are compared with each other, too.
-  explicit CrossingSearch(const Model& model, bool across_bodies = true)
+  /// All references outlive the object. `across_bodies`: bodies are compared with each other, too.
+  CrossingSearch(const Model& model, const PatchStore& store, const Executor& executor, bool across_bodies = true)
       : model_(model),
+        store_(store),
+        executor_(executor),
         is_across_(across_bodies),
         face_body_(bodies_of(model.tables())),
-        face_is_fresh_(face_body_.size(), 1) {}
+        face_is_fresh_(face_body_.size(), 1),
+        chords_(face_body_.size()) {}
 
-  /// The face's patch is another one now.
+  /// Local. The face's patch is another one now.
   void renew(FaceId f) { face_is_fresh_[f] = 1; }
-  /// `patches` [n_faces] by face. Two places for each pair that smaller triangles can part, up to some thousand.
-  std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, const std::vector<FacePatch>& patches);
+  /// Collective. `places` [n_faces] by face, of rank 0. On rank 0 two places for each pair that smaller triangles can
+  /// part, up to some thousand. What follows is of rank 0.
+  std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, std::vector<PatchPlace> places);
   /// By the last run.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  /// Faces with triangles of the last run, ascending; those of which two triangles cross each other, or all.
+  std::vector<FaceId> crossing_faces(bool others_too) const;
   /// Triangles of the face, by their places in its patch, that cross others of it, or also of other faces; by the last
   /// run, ascending.
   std::vector<std::size_t> crossing_in(FaceId f, bool others_too) const;
-  /// Moves nodes inside faces where triangles of the last run touch as the CAD does, to part them: by less than
-  /// surfaces that meet are apart (meeting_distance()). Returns the places of the nodes before, by changed face; these
-  /// are renewed.
-  std::map<FaceId, std::vector<Vec3>> move_touching_apart(const BoundaryNumbering& numbering,
-                                                          std::vector<FacePatch>& patches);
+  /// Local. Moves nodes inside faces where triangles of the last run touch as the CAD does, to part them: by less than
+  /// surfaces that meet are apart (meeting_distance()). `patches`: at least of crossing_faces(). Returns the faces that
+  /// have changed.
+  std::vector<FaceId> move_touching_apart(const BoundaryNumbering& numbering,
+                                          std::map<FaceId, FacePatch>& patches) const;
 
  private:
-  struct FacetPair {  // two triangles by face and place in its patch
-    FaceId face_a, face_b;
-    std::int32_t index_a, index_b;
+  struct FacetPair {
+    Facet a, b;
     double factor = 0;  // of the length that parts them; kHalve, kHopeless
-    auto operator<=>(const FacetPair&) const = default;
+    auto key() const { return std::tuple(a.face, b.face, a.index, b.index, factor); }
   };
+  using FacetPairs = std::vector<FacetPair>;
+  struct Job {  // a face with itself, or two
+    FaceId a, b;
+  };
+  struct Found {
+    FacetPairs pairs;
+    std::vector<Chord> chords;
+
+    static auto fields(auto& f) { return std::tie(f.pairs, f.chords); }
+  };
+  struct Search;  // one run on one rank
 
   static constexpr double kHalve = 0, kHopeless = -1, kUnknown = -2, kMeets = -3;
-  using FacetPairs = std::vector<FacetPair>;
 
   bool may_be_apart(FaceId a, FaceId b) const;
-  std::vector<RefinementPoint> places_to_refine(const WeldedPatches& mesh) const;
-  FacetPairs measured(const FacetPairs& pairs, const WeldedPatches& mesh, const std::vector<FacePatch>& patches);
-  FacetPairs measured_pair_of_faces(std::span<const FacetPair> pairs, const WeldedPatches& mesh,
-                                    const std::vector<FacePatch>& patches) const;
+  std::vector<Job> jobs_of(const std::vector<PatchPlace>& places) const;
+  struct Corners {  // of a triangle
+    WallTriangle places;
+    bool is_spanning;  // all are on the boundary
+  };
+  static RefinementPoint refinement_of(const Corners& triangle, double factor, double covering);
+  std::vector<RefinementPoint> places_to_refine(const Search& search) const;
+  std::vector<Corners> corners(std::vector<Facet> facets, const Search& search) const;
+  static std::vector<FacetPairs> by_faces(FacetPairs pairs);
+  FacetPairs measured(FacetPairs pairs, const Search& search);
+  FacetPairs measured_pair_of_faces(FacetPairs kept, const Search& search) const;
 
   const Model& model_;
+  const PatchStore& store_;
+  const Executor& executor_;
   bool is_across_;
   std::vector<std::int32_t> face_body_;
   std::set<std::pair<FaceId, FaceId>> touching_;  // of two bodies in contact, as far as known
   int n_runs_ = 0;
-  std::vector<char> face_is_fresh_;  // patch made since the last run
-  std::vector<FacetPair> pairs_;     // found so far and still there, sorted
+  std::vector<char> face_is_fresh_;          // patch made since the last run
+  std::vector<std::vector<Chord>> chords_;  // by face
+  FacetPairs pairs_;                         // found so far and still there, sorted
 };
 
 }  // namespace st

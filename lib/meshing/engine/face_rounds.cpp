@@ -61,12 +61,14 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       dirty_edges_(plan_.edges),
       dirty_faces_(plan_.faces),
       outcomes_(tables_.n_faces()),
-      crossings_(model, options.parts_bodies) {
+      store_(executor),
+      places_(tables_.n_faces()),
+      crossings_(model, store_, executor, options.parts_bodies) {
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   result_.edges = std::move(plan_.kept_edges);
-  result_.patches = std::move(plan_.kept_patches);
-  result_.patches.resize(tables_.n_faces());
+  for (FacePatch& p : std::exchange(plan_.kept_patches, {}))
+    if (executor.is_root() && !p.triangles.empty()) put(p.face, std::move(p));
   facing_ = find_facing_edges(topology, field.is_stretched());
 }
 
@@ -93,25 +95,46 @@ void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) con
   }
 }
 
-/// Places of the patch's nodes.
 std::vector<Vec3> FaceRounds::nodes_of(const FacePatch& patch) const {
-  std::vector<Vec3> xyz;
-  for (std::int32_t i = 0; i < patch.n_boundary; ++i)
-    xyz.push_back(
-        patch.boundary_dim[i] == static_cast<std::uint8_t>(EntityDim::kVertex)
-            ? tables_.vertex_xyz[patch.boundary_entity[i]]
-            : result_.edges.node_xyz[result_.edges.first_node(patch.boundary_entity[i]) + patch.boundary_index[i]]);
-  xyz.insert(xyz.end(), patch.inner_xyz.begin(), patch.inner_xyz.end());
-  return xyz;
+  return node_places(result_.edges, tables_.vertex_xyz, patch);
 }
 
-/// By face: folded onto a neighbour, without area, or crossing others.
-std::map<FaceId, std::vector<std::size_t>> FaceRounds::bad_triangles() const {
-  std::map<FaceId, std::vector<std::size_t>> bad;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+/// Local, on rank 0: its own patch of the face, from now on.
+void FaceRounds::put(FaceId f, FacePatch&& patch) {
+  places_[f] = store_.put(std::move(patch), --own_version_, result_.edges, tables_.vertex_xyz);
+  crossings_.renew(f);
+}
+
+/// Collective. Copies of these patches (rank 0's choice) on rank 0.
+FaceRounds::Patches FaceRounds::bring(const std::vector<FaceId>& faces) const {
+  std::vector<PlacedPatch> wanted;
+  for (const FaceId f : faces)
+    if (places_[f].is_there()) wanted.push_back({f, places_[f]});
+  Patches patches;
+  for (FacePatch& p : store_.bring(std::move(wanted))) {
+    const FaceId f = p.face;
+    patches[f] = std::move(p);
+  }
+  return patches;
+}
+
+/// Local, on rank 0. Faces of which triangles may be bad, ascending.
+std::vector<FaceId> FaceRounds::suspects() const {
+  std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= kFewPairs);
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) faces.push_back(f);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+/// Local, on rank 0. By face: folded onto a neighbour, without area, or crossing others. `patches`: of all suspects.
+FaceRounds::BadTriangles FaceRounds::bad_triangles(const Patches& patches) const {
+  BadTriangles bad;
+  for (const auto& [f, patch] : patches) {
     std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= kFewPairs);
     if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) {
-      const std::vector<std::size_t> flawed = find_flawed(nodes_of(result_.patches[f]), result_.patches[f]);
+      const std::vector<std::size_t> flawed = find_flawed(nodes_of(patch), patch);
       own.insert(own.end(), flawed.begin(), flawed.end());
     }
     if (!own.empty()) bad[f] = std::move(own);
@@ -120,53 +143,67 @@ std::map<FaceId, std::vector<std::size_t>> FaceRounds::bad_triangles() const {
 }
 
 /// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
-/// rather than through themselves. Stays only where clearly fewer are left.
+/// rather than through themselves.
 void FaceRounds::refill_bad() {
-  const auto count = [](const auto& bad) {
+  while (refill_once()) {
+  }
+}
+
+/// Collective. Stays only where clearly fewer are left; whether it stays and may be worth another time.
+bool FaceRounds::refill_once() {
+  const auto count = [](const BadTriangles& bad) {
     std::size_t n = 0;
     for (const auto& [f, triangles] : bad) n += triangles.size();
     return n;
   };
-  for (auto bad = bad_triangles(); !bad.empty();) {
-    const int n_pairs = crossings_.n_pairs();
-    std::map<FaceId, FacePatch> before;
-    for (const auto& [f, triangles] : bad) {
-      before[f] = result_.patches[f];
-      if (refill(nodes_of(result_.patches[f]), triangles, result_.patches[f]) > 0) crossings_.renew(f);
-    }
-    crossings_.run(*numbering_, result_.patches);
-    auto left = bad_triangles();
-    if (crossings_.n_pairs() > n_pairs ||
-        static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad))) {
-      for (auto& [f, patch] : before) {
-        result_.patches[f] = std::move(patch);
-        crossings_.renew(f);
-      }
-      crossings_.run(*numbering_, result_.patches);
-      return;
-    }
-    bad = std::move(left);
-  }
-}
-
-/// Triangles that touch because the CAD touches itself: a hair apart. Stays only where fewer are left.
-void FaceRounds::part_touching() {
+  Patches patches = bring(suspects());
+  const BadTriangles bad = bad_triangles(patches);
+  char is_sound = bad.empty();
+  share(executor_, is_sound);
+  if (is_sound) return false;
   const int n_pairs = crossings_.n_pairs();
-  if (n_pairs == 0) return;
-  std::map<FaceId, std::vector<Vec3>> before = crossings_.move_touching_apart(*numbering_, result_.patches);
-  if (before.empty()) return;
-  crossings_.run(*numbering_, result_.patches);
-  if (crossings_.n_pairs() < n_pairs) return;
-  for (auto& [f, xyz] : before) {
-    result_.patches[f].inner_xyz = std::move(xyz);
-    crossings_.renew(f);
+  const std::vector<PatchPlace> before = places_;
+  for (const auto& [f, triangles] : bad)
+    if (FacePatch& patch = patches[f]; refill(nodes_of(patch), triangles, patch) > 0) put(f, std::move(patch));
+  crossings_.run(*numbering_, places_);
+  const BadTriangles left = bad_triangles(bring(suspects()));
+  char is_worse = crossings_.n_pairs() > n_pairs ||
+                  static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad));
+  share(executor_, is_worse);
+  if (is_worse) {
+    places_ = before;
+    for (const auto& [f, triangles] : bad) crossings_.renew(f);
+    crossings_.run(*numbering_, places_);
   }
-  crossings_.run(*numbering_, result_.patches);
+  return !is_worse;
 }
 
-void FaceRounds::report() {
+/// Collective. Triangles that touch because the CAD touches itself: a hair apart. Stays only where fewer are left.
+void FaceRounds::part_touching() {
+  int n_pairs = crossings_.n_pairs();
+  share(executor_, n_pairs);
+  if (n_pairs == 0) return;
+  Patches patches = bring(crossings_.crossing_faces(true));
+  const std::vector<PatchPlace> before = places_;
+  std::vector<FaceId> moved;
+  if (executor_.is_root()) moved = crossings_.move_touching_apart(*numbering_, patches);
+  share(executor_, moved);
+  if (moved.empty()) return;
+  if (executor_.is_root())
+    for (const FaceId f : moved) put(f, std::move(patches[f]));
+  crossings_.run(*numbering_, places_);
+  char is_better = crossings_.n_pairs() < n_pairs;
+  share(executor_, is_better);
+  if (is_better) return;
+  places_ = before;
+  for (const FaceId f : moved) crossings_.renew(f);
+  crossings_.run(*numbering_, places_);
+}
+
+void FaceRounds::report(PatchesGo patches) {
   refill_bad();
   part_touching();
+  share(executor_, places_);
   result_.n_crossing_pairs = crossings_.n_pairs();
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
@@ -176,6 +213,24 @@ void FaceRounds::report() {
                                 o.is_closed, o.is_near, o.deviation});
     result_.failed_faces.push_back(o.failed);
   }
+  hand_over(patches);
+}
+
+/// Collective. The patches go into the result.
+void FaceRounds::hand_over(PatchesGo patches) {
+  Patches remote;
+  std::vector<FaceId> elsewhere;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (places_[f].rank > 0) elsewhere.push_back(f);
+  if (patches == PatchesGo::kToRoot) remote = bring(elsewhere);
+  result_.patches.resize(tables_.n_faces());
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    result_.patches[f].face = f;
+    if (store_.is_own(places_[f])) result_.patches[f] = store_.take(f, places_[f].version);
+    if (patches == PatchesGo::kToRoot && !executor_.is_root()) result_.patches[f] = {};
+  }
+  for (auto& [f, patch] : remote) result_.patches[f] = std::move(patch);
+  if (patches == PatchesGo::kNowhere) result_.places = places_;
 }
 
 void FaceRounds::mesh_edges() {
@@ -234,6 +289,7 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 /// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all. While heavy
 /// faces are cut the others that are light are meshed.
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
+  ++version_;
   const WorkLimit tile_limit = time_limit(options_.tile_triangles);
   TiledRegions tiled(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (options_.tile_triangles > 0 && !expected_.empty())
@@ -284,10 +340,19 @@ std::string FaceRounds::made_from() const {
   return hash_hex(bytes.data(), bytes.size());
 }
 
-void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
+/// Local, on any rank: the patch stays here.
+Bytes FaceRounds::keep_whole(Bytes&& bytes) {
   FaceResult result;
   unpack(bytes, result);
-  take_face(f, std::move(result));
+  bytes = {};
+  result.report.place = store_.put(std::move(result.patch), version_, result_.edges, tables_.vertex_xyz);
+  return packed(result.report);
+}
+
+void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
+  FaceReport report;
+  unpack(bytes, report);
+  take_face(f, std::move(report));
 }
 
 /// Tasks: the cuts, then light faces.
@@ -302,7 +367,11 @@ void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& ti
        [&](std::int32_t task) {
          return task < n_cuts ? TaskLabel{"cut", cut[task]} : TaskLabel{"face", light[task - n_cuts]};
        },
-       made_from()},
+       made_from(),
+       {},
+       [&](std::int32_t task, Bytes&& result) {
+         return task < n_cuts ? std::move(result) : keep_whole(std::move(result));
+       }},
       [&](std::int32_t task) { return task < n_cuts ? tiled.cut(task) : packed(mesh_whole(light[task - n_cuts])); },
       [&](std::int32_t task, Bytes&& bytes) {
         if (task < n_cuts) return tiled.take_cut(task, bytes);
@@ -323,35 +392,52 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
     const TiledRegions::Tile& tile = tiled.tile(task - n_whole);
     return TaskLabel{"tile", tile.region, tile.index};
   };
+  const auto keep = [&](std::int32_t task, Bytes&& result) {
+    return task < n_whole ? keep_whole(std::move(result)) : tiled.keep(task - n_whole, std::move(result), executor_.rank());
+  };
   executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from()},
+      {heaviest_first(work), label, made_from(), {}, keep},
       [&](std::int32_t task) {
         return task < n_whole ? packed(mesh_whole(whole[task])) : tiled.compute(task - n_whole);
       },
       [&](std::int32_t task, Bytes&& bytes) {
-        task < n_whole ? take_whole(whole[task], bytes) : tiled.take(task - n_whole, bytes);
+        task < n_whole ? take_whole(whole[task], bytes) : tiled.take_place(task - n_whole, bytes);
         progress.advance(work[task]);
       });
 }
 
-/// Local. Joins the tiles of each face on rank 0; returns the faces of which a tile failed, or whose tiles do not fit.
+/// Tasks: the faces that were cut. Returns those of which a tile failed, or whose tiles do not fit, on rank 0.
 std::vector<FaceId> FaceRounds::join(TiledRegions& tiled) {
   std::vector<FaceId> failed;
-  if (!executor_.is_root()) return failed;
   const std::vector<FaceId> cut = tiled.cut_regions();
-  std::vector<FaceResult> results(cut.size());
-  parallel_for(cut.size(), 1, [&](std::size_t i, std::size_t) {
-    results[i] = make_face(cut[i], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-      return tiled.join(surface, cut[i], boundary);
-    });
-  });
+  if (cut.empty()) return failed;
+  tiled.share_places(executor_);
+  std::vector<double> work;
+  for (const FaceId f : cut) work.push_back(weight(f));
+  executor_.run_named_tasks(
+      {heaviest_first(work),
+       [&](std::int32_t task) {
+         return TaskLabel{"join", cut[task]};
+       },
+       made_from(),
+       {},
+       [&](std::int32_t, Bytes&& result) { return keep_whole(std::move(result)); },
+       [&](const Bytes& request) { return tiled.answer(request); }},
+      [&](std::int32_t task) {
+        return packed(make_face(cut[task], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+          return tiled.join(surface, cut[task], boundary, executor_);
+        }));
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        FaceReport report;
+        unpack(bytes, report);
+        if (report.cause == FailureCause::kNone)
+          take_face(cut[task], std::move(report));
+        else
+          failed.push_back(cut[task]);
+      });
   return_freed_memory();
-  for (std::size_t i = 0; i < cut.size(); ++i) {
-    if (results[i].cause == FailureCause::kNone)
-      take_face(cut[i], std::move(results[i]));
-    else
-      failed.push_back(cut[i]);
-  }
+  std::sort(failed.begin(), failed.end());
   return failed;
 }
 
@@ -373,6 +459,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
   FaceMesh mesh;
   FaceResult result;
+  FaceReport& report = result.report;
   FaceBoundary boundary;
   result.patch.face = f;
   try {
@@ -386,28 +473,28 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     if (mesh.cause == FailureCause::kNone) result.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
   } catch (const Error& e) {
     mesh.cause = FailureCause::kError;
-    result.error = e.what();
+    report.error = e.what();
   }
-  if (mesh.cause != FailureCause::kNone) result.failed = describe_failure(*numbering_, f, boundary, mesh);
-  result.cause = mesh.cause;
-  result.wanted = std::move(mesh.refinement);
-  result.n_folds = mesh.n_folds;
+  if (mesh.cause != FailureCause::kNone) report.failed = describe_failure(*numbering_, f, boundary, mesh);
+  report.cause = mesh.cause;
+  report.wanted = std::move(mesh.refinement);
+  report.n_folds = mesh.n_folds;
   return result;
 }
 
 /// Local, on rank 0.
-void FaceRounds::take_face(FaceId f, FaceResult&& result) {
+void FaceRounds::take_face(FaceId f, FaceReport&& report) {
   FaceOutcome& o = outcomes_[f];
-  n_meshed_ += result.patch.triangles.size();
-  result_.patches[f] = std::move(result.patch);
-  o.cause = result.cause;
-  o.error = std::move(result.error);
-  o.failed = std::move(result.failed);
+  n_meshed_ += static_cast<std::uint64_t>(report.place.n_triangles);
+  places_[f] = report.place;
+  o.cause = report.cause;
+  o.error = std::move(report.error);
+  o.failed = std::move(report.failed);
   o.is_closed = false;
-  o.fold_places = result.n_folds ? result.wanted : std::vector<RefinementPoint>();
-  o.cause_xyz = result.wanted.empty() ? tables_.face_box[f].center() : result.wanted[0].x;
+  o.fold_places = report.n_folds ? report.wanted : std::vector<RefinementPoint>();
+  o.cause_xyz = report.wanted.empty() ? tables_.face_box[f].center() : report.wanted[0].x;
   crossings_.renew(f);
-  wanted_[f] = std::move(result.wanted);
+  wanted_[f] = std::move(report.wanted);
 }
 
 bool FaceRounds::has_holes() const {
@@ -425,7 +512,7 @@ void FaceRounds::join() {
   if (executor_.is_root()) {
     edges = std::move(whole_->edges);
     for (auto& [f, before] : whole_->faces) {
-      result_.patches[f] = std::move(before.first);
+      places_[f] = before.first;
       outcomes_[f] = std::move(before.second);
       crossings_.renew(f);
     }
@@ -461,14 +548,12 @@ void FaceRounds::close_hole(FaceId f) {
   o.is_closed = true;
   o.is_near = closed.is_near;
   o.deviation = closed.deviation;
-  result_.patches[f] = make_patch(tables_, f, boundary, closed.mesh, *numbering_);
-  crossings_.renew(f);
+  put(f, make_patch(tables_, f, boundary, closed.mesh, *numbering_));
 }
 
 /// None where the mesh before was restored: refining does not help.
 std::vector<RefinementPoint> FaceRounds::find_crossings() {
-  if (!executor_.is_root()) return {};
-  std::vector<RefinementPoint> places = crossings_.run(*numbering_, result_.patches);
+  std::vector<RefinementPoint> places = crossings_.run(*numbering_, places_);
   result_.n_crossing_pairs = crossings_.n_pairs();
   return is_restored_ ? std::vector<RefinementPoint>() : places;
 }
@@ -478,14 +563,26 @@ void FaceRounds::choose_again(std::size_t first_refinement) {
   share(executor_, dirty_edges_, dirty_faces_);
   log_info("refining at " + std::to_string(refinements_.all().size() - first_refinement) + " places: " +
            std::to_string(dirty_edges_.size()) + " edges, " + std::to_string(dirty_faces_.size()) + " faces again");
-  if (executor_.is_root()) keep_whole();
+  if (executor_.is_root()) remember_whole();
+  drop_replaced();
 }
 
 /// Before the dirty faces are meshed again.
-void FaceRounds::keep_whole() {
+void FaceRounds::remember_whole() {
   if (!has_holes()) whole_ = WholeMesh{result_.edges, {}};
   if (!whole_) return;
-  for (const FaceId f : dirty_faces_) whole_->faces.try_emplace(f, result_.patches[f], outcomes_[f]);
+  for (const FaceId f : dirty_faces_) whole_->faces.try_emplace(f, places_[f], outcomes_[f]);
+}
+
+/// Collective. Patches that are neither part of the mesh nor of the one to go back to.
+void FaceRounds::drop_replaced() {
+  std::vector<PlacedPatch> live;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (places_[f].is_there()) live.push_back({f, places_[f]});
+  if (whole_)
+    for (const auto& [f, before] : whole_->faces) live.push_back({f, before.first});
+  share(executor_, live);
+  store_.keep_only(live);
 }
 
 /// Edges and faces of the plan that refinements from this one on reach.

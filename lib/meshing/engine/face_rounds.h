@@ -15,6 +15,7 @@
 #include "meshing/engine/facing_edges.h"
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
+#include "meshing/engine/patch_store.h"
 #include "meshing/engine/tiled_regions.h"
 
 namespace st {
@@ -25,8 +26,9 @@ class FaceRounds : public MeshRounds {
   FaceRounds(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,
              const MeshOptions& options, const Executor& executor, MeshResult& result);
 
-  /// Local, on rank 0, once after run(): folds and failures into the result.
-  void report();
+  /// Collective, once after run(): folds, failures and patches into the result. The patches of a rank are those that it
+  /// has made; `gathers`: rank 0 has all.
+  void report(PatchesGo patches);
 
  private:
   struct FaceOutcome {
@@ -42,7 +44,7 @@ class FaceRounds : public MeshRounds {
   };
   struct WholeMesh {  // no face failed: what has been redone since, as it was
     EdgeMesh edges;
-    std::map<FaceId, std::pair<FacePatch, FaceOutcome>> faces;
+    std::map<FaceId, std::pair<PatchPlace, FaceOutcome>> faces;
   };
 
   void mesh_edges() override;
@@ -55,15 +57,21 @@ class FaceRounds : public MeshRounds {
   EdgeMesh make_edge(EdgeId e) const;
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
   void end_at_vertices(EdgeId e, EdgeMesh& nodes) const;
-  struct FaceResult {
-    FacePatch patch;
+  struct FaceReport {
+    PatchPlace place;
     FailureCause cause = FailureCause::kNone;
     std::string error;
     std::vector<RefinementPoint> wanted;
     int n_folds = 0;
     FailedFace failed;
 
-    static auto fields(auto& x) { return std::tie(x.patch, x.cause, x.error, x.wanted, x.n_folds, x.failed); }
+    static auto fields(auto& x) { return std::tie(x.place, x.cause, x.error, x.wanted, x.n_folds, x.failed); }
+  };
+  struct FaceResult {
+    FacePatch patch;
+    FaceReport report;
+
+    static auto fields(auto& x) { return std::tie(x.patch, x.report); }
   };
   using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
   FaceMeshOptions face_options() const;
@@ -74,19 +82,28 @@ class FaceRounds : public MeshRounds {
   std::string made_from() const;
   void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
   void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
+  Bytes keep_whole(Bytes&& result);
   void take_whole(FaceId f, const Bytes& bytes);
+  void put(FaceId f, FacePatch&& patch);
   double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
   std::vector<FaceId> join(TiledRegions& tiled);
   Regions faces_as_regions() const;
-  void take_face(FaceId f, FaceResult&& result);
+  void take_face(FaceId f, FaceReport&& report);
   bool has_holes() const;
   void close_holes();
   void close_hole(FaceId f);
   void refill_bad();
+  bool refill_once();
   void part_touching();
-  std::map<FaceId, std::vector<std::size_t>> bad_triangles() const;
+  using Patches = std::map<FaceId, FacePatch>;
+  using BadTriangles = std::map<FaceId, std::vector<std::size_t>>;
+  void hand_over(PatchesGo patches);
+  Patches bring(const std::vector<FaceId>& faces) const;
+  std::vector<FaceId> suspects() const;
+  BadTriangles bad_triangles(const Patches& patches) const;
   std::vector<Vec3> nodes_of(const FacePatch& patch) const;
-  void keep_whole();
+  void remember_whole();
+  void drop_replaced();
   void find_dirty(std::size_t first_refinement);
 
   const Model& model_;
@@ -105,6 +122,10 @@ class FaceRounds : public MeshRounds {
   std::vector<std::vector<RefinementPoint>> wanted_;  // likewise, of this round
   std::optional<WholeMesh> whole_;                    // the last one, on rank 0
   bool is_restored_ = false;
+  PatchStore store_;
+  std::vector<PatchPlace> places_;  // [n_faces] of the patches, on rank 0
+  std::int64_t version_ = 0;        // of patches made in this round
+  std::int64_t own_version_ = 0;    // of patches that rank 0 changed itself: negative
   CrossingSearch crossings_;
 };
 

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
+#include "mesh/merge.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/hole/hole_crossing.h"
@@ -188,7 +189,7 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   std::copy_if(closed.begin(), closed.end(), std::back_inserter(whole),
                [&](std::int32_t i) { return !tiled.is_cut(i); });
   fill_holes(rims, whole, expected, tiled, fills);
-  if (executor_.is_root()) failed = join_tiles_of(rims, tiled, fills);
+  failed = join_tiles_of(rims, expected, tiled, fills);
   share(executor_, failed);
   if (!failed.empty()) fill_holes(rims, failed, expected, none, fills);
   failed.clear();
@@ -233,28 +234,42 @@ void HoleRounds::fill_holes(const std::vector<HoleRim>& rims, const std::vector<
   };
   Progress progress("filling holes", std::accumulate(work.begin(), work.end(), 0.0));
   double done = 0;
+  const auto keep = [&](std::int32_t task, Bytes&& result) {
+    return task < n_whole ? std::move(result) : tiled.keep(task - n_whole, std::move(result), executor_.rank());
+  };
   executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(rims)},
+      {heaviest_first(work), label, made_from(rims), {}, keep},
       [&](std::int32_t task) {
         return task < n_whole ? packed(fill_hole(rims[whole[task]], make)) : tiled.compute(task - n_whole);
       },
       [&](std::int32_t task, Bytes&& result) {
-        task < n_whole ? unpack(result, fills[whole[task]]) : tiled.take(task - n_whole, result);
+        task < n_whole ? unpack(result, fills[whole[task]]) : tiled.take_place(task - n_whole, result);
         progress.update(done += work[task]);
       });
 }
 
-/// Local, on rank 0. Returns the holes of which a tile failed, or whose tiles do not fit.
-std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& rims, TiledRegions& tiled,
+/// Collective. Returns the holes of which a tile failed, or whose tiles do not fit, on rank 0.
+std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& rims,
+                                                    const std::vector<double>& expected, TiledRegions& tiled,
                                                     std::vector<HoleFill>& fills) const {
   const std::vector<std::int32_t> cut = tiled.cut_regions();
-  parallel_for(cut.size(), 1, [&](std::size_t i, std::size_t) {
-    fills[cut[i]] = fill_hole(rims[cut[i]], [&](const Surface& surface, const FaceBoundary& boundary,
-                                                const SizeField&) { return tiled.join(surface, cut[i], boundary); });
-  });
   std::vector<std::int32_t> failed;
-  std::copy_if(cut.begin(), cut.end(), std::back_inserter(failed),
-               [&](std::int32_t i) { return fills[i].triangles.empty(); });
+  if (cut.empty()) return failed;
+  tiled.share_places(executor_);
+  std::vector<double> work;
+  for (const std::int32_t i : cut) work.push_back(expected[i]);
+  const auto label = [&](std::int32_t task) { return TaskLabel{"hole join", rims[cut[task]].face, cut[task]}; };
+  executor_.run_named_tasks(
+      {heaviest_first(work), label, made_from(rims), {}, {}, [&](const Bytes& request) { return tiled.answer(request); }},
+      [&](std::int32_t task) {
+        return packed(fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary,
+                                                     const SizeField&) {
+          return tiled.join(surface, cut[task], boundary, executor_);
+        }));
+      },
+      [&](std::int32_t task, Bytes&& result) { unpack(result, fills[cut[task]]); });
+  for (const std::int32_t i : cut)
+    if (executor_.is_root() && fills[i].triangles.empty()) failed.push_back(i);
   return failed;
 }
 

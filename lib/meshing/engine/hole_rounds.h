@@ -50,8 +50,8 @@ class HoleRounds : public MeshRounds {
   void fill_holes(const std::vector<HoleRim>& rims, const std::vector<std::int32_t>& whole,
                   const std::vector<double>& expected, TiledRegions& tiled, std::vector<HoleFill>& fills) const;
   void cut_holes(const std::vector<HoleRim>& rims, const std::vector<double>& expected, TiledRegions& tiled) const;
-  std::vector<std::int32_t> join_tiles_of(const std::vector<HoleRim>& rims, TiledRegions& tiled,
-                                          std::vector<HoleFill>& fills) const;
+  std::vector<std::int32_t> join_tiles_of(const std::vector<HoleRim>& rims, const std::vector<double>& expected,
+                                          TiledRegions& tiled, std::vector<HoleFill>& fills) const;
   std::string made_from(const std::vector<HoleRim>& rims) const;
   HoleFill fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
   FaceMeshOptions face_options() const;

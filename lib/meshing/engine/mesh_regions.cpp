@@ -17,7 +17,7 @@ void run_faces(const Model& model, const MeshTopology& topology, const SizeField
                const MeshOptions& options, const Executor& executor, MeshResult& result) {
   FaceRounds rounds(model, topology, field, std::move(plan), options, executor, result);
   rounds.run();
-  if (executor.is_root()) rounds.report();
+  rounds.report(options.patches);
 }
 
 /// Nodes of edges that were done again keep no number but those at the ends.
@@ -73,7 +73,7 @@ MeshResult mesh_regions(const Model& model, const MeshTopology& topology, const 
   MeshResult result;
   run_faces(model, topology, field, std::move(plan), options, executor, result);
   executor.begin_phase("requests");
-  if (executor.is_root()) store_requests(field, result);
+  if (executor.is_root() || options.patches == PatchesGo::kNowhere) store_requests(field, result);
   return result;
 }
 

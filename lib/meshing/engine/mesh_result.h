@@ -9,10 +9,17 @@
 #include "base/current_work.h"
 #include "mesh/failed_face.h"
 #include "mesh/surface_mesh.h"
+#include "meshing/engine/patch_store.h"
 #include "meshing/face/face_mesher.h"
 #include "sizing/size_field.h"
 
 namespace st {
+
+/// Where the patches of a result are.
+enum class PatchesGo {
+  kToRoot,  ///< all on rank 0
+  kNowhere  ///< each on the rank that made it
+};
 
 struct MeshOptions {
   int enhance_rounds = 5;          ///< of the enhancer in each face or hole
@@ -22,6 +29,7 @@ struct MeshOptions {
   std::map<FaceId, std::string> left_out = {};  ///< they fail, with this cause: meshing them ended an earlier run
   std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
+  PatchesGo patches = PatchesGo::kToRoot;
   bool parts_bodies = true;                ///< bodies that the CAD keeps apart are refined where their triangles cross
 };
 
@@ -30,10 +38,12 @@ struct MeshTimes {
   double edges = 0, faces = 0, join = 0, crossing = 0;
 };
 
-/// The mesh of a model. Complete on rank 0 only; the edges are on every rank.
+/// The mesh of a model. Complete on rank 0 only, but for patches that stay where they were made; the edges are on every
+/// rank.
 struct MeshResult {
   EdgeMesh edges;
-  std::vector<FacePatch> patches;        ///< by face; without triangles where the face failed
+  std::vector<FacePatch> patches;        ///< by face; without triangles where the face failed, or is on another rank
+  std::vector<PatchPlace> places;        ///< by face: of those that stay where they were made; else empty
   SurfaceMesh mesh;                      ///< the whole, where holes of one were filled and it was asked for
   std::vector<FaceFailure> failures;     ///< by face
   std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
@@ -44,8 +54,8 @@ struct MeshResult {
   MeshTimes times;
 };
 
-/// Local. Gives every new node the length that `field` requests there: what a later st-remesh compares with, whatever
-/// was refined since. Nodes with a number in the mesh before stay as they are.
+/// Local. Gives every new node of this rank's patches and of edges the length that `field` requests there: what a later
+/// st-remesh compares with, whatever was refined since. Nodes with a number in the mesh before stay as they are.
 void store_requests(const SizeField& field, MeshResult& result);
 
 }  // namespace st

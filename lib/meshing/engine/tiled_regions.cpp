@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/error.h"
-#include "base/share.h"
 
 namespace st {
 namespace {
@@ -44,6 +44,7 @@ void TiledRegions::share_cuts(const Executor& executor) {
     meshes_[chosen_[i]].resize(chosen_cuts_[i].tiles.size());
     cuts_.emplace(chosen_[i], std::move(chosen_cuts_[i]));
   }
+  rank_of_.assign(tiles_.size(), 0);
 }
 
 std::vector<std::int32_t> TiledRegions::cut_regions() const {
@@ -68,12 +69,34 @@ Bytes TiledRegions::compute(std::int32_t tile) const {
   return packed(mesh);
 }
 
-void TiledRegions::take(std::int32_t tile, const Bytes& bytes) {
-  unpack(bytes, meshes_[tiles_[tile].region][tiles_[tile].index]);
+Bytes TiledRegions::keep(std::int32_t tile, Bytes&& result, int rank) {
+  unpack(result, meshes_.at(tiles_[tile].region)[tiles_[tile].index]);
+  return packed(static_cast<std::int32_t>(rank));
 }
 
-FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary) {
+void TiledRegions::take_place(std::int32_t tile, const Bytes& bytes) { unpack(bytes, rank_of_[tile]); }
+
+Bytes TiledRegions::answer(const Bytes& request) {
+  Tile tile{};
+  unpack(request, tile);
+  return packed(std::exchange(meshes_.at(tile.region)[tile.index], {}));
+}
+
+FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
+                            const Executor& executor) {
   std::vector<FaceMesh> meshes = std::move(meshes_.at(region));
+  std::vector<Request> requests;
+  std::vector<std::int32_t> missing;
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    if (tiles_[i].region != region || rank_of_[i] == executor.rank()) continue;
+    requests.push_back({rank_of_[i], packed(tiles_[i])});
+    missing.push_back(tiles_[i].index);
+  }
+  std::vector<Bytes> answers = executor.ask(requests);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    unpack(answers[i], meshes[missing[i]]);
+    answers[i] = {};
+  }
   const FaceId f = regions_.face(region);
   const auto make_surface = [&] { return model_.surface(f); };
   return join_tiles(surface, make_surface, boundary, cuts_.at(region), field_of(f).get(), options_, std::move(meshes));

@@ -8,6 +8,7 @@
 
 #include "base/current_work.h"
 #include "base/executor.h"
+#include "base/share.h"
 #include "geometry/model/model.h"
 #include "meshing/face/face_tiles.h"
 #include "meshing/face/refinements.h"
@@ -72,13 +73,18 @@ class TiledRegions {
     std::int32_t region, index;
   };
   const Tile& tile(std::int32_t tile) const { return tiles_[tile]; }
-  /// Local: the mesh of one tile, packed; and on rank 0, what it packed.
+  /// Local: the mesh of one tile, packed. It stays there: keep() returns where that is, for take_place() on rank 0.
   Bytes compute(std::int32_t tile) const;
-  void take(std::int32_t tile, const Bytes& bytes);
+  Bytes keep(std::int32_t tile, Bytes&& result, int rank);
+  void take_place(std::int32_t tile, const Bytes& bytes);
+  /// Collective, when all were taken: every rank knows where the tiles are.
+  void share_places(const Executor& executor) { share(executor, rank_of_); }
 
-  /// Local, on rank 0, when all tiles were taken: the whole mesh of a region; its tiles are gone after it.
-  /// Several threads may join different regions.
-  FaceMesh join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary);
+  /// Local, by tasks that `answer` belongs to: the whole mesh of a region; its tiles are gone after it. Several threads
+  /// may join different regions.
+  FaceMesh join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
+  /// Local: a tile for a rank that joins its region.
+  Bytes answer(const Bytes& request);
 
  private:
   TileCut cut_of(std::int32_t region) const;
@@ -95,7 +101,8 @@ class TiledRegions {
   std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
   std::map<std::int32_t, TileCut> cuts_;
   std::vector<Tile> tiles_;
-  std::map<std::int32_t, std::vector<FaceMesh>> meshes_;  // on rank 0
+  std::vector<std::int32_t> rank_of_;  // [n_tiles] where its mesh is
+  std::map<std::int32_t, std::vector<FaceMesh>> meshes_;  // by region, of its tiles: those that are here
 };
 
 }  // namespace st

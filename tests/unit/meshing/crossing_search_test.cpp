@@ -3,12 +3,38 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "meshing/engine/patch_store.h"
 #include "support/meshed.h"
 
 namespace st {
 namespace {
 
 using test::Meshed;
+
+/// A search among patches of one rank.
+struct Search {
+  const Meshed& meshed;
+  PatchStore store{test::one_rank};
+  std::int64_t version = 0;
+  std::vector<PatchPlace> places;
+  CrossingSearch search;
+
+  explicit Search(const Meshed& m, bool across_bodies = true)
+      : meshed(m), search(m.model, store, test::one_rank, across_bodies) {}
+  std::vector<RefinementPoint> run(const std::vector<FacePatch>& patches) {
+    ++version;
+    places.clear();
+    for (FacePatch p : patches)
+      places.push_back(store.put(std::move(p), version, meshed.result.edges, meshed.model.tables().vertex_xyz));
+    return search.run(meshed.numbering(), places);
+  }
+  int n_pairs() const { return search.n_pairs(); }
+  void renew(FaceId f) { search.renew(f); }
+};
 
 /// Pushes the inside of a face of the box 60 x 40 x 20 through the other side.
 void push_through(const Meshed& box, FaceId f, FacePatch& patch) {
@@ -19,8 +45,8 @@ void push_through(const Meshed& box, FaceId f, FacePatch& patch) {
 
 TEST(CrossingSearch, finds_nothing_in_a_sound_mesh) {
   const Meshed m("box", 4);
-  CrossingSearch search(m.model);
-  EXPECT_TRUE(search.run(m.numbering(), m.result.patches).empty());
+  Search search(m);
+  EXPECT_TRUE(search.run(m.result.patches).empty());
   EXPECT_EQ(search.n_pairs(), 0);
 }
 
@@ -28,26 +54,26 @@ TEST(CrossingSearch, finds_a_patch_that_crosses_others_and_remembers_it) {
   const Meshed m("box", 8);
   std::vector<FacePatch> patches = m.result.patches;
   push_through(m, 0, patches[0]);
-  CrossingSearch search(m.model);
-  const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
+  Search search(m);
+  const std::vector<RefinementPoint> places = search.run(patches);
   EXPECT_EQ(places.size(), 2u * static_cast<std::size_t>(search.n_pairs()));
   ASSERT_GT(search.n_pairs(), 0);
-  const std::vector<RefinementPoint> again = search.run(m.numbering(), patches);
+  const std::vector<RefinementPoint> again = search.run(patches);
   ASSERT_EQ(again.size(), places.size()) << "nothing is new, and nothing forgotten";
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_TRUE(again[i].x == places[i].x);
   patches[0] = m.result.patches[0];
   search.renew(0);
-  EXPECT_TRUE(search.run(m.numbering(), patches).empty());
+  EXPECT_TRUE(search.run(patches).empty());
 }
 
 TEST(CrossingSearch, finds_what_a_renewed_patch_crosses) {
   const Meshed m("box", 8);
   std::vector<FacePatch> patches = m.result.patches;
-  CrossingSearch search(m.model), whole(m.model);
-  ASSERT_TRUE(search.run(m.numbering(), patches).empty());
+  Search search(m), whole(m);
+  ASSERT_TRUE(search.run(patches).empty());
   push_through(m, 3, patches[3]);
   search.renew(3);
-  EXPECT_EQ(search.run(m.numbering(), patches).size(), whole.run(m.numbering(), patches).size());
+  EXPECT_EQ(search.run(patches).size(), whole.run(patches).size());
   EXPECT_GT(search.n_pairs(), 0);
 }
 
@@ -55,16 +81,16 @@ TEST(CrossingSearch, measures_what_it_takes_to_part_bodies_and_leaves_those_in_c
   MeshOptions options;
   options.parts_bodies = false;
   const Meshed pin("pin_in_bore", 2, options), boxes("two_boxes", 4, options);
-  CrossingSearch search(pin.model), within(pin.model, false), touching(boxes.model);
-  const std::vector<RefinementPoint> places = search.run(pin.numbering(), pin.result.patches);
+  Search search(pin), within(pin, false), touching(boxes);
+  const std::vector<RefinementPoint> places = search.run(pin.result.patches);
   ASSERT_GT(search.n_pairs(), 0);
   for (const RefinementPoint& p : places) {
     EXPECT_GT(p.factor, 0);
     EXPECT_LT(p.factor, 1);
     EXPECT_GT(p.radius, 0);
   }
-  EXPECT_TRUE(within.run(pin.numbering(), pin.result.patches).empty());
-  EXPECT_TRUE(touching.run(boxes.numbering(), boxes.result.patches).empty());
+  EXPECT_TRUE(within.run(pin.result.patches).empty());
+  EXPECT_TRUE(touching.run(boxes.result.patches).empty());
 }
 
 TEST(CrossingSearch, parts_faces_that_touch_in_a_node) {
@@ -77,15 +103,20 @@ TEST(CrossingSearch, parts_faces_that_touch_in_a_node) {
   while (!is_low(low)) ++low;
   while (!is_high(high)) ++high;
   patches[high].inner_xyz.at(patches[high].inner_xyz.size() / 2).z = all.lo.z;
-  CrossingSearch search(m.model);
-  search.run(m.numbering(), patches);
+  Search search(m);
+  search.run(patches);
   ASSERT_GT(search.n_pairs(), 0);
-  const auto moved = search.move_touching_apart(m.numbering(), patches);
-  EXPECT_TRUE(moved.contains(high));
-  for (const auto& [f, xyz] : moved)
-    for (std::size_t i = 0; i < xyz.size(); ++i)
-      EXPECT_LT(distance(xyz[i], patches[f].inner_xyz[i]), 2e-6 * all.diagonal());
-  search.run(m.numbering(), patches);
+  std::map<FaceId, FacePatch> crossing;
+  for (const FaceId f : search.search.crossing_faces(true)) crossing[f] = patches[f];
+  const std::vector<FaceId> moved = search.search.move_touching_apart(m.numbering(), crossing);
+  EXPECT_TRUE(std::ranges::count(moved, high));
+  for (const FaceId f : moved) {
+    for (std::size_t i = 0; i < patches[f].inner_xyz.size(); ++i)
+      EXPECT_LT(distance(crossing[f].inner_xyz[i], patches[f].inner_xyz[i]), 2e-6 * all.diagonal());
+    patches[f] = crossing[f];
+    search.renew(f);
+  }
+  search.run(patches);
   EXPECT_EQ(search.n_pairs(), 0);
 }
 
@@ -99,8 +130,9 @@ TEST(CrossingSearch, refines_triangles_that_span_their_face_by_more_than_half) {
   const Meshed m("box", 200);  // every face two triangles
   std::vector<FacePatch> patches = m.result.patches;
   patches[5] = patches[0];
-  CrossingSearch search(m.model);
-  const std::vector<RefinementPoint> places = search.run(m.numbering(), patches);
+  patches[5].face = 5;
+  Search search(m);
+  const std::vector<RefinementPoint> places = search.run(patches);
   ASSERT_FALSE(places.empty());
   const double diagonal = m.model.tables().face_box[0].diagonal();
   for (const RefinementPoint& p : places) {
@@ -112,18 +144,22 @@ TEST(CrossingSearch, refines_triangles_that_span_their_face_by_more_than_half) {
 TEST(CrossingSearch, finds_a_chord_that_two_flat_faces_share) {
   const Meshed m("box", 200);  // every face two triangles: a chord of its own
   for (const FacePatch& p : m.result.patches) ASSERT_EQ(p.triangles.size(), 2u);
-  std::vector<const FacePatch*> all;
-  for (const FacePatch& p : m.result.patches) all.push_back(&p);
+  std::vector<FacePatch> all = m.result.patches;
   const std::vector<char> fresh(6, 1), old(6, 0);
   const BoundaryNumbering numbering = m.numbering();
-  const auto pairs = [&](const std::vector<const FacePatch*>& patches, const std::vector<char>& is_fresh) {
-    const WeldedPatches w = weld_patches(numbering.edges, m.model.tables().vertex_xyz, patches);
-    return find_repeated_chords(numbering, w, is_fresh).size();
+  const BoundarySegments segments(numbering);
+  const auto pairs = [&](const std::vector<char>& is_fresh) {
+    std::vector<Chord> chords;
+    for (const FacePatch& p : all)
+      for (const Chord& c : find_chords(segments, p)) chords.push_back(c);
+    return find_repeated_chords(chords, is_fresh).size();
   };
-  EXPECT_EQ(pairs(all, fresh), 0u);
+  EXPECT_EQ(pairs(fresh), 0u);
+  const FaceId last = all[5].face;
   all[5] = all[0];
-  EXPECT_EQ(pairs(all, fresh), 1u) << "the chord, not the edges of the model";
-  EXPECT_EQ(pairs(all, old), 0u);
+  all[5].face = last;
+  EXPECT_EQ(pairs(fresh), 1u) << "the chord, not the edges of the model";
+  EXPECT_EQ(pairs(old), 0u);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   MeshResult r;
   FaceRounds rounds(box, topology, field, plan_all(topology), {}, test::one_rank, r);
   rounds.run();
-  rounds.report();
+  rounds.report(PatchesGo::kToRoot);
   ASSERT_EQ(r.failures.size(), 1u);
   const FaceId top = r.failures[0].face;
   EXPECT_GT(box.tables().face_box[top].lo.z, 19.99);

@@ -71,7 +71,8 @@ TEST(TiledFaces, of_which_a_tile_fails_are_tried_whole_and_reported) {
   const test::BackwardExecutor counted, without;
   const MeshResult r = mesh(box, NoSizeInTheMiddle(0.8), 0.8, 1000, counted);
   mesh(box, UniformField(0.8), 0.8, 1000, without);
-  EXPECT_EQ(counted.n_tasks, without.n_tasks + 1);
+  EXPECT_EQ(counted.n_of["face"], without.n_of["face"] + 1);
+  EXPECT_EQ(counted.n_of["tile"], without.n_of["tile"]);
   ASSERT_EQ(r.failures.size(), 1u);
   EXPECT_NE(r.failures[0].cause.find("no size"), std::string::npos);
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == r.failures[0].face) << f;

@@ -1,4 +1,4 @@
-#include "sizing/radix_sort.h"
+#include "base/radix_sort.h"
 
 #include <algorithm>
 #include <array>

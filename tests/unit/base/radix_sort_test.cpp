@@ -1,5 +1,5 @@
 // Sorting of keys by digits: what std::sort and std::unique give.
-#include "sizing/radix_sort.h"
+#include "base/radix_sort.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,153 @@
+#include "io/hdf5/patches_writer.h"
+
+#include <algorithm>
+#include <span>
+
+#include "base/assert.h"
+#include "io/hdf5/face_labels_io.h"
+#include "io/hdf5/hdf5_file.h"
+#include "io/hdf5/merged_features.h"
+
+namespace st {
+namespace {
+
+void write_rest(Hdf5Writer& w, const PatchesArtifact& a) {
+  w.write("/st/vertex/xyz", a.vertex_xyz);
+  w.write("/st/edge/vertices", a.edge_vertices, 2);
+  w.write("/st/edge/node_offsets", a.edges.edge_offsets);
+  w.write("/st/edge_node/t", a.edges.node_t);
+  w.write("/st/edge_node/xyz", a.edges.node_xyz);
+  w.write("/st/edge_node/size", a.edges.node_size);
+  if (!a.edges.node_request.empty()) w.write("/st/edge_node/request", a.edges.node_request);
+  w.write_strings("/st/face/name", a.labels.face_name);
+  w.write("/st/face/group", a.labels.face_group);
+  w.write("/st/face/shell", a.face_shell);
+  w.write("/st/face/area", a.face_area);
+  w.write_strings("/st/group/name", a.labels.group_name);
+  if (!a.labels.group_role.empty()) w.write_strings("/st/group/role", a.labels.group_role);
+  write_labels(w, a.labels);
+}
+
+/// Of faces that were closed from their loops. Absent when none was.
+void write_closed(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
+  std::vector<std::uint8_t> is_closed, is_near;
+  std::vector<double> deviation;
+  for (const FaceFailure& f : failures) {
+    is_closed.push_back(f.is_closed);
+    is_near.push_back(f.is_near);
+    deviation.push_back(f.deviation);
+  }
+  if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
+  w.write("/st/failure/is_closed", is_closed);
+  w.write("/st/failure/is_near", is_near);
+  w.write("/st/failure/deviation", deviation);
+}
+
+void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
+  std::vector<std::int32_t> face;
+  std::vector<std::string> cause, remedy;
+  std::vector<Vec3> xyz;
+  for (const FaceFailure& f : failures) {
+    face.push_back(f.face);
+    cause.push_back(f.cause);
+    remedy.push_back(f.remedy);
+    xyz.push_back(f.xyz);
+  }
+  w.write("/st/failure/face", face);
+  w.write_strings("/st/failure/cause", cause);
+  w.write_strings("/st/failure/remedy", remedy);
+  w.write("/st/failure/xyz", xyz);
+  write_closed(w, failures);
+}
+
+PatchTarget target_of(const std::vector<PatchCounts>& counts) {
+  PatchTarget t;
+  t.boundary = t.inner = t.triangle = t.own_uv = {0};
+  for (const PatchCounts& c : counts) {
+    t.face.push_back(c.face);
+    t.boundary.push_back(t.boundary.back() + c.n_boundary);
+    t.inner.push_back(t.inner.back() + c.n_inner);
+    t.triangle.push_back(t.triangle.back() + c.n_triangles);
+    t.own_uv.push_back(t.own_uv.back() + c.n_own_uv);
+  }
+  return t;
+}
+
+/// Room for one array of all patches; where it begins goes to the target.
+template <class T>
+void make_room(Hdf5Writer& w, const std::string& name, const std::vector<std::int64_t>& offsets, PatchTarget& t) {
+  t.begin.push_back(w.rows_elsewhere(w.begin_rows<T>(name, static_cast<std::size_t>(offsets.back()))));
+}
+
+void make_room(Hdf5Writer& w, const EdgeMesh& edges, PatchTarget& t) {
+  w.write("/st/patch/face", t.face);
+  w.write("/st/patch/boundary_offsets", t.boundary);
+  w.write("/st/patch/inner_offsets", t.inner);
+  w.write("/st/patch/triangle_offsets", t.triangle);
+  w.write("/st/patch/corner_offsets", t.own_uv);
+  make_room<std::uint8_t>(w, "/st/boundary/dim", t.boundary, t);
+  make_room<std::int32_t>(w, "/st/boundary/entity", t.boundary, t);
+  make_room<std::int32_t>(w, "/st/boundary/index", t.boundary, t);
+  make_room<Vec3>(w, "/st/inner/xyz", t.inner, t);
+  make_room<Vec2>(w, "/st/inner/uv", t.inner, t);
+  make_room<double>(w, "/st/inner/size", t.inner, t);
+  make_room<Triangle>(w, "/st/triangle/nodes", t.triangle, t);
+  make_room<std::int32_t>(w, "/st/corner/number", t.own_uv, t);
+  make_room<Vec2>(w, "/st/corner/uv", t.own_uv, t);
+  if (edges.node_previous.empty()) return;
+  w.write("/st/edge_node/previous_id", edges.node_previous);
+  make_room<NodeId>(w, "/st/inner/previous_id", t.inner, t);
+  make_room<TriangleId>(w, "/st/triangle/previous_id", t.triangle, t);
+}
+
+}  // namespace
+
+PatchCounts counts_of(const FacePatch& p) {
+  const auto count = [](const auto& rows) { return static_cast<std::int64_t>(rows.size()); };
+  return {p.face, count(p.boundary_dim), count(p.inner_xyz), count(p.triangles), count(p.uv_corner)};
+}
+
+PatchesWriter::PatchesWriter(const std::string& path, const PatchesArtifact& a, const std::vector<PatchCounts>& counts)
+    : target_(target_of(counts)) {
+  ArtifactHeader header = a.header;
+  header.schema = "patches";
+  header.schema_version = kPatchesVersion;
+  writer_ = std::make_unique<Hdf5Writer>(path, header);
+  target_.file = writer_->temporary_name();
+  target_.label = path;
+  write_rest(*writer_, a);
+  make_room(*writer_, a.edges, target_);
+  write_failures(*writer_, a.failures);
+  write_merged(*writer_, a.merged);
+  writer_->set_attribute("/st", "is_complete", std::int64_t{a.is_complete});
+}
+
+PatchesWriter::~PatchesWriter() = default;
+
+std::string PatchesWriter::commit() { return writer_->commit(); }
+
+void PatchRowsFile::write(const FacePatch& p) const {
+  const auto place = std::lower_bound(target_.face.begin(), target_.face.end(), p.face);
+  ST_ASSERT(place != target_.face.end() && *place == p.face);
+  const std::size_t i = place - target_.face.begin();
+  std::size_t array = 0;
+  const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets) {
+    ST_ASSERT(static_cast<std::int64_t>(values.size()) == offsets[i + 1] - offsets[i]);
+    file_.write(target_.begin[array++] + static_cast<std::uint64_t>(offsets[i]) * sizeof(T),
+                std::as_bytes(std::span(values)), "the patch of face " + std::to_string(p.face + 1));
+  };
+  rows(p.boundary_dim, target_.boundary);
+  rows(p.boundary_entity, target_.boundary);
+  rows(p.boundary_index, target_.boundary);
+  rows(p.inner_xyz, target_.inner);
+  rows(p.inner_uv, target_.inner);
+  rows(p.inner_size, target_.inner);
+  rows(p.triangles, target_.triangle);
+  rows(p.uv_corner, target_.own_uv);
+  rows(p.own_uv, target_.own_uv);
+  if (target_.begin.size() < PatchTarget::kArrays) return;
+  rows(p.inner_previous, target_.inner);
+  rows(p.triangle_previous, target_.triangle);
+}
+
+}  // namespace st

@@ -1,0 +1,191 @@
+#include "mesh/patch_blocks.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/morton.h"
+#include "base/radix_sort.h"
+#include "base/threads.h"
+
+namespace st {
+namespace {
+
+bool meet(const Box3& a, const Box3& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+         b.lo.z <= a.hi.z;
+}
+
+/// Numbers of the triangles along a curve that fills the box of all: neighbours follow each other.
+std::vector<std::int32_t> along_curve(std::span<const Box3> boxes) {
+  constexpr double kCells = 1 << 10;  // per axis
+  Box3 all;
+  for (const Box3& b : boxes) all.add(b);
+  const Vec3 extent = all.hi - all.lo;
+  const auto cell = [&](double lo, double hi, double from, double size) {
+    return size > 0 ? static_cast<std::uint32_t>(std::clamp((0.5 * (lo + hi) - from) / size * kCells, 0.0, kCells - 1)) : 0;
+  };
+  std::vector<std::uint64_t> keys(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Box3& b = boxes[i];
+    keys[i] = morton::encode({cell(b.lo.x, b.hi.x, all.lo.x, extent.x), cell(b.lo.y, b.hi.y, all.lo.y, extent.y),
+                              cell(b.lo.z, b.hi.z, all.lo.z, extent.z)}) << 32 | i;
+  }
+  sort_unique(keys);
+  std::vector<std::int32_t> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t k) { return static_cast<std::int32_t>(k); });
+  return order;
+}
+
+}  // namespace
+
+Vec3 node_place(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p, NodeId n) {
+  if (n >= p.n_boundary) return p.inner_xyz[n - p.n_boundary];
+  if (p.boundary_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex)) return vertex_xyz[p.boundary_entity[n]];
+  return edges.node_xyz[edges.first_node(p.boundary_entity[n]) + p.boundary_index[n]];
+}
+
+std::vector<Vec3> node_places(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
+  std::vector<Vec3> xyz;
+  xyz.reserve(p.n_boundary + p.inner_xyz.size());
+  for (std::int32_t i = 0; i < p.n_boundary; ++i) xyz.push_back(node_place(edges, vertex_xyz, p, i));
+  xyz.insert(xyz.end(), p.inner_xyz.begin(), p.inner_xyz.end());
+  return xyz;
+}
+
+std::int64_t boundary_key(EntityDim dim, std::int32_t entity, std::int32_t index) {
+  return std::int64_t{dim != EntityDim::kVertex} << 62 | std::int64_t{entity} << 31 | index;
+}
+
+std::int64_t boundary_key(const FacePatch& p, std::int32_t i) {
+  return boundary_key(static_cast<EntityDim>(p.boundary_dim[i]), p.boundary_entity[i], p.boundary_index[i]);
+}
+
+PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
+  constexpr std::size_t kPerPiece = 65'536;
+  const std::size_t n = p.triangles.size();
+  if (n == 0) return;
+  std::vector<Box3> boxes(n);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (const NodeId node : p.triangles[t].n) boxes[t].add(node_place(edges, vertex_xyz, p, node));
+  });
+  order_ = along_curve(boxes);
+  levels_.emplace_back((n + kTriangles - 1) / kTriangles);
+  for (std::size_t i = 0; i < n; ++i) levels_[0][i / kTriangles].add(boxes[order_[i]]);
+  build();
+}
+
+PatchBlocks::PatchBlocks(std::vector<Box3> boxes) {
+  if (boxes.empty()) return;
+  levels_.push_back(std::move(boxes));
+  build();
+}
+
+void PatchBlocks::build() {
+  while (levels_.back().size() > 1) {
+    const std::vector<Box3>& below = levels_.back();
+    std::vector<Box3> above((below.size() + 1) / 2);
+    for (std::size_t i = 0; i < below.size(); ++i) above[i / 2].add(below[i]);
+    levels_.push_back(std::move(above));
+  }
+}
+
+std::vector<PatchBlocks::Meeting> PatchBlocks::meeting(const PatchBlocks& other) const {
+  struct Place {
+    std::int32_t level, index;
+  };
+  std::vector<Box3> others(size());
+  std::vector<std::pair<Place, Place>> open;
+  if (!levels_.empty() && !other.levels_.empty())
+    open.push_back({{static_cast<std::int32_t>(levels_.size()) - 1, 0},
+                    {static_cast<std::int32_t>(other.levels_.size()) - 1, 0}});
+  const auto for_each_child = [](const PatchBlocks& tree, Place p, const auto& visit) {
+    const auto n = static_cast<std::int32_t>(tree.levels_[p.level - 1].size());
+    for (std::int32_t i = 2 * p.index; i < std::min(n, 2 * p.index + 2); ++i) visit(Place{p.level - 1, i});
+  };
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    if (!meet(levels_[a.level][a.index], other.levels_[b.level][b.index])) continue;
+    if (a.level == 0 && b.level == 0)
+      others[a.index].add(other.levels_[0][b.index]);
+    else if (a.level >= b.level)
+      for_each_child(*this, a, [&, other_one = b](Place child) { open.push_back({child, other_one}); });
+    else
+      for_each_child(other, b, [&, own = a](Place child) { open.push_back({own, child}); });
+  }
+  std::vector<Meeting> blocks;
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (!others[i].is_empty()) blocks.push_back({i, others[i]});
+  return blocks;
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const Box3> boxes) {
+  Box3 all;
+  std::vector<std::int32_t> order;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].is_empty()) continue;
+    order.push_back(static_cast<std::int32_t>(i));
+    all.add(boxes[i]);
+  }
+  const Vec3 extent = all.hi - all.lo;
+  const auto along = [&](const Vec3& x) {
+    return extent.x >= extent.y && extent.x >= extent.z ? x.x : extent.y >= extent.z ? x.y : x.z;
+  };
+  std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
+    return std::pair(along(boxes[i].lo), i) < std::pair(along(boxes[j].lo), j);
+  });
+  std::vector<std::int32_t> open;
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (const std::int32_t i : order) {
+    std::erase_if(open, [&](std::int32_t j) { return along(boxes[j].hi) < along(boxes[i].lo); });
+    for (const std::int32_t j : open)
+      if (meet(boxes[i], boxes[j])) pairs.push_back(std::minmax(i, j));
+    open.push_back(i);
+  }
+  return pairs;
+}
+
+PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near) {
+  PatchPart part;
+  for (const PatchBlocks::Meeting& m : near) {
+    Box3 all;
+    for (const std::int32_t t : blocks.triangles(m.block)) {
+      Vec3 x[3];
+      Box3 box;
+      for (int k = 0; k < 3; ++k) box.add(x[k] = node_place(edges, vertex_xyz, p, p.triangles[t].n[k]));
+      if (!meet(box, m.others)) continue;
+      all.add(box);
+      for (int k = 0; k < 3; ++k) {
+        if (const NodeId n = p.triangles[t].n[k]; n < p.n_boundary) {
+          part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
+          part.key.push_back(boundary_key(p, n));
+        }
+        part.xyz.push_back(x[k]);
+      }
+      part.triangle.push_back(t);
+    }
+    if (!all.is_empty()) part.boxes.push_back(all);
+  }
+  return part;
+}
+
+TwoParts join_parts(const PatchPart& a, const PatchPart& b) {
+  TwoParts both{a.xyz, {}};
+  both.points.insert(both.points.end(), b.xyz.begin(), b.xyz.end());
+  const auto n_a = static_cast<NodeId>(a.xyz.size());
+  std::vector<NodeId> node(both.points.size());
+  std::iota(node.begin(), node.end(), 0);
+  std::vector<std::pair<std::int64_t, NodeId>> on_boundary;
+  for (std::size_t i = 0; i < a.key.size(); ++i) on_boundary.push_back({a.key[i], a.corner[i]});
+  for (std::size_t i = 0; i < b.key.size(); ++i) on_boundary.push_back({b.key[i], n_a + b.corner[i]});
+  std::sort(on_boundary.begin(), on_boundary.end());
+  for (std::size_t i = 1; i < on_boundary.size(); ++i)
+    if (on_boundary[i].first == on_boundary[i - 1].first) node[on_boundary[i].second] = node[on_boundary[i - 1].second];
+  for (std::size_t i = 0; i < node.size(); i += 3) both.triangles.push_back({{node[i], node[i + 1], node[i + 2]}});
+  return both;
+}
+
+}  // namespace st

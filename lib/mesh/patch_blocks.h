@@ -1,0 +1,86 @@
+// Where two patches are near each other, by boxes of some triangles each.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+#include "mesh/surface_mesh.h"
+
+namespace st {
+
+/// Place of a patch's node: on a vertex, on an edge, or inside.
+Vec3 node_place(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p, NodeId n);
+/// Of all its nodes, boundary nodes first.
+std::vector<Vec3> node_places(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p);
+
+/// What a node on a vertex or edge has in all patches, ascending by (dimension, entity, index); nodes of an edge that
+/// follow each other differ by 1.
+std::int64_t boundary_key(EntityDim dim, std::int32_t entity, std::int32_t index);
+std::int64_t boundary_key(const FacePatch& p, std::int32_t boundary_node);
+
+/// Boxes of a patch's triangles, some neighbours each, and a tree over these.
+class PatchBlocks {
+ public:
+  static constexpr std::int32_t kTriangles = 64;  ///< of a block; the last has the rest
+
+  PatchBlocks() = default;
+  /// Linear.
+  PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p);
+  /// Of some blocks alone.
+  explicit PatchBlocks(std::vector<Box3> boxes);
+
+  std::int32_t size() const { return levels_.empty() ? 0 : static_cast<std::int32_t>(levels_[0].size()); }
+  const Box3& operator[](std::int32_t block) const { return levels_[0][block]; }
+  /// Places of its triangles in the patch.
+  std::span<const std::int32_t> triangles(std::int32_t block) const {
+    const auto begin = static_cast<std::size_t>(block) * kTriangles;
+    return std::span(order_).subspan(begin, std::min<std::size_t>(kTriangles, order_.size() - begin));
+  }
+  /// Of all; empty where there are no triangles.
+  Box3 box() const { return levels_.empty() ? Box3() : levels_.back()[0]; }
+  struct Meeting {
+    std::int32_t block;
+    Box3 others;  ///< over the blocks that it meets
+  };
+  /// Blocks that meet a block of the other, ascending.
+  std::vector<Meeting> meeting(const PatchBlocks& other) const;
+  std::vector<Meeting> meeting(const Box3& box) const { return meeting(PatchBlocks(std::vector<Box3>{box})); }
+
+ private:
+  void build();
+  std::vector<std::int32_t> order_;        // triangles by block
+  std::vector<std::vector<Box3>> levels_;  // [0] the blocks; each box of the next one is over two of these
+};
+
+/// Every two boxes that meet, once, the lower number first; empty ones meet none. A sweep along the longest axis.
+std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const Box3> boxes);
+
+/// Some triangles of a patch.
+struct PatchPart {
+  std::vector<std::int32_t> triangle;  ///< places in the patch
+  std::vector<Vec3> xyz;               ///< [3*n_triangles] of the corners
+  std::vector<std::int32_t> corner;    ///< ascending: corners on the boundary
+  std::vector<std::int64_t> key;       ///< likewise, their boundary_key()
+  std::vector<Box3> boxes;             ///< of some of them each, together of all
+
+  static auto fields(auto& p) { return std::tie(p.triangle, p.xyz, p.corner, p.key, p.boxes); }
+};
+
+/// The triangles of the blocks `near` that meet the boxes there. Linear in these.
+PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near);
+
+/// Two parts of different faces as one mesh: those of `a`, then those of `b`, with common nodes where both are on the
+/// boundary. Corners elsewhere have nodes of their own, whoever shares them within a part.
+struct TwoParts {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+};
+TwoParts join_parts(const PatchPart& a, const PatchPart& b);
+
+}  // namespace st
