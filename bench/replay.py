@@ -8,7 +8,9 @@ TRACE: what `st-mesh --trace` wrote with one rank and one thread. Processor time
 What is replayed, with one processor for each thread:
 - tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
 - a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
+- what a task asks of others is on another rank as often as chance has it;
 - a broadcast goes through a tree; all wait for what rank 0 does alone. Its threads share loops, but no piece of one.
+  So do threads that are idle when a task begins. Requested lengths, and rows of patches, are each rank's own.
 --times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
 --validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one, also with
 tasks as much slower as they were there: two processors of a machine share caches and memory.
@@ -27,8 +29,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 
+EVERYWHERE = {"requests", "rows"}  # phases in which each rank works on its own patches
+
+
 class Call:
-    """Tasks, (seconds, bytes, name, id) in order of their start, and what collecting their results took rank 0."""
+    """Tasks, (seconds, bytes, name, id, of the seconds in loops, longest pieces, bytes asked for) in order of their
+    start, and what collecting their results took rank 0."""
 
     def __init__(self):
         self.tasks, self.collect = [], 0.0
@@ -48,7 +54,9 @@ class Trace:
             if row["event"] == "task":
                 if call not in calls:
                     self.steps.append(("call", row["name"], calls[call]))
-                calls[call].tasks.append((processor, int(row["bytes"]), row["name"], row["id"]))
+                calls[call].tasks.append((processor, int(row["bytes"]), row["name"], row["id"],
+                                          *(min(processor, float(row[k])) for k in ("loops", "longest")),
+                                          int(row["asked"])))
             elif row["event"] == "collect":
                 calls[call].collect = processor
                 self.end += start - before
@@ -71,6 +79,9 @@ class Trace:
         parts, loops = defaultdict(float), 0.0
         for kind, name, what in self.steps:
             if kind == "serial":
+                if name in EVERYWHERE:
+                    parts["not alone: " + name] += what[0]
+                    continue
                 parts[name] += what[0]
                 loops += what[1]
             elif kind == "call":
@@ -85,6 +96,13 @@ class Machine:
     def wire(self, rank, n_bytes=0):
         return 0.0 if rank == 0 else self.options.latency + n_bytes / self.options.bandwidth
 
+    def seconds(self, task, n_idle):
+        """Of a task, whose loops so many idle threads share."""
+        seconds, _, _, _, loops, longest, asked = task
+        shared = seconds - loops + max(loops / (1 + n_idle), longest)
+        far = asked * (self.ranks - 1) / self.ranks
+        return self.slower * shared + (2 * self.options.latency + far / self.options.bandwidth if far else 0.0)
+
     def run_call(self, begin, call):
         """Time when all results are collected."""
         tasks = call.tasks * self.options.times
@@ -93,10 +111,14 @@ class Machine:
         events, n_given, n_events = [], 0, 0
         main_free, ends, debt = begin, [begin], 0.0  # of rank 0's main thread; its processor owes the debt to its tasks
 
+        share = len(tasks) / self.ranks  # tasks of a rank, when there are few
+        n_idle = self.threads / share - 1 if 0 < share < self.threads else 0.0
+        n_idle = min(n_idle, self.threads - 1)
+
         def give(rank, time):
             nonlocal n_given, n_events
             if n_given < len(tasks):
-                seconds = self.slower * tasks[n_given][0]
+                seconds = self.seconds(tasks[n_given], n_idle)
                 heapq.heappush(events, (time + self.wire(rank) + seconds, n_events, rank, n_given))
                 n_given += 1
                 n_events += 1
@@ -127,11 +149,12 @@ class Machine:
 
     def run(self, trace):
         time = 0.0
-        for kind, _, what in trace.steps:
+        for kind, name, what in trace.steps:
             if kind == "serial":
                 seconds, in_loops, longest = what
+                n = self.threads * (self.ranks if name in EVERYWHERE else 1)
                 time += (seconds - in_loops) * self.options.times
-                time += max(in_loops * self.options.times / self.threads, longest)
+                time += max(in_loops * self.options.times / n, longest)
             elif kind == "broadcast":
                 time += math.ceil(math.log2(self.ranks)) * self.wire(1, what * self.options.times)
             else:
@@ -145,8 +168,9 @@ def tell(trace, options):
     heaviest = max(tasks)
     print(f"{len(tasks)} tasks, {work:.3f} s; heaviest: {heaviest[2]} {heaviest[3]}, {heaviest[0]:.3f} s, "
           f"{100 * heaviest[0] / work:.1f} %")
+    alone = sum(seconds for name, seconds in serial.items() if not name.startswith("not alone"))
     print("rank 0 alone: " + ", ".join(f"{name} {seconds:.3f}" for name, seconds in serial.items()) +
-          f"; {sum(serial.values()):.3f} s, of them {loops:.3f} in loops over threads")
+          f"; {alone:.3f} s alone, of them {loops:.3f} in loops over threads")
     first = Machine(1, 1, options).run(trace)
     print("| ranks | threads | seconds | speed-up |\n|--:|--:|--:|--:|")
     for n in options.ranks:

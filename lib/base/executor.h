@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -82,6 +83,8 @@ class Executor {
         static_cast<std::int32_t>(tasks.order.size()), tasks.order,
         [&](std::int32_t task) { return tasks.kept(task, compute(task)); }, collect);
   }
+  /// Local, within a task: it did not ask() for so many bytes, because they were on this rank.
+  virtual void has_own(std::size_t n_bytes) const { static_cast<void>(n_bytes); }
   /// Within `compute` of run_named_tasks: what NamedTasks::answer of these other ranks returns, in their order. Waits.
   virtual std::vector<Bytes> ask(const std::vector<Request>& requests) const {
     if (!requests.empty()) throw std::logic_error("ask: there is no other rank");

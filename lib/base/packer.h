@@ -23,6 +23,8 @@ concept HasFields = requires(T& x) {
 /// Appends values to a byte buffer: plain old data, structs with fields, and vectors of both.
 class Packer {
  public:
+  /// Room for so many bytes: nothing is moved while they come.
+  void reserve(std::size_t n) { bytes_.reserve(n); }
   template <class T>
   void add(const T& value) {
     if constexpr (HasFields<T>) {
@@ -97,9 +99,32 @@ class Unpacker {
   std::size_t position_ = 0;
 };
 
+/// Bytes of values as Packer adds them.
+struct PackedSize {
+  template <class T>
+  static std::size_t of(const T& value) {
+    if constexpr (HasFields<T>)
+      return std::apply([](const auto&... field) { return (std::size_t{0} + ... + of(field)); }, T::fields(value));
+    else
+      return sizeof value;
+  }
+  static std::size_t of(const std::string& text) { return sizeof(std::uint64_t) + text.size(); }
+  template <class T>
+  static std::size_t of(const std::vector<T>& values) {
+    std::size_t n = sizeof(std::uint64_t);
+    if constexpr (HasFields<T>) {
+      for (const T& value : values) n += of(value);
+    } else {
+      n += values.size() * sizeof(T);
+    }
+    return n;
+  }
+};
+
 template <class... Values>
 Bytes packed(const Values&... values) {
   Packer packer;
+  packer.reserve((std::size_t{0} + ... + PackedSize::of(values)));
   (packer.add(values), ...);
   return packer.take();
 }

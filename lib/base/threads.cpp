@@ -45,6 +45,8 @@ class LoopTimer {
   LoopTimer(const LoopTimer&) = delete;
   LoopTimer& operator=(const LoopTimer&) = delete;
 
+  static LoopSeconds here() { return t_timer ? t_timer->inner_ : t_loops; }
+
  private:
   LoopTimer* const outer_;
   const bool is_counted_;
@@ -197,7 +199,7 @@ void parallel_for(std::size_t n, std::size_t grain,
   loop.rethrow();
 }
 
-LoopSeconds seconds_in_loops() { return t_loops; }
+LoopSeconds seconds_in_loops() { return LoopTimer::here(); }
 
 void run_jobs(const std::vector<std::function<void()>>& jobs) {
   parallel_for(jobs.size(), 1, [&](std::size_t i, std::size_t) { jobs[i](); });

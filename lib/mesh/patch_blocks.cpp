@@ -1,6 +1,7 @@
 #include "mesh/patch_blocks.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -16,23 +17,24 @@ bool meet(const Box3& a, const Box3& b) {
          b.lo.z <= a.hi.z;
 }
 
-/// Numbers of the triangles along a curve that fills the box of all: neighbours follow each other.
-std::vector<std::int32_t> along_curve(std::span<const Box3> boxes) {
+/// Numbers of points along a curve that fills their box: neighbours follow each other.
+std::vector<std::int32_t> along_curve(std::size_t n, const Box3& box,
+                                      const std::function<Vec3(std::size_t point)>& place) {
+  constexpr std::size_t kPerPiece = 65'536;
   constexpr double kCells = 1 << 10;  // per axis
-  Box3 all;
-  for (const Box3& b : boxes) all.add(b);
-  const Vec3 extent = all.hi - all.lo;
-  const auto cell = [&](double lo, double hi, double from, double size) {
-    return size > 0 ? static_cast<std::uint32_t>(std::clamp((0.5 * (lo + hi) - from) / size * kCells, 0.0, kCells - 1)) : 0;
+  const Vec3 extent = box.hi - box.lo;
+  const auto cell = [&](double x, double size) {
+    return size > 0 ? static_cast<std::uint32_t>(std::clamp(x / size * kCells, 0.0, kCells - 1)) : 0;
   };
-  std::vector<std::uint64_t> keys(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Box3& b = boxes[i];
-    keys[i] = morton::encode({cell(b.lo.x, b.hi.x, all.lo.x, extent.x), cell(b.lo.y, b.hi.y, all.lo.y, extent.y),
-                              cell(b.lo.z, b.hi.z, all.lo.z, extent.z)}) << 32 | i;
-  }
+  std::vector<std::uint64_t> keys(n);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 x = place(i) - box.lo;
+      keys[i] = morton::encode({cell(x.x, extent.x), cell(x.y, extent.y), cell(x.z, extent.z)}) << 32 | i;
+    }
+  });
   sort_unique(keys);
-  std::vector<std::int32_t> order(keys.size());
+  std::vector<std::int32_t> order(n);
   std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t k) { return static_cast<std::int32_t>(k); });
   return order;
 }
@@ -62,17 +64,20 @@ std::int64_t boundary_key(const FacePatch& p, std::int32_t i) {
 }
 
 PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
-  constexpr std::size_t kPerPiece = 65'536;
+  constexpr std::size_t kPerPiece = 1024;  // blocks
   const std::size_t n = p.triangles.size();
   if (n == 0) return;
-  std::vector<Box3> boxes(n);
-  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (const NodeId node : p.triangles[t].n) boxes[t].add(node_place(edges, vertex_xyz, p, node));
-  });
-  order_ = along_curve(boxes);
+  const auto corner = [&](std::size_t t, int k) { return node_place(edges, vertex_xyz, p, p.triangles[t].n[k]); };
+  Box3 box;
+  for (std::int32_t i = 0; i < p.n_boundary; ++i) box.add(node_place(edges, vertex_xyz, p, i));
+  for (const Vec3& x : p.inner_xyz) box.add(x);
+  order_ = along_curve(n, box, [&](std::size_t t) { return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3; });
   levels_.emplace_back((n + kTriangles - 1) / kTriangles);
-  for (std::size_t i = 0; i < n; ++i) levels_[0][i / kTriangles].add(boxes[order_[i]]);
+  parallel_for(levels_[0].size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      for (const std::int32_t t : triangles(static_cast<std::int32_t>(b)))
+        for (int k = 0; k < 3; ++k) levels_[0][b].add(corner(t, k));
+  });
   build();
 }
 

@@ -149,16 +149,15 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(
       model, topology, *sizing.field, std::move(plan),
-      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, resumption.left_out(), o.time_limit},
+      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, resumption.left_out(), o.time_limit,
+       WhenLate::kSignal, PatchesGo::kNowhere},
       resumption);
   resumption.end();
   trace.begin_phase("write");
-  StageSummary summary;
-  if (comm.is_root()) {
-    summary = write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
-                                   {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
-    resumption.remove();
-  }
+  StageSummary summary =
+      write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
+                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()}, trace);
+  if (comm.is_root()) resumption.remove();
   trace.write();
   return summary;
 }

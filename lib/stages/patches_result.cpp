@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "base/error.h"
+#include "base/share.h"
+#include "base/threads.h"
 #include "io/file/json_text.h"
 #include "io/hdf5/failure_artifact.h"
+#include "io/hdf5/patches_writer.h"
 
 namespace st {
 namespace {
@@ -74,8 +79,59 @@ ArtifactHeader complete(ArtifactHeader header, const ArtifactHeader& geometry) {
   return header;
 }
 
-/// Takes edges and patches out of the result. Faces without triangles have no patch.
-PatchesArtifact take_patches(const ModelTables& t, const ArtifactHeader& header, const MeshTopology& topology,
+/// Of all faces that have triangles.
+std::vector<PatchCounts> counts_of(const MeshResult& r) {
+  std::vector<PatchCounts> counts;
+  for (std::size_t f = 0; f < r.patches.size(); ++f) {
+    if (!r.places.empty() && r.places[f].is_there()) {
+      const PatchPlace& p = r.places[f];
+      counts.push_back({static_cast<FaceId>(f), p.n_boundary, p.n_inner, p.n_triangles, p.n_own_uv});
+    } else if (r.places.empty() && !r.patches[f].triangles.empty()) {
+      counts.push_back(st::counts_of(r.patches[f]));
+    }
+  }
+  return counts;
+}
+
+/// Local, on each rank: its patches into their places. What went wrong, or nothing.
+std::string write_own_patches(const PatchTarget& target, const std::vector<FacePatch>& patches) {
+  try {
+    PatchRowsFile rows(target);
+    parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+      if (!patches[i].triangles.empty()) rows.write(patches[i]);
+    });
+    rows.close();
+  } catch (const Error& e) {
+    if (e.code() != ExitCode::kOutput) throw;
+    return e.what();
+  }
+  return "";
+}
+
+/// Collective. Returns the content hash on rank 0.
+std::string write_everywhere(const std::string& path, const PatchesArtifact& rest,
+                             const std::vector<PatchCounts>& counts, const std::vector<FacePatch>& patches,
+                             const Executor& executor) {
+  std::optional<PatchesWriter> writer;
+  PatchTarget target;
+  if (executor.is_root()) {
+    writer.emplace(path, rest, counts);
+    target = writer->target();
+  }
+  share(executor, target);
+  executor.begin_phase("rows");  // each rank its own
+  const std::string own = write_own_patches(target, patches);
+  for (const Bytes& bytes : executor.gather(Bytes(packed(own)))) {
+    std::string failure;
+    unpack(bytes, failure);
+    if (!failure.empty()) throw Error(ExitCode::kOutput, failure);
+  }
+  executor.begin_phase("write");
+  return executor.is_root() ? writer->commit() : "";
+}
+
+/// Takes edges out of the result: all but the patches.
+PatchesArtifact take_rest(const ModelTables& t, const ArtifactHeader& header, const MeshTopology& topology,
                              MeshResult& r) {
   PatchesArtifact out;
   out.header = header;
@@ -83,12 +139,10 @@ PatchesArtifact take_patches(const ModelTables& t, const ArtifactHeader& header,
   out.vertex_xyz = t.vertex_xyz;
   out.edge_vertices = topology.tables().edge_vertices;
   out.merged = topology.merged();
-  out.patches = std::move(r.patches);
   out.failures = r.failures;
   out.labels = t.labels;
   out.face_shell = t.face_shell;
   out.face_area = t.face_area;
-  std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });
   return out;
 }
 
@@ -133,51 +187,70 @@ nlohmann::json result_json(const ModelTables& t, const MeshResult& r) {
           {"seconds_crossing", r.times.join + r.times.crossing}};
 }
 
-}  // namespace
+/// What came of it.
+struct Written {
+  std::size_t n_patches = 0;
+  std::int64_t n_triangles = 0, n_nodes = 0;
+  std::string hash, failures_file;
+  double seconds = 0;
+};
 
-StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
-                                  ArtifactHeader header, const MeshTopology& topology, MeshResult result,
-                                  const RunFacts& facts) {
-  header = complete(std::move(header), geometry);
-  PatchesArtifact out = take_patches(t, header, topology, result);
-  const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
-  out.is_complete = static_cast<std::int32_t>(out.patches.size() + closed.size()) == t.n_faces();
-  std::size_t n_triangles = 0, n_nodes = 0;
-  for (const FacePatch& p : out.patches) {
-    n_triangles += p.triangles.size();
-    n_nodes += p.inner_xyz.size();
-  }
-  const Timer write_timer;
-  const std::string hash = write_patches(path, out);
-  const std::string failures_file = write_failed_faces(path, header, t, result);
-  const double write_seconds = write_timer.seconds(), seconds = facts.timer.seconds();
-  warn(t, result, failures_file);
-  tell_merged(t, out.merged, closed.size());
-
+StageSummary summary_of(const std::string& path, const ModelTables& t, const ArtifactHeader& header,
+                        const nlohmann::json& merged, const MeshResult& result, const Written& w,
+                        const RunFacts& facts) {
   StageSummary s;
+  const double seconds = facts.timer.seconds();
   const bool is_sound = std::all_of(result.failures.begin(), result.failures.end(),
                                     [](const FaceFailure& f) { return f.is_closed && f.is_near; });
   s.code = is_sound ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
-                       n_triangles, out.patches.size(), t.n_faces(), result.n_rounds, seconds, facts.n_ranks,
-                       seconds > 0 ? static_cast<double>(n_triangles) / seconds : 0.0);
+                       w.n_triangles, w.n_patches, t.n_faces(), result.n_rounds, seconds, facts.n_ranks,
+                       seconds > 0 ? static_cast<double>(w.n_triangles) / seconds : 0.0);
   nlohmann::json json = result_json(t, result);
   json.update({{"tool", header.tool},
                {"output", path},
-               {"triangles", n_triangles},
-               {"inner_nodes", n_nodes},
-               {"faces_meshed", out.patches.size()},
-               {"failures_file", failures_file},
-               {"merged", merged_json(t, out.merged, closed)},
+               {"triangles", w.n_triangles},
+               {"inner_nodes", w.n_nodes},
+               {"faces_meshed", w.n_patches},
+               {"failures_file", w.failures_file},
+               {"merged", merged},
                {"ranks", facts.n_ranks},
                {"parts", facts.n_parts},
                {"parts_resumed", facts.n_resumed},
                {"seconds", seconds},
                {"seconds_load", facts.load_seconds},
-               {"seconds_write", write_seconds},
-               {"hash", hash}});
+               {"seconds_write", w.seconds},
+               {"hash", w.hash}});
   s.json = json_text(json);
   return s;
+}
+
+}  // namespace
+
+StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
+                                  ArtifactHeader header, const MeshTopology& topology, MeshResult result,
+                                  const RunFacts& facts, const Executor& executor) {
+  const SerialExecutor alone;
+  const bool is_everywhere = !result.places.empty();
+  header = complete(std::move(header), geometry);
+  PatchesArtifact out = take_rest(t, header, topology, result);
+  const std::vector<PatchCounts> counts = counts_of(result);
+  const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
+  out.is_complete = static_cast<std::int32_t>(counts.size() + closed.size()) == t.n_faces();
+  Written written;
+  written.n_patches = counts.size();
+  for (const PatchCounts& c : counts) {
+    written.n_triangles += c.n_triangles;
+    written.n_nodes += c.n_inner;
+  }
+  const Timer write_timer;
+  written.hash = write_everywhere(path, out, counts, result.patches, is_everywhere ? executor : alone);
+  if (is_everywhere && !executor.is_root()) return {};
+  written.failures_file = write_failed_faces(path, header, t, result);
+  written.seconds = write_timer.seconds();
+  warn(t, result, written.failures_file);
+  tell_merged(t, out.merged, closed.size());
+  return summary_of(path, t, header, merged_json(t, out.merged, closed), result, written, facts);
 }
 
 }  // namespace st

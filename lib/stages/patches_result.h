@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/executor.h"
 #include "base/log.h"
 #include "io/hdf5/artifact.h"
 #include "meshing/engine/mesh_result.h"
@@ -19,10 +20,11 @@ struct RunFacts {
   std::int64_t n_parts = 0, n_resumed = 0;  ///< faces and tiles, once per round; and those of an earlier run
 };
 
-/// Local, on rank 0. Completes `header` (tool, options and inputs are the caller's), writes the artifact, warns of
-/// every face without a patch.
+/// Collective where patches are on the ranks that made them, and each rank writes its own; else local, on rank 0.
+/// Completes `header` (tool, options and inputs are the caller's), writes the artifact, warns of every face without a
+/// patch. The summary is of rank 0.
 StageSummary write_patches_result(const std::string& path, const ModelTables& tables, const ArtifactHeader& geometry,
                                   ArtifactHeader header, const MeshTopology& topology, MeshResult result,
-                                  const RunFacts& facts);
+                                  const RunFacts& facts, const Executor& executor);
 
 }  // namespace st

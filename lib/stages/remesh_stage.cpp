@@ -297,7 +297,7 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
   number_as_in_file(in, r.edges.node_previous, none);
   for (FacePatch& p : r.patches) number_as_in_file(in, p.inner_previous, p.triangle_previous);
   return write_patches_result(o.output, in.model.tables(), in.geometry, output_header(o, in, holes),
-                              holes.mesh().topology, std::move(r), facts);
+                              holes.mesh().topology, std::move(r), facts, SerialExecutor());
 }
 
 /// Local, on rank 0.

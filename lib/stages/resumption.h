@@ -50,6 +50,7 @@ class Resumption : public Executor {
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override {
     inner_.run_tasks(n_tasks, order, compute, collect);
   }
+  void has_own(std::size_t n_bytes) const override { inner_.has_own(n_bytes); }
   std::vector<Bytes> ask(const std::vector<Request>& requests) const override { return inner_.ask(requests); }
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                        const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;

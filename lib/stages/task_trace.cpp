@@ -10,6 +10,11 @@
 #include "io/file/text_file.h"
 
 namespace st {
+namespace {
+
+thread_local std::uint64_t t_asked = 0;  // bytes
+
+}  // namespace
 
 TaskTrace::TaskTrace(const Executor& inner, std::string path) : inner_(inner), path_(std::move(path)) {
   begin_serial();
@@ -74,8 +79,13 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     Row row{"task", label.kind, label.id + 1, label.part, call, rank()};
     row.start = clock_.seconds();
     const double before = thread_seconds();
+    const LoopSeconds loops = seconds_in_loops();
+    t_asked = 0;
     Bytes result = tasks.kept(task, compute(task));
     row.processor = thread_seconds() - before;
+    row.asked = t_asked;
+    row.loops = seconds_in_loops().all - loops.all;
+    row.longest = seconds_in_loops().longest - loops.longest;
     row.wall = clock_.seconds() - row.start;
     row.bytes = result.size();
     const std::lock_guard lock(mutex_);
@@ -99,6 +109,14 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
   rows_.push_back(row);
 }
 
+void TaskTrace::has_own(std::size_t n_bytes) const { t_asked += n_bytes; }
+
+std::vector<Bytes> TaskTrace::ask(const std::vector<Request>& requests) const {
+  std::vector<Bytes> answers = inner_.ask(requests);
+  for (const Bytes& bytes : answers) t_asked += bytes.size();
+  return answers;
+}
+
 void TaskTrace::write() {
   end_serial();
   if (path_.empty()) return;
@@ -117,12 +135,12 @@ void TaskTrace::write() {
 }
 
 void TaskTrace::write_rows(const std::vector<Row>& rows) const {
-  std::string text = "event,name,id,part,call,rank,thread,start,wall,processor,bytes,loops,longest\n";
+  std::string text = "event,name,id,part,call,rank,thread,start,wall,processor,bytes,asked,loops,longest\n";
   const auto number = [](std::int32_t n) { return n == kNothing ? "" : std::to_string(n); };
   for (const Row& r : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{:.6f},{:.6f}\n", r.event, r.name, number(r.id),
-                        number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes, r.loops,
-                        r.longest);
+    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.6f}\n", r.event, r.name, number(r.id),
+                        number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes, r.asked,
+                        r.loops, r.longest);
   write_text_file(path_, text);
 }
 

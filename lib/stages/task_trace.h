@@ -36,7 +36,8 @@ class TaskTrace : public Executor {
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                        const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
-  std::vector<Bytes> ask(const std::vector<Request>& requests) const override { return inner_.ask(requests); }
+  void has_own(std::size_t n_bytes) const override;
+  std::vector<Bytes> ask(const std::vector<Request>& requests) const override;
   void begin_phase(const char* name) const override;
 
  private:
@@ -46,11 +47,12 @@ class TaskTrace : public Executor {
     std::int32_t call = 0, rank = 0, thread = 0;
     double start = 0, wall = 0, processor = 0;  // seconds
     std::uint64_t bytes = 0;                    // of the result, or sent to each rank
+    std::uint64_t asked = 0;                    // of other tasks' results, wherever they were
     double loops = 0, longest = 0;              // see LoopSeconds
 
     static auto fields(auto& r) {
       return std::tie(r.event, r.name, r.id, r.part, r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes,
-                      r.loops, r.longest);
+                      r.asked, r.loops, r.longest);
     }
   };
   static constexpr std::int32_t kNothing = -1;

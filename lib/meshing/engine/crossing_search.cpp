@@ -138,10 +138,14 @@ struct CrossingSearch::Search {
 
   /// What of `f` is near `other`, a patch of this rank, whoever has `f`.
   PatchPart near_own(FaceId f, const StoredPatch& other) const {
-    if (store.is_own(places[f])) return near(f, other.blocks);
+    PatchPart part;
+    if (store.is_own(places[f])) {
+      part = near(f, other.blocks);
+      executor.has_own(PackedSize::of(part));
+      return part;
+    }
     std::vector<Box3> boxes;
     for (const PatchBlocks::Meeting& m : other.blocks.meeting(places[f].box)) boxes.push_back(other.blocks[m.block]);
-    PatchPart part;
     if (!boxes.empty()) unpack(executor.ask({{places[f].rank, packed(f, boxes)}})[0], part);
     return part;
   }

@@ -88,7 +88,11 @@ FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const F
   std::vector<Request> requests;
   std::vector<std::int32_t> missing;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (tiles_[i].region != region || rank_of_[i] == executor.rank()) continue;
+    if (tiles_[i].region != region) continue;
+    if (rank_of_[i] == executor.rank()) {
+      executor.has_own(PackedSize::of(meshes[tiles_[i].index]));
+      continue;
+    }
     requests.push_back({rank_of_[i], packed(tiles_[i])});
     missing.push_back(tiles_[i].index);
   }

@@ -37,6 +37,21 @@ TEST(Packer, gives_back_what_was_added_in_order) {
   EXPECT_THROW(unpacker.get(number), std::runtime_error);
 }
 
+struct Named {
+  std::string name;
+  std::vector<double> numbers;
+  std::vector<Pair> pairs;
+
+  static auto fields(auto& n) { return std::tie(n.name, n.numbers, n.pairs); }
+};
+
+TEST(Packer, makes_room_once) {
+  const std::vector<Named> values = {{"one", {1, 2, 3}, {{1, 2}}}, {"", {}, {}}};
+  const Bytes bytes = packed(values, 7, std::string("end"));
+  EXPECT_EQ(bytes.size(), PackedSize::of(values) + sizeof(int) + PackedSize::of(std::string("end")));
+  EXPECT_EQ(bytes.capacity(), bytes.size());
+}
+
 TEST(Packer, refuses_a_message_cut_anywhere) {
   Packer packer;
   packer.add(std::vector<double>(10, 1.0));

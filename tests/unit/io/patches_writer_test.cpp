@@ -1,0 +1,55 @@
+// Patches written by several processes into one artifact.
+#include "io/hdf5/patches_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/packer.h"
+#include "unit/io/sample_artifacts.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+std::vector<PatchCounts> counts_of(const PatchesArtifact& a) {
+  std::vector<PatchCounts> counts;
+  for (const FacePatch& p : a.patches) counts.push_back(st::counts_of(p));
+  return counts;
+}
+
+TEST(PatchesWriter, makes_the_bytes_of_one_process_whoever_writes_which_patch) {
+  const TemporaryDirectory dir;
+  const PatchesArtifact a = sample_patches();
+  ASSERT_GT(a.patches.size(), 1u);
+  const std::string hash = write_patches(dir / "one.hdf", a);
+  PatchesArtifact rest = a;
+  rest.patches.clear();
+  PatchesWriter writer(dir / "some.hdf", rest, counts_of(a));
+  const Bytes message = packed(writer.target());  // to another rank
+  PatchTarget there;
+  unpack(message, there);
+  PatchRowsFile here(writer.target()), far(there);
+  for (std::size_t i = a.patches.size(); i-- > 0;) (i % 2 ? here : far).write(a.patches[i]);
+  here.close();
+  far.close();
+  EXPECT_EQ(writer.commit(), hash);
+  EXPECT_EQ(read_bytes(dir / "some.hdf"), read_bytes(dir / "one.hdf"));
+}
+
+TEST(PatchesWriter, leaves_nothing_without_commit) {
+  const TemporaryDirectory dir;
+  const PatchesArtifact a = sample_patches();
+  {
+    const PatchesWriter writer(dir / "p.hdf", a, counts_of(a));
+    PatchRowsFile rows(writer.target());
+    rows.write(a.patches[0]);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(dir / ""));
+}
+
+}  // namespace
+}  // namespace st
