@@ -2,12 +2,15 @@
 """The whole chain on all CAD models of the corpus, judged by st-check and by the independent judge beside the corpus:
 one table.
 
-usage: scripts/corpus_table.py BIN_DIR [--peers] [--models GLOB] [--work DIR] [--format md|tsv] [--from-results]
+usage: scripts/corpus_table.py BIN_DIR [--sizes defaults|peers|coarse|fine] [--folder DIR] [--models GLOB] [--work DIR]
+       [--format md|tsv|verdicts] [--from-results]
 
-BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). One rank, one model
+BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository); --folder is another
+folder of CAD files, such as ../shared/hard. One rank, one model
 at a time; per model at most --time-limit seconds and --memory-limit GB of address space. Seconds in the table are
-processor time. What was measured is kept in --work as one JSON file per model; --from-results prints the table from
-these without running anything. Exit 0 when every model was run to its check, whatever the check says, else 5.
+processor time. Verdicts: one line per model, what both judges say, open and non-manifold edges of the CAD allowed; what
+is said to cross itself in the CAD is named so. What was measured is kept in --work as one JSON file per model;
+--from-results prints the table from these without running anything. Exit 0 when every model was run to its check, whatever the check says, else 5.
 """
 import argparse
 import fnmatch
@@ -25,8 +28,14 @@ ROOT = Path(__file__).resolve().parents[1]
 CORPUS = Path(os.environ.get("ST_CORPUS") or ROOT / "../shared/corpus").resolve()
 JUDGE = CORPUS.parent / "tools" / "meshcheck.sh"
 CAD_SUFFIXES = {".step", ".stp", ".iges", ".igs", ".brep"}
-PEER_SIZES = ["--lmax", "2.5%", "--lmin", "0.0390625%", "--alpha", "10"]  # those of PEERS.tsv
+SIZES = {
+    "defaults": [],
+    "peers": ["--lmax", "2.5%", "--lmin", "0.0390625%", "--alpha", "10"],  # those of PEERS.tsv
+    "coarse": ["--lmax", "10%", "--lmin", "0.5%", "--alpha", "20"],
+    "fine": ["--lmax", "1%", "--lmin", "0.02%"],
+}
 STAGES = ["import", "raster", "prolong", "mesh", "merge", "check"]
+CROSSES_IN_CAD = ("face crosses itself", "faces cross", "face shrinks to a point")
 OK, INCOMPLETE = 0, 5
 
 
@@ -81,7 +90,7 @@ def run_model(model, arguments, folder):
     try:
         result["import"] = chain.stage("import", str(model), "-o", path("geometry"))
         result["raster"] = chain.stage("raster", path("geometry"), "-o", path("raster"),
-                                       *(PEER_SIZES if arguments.peers else []))
+                                       *SIZES[arguments.sizes])
         chain.stage("prolong", path("raster"), "-o", path("sizing"))
         result["mesh"] = chain.stage("mesh", path("geometry"), path("sizing"), "-o", path("patches"),
                                      accept=(OK, INCOMPLETE))
@@ -223,6 +232,36 @@ def print_table(results, layout):
         print("| " + " | ".join(cell.replace("|", "/") for cell in row) + " |")
 
 
+def judges(result):
+    """What st-check and the independent judge find, as lists of words; open edges of the CAD are no defect."""
+    check, judge = result.get("check"), result.get("judge")
+    if not check:
+        return [result.get("stopped", "not checked")], []
+    found = [f"{name} {check['checks'][name]['count']}" for name in check["failed"]]
+    if not judge:
+        return found, ["not judged"]
+    allowed = {"boundary_edges": check["cad_boundary_edges"], "nonmanifold_edges": check["cad_nonmanifold_edges"]}
+    kinds = ("boundary_edges", "nonmanifold_edges", "misoriented_edges", "degenerate", "duplicate_nodes", "folds",
+             "self_intersections")
+    return found, [f"{kind} {judge[kind]}" for kind in kinds if judge[kind] > allowed.get(kind, 0)]
+
+
+def crosses_in_cad(result):
+    """Whether st-import said that the CAD crosses itself."""
+    return any(f["what"].startswith(CROSSES_IN_CAD) for f in (result.get("import") or {}).get("findings", []))
+
+
+def print_verdicts(results):
+    n_passed = n_said = 0
+    for r in results:
+        found, judged = judges(r)
+        n_passed += not found and not judged
+        n_said += bool(found or judged) and crosses_in_cad(r)
+        note = "; st-import says that the CAD crosses itself" if crosses_in_cad(r) else ""
+        print(f"{r['model']}: st-check {', '.join(found) or 'passes'}; judge {', '.join(judged) or 'passes'}{note}")
+    print(f"{n_passed} of {len(results)} pass both, {n_said} more are said to cross themselves in the CAD")
+
+
 def run_all(models, arguments, work):
     for model in models:
         with tempfile.TemporaryDirectory(dir=work) as folder:
@@ -237,11 +276,12 @@ def run_all(models, arguments, work):
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bin_dir")
-    parser.add_argument("--peers", action="store_true", help="the sizes of PEERS.tsv instead of the defaults")
+    parser.add_argument("--sizes", choices=list(SIZES), default="defaults", help="peers: those of PEERS.tsv")
+    parser.add_argument("--folder", type=Path, default=CORPUS, help="of the CAD files")
     parser.add_argument("--models", default="*", help="glob of file names")
     parser.add_argument("--work", default="build/corpus", help="folder for results")
     parser.add_argument("--keep", action="store_true", help="keep the artifacts there, too")
-    parser.add_argument("--format", choices=["md", "tsv"], default="md")
+    parser.add_argument("--format", choices=["md", "tsv", "verdicts"], default="md")
     parser.add_argument("--from-results", action="store_true")
     parser.add_argument("--time-limit", type=float, default=200, metavar="SECONDS", help="per model")
     parser.add_argument("--memory-limit", type=float, default=12, metavar="GB", help="address space per process")
@@ -250,16 +290,19 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    if not CORPUS.is_dir():
-        sys.exit(f"corpus not found at {CORPUS}; set ST_CORPUS")
-    models = [m for m in sorted(CORPUS.iterdir()) if m.suffix.lower() in CAD_SUFFIXES
+    if not arguments.folder.is_dir():
+        sys.exit(f"no folder {arguments.folder}; set ST_CORPUS")
+    models = [m for m in sorted(arguments.folder.iterdir()) if m.suffix.lower() in CAD_SUFFIXES
               and fnmatch.fnmatch(m.name, arguments.models)]
     work = Path(arguments.work)
     work.mkdir(parents=True, exist_ok=True)
     if not arguments.from_results:
         run_all(models, arguments, work)
     results = [json.loads(p.read_text()) for m in models if (p := work / f"{m.name}.json").exists()]
-    print_table(results, arguments.format)
+    if arguments.format == "verdicts":
+        print_verdicts(results)
+    else:
+        print_table(results, arguments.format)
     if arguments.format == "md":
         print_causes(results)
         print_free(results)
