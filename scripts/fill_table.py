@@ -3,8 +3,9 @@
 
 Both come from Debian (packages tetgen, gmsh); each gets a limited time.
 
-usage: scripts/fill_table.py BIN_DIR MODEL... [--max-aspect 16] [--farfield box:5] [--seconds 300]
---farfield none: the models have one.
+usage: scripts/fill_table.py BIN_DIR MODEL... [--max-aspect 16] [--farfield box:5] [--seconds 300] [--coarse] [--join]
+--farfield none: the models have one, or are filled inside. --coarse: larger sizes, for models that would take long.
+--join: solids that touch get common faces.
 """
 import argparse
 import re
@@ -12,6 +13,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+COARSE = ("--lmax", "10%", "--lmin", "0.5%", "--alpha", "20")
 GEO = 'Merge "mesh.msh";\nSurface Loop(1) = Surface{:};\nVolume(1) = {1};\nMesh.Optimize = 0;\n'
 
 
@@ -26,14 +28,16 @@ def make_mesh(bin_dir, model, folder, options):
     """Mesh and far field as mesh.smesh and mesh.msh; the number of triangles and what st-check says."""
     file = {n: folder / f"{n}.hdf" for n in ("geometry", "raster", "sizing", "patches", "mesh")}
     farfield = [] if options.farfield == "none" else ["--farfield", options.farfield]
-    must(bin_dir / "st-import", model, *farfield, "-o", file["geometry"], "-q")
-    must(bin_dir / "st-raster", file["geometry"], "--max-aspect", options.max_aspect, "-o", file["raster"], "-q")
+    join = ["--join"] if options.join else []
+    must(bin_dir / "st-import", model, *farfield, *join, "-o", file["geometry"], "-q")
+    sizes = ["--max-aspect", options.max_aspect, *(COARSE if options.coarse else [])]
+    must(bin_dir / "st-raster", file["geometry"], *sizes, "-o", file["raster"], "-q")
     must(bin_dir / "st-prolong", file["raster"], "-o", file["sizing"], "-q")
     must(bin_dir / "st-mesh", file["geometry"], file["sizing"], "-o", file["patches"], "-q")
     must(bin_dir / "st-merge", file["patches"], "-o", file["mesh"], "--allow-incomplete", "-q")
     for suffix in ("smesh", "msh"):
         must(bin_dir / "st-export", file["mesh"], "-o", folder / f"mesh.{suffix}", "-q")
-    verdict = must(bin_dir / "st-check", file["mesh"]).splitlines()[-1]
+    verdict = must(bin_dir / "st-check", file["mesh"], "--geometry", file["geometry"]).splitlines()[-1]
     return re.search(r"(\d+) triangles", verdict).group(1), "passes" if "passes" in verdict else "fails"
 
 
@@ -45,7 +49,8 @@ def fill(command, folder, seconds):
         return f"no end in {seconds} s"
     text = done.stdout + done.stderr
     if done.returncode != 0:
-        return (text.strip().splitlines() or [f"exit {done.returncode}"])[-1]
+        lines = [line for line in text.splitlines() if line.strip(" -")] or [f"exit {done.returncode}"]
+        return next((line for line in lines if line.startswith("Error")), lines[-1])
     return text
 
 
@@ -70,6 +75,8 @@ def main():
     parser.add_argument("--max-aspect", default="16")
     parser.add_argument("--farfield", default="box:5")
     parser.add_argument("--seconds", type=int, default=300)
+    parser.add_argument("--coarse", action="store_true")
+    parser.add_argument("--join", action="store_true")
     options = parser.parse_args()
     print("| model | triangles | st-check | TetGen | Gmsh |\n|---|--:|---|---|---|", flush=True)
     for model in options.models:
