@@ -37,13 +37,13 @@ struct NamedTasks {
   std::string made_from;  ///< digest of all that the results depend on, but for the inputs and options of the run; the
                           ///< same on every rank. Empty: not worth keeping
   std::vector<std::int32_t> home = {};  ///< [n_tasks] the rank that runs each; empty: any rank
-  /// Local, on the thread of the task: takes a result and returns what collect() gets of it. Results of an earlier run
-  /// come on rank 0. Empty: collect() gets results as they are.
-  std::function<Bytes(std::int32_t task, Bytes&& result)> keep = {};
+  /// Where compute() leaves a part of the result on its rank. Local, on the thread of the task: all of it, for a later
+  /// run.
+  std::function<Bytes(std::int32_t task, const Bytes& result)> record = {};
+  /// Likewise. Local, on rank 0: takes what record() returned in an earlier run, and returns what compute() did.
+  std::function<Bytes(std::int32_t task, Bytes&& whole)> restore = {};
   /// Local, one call at a time, while tasks run: what a task of another rank has asked for by Executor::ask.
   std::function<Bytes(const Bytes& request)> answer = {};
-
-  Bytes kept(std::int32_t task, Bytes&& result) const { return keep ? keep(task, std::move(result)) : std::move(result); }
 };
 
 /// Of a task, to another rank.
@@ -79,9 +79,7 @@ class Executor {
   /// The same, for tasks that are pure functions of what they are made from: some results may come from an earlier run.
   virtual void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                                const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
-    run_tasks(
-        static_cast<std::int32_t>(tasks.order.size()), tasks.order,
-        [&](std::int32_t task) { return tasks.kept(task, compute(task)); }, collect);
+    run_tasks(static_cast<std::int32_t>(tasks.order.size()), tasks.order, compute, collect);
   }
   /// Local, within a task: it did not ask() for so many bytes, because they were on this rank.
   virtual void has_own(std::size_t n_bytes) const { static_cast<void>(n_bytes); }

@@ -172,18 +172,17 @@ void Communicator::run_named_tasks(const NamedTasks& tasks, const std::function<
   for (const std::int32_t task : order)
     if (task < 0 || static_cast<std::size_t>(task) >= order.size() || is_listed[task]++)
       throw Error(ExitCode::kInternal, "run_tasks: the order is no permutation of the tasks");
-  const auto kept = [&](std::int32_t task) { return tasks.kept(task, compute(task)); };
   if (impl_->size == 1) {
     std::mutex mutex;
     parallel_for(order.size(), 1, [&](std::size_t i, std::size_t) {
-      Bytes result = with_memory_named([&] { return kept(order[i]); });
+      Bytes result = with_memory_named([&] { return compute(order[i]); });
       const std::lock_guard lock(mutex);
       collect(order[i], std::move(result));
     });
   } else if (impl_->rank == 0) {
-    distribute_tasks(impl_->size, order, tasks.home, kept, collect, tasks.answer);
+    distribute_tasks(impl_->size, order, tasks.home, compute, collect, tasks.answer);
   } else {
-    work_on_tasks(kept, tasks.answer);
+    work_on_tasks(compute, tasks.answer);
   }
 }
 

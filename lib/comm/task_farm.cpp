@@ -307,21 +307,26 @@ class Courier {
     bool has_news = false;
     for (MPI_Status status; probe(MPI_ANY_SOURCE, kRequests.head, status); has_news = true)
       incoming_.push_back(Transfer::receive(status.MPI_SOURCE, kRequests));
-    return take_arrived(incoming_, [&](Transfer& request) {
-      Bytes answer = answer_(request.outcome().bytes);
-      outgoing_.push_back(Transfer::send({request.outcome().task, 0, 0, std::move(answer)}, request.rank(), kAnswers));
-    }) || has_news;
+    return take_arrived(incoming_,
+                        [&](Transfer& request) {
+                          Bytes answer = answer_(request.outcome().bytes);
+                          outgoing_.push_back(Transfer::send({request.outcome().task, 0, 0, std::move(answer)},
+                                                             request.rank(), kAnswers));
+                        }) ||
+           has_news;
   }
 
   bool receive_answers() {
     bool has_news = false;
     for (MPI_Status status; probe(MPI_ANY_SOURCE, kAnswers.head, status); has_news = true)
       answers_.push_back(Transfer::receive(status.MPI_SOURCE, kAnswers));
-    return take_arrived(answers_, [&](Transfer& answer) {
-      const auto question = asked_.find(answer.outcome().task);
-      threads_.answer(question->second, answer.take().bytes);
-      asked_.erase(question);
-    }) || has_news;
+    return take_arrived(answers_,
+                        [&](Transfer& answer) {
+                          const auto question = asked_.find(answer.outcome().task);
+                          threads_.answer(question->second, answer.take().bytes);
+                          asked_.erase(question);
+                        }) ||
+           has_news;
   }
 
   template <class Take>

@@ -103,8 +103,8 @@ std::vector<PatchBlocks::Meeting> PatchBlocks::meeting(const PatchBlocks& other)
   std::vector<Box3> others(size());
   std::vector<std::pair<Place, Place>> open;
   if (!levels_.empty() && !other.levels_.empty())
-    open.push_back({{static_cast<std::int32_t>(levels_.size()) - 1, 0},
-                    {static_cast<std::int32_t>(other.levels_.size()) - 1, 0}});
+    open.push_back(
+        {{static_cast<std::int32_t>(levels_.size()) - 1, 0}, {static_cast<std::int32_t>(other.levels_.size()) - 1, 0}});
   const auto for_each_child = [](const PatchBlocks& tree, Place p, const auto& visit) {
     const auto n = static_cast<std::int32_t>(tree.levels_[p.level - 1].size());
     for (std::int32_t i = 2 * p.index; i < std::min(n, 2 * p.index + 2); ++i) visit(Place{p.level - 1, i});

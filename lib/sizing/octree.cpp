@@ -10,9 +10,9 @@
 
 #include "base/assert.h"
 #include "base/limits.h"
+#include "base/radix_sort.h"
 #include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
-#include "base/radix_sort.h"
 
 namespace st {
 namespace {

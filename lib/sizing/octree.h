@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/ids.h"
-#include "base/vec.h"
 #include "base/morton.h"
+#include "base/vec.h"
 
 namespace st {
 

@@ -147,11 +147,10 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const ArtifactHeader header = output_header(o, geometry.header, sizing.header);
   Resumption resumption(trace, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshResult result = mesh_regions(
-      model, topology, *sizing.field, std::move(plan),
-      {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles, resumption.left_out(), o.time_limit,
-       WhenLate::kSignal, PatchesGo::kNowhere},
-      resumption);
+  MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
+                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles,
+                                    resumption.left_out(), o.time_limit, WhenLate::kSignal, PatchesGo::kNowhere},
+                                   resumption);
   resumption.end();
   trace.begin_phase("write");
   StageSummary summary =

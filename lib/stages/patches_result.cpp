@@ -132,7 +132,7 @@ std::string write_everywhere(const std::string& path, const PatchesArtifact& res
 
 /// Takes edges out of the result: all but the patches.
 PatchesArtifact take_rest(const ModelTables& t, const ArtifactHeader& header, const MeshTopology& topology,
-                             MeshResult& r) {
+                          MeshResult& r) {
   PatchesArtifact out;
   out.header = header;
   out.edges = std::move(r.edges);
@@ -230,7 +230,6 @@ StageSummary summary_of(const std::string& path, const ModelTables& t, const Art
 StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
                                   ArtifactHeader header, const MeshTopology& topology, MeshResult result,
                                   const RunFacts& facts, const Executor& executor) {
-  const SerialExecutor alone;
   const bool is_everywhere = !result.places.empty();
   header = complete(std::move(header), geometry);
   PatchesArtifact out = take_rest(t, header, topology, result);
@@ -244,7 +243,13 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
     written.n_nodes += c.n_inner;
   }
   const Timer write_timer;
-  written.hash = write_everywhere(path, out, counts, result.patches, is_everywhere ? executor : alone);
+  if (is_everywhere) {
+    written.hash = write_everywhere(path, out, counts, result.patches, executor);
+  } else {
+    out.patches = std::move(result.patches);
+    std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+    written.hash = write_patches(path, out);
+  }
   if (is_everywhere && !executor.is_root()) return {};
   written.failures_file = write_failed_faces(path, header, t, result);
   written.seconds = write_timer.seconds();

@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "io/hdf5/sizing_artifact.h"
 #include "base/morton.h"
+#include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
 
 namespace st {

@@ -111,7 +111,7 @@ std::vector<std::int32_t> Resumption::collect_done(const std::vector<Work>& work
     if (!result)
       rest.push_back(task);
     else
-      collect(task, tasks.kept(task, std::move(*result)));
+      collect(task, tasks.restore ? tasks.restore(task, std::move(*result)) : std::move(*result));
   }
   n_resumed_ += static_cast<std::int64_t>(tasks.order.size() - rest.size());
   return rest;
@@ -135,12 +135,12 @@ void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute
     share(inner_, rest, suspects);
   }
   const auto kept = [&](std::int32_t task) {
-    if (!journal_) return tasks.kept(task, compute(task));
+    if (!journal_) return compute(task);
     journal_->begin(works[task]);
     try {
       Bytes result = compute(task);
-      journal_->finish(works[task], result);
-      return tasks.kept(task, std::move(result));
+      journal_->finish(works[task], [&] { return tasks.record ? tasks.record(task, result) : result; });
+      return result;
     } catch (const std::bad_alloc&) {
       journal_->fail(works[task]);
       throw;
@@ -150,7 +150,7 @@ void Resumption::run_named_tasks(const NamedTasks& tasks, const Compute& compute
   run_some(tasks, rest, kept, collect);
 }
 
-/// Collective. These of the tasks, in this order. `compute` keeps their results.
+/// Collective. These of the tasks, in this order.
 void Resumption::run_some(const NamedTasks& tasks, const std::vector<std::int32_t>& some, const Compute& compute,
                           const Collect& collect) const {
   NamedTasks of_some;

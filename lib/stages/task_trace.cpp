@@ -81,7 +81,7 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     const double before = thread_seconds();
     const LoopSeconds loops = seconds_in_loops();
     t_asked = 0;
-    Bytes result = tasks.kept(task, compute(task));
+    Bytes result = compute(task);
     row.processor = thread_seconds() - before;
     row.asked = t_asked;
     row.loops = seconds_in_loops().all - loops.all;
@@ -93,9 +93,7 @@ void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Byt
     rows_.push_back(row);
     return result;
   };
-  NamedTasks timed_tasks = tasks;
-  timed_tasks.keep = {};  // within the time of the task
-  inner_.run_named_tasks(timed_tasks, timed, [&](std::int32_t task, Bytes&& result) {
+  inner_.run_named_tasks(tasks, timed, [&](std::int32_t task, Bytes&& result) {
     const double before = thread_seconds();
     collect(task, std::move(result));
     collect_seconds += thread_seconds() - before;
@@ -138,9 +136,9 @@ void TaskTrace::write_rows(const std::vector<Row>& rows) const {
   std::string text = "event,name,id,part,call,rank,thread,start,wall,processor,bytes,asked,loops,longest\n";
   const auto number = [](std::int32_t n) { return n == kNothing ? "" : std::to_string(n); };
   for (const Row& r : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.6f}\n", r.event, r.name, number(r.id),
-                        number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes, r.asked,
-                        r.loops, r.longest);
+    text += fmt::format("{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f},{},{},{:.6f},{:.6f}\n", r.event, r.name,
+                        number(r.id), number(r.part), r.call, r.rank, r.thread, r.start, r.wall, r.processor, r.bytes,
+                        r.asked, r.loops, r.longest);
   write_text_file(path_, text);
 }
 

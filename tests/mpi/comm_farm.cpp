@@ -156,11 +156,6 @@ void asks_other_ranks(const Communicator& comm) {
   NamedTasks tasks;
   tasks.order = descending(kTasks);
   for (std::int32_t task = 0; task < kTasks; ++task) tasks.home.push_back((task * 7) % comm.size());
-  tasks.keep = [&](std::int32_t task, Bytes&& result) {
-    const std::lock_guard lock(mutex);
-    kept[task] = std::move(result);
-    return packed(static_cast<std::int32_t>(comm.rank()));
-  };
   tasks.answer = [&](const Bytes& request) {
     std::int32_t task = 0;
     unpack(request, task);
@@ -170,7 +165,12 @@ void asks_other_ranks(const Communicator& comm) {
   const auto home = tasks.home;
   int n_right = 0;
   comm.run_named_tasks(
-      tasks, [](std::int32_t task) { return Bytes(kBytes + task, static_cast<std::byte>(task)); },
+      tasks,
+      [&](std::int32_t task) {
+        const std::lock_guard lock(mutex);
+        kept[task] = Bytes(kBytes + task, static_cast<std::byte>(task));
+        return packed(static_cast<std::int32_t>(comm.rank()));
+      },
       [&](std::int32_t task, Bytes&& bytes) {
         std::int32_t rank = 0;
         unpack(bytes, rank);
@@ -179,7 +179,6 @@ void asks_other_ranks(const Communicator& comm) {
   if (comm.is_root()) CHECK(n_right == kTasks);
   for (const auto& [task, bytes] : kept) CHECK(home[task] == comm.rank());
   tasks.home.clear();
-  tasks.keep = {};
   n_right = 0;
   comm.run_named_tasks(
       tasks,

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/radix_sort.h"
 #include "io/export/background_export.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "io/hdf5/vtu_arrays.h"
-#include "base/radix_sort.h"
 
 namespace st {
 namespace {

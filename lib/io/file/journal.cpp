@@ -260,11 +260,19 @@ void Journal::begin(const Work& work) {
   write(head_of(kBegun, work), {});
 }
 
-void Journal::finish(const Work& work, const Bytes& result) {
-  const RecordHead head = head_of(kDone, work, result);
+void Journal::finish(const Work& work, const std::function<Bytes()>& result) {
+  bool is_written = false;
+  {
+    const std::lock_guard lock(mutex_);
+    is_written = file_ >= 0;
+    if (!is_written) std::erase_if(under_way_, [&](const Work& other) { return other.key == work.key; });
+  }
+  if (!is_written) return;
+  const Bytes bytes = result();
+  const RecordHead head = head_of(kDone, work, bytes);
   const std::lock_guard lock(mutex_);
   std::erase_if(under_way_, [&](const Work& other) { return other.key == work.key; });
-  write(head, result);
+  write(head, bytes);
 }
 
 void Journal::fail(const Work& work) {

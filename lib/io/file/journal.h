@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -94,7 +95,8 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   void begin(const Work& work);
-  void finish(const Work& work, const Bytes& result);
+  /// `result` is asked for only where it is written.
+  void finish(const Work& work, const std::function<Bytes()>& result);
   /// It ran out of memory: counts as the end of a process.
   void fail(const Work& work);
   /// Nothing more is written; what is under way is not to blame.

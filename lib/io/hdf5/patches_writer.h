@@ -26,8 +26,8 @@ struct PatchTarget {
   static constexpr std::size_t kArrays = 11;  ///< the last two are of what st-remesh kept
 
   std::string file, label;
-  std::vector<std::uint64_t> begin;                            ///< [kArrays, or two less] of the arrays, bytes
-  std::vector<FaceId> face;                                    ///< [n_patches] ascending
+  std::vector<std::uint64_t> begin;                             ///< [kArrays, or two less] of the arrays, bytes
+  std::vector<FaceId> face;                                     ///< [n_patches] ascending
   std::vector<std::int64_t> boundary, inner, triangle, own_uv;  ///< [n_patches+1] rows
 
   static auto fields(auto& t) {

@@ -38,7 +38,8 @@ class BoundarySegments {
   bool contain(std::int64_t a, std::int64_t b) const;
 
  private:
-  std::vector<std::pair<std::int64_t, std::int64_t>> at_ends_;  // all but those between two nodes inside one edge, sorted
+  std::vector<std::pair<std::int64_t, std::int64_t>> at_ends_;  // all but those between two nodes inside one edge,
+                                                                // sorted
 };
 
 /// The chords of a patch.
@@ -47,7 +48,8 @@ std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch
 /// Pairs of triangles of two faces about one chord: an edge between the same two nodes on boundaries inside both faces,
 /// sorted, at least one face fresh. Two faces along common edges, too flat for a node inside, lie on each other there.
 /// `chords`: of all faces, in any order.
-std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> chords, std::span<const char> face_is_fresh);
+std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> chords,
+                                                          std::span<const char> face_is_fresh);
 
 /// Half the longest of a triangle's sides, at its centre.
 RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c);
@@ -125,9 +127,9 @@ class CrossingSearch {
   std::vector<std::int32_t> face_body_;
   std::set<std::pair<FaceId, FaceId>> touching_;  // of two bodies in contact, as far as known
   int n_runs_ = 0;
-  std::vector<char> face_is_fresh_;          // patch made since the last run
+  std::vector<char> face_is_fresh_;         // patch made since the last run
   std::vector<std::vector<Chord>> chords_;  // by face
-  FacetPairs pairs_;                         // found so far and still there, sorted
+  FacetPairs pairs_;                        // found so far and still there, sorted
 };
 
 }  // namespace st

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/current_work.h"
 #include "base/error.h"
@@ -167,8 +168,8 @@ bool FaceRounds::refill_once() {
     if (FacePatch& patch = patches[f]; refill(nodes_of(patch), triangles, patch) > 0) put(f, std::move(patch));
   crossings_.run(*numbering_, places_);
   const BadTriangles left = bad_triangles(bring(suspects()));
-  char is_worse = crossings_.n_pairs() > n_pairs ||
-                  static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad));
+  char is_worse =
+      crossings_.n_pairs() > n_pairs || static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad));
   share(executor_, is_worse);
   if (is_worse) {
     places_ = before;
@@ -341,12 +342,23 @@ std::string FaceRounds::made_from() const {
 }
 
 /// Local, on any rank: the patch stays here.
-Bytes FaceRounds::keep_whole(Bytes&& bytes) {
-  FaceResult result;
-  unpack(bytes, result);
-  bytes = {};
+FaceRounds::FaceReport FaceRounds::keep_whole(FaceResult&& result) {
   result.report.place = store_.put(std::move(result.patch), version_, result_.edges, tables_.vertex_xyz);
-  return packed(result.report);
+  return std::move(result.report);
+}
+
+/// Local, on the rank of the patch: a FaceResult.
+Bytes FaceRounds::record_whole(FaceId f, const Bytes& bytes) const {
+  FaceReport report;
+  unpack(bytes, report);
+  if (!report.place.is_there()) return packed(FacePatch(), report);
+  return packed(store_.get(f, report.place.version)->patch, report);
+}
+
+Bytes FaceRounds::restore_whole(Bytes&& whole) {
+  FaceResult result;
+  unpack(whole, result);
+  return packed(keep_whole(std::move(result)));
 }
 
 void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
@@ -369,10 +381,15 @@ void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& ti
        },
        made_from(),
        {},
-       [&](std::int32_t task, Bytes&& result) {
-         return task < n_cuts ? std::move(result) : keep_whole(std::move(result));
+       [&](std::int32_t task, const Bytes& result) {
+         return task < n_cuts ? result : record_whole(light[task - n_cuts], result);
+       },
+       [&](std::int32_t task, Bytes&& whole) {
+         return task < n_cuts ? std::move(whole) : restore_whole(std::move(whole));
        }},
-      [&](std::int32_t task) { return task < n_cuts ? tiled.cut(task) : packed(mesh_whole(light[task - n_cuts])); },
+      [&](std::int32_t task) {
+        return task < n_cuts ? tiled.cut(task) : packed(keep_whole(mesh_whole(light[task - n_cuts])));
+      },
       [&](std::int32_t task, Bytes&& bytes) {
         if (task < n_cuts) return tiled.take_cut(task, bytes);
         take_whole(light[task - n_cuts], bytes);
@@ -392,13 +409,17 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
     const TiledRegions::Tile& tile = tiled.tile(task - n_whole);
     return TaskLabel{"tile", tile.region, tile.index};
   };
-  const auto keep = [&](std::int32_t task, Bytes&& result) {
-    return task < n_whole ? keep_whole(std::move(result)) : tiled.keep(task - n_whole, std::move(result), executor_.rank());
+  const auto record = [&](std::int32_t task, const Bytes& result) {
+    return task < n_whole ? record_whole(whole[task], result) : tiled.record(task - n_whole);
+  };
+  const auto restore = [&](std::int32_t task, Bytes&& bytes) {
+    return task < n_whole ? restore_whole(std::move(bytes)) : tiled.restore(task - n_whole, bytes);
   };
   executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(), {}, keep},
+      {heaviest_first(work), label, made_from(), {}, record, restore},
       [&](std::int32_t task) {
-        return task < n_whole ? packed(mesh_whole(whole[task])) : tiled.compute(task - n_whole);
+        return task < n_whole ? packed(keep_whole(mesh_whole(whole[task])))
+                              : tiled.compute(task - n_whole, executor_.rank());
       },
       [&](std::int32_t task, Bytes&& bytes) {
         task < n_whole ? take_whole(whole[task], bytes) : tiled.take_place(task - n_whole, bytes);
@@ -421,12 +442,14 @@ std::vector<FaceId> FaceRounds::join(TiledRegions& tiled) {
        },
        made_from(),
        {},
-       [&](std::int32_t, Bytes&& result) { return keep_whole(std::move(result)); },
+       [&](std::int32_t task, const Bytes& result) { return record_whole(cut[task], result); },
+       [&](std::int32_t, Bytes&& whole) { return restore_whole(std::move(whole)); },
        [&](const Bytes& request) { return tiled.answer(request); }},
       [&](std::int32_t task) {
-        return packed(make_face(cut[task], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-          return tiled.join(surface, cut[task], boundary, executor_);
-        }));
+        return packed(keep_whole(
+            make_face(cut[task], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+              return tiled.join(surface, cut[task], boundary, executor_);
+            })));
       },
       [&](std::int32_t task, Bytes&& bytes) {
         FaceReport report;
@@ -553,6 +576,7 @@ void FaceRounds::close_hole(FaceId f) {
 
 /// None where the mesh before was restored: refining does not help.
 std::vector<RefinementPoint> FaceRounds::find_crossings() {
+  return_freed_memory();
   std::vector<RefinementPoint> places = crossings_.run(*numbering_, places_);
   result_.n_crossing_pairs = crossings_.n_pairs();
   return is_restored_ ? std::vector<RefinementPoint>() : places;

@@ -82,7 +82,9 @@ class FaceRounds : public MeshRounds {
   std::string made_from() const;
   void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
   void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
-  Bytes keep_whole(Bytes&& result);
+  FaceReport keep_whole(FaceResult&& result);
+  Bytes record_whole(FaceId f, const Bytes& report) const;
+  Bytes restore_whole(Bytes&& whole);
   void take_whole(FaceId f, const Bytes& bytes);
   void put(FaceId f, FacePatch&& patch);
   double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }

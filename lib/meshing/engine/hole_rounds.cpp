@@ -234,13 +234,17 @@ void HoleRounds::fill_holes(const std::vector<HoleRim>& rims, const std::vector<
   };
   Progress progress("filling holes", std::accumulate(work.begin(), work.end(), 0.0));
   double done = 0;
-  const auto keep = [&](std::int32_t task, Bytes&& result) {
-    return task < n_whole ? std::move(result) : tiled.keep(task - n_whole, std::move(result), executor_.rank());
+  const auto record = [&](std::int32_t task, const Bytes& result) {
+    return task < n_whole ? result : tiled.record(task - n_whole);
+  };
+  const auto restore = [&](std::int32_t task, Bytes&& bytes) {
+    return task < n_whole ? std::move(bytes) : tiled.restore(task - n_whole, bytes);
   };
   executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(rims), {}, keep},
+      {heaviest_first(work), label, made_from(rims), {}, record, restore},
       [&](std::int32_t task) {
-        return task < n_whole ? packed(fill_hole(rims[whole[task]], make)) : tiled.compute(task - n_whole);
+        return task < n_whole ? packed(fill_hole(rims[whole[task]], make))
+                              : tiled.compute(task - n_whole, executor_.rank());
       },
       [&](std::int32_t task, Bytes&& result) {
         task < n_whole ? unpack(result, fills[whole[task]]) : tiled.take_place(task - n_whole, result);
@@ -260,12 +264,18 @@ std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& 
   for (const std::int32_t i : cut) work.push_back(expected[i]);
   const auto label = [&](std::int32_t task) { return TaskLabel{"hole join", rims[cut[task]].face, cut[task]}; };
   executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(rims), {}, {}, [&](const Bytes& request) { return tiled.answer(request); }},
+      {heaviest_first(work),
+       label,
+       made_from(rims),
+       {},
+       {},
+       {},
+       [&](const Bytes& request) { return tiled.answer(request); }},
       [&](std::int32_t task) {
-        return packed(fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary,
-                                                     const SizeField&) {
-          return tiled.join(surface, cut[task], boundary, executor_);
-        }));
+        return packed(
+            fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+              return tiled.join(surface, cut[task], boundary, executor_);
+            }));
       },
       [&](std::int32_t task, Bytes&& result) { unpack(result, fills[cut[task]]); });
   for (const std::int32_t i : cut)

@@ -30,7 +30,7 @@ struct MeshOptions {
   std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
   PatchesGo patches = PatchesGo::kToRoot;
-  bool parts_bodies = true;                ///< bodies that the CAD keeps apart are refined where their triangles cross
+  bool parts_bodies = true;  ///< bodies that the CAD keeps apart are refined where their triangles cross
 };
 
 /// Where the time went, seconds on rank 0.

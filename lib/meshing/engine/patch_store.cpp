@@ -18,8 +18,8 @@ PatchPlace PatchStore::put(FacePatch&& patch, std::int64_t version, const EdgeMe
   stored->blocks = PatchBlocks(edges, vertex_xyz, patch);
   stored->patch = std::move(patch);
   const FacePatch& p = stored->patch;
-  place = {executor_.rank(),      version,          p.n_boundary, count(p.inner_xyz), count(p.triangles),
-           count(p.uv_corner), stored->blocks.box()};
+  place = {executor_.rank(),    version, p.n_boundary, count(p.inner_xyz), count(p.triangles), count(p.uv_corner),
+           stored->blocks.box()};
   const FaceId face = p.face;
   const std::lock_guard lock(mutex_);
   patches_[{face, version}] = std::move(stored);

@@ -53,7 +53,7 @@ std::vector<std::int32_t> TiledRegions::cut_regions() const {
   return regions;
 }
 
-Bytes TiledRegions::compute(std::int32_t tile) const {
+Bytes TiledRegions::compute(std::int32_t tile, int rank) {
   const auto [region, index] = tiles_[tile];
   const FaceId f = regions_.face(region);
   const CurrentWork at_face("face", f + 1, limit_);
@@ -66,12 +66,15 @@ Bytes TiledRegions::compute(std::int32_t tile) const {
   } catch (const Error&) {
     mesh.cause = FailureCause::kError;
   }
-  return packed(mesh);
+  mesh.inner.shrink_to_fit();
+  mesh.corners.shrink_to_fit();
+  meshes_.at(region)[index] = std::move(mesh);
+  return packed(static_cast<std::int32_t>(rank));
 }
 
-Bytes TiledRegions::keep(std::int32_t tile, Bytes&& result, int rank) {
-  unpack(result, meshes_.at(tiles_[tile].region)[tiles_[tile].index]);
-  return packed(static_cast<std::int32_t>(rank));
+Bytes TiledRegions::restore(std::int32_t tile, const Bytes& bytes) {
+  unpack(bytes, meshes_.at(tiles_[tile].region)[tiles_[tile].index]);
+  return packed(std::int32_t{0});
 }
 
 void TiledRegions::take_place(std::int32_t tile, const Bytes& bytes) { unpack(bytes, rank_of_[tile]); }
@@ -96,10 +99,15 @@ FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const F
     requests.push_back({rank_of_[i], packed(tiles_[i])});
     missing.push_back(tiles_[i].index);
   }
-  std::vector<Bytes> answers = executor.ask(requests);
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    unpack(answers[i], meshes[missing[i]]);
-    answers[i] = {};
+  constexpr std::size_t kAtOnce = 8;  // tiles that are on their way
+  for (std::size_t first = 0; first < requests.size(); first += kAtOnce) {
+    const std::size_t end = std::min(first + kAtOnce, requests.size());
+    std::vector<Bytes> answers = executor.ask(
+        {requests.begin() + static_cast<std::ptrdiff_t>(first), requests.begin() + static_cast<std::ptrdiff_t>(end)});
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      unpack(answers[i], meshes[missing[first + i]]);
+      answers[i] = {};
+    }
   }
   const FaceId f = regions_.face(region);
   const auto make_surface = [&] { return model_.surface(f); };

@@ -73,10 +73,12 @@ class TiledRegions {
     std::int32_t region, index;
   };
   const Tile& tile(std::int32_t tile) const { return tiles_[tile]; }
-  /// Local: the mesh of one tile, packed. It stays there: keep() returns where that is, for take_place() on rank 0.
-  Bytes compute(std::int32_t tile) const;
-  Bytes keep(std::int32_t tile, Bytes&& result, int rank);
+  /// Local: the mesh of one tile, which stays on this rank: returns where that is, for take_place() on rank 0.
+  Bytes compute(std::int32_t tile, int rank);
   void take_place(std::int32_t tile, const Bytes& bytes);
+  /// Local, on its rank: the mesh. Likewise what of an earlier run comes to rank 0; returns as compute() does.
+  Bytes record(std::int32_t tile) const { return packed(meshes_.at(tiles_[tile].region)[tiles_[tile].index]); }
+  Bytes restore(std::int32_t tile, const Bytes& bytes);
   /// Collective, when all were taken: every rank knows where the tiles are.
   void share_places(const Executor& executor) { share(executor, rank_of_); }
 
@@ -101,7 +103,7 @@ class TiledRegions {
   std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
   std::map<std::int32_t, TileCut> cuts_;
   std::vector<Tile> tiles_;
-  std::vector<std::int32_t> rank_of_;  // [n_tiles] where its mesh is
+  std::vector<std::int32_t> rank_of_;                     // [n_tiles] where its mesh is
   std::map<std::int32_t, std::vector<FaceMesh>> meshes_;  // by region, of its tiles: those that are here
 };
 

@@ -40,7 +40,7 @@ TEST_F(JournalTest, gives_back_what_was_finished) {
     Journal journal(place());
     for (const FaceId f : {3, 4}) {
       journal.begin(work_at(f));
-      journal.finish(work_at(f), bytes_of(1000, f));
+      journal.finish(work_at(f), [&] { return bytes_of(1000, f); });
     }
   }
   const JournalReader reader(folder(), kRun);
@@ -53,7 +53,7 @@ TEST_F(JournalTest, gives_back_what_was_finished) {
 TEST_F(JournalTest, does_not_fit_another_run) {
   {
     Journal journal(place());
-    journal.finish(work_at(3), bytes_of(10, 1));
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
   }
   const JournalReader reader(folder(), kOtherRun);
   EXPECT_TRUE(reader.is_empty());
@@ -63,8 +63,8 @@ TEST_F(JournalTest, does_not_fit_another_run) {
 TEST_F(JournalTest, passes_over_a_torn_end) {
   {
     Journal journal(place());
-    journal.finish(work_at(3), bytes_of(10, 1));
-    journal.finish(work_at(4), bytes_of(10, 2));
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
+    journal.finish(work_at(4), [&] { return bytes_of(10, 2); });
   }
   forget_end();
   const auto whole = std::filesystem::file_size(file());
@@ -86,7 +86,7 @@ TEST_F(JournalTest, tells_the_faces_under_way_while_its_process_lives) {
   Journal journal(place(10));
   for (const FaceId f : {7, 5, 3}) journal.begin(work_at(f));
   journal.begin(work_at(kNone));
-  journal.finish(work_at(5), bytes_of(10, 1));
+  journal.finish(work_at(5), [&] { return bytes_of(10, 1); });
   EXPECT_EQ(faces(0), (std::vector<FaceId>{3, 7})) << "of the latest run alone";
   EXPECT_TRUE(faces(1).empty()) << "another rank";
 }
@@ -94,7 +94,7 @@ TEST_F(JournalTest, tells_the_faces_under_way_while_its_process_lives) {
 TEST_F(JournalTest, does_not_believe_changed_bytes) {
   {
     Journal journal(place());
-    journal.finish(work_at(3), bytes_of(10, 1));
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
   }
   forget_end();
   {
@@ -112,7 +112,7 @@ TEST_F(JournalTest, suspects_what_was_under_way_at_an_unexplained_end) {
       journal.begin(work_at(3));
       journal.begin(work_at(10 + run));
       journal.begin(work_at(20));
-      journal.finish(work_at(20), bytes_of(10, 1));
+      journal.finish(work_at(20), [&] { return bytes_of(10, 1); });
     }
     forget_end(run);
     const JournalReader reader(folder(), kRun);
@@ -156,7 +156,7 @@ TEST_F(JournalTest, leaves_nothing_of_a_short_run) {
   {
     Journal journal(place(1, 1000));
     journal.begin(work_at(3));
-    journal.finish(work_at(3), bytes_of(10, 1));
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
     note_end();
   }
   EXPECT_FALSE(std::filesystem::exists(folder()));
@@ -181,7 +181,7 @@ TEST_F(JournalTest, that_cannot_be_written_is_given_up) {
   std::ofstream(folder()) << "a file where the folder should be";
   Journal journal(place());
   journal.begin(work_at(3));
-  journal.finish(work_at(3), bytes_of(10, 1));
+  journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
   EXPECT_TRUE(JournalReader(folder(), kRun).is_empty());
 }
 

@@ -54,8 +54,13 @@ class TwoSquares : public testing::Test {
   static constexpr int kN = 40;
   const EdgeMesh edges = edge_of(kN);
   // one flat, one that rises from the common edge and comes down through the first
-  const FacePatch flat = square(0, kN, [](double u, double v) { return Vec3{u, v, 0}; }),
-                  wave = square(1, kN, [](double u, double v) { return Vec3{u, v, 0.3 * std::sin(5 * v)}; });
+  const FacePatch flat = square(0, kN,
+                                [](double u, double v) {
+                                  return Vec3{u, v, 0};
+                                }),
+                  wave = square(1, kN, [](double u, double v) {
+                    return Vec3{u, v, 0.3 * std::sin(5 * v)};
+                  });
 };
 
 TEST_F(TwoSquares, have_boxes_of_neighbours) {

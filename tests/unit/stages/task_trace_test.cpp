@@ -36,7 +36,13 @@ void run(TaskTrace& trace) {
          return TaskLabel{"tile", 10 + task, task};
        },
        ""},
-      [](std::int32_t task) { return Bytes(100 * (task + 1)); },
+      [&](std::int32_t task) {
+        trace.has_own(7);
+        trace.has_own(static_cast<std::size_t>(task));
+        parallel_for(2, 1,
+                     [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::microseconds(50)); });
+        return Bytes(100 * (task + 1));
+      },
       [&](std::int32_t task, Bytes&& bytes) { all[task] = static_cast<int>(bytes.size()); });
   EXPECT_EQ(all, (std::vector<int>{100, 200, 300}));
   trace.begin_phase("crossings");
@@ -64,7 +70,8 @@ TEST(TaskTrace, has_a_row_for_each_task_broadcast_and_work_between) {
                                               "task tile 12", "collect regions ", "serial regions ",
                                               "serial crossings ", "broadcast crossings ", "serial crossings "}));
   EXPECT_EQ(rows[3][10], "300") << "bytes of the first task that was handed out";
-  EXPECT_GT(std::stod(rows[8][11]), 0) << "seconds in loops";
+  EXPECT_EQ(rows[3][11], "9") << "bytes that it asked for";
+  for (const int row : {3, 8}) EXPECT_GT(std::stod(rows[row][12]), 0) << "seconds in loops";
 }
 
 TEST(TaskTrace, without_a_file_only_passes_on) {
