@@ -8,9 +8,11 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
@@ -96,6 +98,19 @@ TopoDS_Shape polygon_face(const std::vector<gp_Pnt>& points) {
   for (const gp_Pnt& p : points) polygon.Add(p);
   polygon.Close();
   return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), polygon.Wire(), false).Shape();
+}
+
+/// Two triangles tip to tip, one loop that passes the tip twice.
+TopoDS_Shape hourglass() {
+  const auto vertex = [](double x, double y) { return BRepBuilderAPI_MakeVertex(gp_Pnt(x, y, 0)).Vertex(); };
+  const TopoDS_Vertex tip = vertex(0, 0), a = vertex(10, 10), b = vertex(-10, 10), c = vertex(-10, -10),
+                      d = vertex(10, -10);
+  const std::vector<TopoDS_Vertex> loop{a, b, tip, c, d, tip};
+  TopoDS_Wire wire;
+  BRep_Builder().MakeWire(wire);
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    BRep_Builder().Add(wire, BRepBuilderAPI_MakeEdge(loop[k], loop[(k + 1) % loop.size()]).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire, false).Shape();
 }
 
 TopoDS_Shape off_pcurve() {
@@ -306,6 +321,22 @@ TopoDS_Shape domain(const std::string& kind, double r) {
   return whole;
 }
 
+/// The air above z = 0 in a domain, without half a body of analytic faces: a capsule 6 long and 2 wide, or a cone and
+/// cylinder of the same size with a flat base.
+TopoDS_Shape turned_half(const std::string& kind, double r, bool is_capsule) {
+  const TopoDS_Shape half =
+      BRepAlgoAPI_Common(domain(kind, r), BRepPrimAPI_MakeBox(gp_Pnt(-2 * r, -2 * r, 0), 4 * r, 4 * r, 4 * r).Shape())
+          .Shape();
+  const auto along = [](double x) { return gp_Ax2(gp_Pnt(x, 0, 0), gp::DX()); };
+  TopoDS_Shape body = BRepPrimAPI_MakeCylinder(along(-2), 1, is_capsule ? 4 : 5).Shape();
+  if (is_capsule) {
+    for (const double x : {-2., 2.}) body = BRepAlgoAPI_Fuse(body, BRepPrimAPI_MakeSphere(along(x), 1).Shape()).Shape();
+  } else {
+    body = BRepAlgoAPI_Fuse(body, BRepPrimAPI_MakeCone(along(-3), 0, 1, 1).Shape()).Shape();
+  }
+  return BRepAlgoAPI_Cut(half, body).Shape();
+}
+
 TopoDS_Shape pod_in(const std::string& kind, double r, bool is_half) {
   TopoDS_Shape outer = domain(kind, r);
   if (is_half)
@@ -317,6 +348,12 @@ TopoDS_Shape pod_in(const std::string& kind, double r, bool is_half) {
 using Factories = std::map<std::string, std::function<TopoDS_Shape()>>;
 
 void add_domains(Factories& all) {
+  for (const char* kind : {"box", "sphere", "cylinder", "c"})
+    for (const int size : {5, 50, 1000})
+      for (const bool is_capsule : {false, true})
+        all[std::string(is_capsule ? "capsule" : "cone") + "_in_" + kind + "_" + std::to_string(size)] = [=] {
+          return turned_half(kind, 3.0 * size, is_capsule);
+        };
   for (const char* kind : {"box", "sphere", "cylinder", "c"})
     for (const int size : {5, 50, 1000})
       for (const bool is_half : {false, true})
@@ -372,6 +409,11 @@ void add_bodies(Factories& all) {
        }},
       {"far_circle", far_circle},
       {"wing_in_body", wing_in_body},
+      {"spot",
+       [] {
+         const gp_Ax2 top(gp_Pnt(20, 20, 36), gp::DZ());
+         return BRepAlgoAPI_Cut(box(40, 40, 40), BRepPrimAPI_MakeCone(top, 0, 5, 5).Shape()).Shape();
+       }},
       {"blind_hole",
        [] {
          return BRepAlgoAPI_Cut(box(40, 40, 40),
@@ -418,6 +460,7 @@ Factories make_factories() {
        [] {
          return polygon_face({{0, 0, 0}, {10, 10, 0}, {10, 0, 0}, {0, 10, 0}});
        }},
+      {"hourglass", hourglass},
       {"sliver",
        [] {
          return polygon_face({{0, 0, 0}, {100, 0, 0}, {100, 0.001, 0}, {0, 0.001, 0}});

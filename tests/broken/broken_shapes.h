@@ -27,13 +27,13 @@ namespace st::test {
 ///   pod_in_KIND_SIZE the flow around a pod of free form, 6 x 2 x 1.2, in a box, sphere, cylinder or c (half cylinder
 ///   and
 ///                    box) of 5, 50 or 1000 times its length; with _half only z > 0, with a plane of symmetry
-///   blind_hole       a cube of 40 with a hole of radius 4, 10 deep
-///   housing          a cube of 40 with a cavity of 30 inside
-///   moulded_block    a block 40 x 40 x 10 with the pocket of half a pod
-///   far_circle       a cylinder of radius 10 and height 20; the space curve of its upper circle is 30 above both faces
-///   stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides of 60 x 40, which both solids have in
-///   common parted_corner    a plane square of 10, two sides of which end 0.5 short of their corner at (10, 10, 0)
-///   inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
+///   capsule_in_KIND_SIZE, cone_in_KIND_SIZE   such a half domain around half a body of analytic faces, 6 long and 2
+///   wide spot             a cube of 40 with a conical hole of 90 degrees, 4 deep blind_hole       a cube of 40 with a
+///   hole of radius 4, 10 deep housing          a cube of 40 with a cavity of 30 inside moulded_block    a block 40 x
+///   40 x 10 with the pocket of half a pod far_circle       a cylinder of radius 10 and height 20; the space curve of
+///   its upper circle is 30 above both faces stacked_boxes    a box 60 x 40 x 20 and a box 10 high on one of its sides
+///   of 60 x 40, which both solids have in common parted_corner    a plane square of 10, two sides of which end 0.5
+///   short of their corner at (10, 10, 0) inside_out       a box 60 x 40 x 20 as a solid whose normals point inward
 ///   loose_shell      the shell of that box, inward, no solid
 ///   lone_sphere      the face of a sphere of radius 10, in no shell
 ///   nested_shells    shells of boxes of 60, 40 and 20 around one centre, no solid
@@ -46,6 +46,7 @@ namespace st::test {
 ///   0.3 on the way to
 ///                    the pole
 ///   bow_tie          a plane face whose loop crosses itself in (5, 5, 0)
+///   hourglass        two plane triangles tip to tip, one face whose loop passes the tip twice
 ///   sliver           a plane face of 100 x 0.001
 ///   flat             a plane face without area: three sides on one line
 ///   short_edge       a plane face with an edge of 0.0001

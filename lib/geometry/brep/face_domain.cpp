@@ -1,7 +1,6 @@
 #include "geometry/brep/face_domain.h"
 
 #include <BRepTools.hxx>
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
@@ -12,6 +11,7 @@
 #include <cmath>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/wire_walk.h"
 #include "geometry/shape/loop_polygons.h"
 
 namespace st::occt {
@@ -122,8 +122,8 @@ FaceDomain make_domain(const TopoDS_Face& face) {
   for (TopoDS_Iterator w(face); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) continue;
     LoopUv loop;
-    for (BRepTools_WireExplorer e(TopoDS::Wire(w.Value()), face); e.More(); e.Next())
-      if (!is_constraint(e.Current())) loop.coedges.push_back(make_coedge(e.Current(), face));
+    for (const TopoDS_Edge& edge : walk_wire(TopoDS::Wire(w.Value()), face))
+      loop.coedges.push_back(make_coedge(edge, face));
     if (loop.coedges.empty()) continue;
     loop.area = polygon_area(loop);
     d.loops.push_back(std::move(loop));

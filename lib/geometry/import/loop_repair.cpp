@@ -1,6 +1,5 @@
 #include "geometry/import/loop_repair.h"
 
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_TEdge.hxx>
 #include <BRep_TVertex.hxx>
@@ -18,6 +17,7 @@
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/wire_walk.h"
 #include "geometry/import/import.h"
 #include "geometry/shape/projection.h"
 
@@ -93,13 +93,6 @@ bool is_lost_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, double harml
   if (pcurve.IsNull() || r.curve.IsNull() || t0 != r.t0 || t1 != r.t1) return false;
   const double gap = gap_to(r, BRep_Tool::Surface(face), pcurve);
   return gap > harmless && gap > kLost * chord_length(r);
-}
-
-bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face) {
-  int n_edges = 0, n_walked = 0;
-  for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) n_edges += !is_constraint(e.Current());
-  for (BRepTools_WireExplorer e(wire, face); e.More(); e.Next()) ++n_walked;
-  return n_edges == n_walked;
 }
 
 bool is_lost(const TopoDS_Face& face, double harmless) {

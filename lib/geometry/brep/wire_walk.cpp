@@ -1,0 +1,64 @@
+#include "geometry/brep/wire_walk.h"
+
+#include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/brep/shape_queries.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kAsFar = 0.1;  // of the range of the face in (u,v): less than the period that a wrong order jumps
+
+std::vector<TopoDS_Edge> stored_edges(const TopoDS_Wire& wire) {
+  std::vector<TopoDS_Edge> edges;
+  for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next())
+    if (!is_constraint(e.Current())) edges.push_back(TopoDS::Edge(e.Current()));
+  return edges;
+}
+
+/// The start or end of an edge in (u,v), as it runs.
+gp_Pnt2d end_of(const TopoDS_Edge& edge, const TopoDS_Face& face, bool is_end) {
+  gp_Pnt2d first, last;
+  BRep_Tool::UVPoints(edge, face, first, last);  // by its parameters
+  return is_end == (edge.Orientation() != TopAbs_REVERSED) ? last : first;
+}
+
+/// Whether each edge starts where the one before ends.
+bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face) {
+  double u0, u1, v0, v1;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const TopoDS_Edge &edge = edges[k], &next = edges[(k + 1) % edges.size()];
+    if (!TopExp::LastVertex(edge, true).IsSame(TopExp::FirstVertex(next, true))) return false;
+    const gp_Pnt2d end = end_of(edge, face, true), next_start = end_of(next, face, false);
+    if (std::fabs(end.X() - next_start.X()) > kAsFar * (u1 - u0)) return false;
+    if (std::fabs(end.Y() - next_start.Y()) > kAsFar * (v1 - v0)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<TopoDS_Edge> walk_wire(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  std::vector<TopoDS_Edge> stored = stored_edges(wire), walked;
+  for (BRepTools_WireExplorer e(wire, face); e.More(); e.Next())
+    if (!is_constraint(e.Current())) walked.push_back(e.Current());
+  if (walked.size() == stored.size()) return walked;
+  if (is_ring(stored, face)) return stored;
+  std::reverse(stored.begin(), stored.end());
+  return is_ring(stored, face) ? stored : walked;
+}
+
+bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  return walk_wire(wire, face).size() == stored_edges(wire).size();
+}
+
+}  // namespace st::occt
