@@ -152,6 +152,16 @@ std::optional<std::int64_t> genus_of(const TopologyReport& t) {
   return is_manifold ? std::optional(t.genus) : std::nullopt;
 }
 
+/// Parts in contact are sound each for itself, but not one surface.
+std::string passed_as(const Findings& f) {
+  const std::int64_t n = f.crossings.contacts.count;
+  if (n == 0) return "passes";
+  return fmt::format(
+      "passes part by part, which touch or cross in {} pairs of triangles (st-import --join or --unite "
+      "makes them one)",
+      n);
+}
+
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string failed;
   for (const Check& c : f.checks) {
@@ -160,7 +170,7 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
     failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
                           has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
   }
-  const std::string verdict = failed.empty() ? "passes" : "FAILS: " + failed;
+  const std::string verdict = failed.empty() ? passed_as(f) : "FAILS: " + failed;
   const std::string genus = genus_of(f.topology) ? fmt::format(", genus {}", *genus_of(f.topology)) : "";
   return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(),
                      f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts",

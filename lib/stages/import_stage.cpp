@@ -143,6 +143,8 @@ void say_bodies(const ImportStageOptions& o, const ImportResult& r) {
     if (f.kind == FindingKind::kNotUnited)
       log_warning(fmt::format("{}: {} stay apart, they could not be united: {}", o.model, f.entity, f.detail));
     if (f.kind == FindingKind::kTouchingApart) log_warning(fmt::format("{}: {}", o.model, f.what()));
+    if (f.kind == FindingKind::kTouching)
+      log_warning(fmt::format("{}: {}; --join gives them common faces, --unite makes them one", o.model, f.what()));
   }
   if (crossing.empty()) return;
   std::string pairs;
@@ -159,6 +161,7 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
     if (f.kind == FindingKind::kCrossingFaces) names.push_back(f.detail);
     if (f.kind == FindingKind::kSelfCrossingFace) names.push_back(f.entity + " itself");
+    if (f.kind == FindingKind::kPinchedFace) names.push_back(f.entity + " itself, in a point");
   }
   if (names.empty()) return;
   std::string text;

@@ -84,10 +84,13 @@ class CrossingFaces {
 
   void look_within(FaceId f) {
     const Domain& d = domain(f);
-    const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), [&](Vec2 uv) { return d.loops.contains(uv); });
-    if (!p) return;
-    const double size = distance(d.face.surface->point(0.5 * (p->uv_a + p->uv_b)), p->x);
-    found_.push_back({f, f, p->x, size});
+    const auto is_inside = [&](Vec2 uv) { return d.loops.contains(uv); };
+    if (const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), is_inside)) {
+      const double size = distance(d.face.surface->point(0.5 * (p->uv_a + p->uv_b)), p->x);
+      found_.push_back({f, f, false, p->x, size});
+    } else if (const auto pinch = find_pinch(*d.face.surface, tolerance_of(f), is_inside)) {
+      found_.push_back({f, f, true, *pinch, 0});
+    }
   }
 
   /// Everywhere along the edge where both faces turn the same way beside it.
@@ -101,7 +104,7 @@ class CrossingFaces {
       const double station = static_cast<double>(k) / kStations;
       if (const auto place = crossing_of(section(f, e, station), f, section(g, e, station), g)) {
         known_.insert(std::minmax(f, g));
-        found_.push_back({std::min(f, g), std::max(f, g), place->xyz, place->size});
+        found_.push_back({std::min(f, g), std::max(f, g), false, place->xyz, place->size});
         return;
       }
     }

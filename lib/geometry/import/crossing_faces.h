@@ -11,6 +11,7 @@ namespace st::occt {
 /// A point of both surfaces, inside both faces, away from their common edges.
 struct FaceCrossing {
   FaceId first = kNone, second = kNone;  ///< equal: the face passes through itself
+  bool is_pinch = false;                 ///< it shrinks to a point, beyond which it is turned over
   Vec3 xyz;                              ///< model unit
   double size = 0;  ///< distance from the common edge; of one face: how far it goes away in between
 };

@@ -80,7 +80,59 @@ bool coincide(const Candidate& a, const Candidate& b, double tolerance) {
   return std::fabs(area_a - area_b) <= kSameArea * area_a && same_surface(da, b.face, tolerance);
 }
 
+/// A solid with its faces in any order.
+struct SolidCandidate {
+  TopoDS_Shape solid;
+  Box3 box;
+  std::vector<Candidate> faces;
+};
+
+SolidCandidate solid_candidate(const TopoDS_Shape& solid) {
+  SolidCandidate result{solid, rough_box(solid), {}};
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(solid, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i)
+    result.faces.push_back(
+        {i, TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD)), rough_box(faces(i)), max_edge_tolerance(faces(i)), false});
+  return result;
+}
+
+/// Whether each face of one solid is at the place of a face of the other.
+bool are_twins(const SolidCandidate& a, const SolidCandidate& b, double place) {
+  if (distance(a.box.lo, b.box.lo) > 2 * place || distance(a.box.hi, b.box.hi) > 2 * place) return false;
+  if (a.faces.size() != b.faces.size()) return false;
+  const auto has_partner = [&](const Candidate& face) {
+    return std::any_of(b.faces.begin(), b.faces.end(), [&](const Candidate& other) {
+      return coincide(face, other, std::max({place, face.tolerance, other.tolerance}));
+    });
+  };
+  return std::all_of(a.faces.begin(), a.faces.end(), has_partner);
+}
+
 }  // namespace
+
+void remove_duplicate_solids(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(model.shape, TopAbs_SOLID, solids);
+  if (solids.Extent() < 2) return;
+  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  std::vector<SolidCandidate> kept;
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    SolidCandidate solid = solid_candidate(solids(i));
+    const auto twin = std::find_if(kept.begin(), kept.end(),
+                                   [&](const SolidCandidate& other) { return are_twins(solid, other, place); });
+    if (twin == kept.end()) {
+      kept.push_back(std::move(solid));
+      continue;
+    }
+    reshape->Remove(solid.solid);
+    findings.push_back({FindingKind::kDuplicateSolid, "solid " + std::to_string(i) + " of the file", solid.box.center(),
+                        solid.box.diagonal(), true, std::to_string(solids.FindIndex(twin->solid))});
+  }
+  if (kept.size() == static_cast<std::size_t>(solids.Extent())) return;
+  model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return face; });
+}
 
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const std::vector<Candidate> faces = candidates(model);

@@ -202,7 +202,8 @@ void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing
 void say_which_faces_cross(const ImportedShape& model, const ModelTables& t, std::vector<ImportFinding>& findings) {
   for (const occt::FaceCrossing& c : occt::find_crossing_faces(model, t)) {
     if (c.first == c.second)
-      findings.push_back({FindingKind::kSelfCrossingFace, t.face_label(c.first), c.xyz, c.size, false});
+      findings.push_back({c.is_pinch ? FindingKind::kPinchedFace : FindingKind::kSelfCrossingFace,
+                          t.face_label(c.first), c.xyz, c.size, false});
     else
       findings.push_back({FindingKind::kCrossingFaces, t.face_label(c.first), c.xyz, c.size, false,
                           t.face_label(c.first) + " and " + t.face_label(c.second)});
@@ -216,6 +217,23 @@ std::set<int> crossing_solids(const ModelTables& t, const std::vector<occt::Body
   return solids;
 }
 
+/// Solids that lie on each other and were not asked to be joined, group by group.
+void say_what_touches(const ImportedShape& model, const ModelTables& t, const std::set<int>& left_out,
+                      std::vector<ImportFinding>& findings) {
+  for (std::vector<int>& group : occt::find_touching_solids(model, t).groups) {
+    std::erase_if(group, [&](int i) { return left_out.count(i) > 0; });
+    if (group.size() < 2) continue;
+    std::vector<FaceId> first;
+    for (std::size_t k = 0; k < 2; ++k)
+      first.push_back(
+          static_cast<FaceId>(std::find(t.face_solid.begin(), t.face_solid.end(), group[k]) - t.face_solid.begin()));
+    const Box3& box = t.face_box[first[0]];
+    findings.push_back({FindingKind::kTouching, "", box.center(), box.diagonal(), false,
+                        std::to_string(group.size()) + " bodies, among them " + part_name(t, first[0]) + " and " +
+                            part_name(t, first[1])});
+  }
+}
+
 /// Bodies that overlap are united where asked, those that touch are joined; what touches itself always is.
 void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
                    std::vector<ImportFinding>& findings, const std::string& path) {
@@ -223,7 +241,9 @@ void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const Import
   const std::vector<occt::BodyCrossing> crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
   say_what_crosses(tables.tables, crossings, findings);
   const auto join = options.join_touching ? occt::join_touching_solids : occt::join_self_touching_solids;
-  join(model, tables, crossing_solids(tables.tables, crossings), findings, path);
+  const std::set<int> left_out = crossing_solids(tables.tables, crossings);
+  join(model, tables, left_out, findings, path);
+  if (!options.join_touching && !options.unite) say_what_touches(model, tables.tables, left_out, findings);
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
@@ -237,6 +257,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
   progress.step("sewing and repairing", 0.4);
+  occt::remove_duplicate_solids(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);

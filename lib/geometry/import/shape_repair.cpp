@@ -3,7 +3,6 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepLib.hxx>
 #include <BRepTools_ReShape.hxx>
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box2d.hxx>
 #include <Geom2d_Curve.hxx>
@@ -17,30 +16,81 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <cmath>
+#include <functional>
 
+#include "geometry/brep/face_domain.h"
+#include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/wire_walk.h"
 #include "geometry/import/import.h"
 
 namespace st::occt {
 namespace {
 
-int count_bad_wires(const TopTools_IndexedMapOfShape& faces) {
-  int n = 0;
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    const TopoDS_Face f = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));
-    int n_wires = 0;
-    for (TopoDS_Iterator w(f); w.More(); w.Next()) {
-      if (w.Value().ShapeType() != TopAbs_WIRE) continue;
-      ++n_wires;
-      int n_edges = 0, n_walked = 0;
-      for (TopExp_Explorer e(w.Value(), TopAbs_EDGE); e.More(); e.Next()) n_edges += !is_constraint(e.Current());
-      for (BRepTools_WireExplorer e(TopoDS::Wire(w.Value()), f); e.More(); e.Next()) ++n_walked;
-      n += n_edges != n_walked;
-    }
-    n += n_wires == 0;
+constexpr double kSameArea = 1e-3;  // of a sound face, before and after others were repaired
+
+/// Loops of a face that cannot be walked; 1 for a face without loops.
+int count_bad_wires(const TopoDS_Shape& face) {
+  const TopoDS_Face f = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  int n = 0, n_wires = 0;
+  for (TopoDS_Iterator w(f); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
+    ++n_wires;
+    n += !can_be_walked(TopoDS::Wire(w.Value()), f);
   }
-  return n;
+  return n_wires == 0 ? 1 : n;
+}
+
+double area_of(const TopoDS_Shape& face) {
+  const FaceDomain domain = make_domain(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));
+  return domain.loops.empty() ? 0 : std::abs(integrate_face(domain, {}).area);
+}
+
+using FaceImage = std::function<TopoDS_Shape(const TopoDS_Shape&)>;
+
+/// A repair of the faces that need one is worse than none if it opens edges, or changes the area of the others. The
+/// four sides of a face that had no loops are not opened.
+bool is_worse(const ImportedShape& model, const TopoDS_Shape& repaired, const FaceImage& image) {
+  int n_free = count_free_edges(model.shape);
+  for (int i = 1; i <= model.faces.Extent(); ++i) n_free += TopoDS_Iterator(model.faces(i)).More() ? 0 : 4;
+  if (count_free_edges(repaired) > n_free) return true;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Shape changed = image(model.faces(i));
+    if (count_bad_wires(model.faces(i)) > 0 || changed.IsSame(model.faces(i))) continue;
+    double area = 0;
+    for (TopExp_Explorer e(changed, TopAbs_FACE); e.More(); e.Next()) area += area_of(e.Current());
+    const double before = area_of(model.faces(i));
+    if (std::abs(area - before) > kSameArea * before) return true;
+  }
+  return false;
+}
+
+/// Takes over the repair that OpenCASCADE makes of the whole; else, where that is worse, of the bad faces alone.
+void rebuild_bad_loops(ImportedShape& model, int n_bad, std::vector<ImportFinding>& findings) {
+  ShapeFix_Shape fix(model.shape);
+  fix.Perform();
+  const FaceImage of_whole = [&](const TopoDS_Shape& face) { return fix.Context()->Apply(face); };
+  const Handle(BRepTools_ReShape) alone = new BRepTools_ReShape;
+  const FaceImage of_face = [&](const TopoDS_Shape& face) { return alone->Apply(face); };
+  const auto take = [&](const TopoDS_Shape& shape, const FaceImage& image) {
+    if (is_worse(model, shape, image) || !model.replace(shape, image)) return false;
+    findings.push_back({FindingKind::kRebuiltLoops, "", {}, 0, true, std::to_string(n_bad)});
+    return true;
+  };
+  if (take(fix.Shape(), of_whole)) return;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    if (count_bad_wires(model.faces(i)) == 0) continue;
+    ShapeFix_Face face(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)));
+    face.Perform();
+    alone->Replace(model.faces(i).Oriented(TopAbs_FORWARD), face.Result());
+  }
+  if (take(alone->Apply(model.shape), of_face)) return;
+  const Box3 box = rough_box(model.shape);
+  findings.push_back({FindingKind::kUndoneRepair, "", box.center(), box.diagonal(), false,
+                      std::to_string(n_bad) + " loops could not be walked; rebuilt they would open edges or change "
+                                              "other faces"});
 }
 
 /// A surface closed in both directions whose loops enclose nothing: they run along a seam and back, the other seam is
@@ -89,13 +139,9 @@ void bound_rings(ImportedShape& model, std::vector<ImportFinding>& findings) {
 
 void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
   bound_rings(model, findings);
-  const int n_bad = count_bad_wires(model.faces);
-  if (n_bad > 0) {
-    ShapeFix_Shape fix(model.shape);
-    fix.Perform();
-    if (model.replace(fix.Shape(), [&](const TopoDS_Shape& s) { return fix.Context()->Apply(s); }))
-      findings.push_back({FindingKind::kRebuiltLoops, "", {}, 0, true, std::to_string(n_bad)});
-  }
+  int n_bad = 0;
+  for (int i = 1; i <= model.faces.Extent(); ++i) n_bad += count_bad_wires(model.faces(i));
+  if (n_bad > 0) rebuild_bad_loops(model, n_bad, findings);
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
   int n_parameters = 0;

@@ -27,6 +27,7 @@ enum class FindingKind : std::uint8_t {
   kCutAtSymmetry,          ///< the model reached across the symmetry plane
   kCavityLeftOut,          ///< a cavity in a solid that is no part of the fluid
   kDuplicateFace,          ///< removed
+  kDuplicateSolid,         ///< removed
   kSlit,                   ///< edges inside a face on which other faces end
   kUnboundedRing,          ///< a ring without bounds got its surface's own
   kRebuiltLoops,           ///< loops that could not be walked
@@ -43,11 +44,13 @@ enum class FindingKind : std::uint8_t {
   kShellMadeSolid,         ///< a closed shell without a solid
   kJoinedBodies,           ///< bodies that touch got common faces
   kTouchingApart,          ///< bodies that touch could not be joined
+  kTouching,               ///< bodies that touch, left as they are
   kUnited,                 ///< bodies that overlap made one
   kNotUnited,              ///< bodies that could not be made one
   kOverlap,                ///< bodies that overlap, left as they are
   kCrossingFaces,          ///< faces that pass through each other beside their common edge
   kSelfCrossingFace,       ///< a face that passes through itself
+  kPinchedFace,            ///< a face that shrinks to a point and goes on turned over
   kUndoneRepair,           ///< a repair that made things worse was taken back
   kSpaceCurve,             ///< a space curve away from its faces, made again
   kOther                   ///< written by another version

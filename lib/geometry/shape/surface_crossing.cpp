@@ -211,6 +211,53 @@ class SelfCrossing {
   std::optional<CommonPoint> found_;
 };
 
+/// Lines across one direction of a surface, at shares of its range.
+class Pinch {
+ public:
+  Pinch(const Surface& surface, bool is_along_u) : s_(surface), is_along_u_(is_along_u) {}
+
+  /// The first line at which the normal turns over, and the surface shrinks.
+  std::optional<Vec3> find(double tolerance, const std::function<bool(Vec2)>& is_inside) const {
+    for (const double across : {0.3, 0.6})
+      for (int k = 1; k + 2 < kLines; ++k) {
+        const double a = static_cast<double>(k) / kLines, b = static_cast<double>(k + 1) / kLines;
+        if (!(dot(normal(a, across), normal(b, across)) < -kTurned)) continue;
+        const double at = turn(a, b, across);
+        if (length(at) <= tolerance && is_inside(uv(a, across)) && is_inside(uv(b, across)))
+          return s_.point(uv(at, across));
+      }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr int kLines = 64, kBisections = 40, kSamples = 16;
+  static constexpr double kTurned = 0.5;  // cosine
+
+  Vec2 uv(double along, double across) const {
+    const double u = is_along_u_ ? along : across, v = is_along_u_ ? across : along;
+    return {s_.u_min() + u * (s_.u_max() - s_.u_min()), s_.v_min() + v * (s_.v_max() - s_.v_min())};
+  }
+  Vec3 normal(double along, double across) const {
+    const SurfacePoint p = s_.evaluate(uv(along, across));
+    return normalized(cross(p.du, p.dv));
+  }
+  double turn(double a, double b, double across) const {
+    const Vec3 before = normal(a, across);
+    for (int k = 0; k < kBisections; ++k) (dot(before, normal(0.5 * (a + b), across)) > 0 ? a : b) = 0.5 * (a + b);
+    return 0.5 * (a + b);
+  }
+  double length(double along) const {
+    double sum = 0;
+    for (int k = 0; k < kSamples; ++k)
+      sum += distance(s_.point(uv(along, static_cast<double>(k) / kSamples)),
+                      s_.point(uv(along, static_cast<double>(k + 1) / kSamples)));
+    return sum;
+  }
+
+  const Surface& s_;
+  bool is_along_u_;
+};
+
 }  // namespace
 
 std::optional<CommonPoint> common_point(const Surface& a, Vec2 guess_a, const Surface& b, Vec2 guess_b,
@@ -239,6 +286,12 @@ std::optional<CommonPoint> find_self_crossing(const Surface& surface, double tol
   const Grid fine(surface, kFine);
   if (!fine.is_sound()) return std::nullopt;
   return SelfCrossing(surface, fine, tolerance, is_inside).find();
+}
+
+std::optional<Vec3> find_pinch(const Surface& surface, double tolerance, const std::function<bool(Vec2)>& is_inside) {
+  for (const bool is_along_u : {true, false})
+    if (const auto place = Pinch(surface, is_along_u).find(tolerance, is_inside)) return place;
+  return std::nullopt;
 }
 
 }  // namespace st

@@ -27,4 +27,9 @@ std::optional<CommonPoint> common_point(const Surface& a, Vec2 guess_a, const Su
 std::optional<CommonPoint> find_self_crossing(const Surface& surface, double tolerance,
                                               const std::function<bool(Vec2)>& is_inside);
 
+/// A point inside to which a line of constant u or v shrinks, no longer than `tolerance` (model unit), and beyond which
+/// the surface is turned over: sides of a ribbon that pass each other, a tube that goes on inside out. Not a pole,
+/// where a surface ends. Cost: some hundred evaluations.
+std::optional<Vec3> find_pinch(const Surface& surface, double tolerance, const std::function<bool(Vec2)>& is_inside);
+
 }  // namespace st

@@ -32,6 +32,17 @@ TEST(DuplicateFaces, removes_sheets_that_lie_on_a_solid) {
   EXPECT_NEAR(r.volume, 48000, 1e-6);
 }
 
+TEST(DuplicateFaces, removes_a_solid_that_is_there_twice) {
+  const ImportResult r = import_broken("box_twice");
+  EXPECT_EQ(r.tables.n_solids, 1);
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_NEAR(r.volume, 1000, 1e-6);
+  const auto found = findings_of(r, "solid that is there twice, removed");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].entity, "solid 2 of the file");
+  EXPECT_TRUE(found[0].is_repair);
+}
+
 TEST(DuplicateFaces, keeps_faces_of_solids_that_touch) {
   const ImportResult r = import_broken("touching_boxes");
   EXPECT_EQ(r.tables.n_faces(), 12);

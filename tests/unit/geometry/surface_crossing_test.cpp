@@ -54,6 +54,40 @@ TEST(SelfCrossing, is_found_where_two_places_are_one_point) {
   EXPECT_NEAR(p->uv_a.x * p->uv_b.x, -1, 1e-8);
 }
 
+/// A ribbon along u whose width is that of `width(u)`: negative beyond a pinch.
+class Ribbon : public Surface {
+ public:
+  explicit Ribbon(double pinch) : pinch_(pinch) { u_min_ = -1, u_max_ = 1, v_min_ = 0, v_max_ = 1; }
+  Vec3 point(Vec2 uv) const override { return evaluate(uv).x; }
+  SurfacePoint evaluate(Vec2 uv) const override {
+    const double width = uv.x - pinch_;
+    return {{uv.x, width * (uv.y - 0.5), 0}, {1, uv.y - 0.5, 0}, {0, width, 0}};
+  }
+  SurfacePoint2 evaluate2(Vec2 uv) const override {
+    const SurfacePoint p = evaluate(uv);
+    return {p.x, p.du, p.dv, {}, {0, 1, 0}, {}};
+  }
+
+ private:
+  double pinch_;
+};
+
+TEST(Pinch, is_where_a_ribbon_shrinks_to_a_point_and_is_turned_over) {
+  const auto place = find_pinch(Ribbon(0.37), kTolerance, everywhere);
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->x, 0.37, 1e-9);
+  EXPECT_FALSE(find_pinch(Ribbon(0.37), kTolerance, [](Vec2 uv) { return uv.x < 0.2; }));
+}
+
+TEST(Pinch, is_no_pole_and_no_sharp_nose) {
+  EXPECT_FALSE(find_pinch(Ribbon(-1), kTolerance, everywhere)) << "it ends there";
+  for (const char* shape : {"sphere", "cone", "wave", "revolution", "kinked", "periodic_tube", "sharp_wing", "fan"}) {
+    const Model model = test::make_model(shape);
+    for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+      EXPECT_FALSE(find_pinch(*model.surface(f), kTolerance, everywhere)) << shape << " " << f;
+  }
+}
+
 TEST(SelfCrossing, counts_only_what_is_inside) {
   EXPECT_FALSE(find_self_crossing(Loop(-1.5, 1.7), kTolerance, [](Vec2 uv) { return uv.x < 0.9; }));
   EXPECT_FALSE(find_self_crossing(Loop(-0.9, 1.7), kTolerance, everywhere));

@@ -45,6 +45,16 @@ TEST(TouchingBodies, with_a_face_at_one_place_have_it_once_and_named) {
   EXPECT_EQ(std::count(names.begin(), names.end(), "interface"), 1);
 }
 
+TEST(TouchingBodies, are_named_where_they_are_not_joined) {
+  for (const char* shape : {"touching_boxes", "offset_boxes", "pin_in_plate", "boxes_along_edge"}) {
+    const auto found = findings_of(import_broken(shape), "bodies touch");
+    ASSERT_EQ(found.size(), 1u) << shape;
+    EXPECT_NE(found[0].detail.find("2 bodies, among them"), std::string::npos) << found[0].detail;
+    EXPECT_TRUE(findings_of(join_broken(shape), "bodies touch,").empty()) << shape;
+  }
+  EXPECT_TRUE(findings_of(test::import_shape("two_boxes"), "bodies touch").empty());
+}
+
 TEST(TouchingBodies, share_the_part_of_a_face_on_which_they_touch) {
   const ImportResult r = join_broken("offset_boxes");
   EXPECT_EQ(r.tables.n_faces(), 12);
