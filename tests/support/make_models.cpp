@@ -51,6 +51,7 @@
 #include <utility>
 #include <vector>
 
+#include "broken/broken_shapes.h"
 #include "support/shapes.h"
 
 namespace {
@@ -262,7 +263,11 @@ void write_all(const fs::path& dir) {
   write_concept(dir / "concept.step");
   write_parts({{"plate", box(10, 10, 4)}, {"block", BRepPrimAPI_MakeBox(gp_Pnt(3, 3, 4), 4, 4, 3).Shape()}},
               dir / "stacked.step");
-  st::test::write_brep("crossed_loop", dir / "crossed_loop.brep");
+  for (const char* shape : {"crossed_loop", "fan", "thin_pipe"})
+    st::test::write_brep(shape, dir / (std::string(shape) + ".brep"));
+  for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
+                            "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle"})
+    st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());
