@@ -184,8 +184,7 @@ void require_started(int failure, const std::string& program) {
   ssize_t n = 0;
   while ((n = read(failure, &error, sizeof error)) < 0 && errno == EINTR) {
   }
-  if (n == sizeof error)
-    throw Error(ExitCode::kInternal, program + " cannot be started (" + std::strerror(error) + ")");
+  if (n == sizeof error) throw Error(ExitCode::kUsage, program + " cannot be started (" + std::strerror(error) + ")");
 }
 
 }  // namespace

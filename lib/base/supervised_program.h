@@ -25,7 +25,7 @@ struct StopWatch {
 
 /// Runs `words` (program and arguments, found along PATH) and waits for its end. `on_error_line` gets each line of its
 /// stderr, with its end; stdin and stdout are those of this process. SIGINT, SIGTERM and SIGHUP to this process go to
-/// the program, which also gets SIGTERM when this process dies. Throws Error(kInternal) when the program cannot be
+/// the program, which also gets SIGTERM when this process dies. Throws Error(kUsage) when the program cannot be
 /// started. Precondition: this process has no other threads.
 ProgramEnd run_supervised(const std::vector<std::string>& words,
                           const std::function<void(const std::string& line)>& on_error_line,

@@ -73,7 +73,7 @@ TEST(SupervisedProgram, cannot_be_one_that_does_not_exist) {
     run_supervised({"/no/such/program"}, [](const std::string&) {});
     FAIL() << "started";
   } catch (const Error& e) {
-    EXPECT_EQ(e.code(), ExitCode::kInternal);
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
     EXPECT_NE(std::string(e.what()).find("/no/such/program cannot be started"), std::string::npos) << e.what();
   }
 }
