@@ -17,26 +17,51 @@ bool meet(const Box3& a, const Box3& b) {
          b.lo.z <= a.hi.z;
 }
 
-/// Numbers of points along a curve that fills their box: neighbours follow each other.
+constexpr std::size_t kPerPiece = 1024 * PatchBlocks::kTriangles;  // whose order is mixed
+
+/// Numbers of points, in pieces that keep their places, each along a curve that fills the box of all: neighbours follow
+/// each other where those of a piece are neighbours.
 std::vector<std::int32_t> along_curve(std::size_t n, const Box3& box,
                                       const std::function<Vec3(std::size_t point)>& place) {
-  constexpr std::size_t kPerPiece = 65'536;
   constexpr double kCells = 1 << 10;  // per axis
   const Vec3 extent = box.hi - box.lo;
   const auto cell = [&](double x, double size) {
     return size > 0 ? static_cast<std::uint32_t>(std::clamp(x / size * kCells, 0.0, kCells - 1)) : 0;
   };
-  std::vector<std::uint64_t> keys(n);
+  std::vector<std::int32_t> order(n);
   parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint64_t> keys;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 x = place(i) - box.lo;
-      keys[i] = morton::encode({cell(x.x, extent.x), cell(x.y, extent.y), cell(x.z, extent.z)}) << 32 | i;
+      keys.push_back(morton::encode({cell(x.x, extent.x), cell(x.y, extent.y), cell(x.z, extent.z)}) << 32 | i);
     }
+    sort_unique(keys);
+    std::transform(keys.begin(), keys.end(), order.begin() + static_cast<std::ptrdiff_t>(begin),
+                   [](std::uint64_t k) { return static_cast<std::int32_t>(k); });
   });
-  sort_unique(keys);
-  std::vector<std::int32_t> order(n);
-  std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t k) { return static_cast<std::int32_t>(k); });
   return order;
+}
+
+/// Those of the triangles that meet the box.
+void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
+               std::span<const std::int32_t> triangles, const Box3& others, PatchPart& part) {
+  Box3 all;
+  for (const std::int32_t t : triangles) {
+    Vec3 x[3];
+    Box3 box;
+    for (int k = 0; k < 3; ++k) box.add(x[k] = node_place(edges, vertex_xyz, p, p.triangles[t].n[k]));
+    if (!meet(box, others)) continue;
+    all.add(box);
+    for (int k = 0; k < 3; ++k) {
+      if (const NodeId n = p.triangles[t].n[k]; n < p.n_boundary) {
+        part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
+        part.key.push_back(boundary_key(p, n));
+      }
+      part.xyz.push_back(x[k]);
+    }
+    part.triangle.push_back(t);
+  }
+  if (!all.is_empty()) part.boxes.push_back(all);
 }
 
 }  // namespace
@@ -64,7 +89,7 @@ std::int64_t boundary_key(const FacePatch& p, std::int32_t i) {
 }
 
 PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
-  constexpr std::size_t kPerPiece = 1024;  // blocks
+  constexpr std::size_t kBlocksPerPiece = 1024;
   const std::size_t n = p.triangles.size();
   if (n == 0) return;
   const auto corner = [&](std::size_t t, int k) { return node_place(edges, vertex_xyz, p, p.triangles[t].n[k]); };
@@ -73,7 +98,7 @@ PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz
   for (const Vec3& x : p.inner_xyz) box.add(x);
   order_ = along_curve(n, box, [&](std::size_t t) { return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3; });
   levels_.emplace_back((n + kTriangles - 1) / kTriangles);
-  parallel_for(levels_[0].size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(levels_[0].size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
       for (const std::int32_t t : triangles(static_cast<std::int32_t>(b)))
         for (int k = 0; k < 3; ++k) levels_[0][b].add(corner(t, k));
@@ -154,27 +179,24 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
 
 PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
                   const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near) {
-  PatchPart part;
-  for (const PatchBlocks::Meeting& m : near) {
-    Box3 all;
-    for (const std::int32_t t : blocks.triangles(m.block)) {
-      Vec3 x[3];
-      Box3 box;
-      for (int k = 0; k < 3; ++k) box.add(x[k] = node_place(edges, vertex_xyz, p, p.triangles[t].n[k]));
-      if (!meet(box, m.others)) continue;
-      all.add(box);
-      for (int k = 0; k < 3; ++k) {
-        if (const NodeId n = p.triangles[t].n[k]; n < p.n_boundary) {
-          part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
-          part.key.push_back(boundary_key(p, n));
-        }
-        part.xyz.push_back(x[k]);
-      }
-      part.triangle.push_back(t);
-    }
-    if (!all.is_empty()) part.boxes.push_back(all);
+  constexpr std::size_t kBlocksPerPiece = 256;
+  std::vector<PatchPart> parts(near.size() / kBlocksPerPiece + 1);
+  parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      add_block(edges, vertex_xyz, p, blocks.triangles(near[i].block), near[i].others, parts[begin / kBlocksPerPiece]);
+  });
+  PatchPart all = std::move(parts[0]);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto first = static_cast<std::int32_t>(all.xyz.size());
+    for (const std::int32_t corner : parts[i].corner) all.corner.push_back(first + corner);
+    append(all.triangle, parts[i].triangle);
+    append(all.xyz, parts[i].xyz);
+    append(all.key, parts[i].key);
+    append(all.boxes, parts[i].boxes);
+    parts[i] = {};
   }
-  return part;
+  return all;
 }
 
 TwoParts join_parts(const PatchPart& a, const PatchPart& b) {

@@ -7,7 +7,7 @@
 namespace st {
 namespace {
 
-constexpr std::int32_t kCurvesPerTask = 24;
+constexpr std::int32_t kCurvesPerTask = 8;
 
 }  // namespace
 
