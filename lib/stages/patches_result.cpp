@@ -97,8 +97,8 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
 std::string write_own_patches(const PatchTarget& target, const std::vector<FacePatch>& patches) {
   try {
     PatchRowsFile rows(target);
-    parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
-      if (!patches[i].triangles.empty()) rows.write(patches[i]);
+    parallel_for(target.face.size(), 1, [&](std::size_t i, std::size_t) {
+      if (const FacePatch& patch = patches[target.face[i]]; !patch.triangles.empty()) rows.write(i, patch);
     });
     rows.close();
   } catch (const Error& e) {

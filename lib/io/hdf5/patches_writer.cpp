@@ -126,10 +126,8 @@ PatchesWriter::~PatchesWriter() = default;
 
 std::string PatchesWriter::commit() { return writer_->commit(); }
 
-void PatchRowsFile::write(const FacePatch& p) const {
-  const auto place = std::lower_bound(target_.face.begin(), target_.face.end(), p.face);
-  ST_ASSERT(place != target_.face.end() && *place == p.face);
-  const std::size_t i = place - target_.face.begin();
+void PatchRowsFile::write(std::size_t i, const FacePatch& p) const {
+  ST_ASSERT(target_.face.at(i) == p.face);
   std::size_t array = 0;
   const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets) {
     ST_ASSERT(static_cast<std::int64_t>(values.size()) == offsets[i + 1] - offsets[i]);

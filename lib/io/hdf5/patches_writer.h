@@ -27,7 +27,7 @@ struct PatchTarget {
 
   std::string file, label;
   std::vector<std::uint64_t> begin;                             ///< [kArrays, or two less] of the arrays, bytes
-  std::vector<FaceId> face;                                     ///< [n_patches] ascending
+  std::vector<FaceId> face;                                     ///< [n_patches] of each
   std::vector<std::int64_t> boundary, inner, triangle, own_uv;  ///< [n_patches+1] rows
 
   static auto fields(auto& t) {
@@ -58,8 +58,8 @@ class PatchRowsFile {
  public:
   /// `target` outlives the object.
   explicit PatchRowsFile(const PatchTarget& target) : target_(target), file_(target.file, target.label) {}
-  /// Several threads may write patches at a time. Precondition: the target has this patch, and it is of that size.
-  void write(const FacePatch& patch) const;
+  /// Patch i of the target. Several threads may write patches at a time. Precondition: it is of that face and size.
+  void write(std::size_t i, const FacePatch& patch) const;
   void close() { file_.close(); }
 
  private:

@@ -33,7 +33,7 @@ TEST(PatchesWriter, makes_the_bytes_of_one_process_whoever_writes_which_patch) {
   PatchTarget there;
   unpack(message, there);
   PatchRowsFile here(writer.target()), far(there);
-  for (std::size_t i = a.patches.size(); i-- > 0;) (i % 2 ? here : far).write(a.patches[i]);
+  for (std::size_t i = a.patches.size(); i-- > 0;) (i % 2 ? here : far).write(i, a.patches[i]);
   here.close();
   far.close();
   EXPECT_EQ(writer.commit(), hash);
@@ -46,7 +46,7 @@ TEST(PatchesWriter, leaves_nothing_without_commit) {
   {
     const PatchesWriter writer(dir / "p.hdf", a, counts_of(a));
     PatchRowsFile rows(writer.target());
-    rows.write(a.patches[0]);
+    rows.write(0, a.patches[0]);
   }
   EXPECT_TRUE(std::filesystem::is_empty(dir / ""));
 }
