@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 
 namespace st {
 namespace {
@@ -14,8 +13,6 @@ constexpr double kClear = 0.5;         // distance to sides of the model's box, 
 constexpr double kInSide = 1e-4;  // of a plane from a side of the model's box, over its diagonal: edges have tolerances
 constexpr double kFlat = 1e-3;    // of a flat face, over the diagonal of its box
 constexpr double kSpread = 1e-3;  // of outer faces from the sides of the model's box: spheres of patches
-
-constexpr double kTurned = 1e-2;  // of the width of a turned face: boxes of faces are sampled
 
 constexpr double Vec3::*kAxes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
@@ -131,40 +128,7 @@ class DomainSearch {
       if (std::find(sides.begin(), sides.end(), side) == sides.end() && gap(body, all_, side) < kClear * size)
         return false;
     if (sides.empty()) return true;
-    return is_free_form(pieces, outer) || is_sphere(outer) ||
-           (sides.size() == 1 && is_half_turned(pieces, outer, sides[0]));
-  }
-
-  /// Half of a body that was turned about an axis in the side it stands on: a capsule, a cone and its base. Each face
-  /// reaches the side; across the axis each one is twice as wide as high, about one middle. A bore is not so, nor a
-  /// pocket with a floor. A lone half ball may be a seat.
-  bool is_half_turned(const std::vector<Piece>& pieces, const Piece& outer, int side) const {
-    const int up = side / 2;
-    for (int along = 0; along < 3; ++along)
-      if (along != up && is_half_turned_about(pieces, outer, side, kAxes[3 - up - along])) return true;
-    return false;
-  }
-
-  bool is_half_turned_about(const std::vector<Piece>& pieces, const Piece& outer, int side,
-                            double Vec3::*across) const {
-    const auto up = kAxes[side / 2];
-    int n_faces = 0;
-    bool is_ball = true;
-    std::optional<double> middle;
-    for (const Piece& piece : pieces)
-      for (const FaceId f : piece.faces) {
-        if (&piece == &outer) continue;
-        const Box3& box = t_.face_box[f];
-        const double height = box.hi.*up - box.lo.*up, width = box.hi.*across - box.lo.*across;
-        const double slack = kTurned * width;
-        if (height <= slack || std::abs(at_side(box, side) - at_side(all_, side)) > slack + rounding()) return false;
-        if (std::abs(width - 2 * height) > slack) return false;
-        if (!middle) middle = box.center().*across;
-        if (std::abs(box.center().*across - *middle) > slack) return false;
-        ++n_faces;
-        is_ball &= t_.face_type[f] == SurfaceType::kSphere;
-      }
-    return n_faces > 1 && !is_ball;
+    return is_free_form(pieces, outer) || is_sphere(outer);
   }
 
   bool is_flat(FaceId f) const {
