@@ -291,7 +291,7 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
   }
   const auto in_order = [](const FacetPair& p, const FacetPair& q) { return p.key() < q.key(); };
   std::sort(fresh.begin(), fresh.end(), in_order);
-  fresh = measured(std::move(fresh), search);
+  fresh = measured(fresh, search);
   pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
   std::sort(pairs_.begin(), pairs_.end(), in_order);
   std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
@@ -368,9 +368,9 @@ bool CrossingSearch::may_be_apart(FaceId a, FaceId b) const {
 }
 
 /// Collective. With their factors, without pairs where two bodies meet. `pairs`: sorted, of rank 0.
-CrossingSearch::FacetPairs CrossingSearch::measured(FacetPairs pairs, const Search& search) {
+CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, const Search& search) {
   FacetPairs known, unknown;  // those that share a vertex, and those whose walls are to be measured
-  for (const FacetPairs& some : by_faces(std::move(pairs))) {
+  for (const FacetPairs& some : by_faces(pairs)) {
     const FaceId a = some[0].a.face, b = some[0].b.face;
     const bool is_known = a == b || share_a_vertex(model_.tables(), a, b);
     for (FacetPair p : some) {
@@ -379,7 +379,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured(FacetPairs pairs, const Sear
     }
   }
   share(executor_, unknown);
-  const std::vector<FacetPairs> groups = by_faces(std::move(unknown));
+  const std::vector<FacetPairs> groups = by_faces(unknown);
   if (groups.empty()) return known;
   const auto home = [&](const FacetPairs& p) { return search.places[p[0].a.face].rank; };
   const std::vector<Batch> batches =
@@ -407,7 +407,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured(FacetPairs pairs, const Sear
 }
 
 /// Sorted pairs, those of each two faces together.
-std::vector<CrossingSearch::FacetPairs> CrossingSearch::by_faces(FacetPairs pairs) {
+std::vector<CrossingSearch::FacetPairs> CrossingSearch::by_faces(const FacetPairs& pairs) {
   std::vector<FacetPairs> groups;
   for (const FacetPair& p : pairs) {
     if (groups.empty() || groups.back()[0].a.face != p.a.face || groups.back()[0].b.face != p.b.face)

@@ -116,8 +116,8 @@ class CrossingSearch {
   static RefinementPoint refinement_of(const Corners& triangle, double factor, double covering);
   std::vector<RefinementPoint> places_to_refine(const Search& search) const;
   std::vector<Corners> corners(std::vector<Facet> facets, const Search& search) const;
-  static std::vector<FacetPairs> by_faces(FacetPairs pairs);
-  FacetPairs measured(FacetPairs pairs, const Search& search);
+  static std::vector<FacetPairs> by_faces(const FacetPairs& pairs);
+  FacetPairs measured(const FacetPairs& pairs, const Search& search);
   FacetPairs measured_pair_of_faces(FacetPairs kept, const Search& search) const;
 
   const Model& model_;
