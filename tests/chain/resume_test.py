@@ -181,7 +181,8 @@ class Resume(ToolTest):
     @staticmethod
     def processor_time(stat):
         try:
-            return int(stat.read_text().rpartition(")")[2].split()[11])
+            fields = stat.read_text().rpartition(")")[2].split()
+            return int(fields[11]) if fields[0] == "R" else -1  # main threads of ranks wait, and have done most so far
         except OSError:
             return -1
 
