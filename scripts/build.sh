@@ -11,6 +11,8 @@ for argument in "$@"; do
 done
 log=$build/build.log
 mkdir -p "$build"
+# What one clone compiled serves the next, wherever that lies.
+export CCACHE_BASEDIR=${CCACHE_BASEDIR-$root} CCACHE_NOHASHDIR=1
 
 say() { if [ -t 1 ]; then printf '\r\033[K%s' "$1"; fi; }
 fail() {

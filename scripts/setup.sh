@@ -13,7 +13,7 @@ build_packages=(
   libcli11-dev libeigen3-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libxxhash-dev
 )
 check_packages=(
-  libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
+  ccache libgtest-dev libbenchmark-dev python3 python3-numpy python3-vtk9
   lintian dpkg-dev file  # packages
   clang-format clang-tidy universal-ctags pyflakes3 shellcheck  # lints
   libcgal-dev  # the independent judge of meshes, tests only

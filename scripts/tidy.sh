@@ -72,11 +72,8 @@ if [ -n "$most" ] && [ ${#sources[@]} -gt "$most" ]; then
 fi
 echo "tidy: ${#sources[@]} files, $what"
 log=$build/tidy.log
-# without precompiled headers (ST_PCH), so that a missing include is found
-mkdir -p "$build/tidy"
-sed -E 's# -include [^ ]*/cmake_pch\.hxx##' "$build/compile_commands.json" > "$build/tidy/compile_commands.json"
 status=0
 printf '%s\0' "${sources[@]}" |
-  xargs -0 -P"$(nproc)" -n1 clang-tidy -p "$build/tidy" --quiet > "$log" 2> "$log.errors" || status=1
+  xargs -0 -P"$(nproc)" -n1 clang-tidy -p "$build" --quiet > "$log" 2> "$log.errors" || status=1
 grep -hE 'warning:|error:' "$log" "$log.errors" | sort -u || true
 [ $status = 0 ] || { echo "tidy: error: see the lines above; the whole log is $log" >&2; exit 1; }

@@ -277,6 +277,16 @@ class WorkerThreads {
   std::vector<std::thread> threads_;  // last: they use the members above
 };
 
+/// Takes what is complete, and forgets it. False: nothing is.
+template <class Take>
+bool take_arrived(std::list<Transfer>& transfers, const Take& take) {
+  return std::erase_if(transfers, [&](Transfer& transfer) {
+           if (!transfer.is_done()) return false;
+           take(transfer);
+           return true;
+         }) > 0;
+}
+
 /// Passes questions of this rank's tasks on to other ranks, and answers theirs. For the main thread.
 class Courier {
  public:
@@ -327,21 +337,6 @@ class Courier {
                           asked_.erase(question);
                         }) ||
            has_news;
-  }
-
-  template <class Take>
-  static bool take_arrived(std::list<Transfer>& transfers, const Take& take) {
-    bool has_news = false;
-    for (auto it = transfers.begin(); it != transfers.end();) {
-      if (!it->is_done()) {
-        ++it;
-        continue;
-      }
-      take(*it);
-      it = transfers.erase(it);
-      has_news = true;
-    }
-    return has_news;
   }
 
   WorkerThreads& threads_;
@@ -424,22 +419,7 @@ class Distributor {
       answer(status.MPI_SOURCE, incoming_.back().outcome().seconds);
     }
     const bool has_news = received_.size() + incoming_.size() != n_before;
-    return courier_.work() | accept_arrived() | has_news;
-  }
-
-  /// True when the bytes of an outcome are complete.
-  bool accept_arrived() {
-    bool has_news = false;
-    for (auto it = incoming_.begin(); it != incoming_.end();) {
-      if (!it->is_done()) {
-        ++it;
-        continue;
-      }
-      accept(it->take());
-      it = incoming_.erase(it);
-      has_news = true;
-    }
-    return has_news;
+    return courier_.work() | take_arrived(incoming_, [&](Transfer& outcome) { accept(outcome.take()); }) | has_news;
   }
 
   /// Collects, but answers whoever reports meanwhile.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 #include "base/morton.h"
+#include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
 #include "base/threads.h"
 
@@ -42,6 +42,20 @@ std::vector<std::int32_t> along_curve(std::size_t n, const Box3& box,
   return order;
 }
 
+/// Of all nodes of the patch.
+Box3 box_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
+  constexpr std::size_t kPerPart = 65'536;
+  const std::size_t n = p.n_boundary + p.inner_xyz.size();
+  std::vector<Box3> boxes(n / kPerPart + 1);
+  parallel_for(n, kPerPart, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      boxes[begin / kPerPart].add(node_place(edges, vertex_xyz, p, static_cast<NodeId>(i)));
+  });
+  Box3 all;
+  for (const Box3& box : boxes) all.add(box);
+  return all;
+}
+
 /// Those of the triangles that meet the box.
 void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
                std::span<const std::int32_t> triangles, const Box3& others, PatchPart& part) {
@@ -64,6 +78,32 @@ void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const Fa
   if (!all.is_empty()) part.boxes.push_back(all);
 }
 
+/// One after the other.
+PatchPart joined(std::vector<PatchPart>&& parts) {
+  PatchPart all;
+  const auto append = [&](auto PatchPart::*rows) {
+    std::vector<std::size_t> first{0};
+    for (const PatchPart& part : parts) first.push_back(first.back() + (part.*rows).size());
+    parallel_reserve(all.*rows, first.back());
+    (all.*rows).resize(first.back());
+    parallel_for(parts.size(), 1, [&](std::size_t i, std::size_t) {
+      std::copy((parts[i].*rows).begin(), (parts[i].*rows).end(),
+                (all.*rows).begin() + static_cast<std::ptrdiff_t>(first[i]));
+    });
+  };
+  std::int32_t n_corners = 0;
+  for (PatchPart& part : parts) {
+    for (std::int32_t& corner : part.corner) corner += n_corners;
+    n_corners += static_cast<std::int32_t>(part.xyz.size());
+  }
+  append(&PatchPart::triangle);
+  append(&PatchPart::xyz);
+  append(&PatchPart::corner);
+  append(&PatchPart::key);
+  append(&PatchPart::boxes);
+  return all;
+}
+
 }  // namespace
 
 Vec3 node_place(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p, NodeId n) {
@@ -73,10 +113,14 @@ Vec3 node_place(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const F
 }
 
 std::vector<Vec3> node_places(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
+  constexpr std::size_t kPerPart = 65'536;
   std::vector<Vec3> xyz;
-  xyz.reserve(p.n_boundary + p.inner_xyz.size());
-  for (std::int32_t i = 0; i < p.n_boundary; ++i) xyz.push_back(node_place(edges, vertex_xyz, p, i));
-  xyz.insert(xyz.end(), p.inner_xyz.begin(), p.inner_xyz.end());
+  const std::size_t n = p.n_boundary + p.inner_xyz.size();
+  parallel_reserve(xyz, n);
+  xyz.resize(n);
+  parallel_for(n, kPerPart, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) xyz[i] = node_place(edges, vertex_xyz, p, static_cast<NodeId>(i));
+  });
   return xyz;
 }
 
@@ -93,9 +137,7 @@ PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz
   const std::size_t n = p.triangles.size();
   if (n == 0) return;
   const auto corner = [&](std::size_t t, int k) { return node_place(edges, vertex_xyz, p, p.triangles[t].n[k]); };
-  Box3 box;
-  for (std::int32_t i = 0; i < p.n_boundary; ++i) box.add(node_place(edges, vertex_xyz, p, i));
-  for (const Vec3& x : p.inner_xyz) box.add(x);
+  const Box3 box = box_of(edges, vertex_xyz, p);
   order_ = along_curve(n, box, [&](std::size_t t) { return (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3; });
   levels_.emplace_back((n + kTriangles - 1) / kTriangles);
   parallel_for(levels_[0].size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -121,30 +163,46 @@ void PatchBlocks::build() {
   }
 }
 
-std::vector<PatchBlocks::Meeting> PatchBlocks::meeting(const PatchBlocks& other) const {
-  struct Place {
-    std::int32_t level, index;
-  };
-  std::vector<Box3> others(size());
-  std::vector<std::pair<Place, Place>> open;
-  if (!levels_.empty() && !other.levels_.empty())
-    open.push_back(
-        {{static_cast<std::int32_t>(levels_.size()) - 1, 0}, {static_cast<std::int32_t>(other.levels_.size()) - 1, 0}});
+/// One step down: the pairs below one that meets, or the pair of two blocks.
+void PatchBlocks::descend(const PatchBlocks& other, const Pair& pair, std::vector<Pair>& below,
+                          std::vector<Meeting>& found) const {
+  const auto [a, b] = pair;
+  if (!meet(levels_[a.level][a.index], other.levels_[b.level][b.index])) return;
   const auto for_each_child = [](const PatchBlocks& tree, Place p, const auto& visit) {
     const auto n = static_cast<std::int32_t>(tree.levels_[p.level - 1].size());
     for (std::int32_t i = 2 * p.index; i < std::min(n, 2 * p.index + 2); ++i) visit(Place{p.level - 1, i});
   };
-  while (!open.empty()) {
-    const auto [a, b] = open.back();
-    open.pop_back();
-    if (!meet(levels_[a.level][a.index], other.levels_[b.level][b.index])) continue;
-    if (a.level == 0 && b.level == 0)
-      others[a.index].add(other.levels_[0][b.index]);
-    else if (a.level >= b.level)
-      for_each_child(*this, a, [&, other_one = b](Place child) { open.push_back({child, other_one}); });
-    else
-      for_each_child(other, b, [&, own = a](Place child) { open.push_back({own, child}); });
+  if (a.level == 0 && b.level == 0)
+    found.push_back({a.index, other.levels_[0][b.index]});
+  else if (a.level >= b.level)
+    for_each_child(*this, a, [&, other_one = b](Place child) { below.push_back({child, other_one}); });
+  else
+    for_each_child(other, b, [&, own = a](Place child) { below.push_back({own, child}); });
+}
+
+std::vector<PatchBlocks::Meeting> PatchBlocks::meeting(const PatchBlocks& other) const {
+  constexpr std::size_t kWorthIt = 256;  // pairs to share
+  if (levels_.empty() || other.levels_.empty()) return {};
+  const auto top = [](const PatchBlocks& tree) { return Place{static_cast<std::int32_t>(tree.levels_.size()) - 1, 0}; };
+  std::vector<Pair> open{{top(*this), top(other)}}, below;
+  std::vector<std::vector<Meeting>> found(1);
+  while (!open.empty() && open.size() < kWorthIt) {
+    below.clear();
+    for (const Pair& pair : open) descend(other, pair, below, found[0]);
+    std::swap(open, below);
   }
+  found.resize(1 + open.size());
+  parallel_for(open.size(), 1, [&](std::size_t i, std::size_t) {
+    std::vector<Pair> own{open[i]};
+    while (!own.empty()) {
+      const Pair pair = own.back();
+      own.pop_back();
+      descend(other, pair, own, found[1 + i]);
+    }
+  });
+  std::vector<Box3> others(size());
+  for (const auto& some : found)
+    for (const Meeting& m : some) others[m.block].add(m.others);
   std::vector<Meeting> blocks;
   for (std::int32_t i = 0; i < size(); ++i)
     if (!others[i].is_empty()) blocks.push_back({i, others[i]});
@@ -185,33 +243,33 @@ PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const
     for (std::size_t i = begin; i < end; ++i)
       add_block(edges, vertex_xyz, p, blocks.triangles(near[i].block), near[i].others, parts[begin / kBlocksPerPiece]);
   });
-  PatchPart all = std::move(parts[0]);
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const auto first = static_cast<std::int32_t>(all.xyz.size());
-    for (const std::int32_t corner : parts[i].corner) all.corner.push_back(first + corner);
-    append(all.triangle, parts[i].triangle);
-    append(all.xyz, parts[i].xyz);
-    append(all.key, parts[i].key);
-    append(all.boxes, parts[i].boxes);
-    parts[i] = {};
-  }
-  return all;
+  return joined(std::move(parts));
 }
 
 TwoParts join_parts(const PatchPart& a, const PatchPart& b) {
-  TwoParts both{a.xyz, {}};
-  both.points.insert(both.points.end(), b.xyz.begin(), b.xyz.end());
-  const auto n_a = static_cast<NodeId>(a.xyz.size());
-  std::vector<NodeId> node(both.points.size());
-  std::iota(node.begin(), node.end(), 0);
+  constexpr std::size_t kPerPart = 16'384;
+  TwoParts both;
+  const std::size_t n_a = a.xyz.size(), n = n_a + b.xyz.size();
+  parallel_reserve(both.points, n);
+  parallel_reserve(both.triangles, n / 3);
+  both.points.resize(n);
+  both.triangles.resize(n / 3);
+  parallel_for(n / 3, kPerPart, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      both.points[i] = i < n_a ? a.xyz[i] : b.xyz[i - n_a];
+      both.triangles[i / 3].n[i % 3] = static_cast<NodeId>(i);
+    }
+  });
   std::vector<std::pair<std::int64_t, NodeId>> on_boundary;
   for (std::size_t i = 0; i < a.key.size(); ++i) on_boundary.push_back({a.key[i], a.corner[i]});
-  for (std::size_t i = 0; i < b.key.size(); ++i) on_boundary.push_back({b.key[i], n_a + b.corner[i]});
+  for (std::size_t i = 0; i < b.key.size(); ++i)
+    on_boundary.push_back({b.key[i], static_cast<NodeId>(n_a) + b.corner[i]});
   std::sort(on_boundary.begin(), on_boundary.end());
+  const auto node = [&](std::size_t i) -> NodeId& {
+    return both.triangles[on_boundary[i].second / 3].n[on_boundary[i].second % 3];
+  };
   for (std::size_t i = 1; i < on_boundary.size(); ++i)
-    if (on_boundary[i].first == on_boundary[i - 1].first) node[on_boundary[i].second] = node[on_boundary[i - 1].second];
-  for (std::size_t i = 0; i < node.size(); i += 3) both.triangles.push_back({{node[i], node[i + 1], node[i + 2]}});
+    if (on_boundary[i].first == on_boundary[i - 1].first) node(i) = node(i - 1);
   return both;
 }
 

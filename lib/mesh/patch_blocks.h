@@ -52,7 +52,13 @@ class PatchBlocks {
   std::vector<Meeting> meeting(const Box3& box) const { return meeting(PatchBlocks(std::vector<Box3>{box})); }
 
  private:
+  struct Place {
+    std::int32_t level, index;
+  };
+  using Pair = std::pair<Place, Place>;  // of this one and of another
+
   void build();
+  void descend(const PatchBlocks& other, const Pair& pair, std::vector<Pair>& below, std::vector<Meeting>& found) const;
   std::vector<std::int32_t> order_;        // triangles by block
   std::vector<std::vector<Box3>> levels_;  // [0] the blocks; each box of the next one is over two of these
 };

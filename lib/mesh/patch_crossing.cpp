@@ -95,19 +95,15 @@ class Forest {
         items_(new Item[mesh.triangles.size()]),
         nodes_(new TreeNode[n_faces_ + 2 * mesh.triangles.size()]),  // a node has two children, none of them empty
         n_nodes_(n_faces_) {
-    std::vector<TriangleId> pieces;  // where each begins
-    for (FaceId f = 0; f < n_faces_; ++f)
-      for (TriangleId t = mesh.face_begin[f]; is_wanted[f] && t < mesh.face_begin[f + 1]; t += kItemsPerPiece)
-        pieces.push_back(t);
-    parallel_for(pieces.size(), 1, [&](std::size_t i, std::size_t) {
-      const auto next_face = std::upper_bound(mesh.face_begin.begin(), mesh.face_begin.end(), pieces[i]);
-      const TriangleId end = std::min(*next_face, pieces[i] + kItemsPerPiece);
-      for (TriangleId t = pieces[i]; t < end; ++t) items_[t] = item_of(t);
-    });
-    parallel_for(n_faces_, kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f)
-        if (is_wanted[f]) nodes_[f] = root_of(static_cast<FaceId>(f));
-    });
+    std::vector<Piece> pieces;
+    for (FaceId f = 0; f < n_faces_; ++f) {
+      const TriangleId end = is_wanted[f] ? mesh.face_begin[f + 1] : 0;
+      for (TriangleId t = mesh.face_begin[f]; t < end; t += kItemsPerPiece)
+        pieces.push_back({f, t, std::min(end, t + kItemsPerPiece), {}});
+      nodes_[f] = {{}, 0, mesh.face_begin[f], mesh.face_begin[f], kNone};
+    }
+    parallel_for(pieces.size(), 1, [&](std::size_t i, std::size_t) { make_items(pieces[i]); });
+    for (const Piece& piece : pieces) add_to_root(piece);
   }
 
   /// Nodes to be tested: within one, or between two.
@@ -180,7 +176,7 @@ class Forest {
   static constexpr std::int32_t kLargeJob = 20'000;  // triangles: tested by several threads
   static constexpr std::int32_t kMaxLopsided = 8;    // a part smaller than 1/8 of the whole is no split
   static constexpr TriangleId kItemsPerPiece = 16'384;
-  static constexpr std::size_t kFacesPerPiece = 8, kLocks = 256;
+  static constexpr std::size_t kLocks = 256;
 
   /// Without an id where the triangle has no area.
   Item item_of(TriangleId t) const {
@@ -196,11 +192,34 @@ class Forest {
     return {rounded(box), length2 > 0 ? directions_near(normal / std::sqrt(length2)) : 0, t};
   }
 
-  /// Over the triangles of a face that have an area.
-  TreeNode root_of(FaceId f) {
-    Item *first = items_.get() + mesh_.face_begin[f], *last = items_.get() + mesh_.face_begin[f + 1];
+  /// Triangles [begin, end) of a face, and the node over their items, which are at the places of the first of them.
+  struct Piece {
+    FaceId face;
+    TriangleId begin, end;
+    TreeNode node;
+  };
+
+  void make_items(Piece& piece) {
+    for (TriangleId t = piece.begin; t < piece.end; ++t) items_[t] = item_of(t);
+    Item *first = items_.get() + piece.begin, *last = items_.get() + piece.end;
     last = std::remove_if(first, last, [](const Item& i) { return i.id == kNone; });
-    return node_over(mesh_.face_begin[f], static_cast<std::int32_t>(last - items_.get()));
+    piece.node = node_over(piece.begin, static_cast<std::int32_t>(last - items_.get()));
+  }
+
+  /// Pieces of a face come in their order.
+  void add_to_root(const Piece& piece) {
+    TreeNode& root = nodes_[piece.face];
+    if (piece.node.size() == 0) return;
+    if (root.end != piece.node.begin)
+      std::copy_n(items_.get() + piece.node.begin, piece.node.size(), items_.get() + root.end);
+    if (root.size() == 0) {
+      root.box = piece.node.box;
+      root.near = piece.node.near;
+    } else {
+      root.box.add(piece.node.box);
+      root.near &= piece.node.near;
+    }
+    root.end += piece.node.size();
   }
 
   TreeNode node_over(std::int32_t begin, std::int32_t end) const {

@@ -7,7 +7,8 @@ Kills: SIGKILL, SIGTERM or SIGINT to the tool, its process group or one of two r
 The output is absent or whole, the code is that of the signal, a killed rank is named, and the repeated run gives the
 same hash and leaves no temporary. Disks: a tmpfs of a few kB; the code is 6, one message names the output, nothing
 is left, and with more space the hash is the same. Needs root (skipped without). Surroundings: German locale, empty
-environment, no HOME, wrong TMPDIR, stack of 1 MB, two runs into one output. Exit 1 when a case fails.
+environment, no HOME, none or a wrong TMPDIR, stack of 1 MB, closed stdout, two runs into one output. Outputs: a FIFO,
+a folder, a link, a limit of file sizes, no permission (needs root). Exit 1 when a case fails.
 --resumed N does something else: N times st-mesh on the D150 of ST_CORPUS with a million triangles, at 1, 2 and 3 ranks.
 SIGKILL to the tool, its group, or a rank at a random moment; the run goes on by itself or is given again. The hash is
 that of an undisturbed run, and no part whose end is in a journal is made again; prints both counts of each case.
@@ -51,7 +52,8 @@ class Stages:
                 *(["--np", str(ranks)] if ranks > 1 else [])]
 
     def run(self, tool, output, **keywords):
-        return subprocess.run(self.command(tool, output), capture_output=True, text=True, **keywords)
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        return subprocess.run(self.command(tool, output), text=True, **(pipes | keywords))
 
     def hash_of(self, path):
         done = subprocess.run([self.bin / "st-info", path, "--hash"], capture_output=True, text=True)
@@ -252,27 +254,65 @@ class Resumed:
         return what, ""
 
 
+def small_stack():
+    resource.setrlimit(resource.RLIMIT_STACK, (2**20, 2**20))
+
+
+def small_files():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2048, 2048))
+
+
 def surroundings(stages, folder):
     """(what, what is wrong) of each."""
-    def small_stack():
-        resource.setrlimit(resource.RLIMIT_STACK, (2**20, 2**20))
-
-    env = dict(os.environ)
+    env, output = dict(os.environ), folder / "x.hdf"
     odd = {"German locale": {"env": env | {"LC_ALL": "de_DE.UTF-8"}}, "empty environment": {"env": {}},
            "no HOME": {"env": {k: v for k, v in env.items() if k != "HOME"}},
-           "wrong TMPDIR": {"env": env | {"TMPDIR": "/does/not/exist"}}, "stack of 1 MB": {"preexec_fn": small_stack}}
+           "no TMPDIR": {"env": {k: v for k, v in env.items() if k != "TMPDIR"}},
+           "wrong TMPDIR": {"env": env | {"TMPDIR": "/does/not/exist"}}, "stack of 1 MB": {"preexec_fn": small_stack},
+           "closed stdout": {"preexec_fn": lambda: os.close(1), "stdout": None},
+           "closed stdin": {"preexec_fn": lambda: os.close(0)}}
     for what, keywords in odd.items():
         for tool in stages.inputs:
-            done = stages.run(tool, folder / "x.hdf", **keywords)
-            same = done.returncode == 0 and stages.hash_of(folder / "x.hdf") == stages.hash[tool]
+            done = stages.run(tool, output, **keywords)
+            same = done.returncode == 0 and stages.hash_of(output) == stages.hash[tool]
             yield f"{tool}, {what}", "" if same else f"exit {done.returncode}: {done.stderr}"
-            (folder / "x.hdf").unlink(missing_ok=True)
+            output.unlink(missing_ok=True)
     for tool in stages.inputs:
-        both = [subprocess.Popen(stages.command(tool, folder / "x.hdf"), stderr=subprocess.PIPE) for _ in range(2)]
+        both = [subprocess.Popen(stages.command(tool, output), stderr=subprocess.PIPE) for _ in range(2)]
         codes = [p.communicate() and p.returncode for p in both]
         same = codes == [0, 0] and [p.name for p in folder.iterdir()] == ["x.hdf"]
         yield f"{tool}, two at once", "" if same else f"exit {codes}, {list(folder.iterdir())}"
-        (folder / "x.hdf").unlink(missing_ok=True)
+        output.unlink(missing_ok=True)
+
+
+def outputs(stages, folder):
+    """Outputs that are no plain file or cannot be written: (what, what is wrong) of each."""
+    output, target = folder / "x.hdf", folder / "target.hdf"
+
+    def refused(tool, code, left, **keywords):
+        done = stages.run(tool, output, **keywords)
+        lines, there = done.stderr.splitlines(), sorted(p.name for p in folder.iterdir())
+        good = done.returncode == code and len(lines) == 1 and "x.hdf" in lines[0] and there == left
+        return "" if good else f"exit {done.returncode}, left {there}: {done.stderr}"
+
+    for tool in stages.inputs:
+        yield f"{tool}, files of 2 kB at most", refused(tool, 6, [], preexec_fn=small_files)
+        os.mkfifo(output)
+        wrong = refused(tool, 6, ["x.hdf"])
+        yield f"{tool}, a FIFO as output", wrong or ("" if output.is_fifo() else "the FIFO is gone")
+        output.unlink()
+        output.mkdir()
+        yield f"{tool}, a folder as output", refused(tool, 6, ["x.hdf"])
+        output.rmdir()
+        target.write_text("before")
+        output.symlink_to(target)
+        done = stages.run(tool, output)
+        same = done.returncode == 0 and output.is_symlink() and stages.hash_of(target) == stages.hash[tool]
+        yield f"{tool}, a link as output", "" if same else f"exit {done.returncode}: {done.stderr}"
+        output.unlink()
+        target.unlink()
+        if os.geteuid() == 0:  # others may not write there
+            yield f"{tool}, no permission", refused(tool, 6, [], preexec_fn=lambda: os.setuid(65534))
 
 
 def kill_and_resume(args):
@@ -312,6 +352,11 @@ def main():
                 yield "full disks", *full_disk(stages, rng, fresh())
             for what, wrong in surroundings(stages, fresh()):
                 yield "surroundings", what, wrong
+            folder = fresh()
+            for path in (Path(top), good, folder):
+                path.chmod(0o755)
+            for what, wrong in outputs(stages, folder):
+                yield "outputs", what, wrong
 
         for kind, what, wrong in cases():
             counts[kind] += 1

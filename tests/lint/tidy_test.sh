@@ -41,11 +41,5 @@ grep -q 'lib/mesh/g.cpp.*bugprone-integer-division' out || failed "and what is f
 ! scripts/tidy.sh --all > out 2>&1 || failed "--all judges all files"
 scripts/tidy.sh --all --most 1 > out 2>&1 || failed "--most judges so many files"
 grep -q 'WARNING: NOT judged, more than 1 files: lib/mesh/g.cpp' out || failed "and names the others"
-printf '#include <vector>\n' > build/check/cmake_pch.hxx
-sed -i "s# -c # -include $PWD/build/check/cmake_pch.hxx -c #g" build/check/compile_commands.json
-echo 'std::vector<int> v;' >> lib/base/deep/f.cpp
-commit fifth
-! scripts/tidy.sh > out 2>&1 || failed "an include that a precompiled header hides is missed"
-grep -q "f.cpp.*undeclared identifier 'std'" out || failed "and is named"
 ! scripts/tidy.sh --base not_there > out 2>&1 || failed "an unknown revision means all files"
 exit $status

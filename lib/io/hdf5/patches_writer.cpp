@@ -29,35 +29,23 @@ void write_rest(Hdf5Writer& w, const PatchesArtifact& a) {
 }
 
 /// Of faces that were closed from their loops. Absent when none was.
-void write_closed(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
-  std::vector<std::uint8_t> is_closed, is_near;
-  std::vector<double> deviation;
-  for (const FaceFailure& f : failures) {
-    is_closed.push_back(f.is_closed);
-    is_near.push_back(f.is_near);
-    deviation.push_back(f.deviation);
-  }
-  if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
-  w.write("/st/failure/is_closed", is_closed);
-  w.write("/st/failure/is_near", is_near);
-  w.write("/st/failure/deviation", deviation);
+template <class T, class Field>
+std::vector<T> column(const std::vector<FaceFailure>& failures, Field FaceFailure::*field) {
+  std::vector<T> values;
+  for (const FaceFailure& f : failures) values.push_back(f.*field);
+  return values;
 }
 
 void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
-  std::vector<std::int32_t> face;
-  std::vector<std::string> cause, remedy;
-  std::vector<Vec3> xyz;
-  for (const FaceFailure& f : failures) {
-    face.push_back(f.face);
-    cause.push_back(f.cause);
-    remedy.push_back(f.remedy);
-    xyz.push_back(f.xyz);
-  }
-  w.write("/st/failure/face", face);
-  w.write_strings("/st/failure/cause", cause);
-  w.write_strings("/st/failure/remedy", remedy);
-  w.write("/st/failure/xyz", xyz);
-  write_closed(w, failures);
+  w.write("/st/failure/face", column<std::int32_t>(failures, &FaceFailure::face));
+  w.write_strings("/st/failure/cause", column<std::string>(failures, &FaceFailure::cause));
+  w.write_strings("/st/failure/remedy", column<std::string>(failures, &FaceFailure::remedy));
+  w.write("/st/failure/xyz", column<Vec3>(failures, &FaceFailure::xyz));
+  const auto is_closed = column<std::uint8_t>(failures, &FaceFailure::is_closed);
+  if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
+  w.write("/st/failure/is_closed", is_closed);
+  w.write("/st/failure/is_near", column<std::uint8_t>(failures, &FaceFailure::is_near));
+  w.write("/st/failure/deviation", column<double>(failures, &FaceFailure::deviation));
 }
 
 PatchTarget target_of(const std::vector<PatchCounts>& counts) {

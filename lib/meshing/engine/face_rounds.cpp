@@ -459,7 +459,6 @@ std::vector<FaceId> FaceRounds::join(TiledRegions& tiled) {
         else
           failed.push_back(cut[task]);
       });
-  return_freed_memory();
   std::sort(failed.begin(), failed.end());
   return failed;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel_reserve.h"
 #include "base/threads.h"
 
 namespace st {
@@ -13,6 +14,9 @@ constexpr std::size_t kPerPiece = 65'536;
 
 void fill_inside(const FaceMesh& mesh, FacePatch& patch) {
   const std::size_t n = mesh.inner.size();
+  parallel_reserve(patch.inner_xyz, n);
+  parallel_reserve(patch.inner_uv, n);
+  parallel_reserve(patch.inner_size, n);
   patch.inner_xyz.resize(n);
   patch.inner_uv.resize(n);
   patch.inner_size.resize(n);
@@ -31,6 +35,7 @@ void fill_triangles(const FaceBoundary& boundary, const FaceMesh& mesh, const st
   const auto n_local = static_cast<std::int32_t>(number.size());
   const std::size_t n = mesh.corners.size() / 3;
   std::vector<std::vector<std::pair<std::int32_t, Vec2>>> own(n / kPerPiece + 1);  // (corner, (u,v)) by piece
+  parallel_reserve(patch.triangles, n);
   patch.triangles.resize(n);
   parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)

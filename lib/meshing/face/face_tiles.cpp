@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "meshing/face/face_check.h"
 #include "meshing/face/scaled_field.h"
@@ -444,6 +445,8 @@ FaceMesh join_tiles(const Surface& surface, const SurfaceMaker& make_surface, co
     first_corner.push_back(first_corner.back() + mesh.corners.size());
   }
   if (joined.cause != FailureCause::kNone) return joined;
+  parallel_reserve(joined.inner, first_inner.back());
+  parallel_reserve(joined.corners, first_corner.back());
   joined.inner = cut.nodes;
   for (FaceNode& n : joined.inner) n.id = kNone;
   joined.inner.resize(first_inner.back());

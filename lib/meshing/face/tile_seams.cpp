@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"
 #include "meshing/face/face_check.h"
@@ -15,6 +17,7 @@ namespace st {
 namespace {
 
 constexpr int kLayers = 4;  // of triangles on each side of a cut
+constexpr std::size_t kPerPart = 65'536;
 
 /// Disjoint triangles of a mesh that are enhanced together, and what becomes of them.
 class SeamPiece {
@@ -169,12 +172,15 @@ class SeamBand {
 
   /// Triangles in layers about the nodes of the cuts, and which piece each belongs to: the lowest of the nearest.
   void find_band(std::span<const std::int32_t> piece_of_cut) {
-    constexpr std::size_t kPerPart = 65'536;
-    const std::size_t n_triangles = mesh_.corners.size() / 3;
-    layer_.assign(n_boundary_ + mesh_.inner.size(), kLayers + 1);
-    piece_.assign(layer_.size(), kNone);
-    std::fill_n(layer_.begin() + n_boundary_, piece_of_cut.size(), std::uint8_t{0});
-    std::copy(piece_of_cut.begin(), piece_of_cut.end(), piece_.begin() + n_boundary_);
+    const std::size_t n_triangles = mesh_.corners.size() / 3, n_nodes = n_boundary_ + mesh_.inner.size();
+    parallel_reserve(layer_, n_nodes);
+    layer_.assign(n_nodes, kLayers + 1);
+    parallel_reserve(number_, n_nodes);
+    number_.assign(n_nodes, kNone);
+    for (std::size_t i = 0; i < piece_of_cut.size(); ++i) {
+      layer_[n_boundary_ + i] = 0;
+      add_node(n_boundary_ + static_cast<std::int32_t>(i), piece_of_cut[i]);
+    }
     std::vector<std::uint8_t> is_in(n_triangles, 0);
     std::vector<std::vector<std::int32_t>> found(n_triangles / kPerPart + 1);
     for (int layer = 0; layer < kLayers; ++layer) {
@@ -193,16 +199,24 @@ class SeamBand {
     }
   }
 
+  void add_node(std::int32_t corner, std::int32_t piece) {
+    number_[corner] = static_cast<std::int32_t>(node_.size());
+    node_.push_back(corner);
+    piece_.push_back(piece);
+  }
+
   void add_triangle(std::int32_t t, int layer) {
     const std::int32_t* c = corners(t);
     std::int32_t piece = kNone;
     for (int k = 0; k < 3; ++k)
-      if (layer_[c[k]] <= layer && (piece == kNone || piece_[c[k]] < piece)) piece = piece_[c[k]];
+      if (layer_[c[k]] <= layer && (piece == kNone || piece_[number_[c[k]]] < piece)) piece = piece_[number_[c[k]]];
     band_.push_back(t);
     piece_of_.push_back(piece);
     for (int k = 0; k < 3; ++k) {
       if (layer_[c[k]] <= layer) continue;
-      piece_[c[k]] = layer_[c[k]] == layer + 1 ? std::min(piece_[c[k]], piece) : piece;
+      if (number_[c[k]] == kNone) add_node(c[k], piece);
+      std::int32_t& own = piece_[number_[c[k]]];
+      own = std::min(own, piece);
       layer_[c[k]] = static_cast<std::uint8_t>(layer + 1);
     }
   }
@@ -213,41 +227,45 @@ class SeamBand {
   /// Each with the nodes that no other has.
   void improve_pieces() {
     constexpr std::int32_t kShared = -2;
-    std::vector<std::int32_t> owner(layer_.size(), kNone);
+    std::vector<std::int32_t> owner(node_.size(), kNone);
     std::map<std::int32_t, std::vector<std::int32_t>> pieces;
     for (std::size_t i = 0; i < band_.size(); ++i) {
       pieces[piece_of_[i]].push_back(band_[i]);
       for (int k = 0; k < 3; ++k) {
-        std::int32_t& own = owner[corners(band_[i])[k]];
+        std::int32_t& own = owner[number_[corners(band_[i])[k]]];
         own = own == kNone || own == piece_of_[i] ? piece_of_[i] : kShared;
       }
     }
-    improve(std::move(pieces), [&](std::int32_t c) { return is_inside(c) && owner[c] != kShared; });
-    is_joint_.assign(layer_.size(), 0);
-    for (std::size_t c = 0; c < owner.size(); ++c)
-      is_joint_[c] = owner[c] == kShared && is_inside(static_cast<std::int32_t>(c));
+    improve(std::move(pieces), [&](std::int32_t c) { return is_inside(c) && owner[number_[c]] != kShared; });
+    is_joint_.assign(node_.size(), 0);
+    for (std::size_t i = 0; i < node_.size(); ++i) is_joint_[i] = owner[i] == kShared && is_inside(node_[i]);
   }
 
   /// Layers about the nodes that pieces share, as pieces of their own.
   void improve_joints() {
-    std::vector<std::uint8_t> layer(layer_.size(), kLayers + 1), is_in(band_.size(), 0);
-    for (std::size_t c = 0; c < layer.size(); ++c)
-      if (is_joint_[c]) layer[c] = 0;
+    std::vector<std::uint8_t> layer(node_.size(), kLayers + 1), is_in(band_.size(), 0);
+    for (std::size_t i = 0; i < layer.size(); ++i)
+      if (is_joint_[i]) layer[i] = 0;
     DisjointSets sets(static_cast<std::int64_t>(layer.size()));
+    const auto numbers = [&](std::int32_t t) {
+      const std::int32_t* c = corners(t);
+      return std::array{number_[c[0]], number_[c[1]], number_[c[2]]};
+    };
     for (int l = 0; l < kLayers; ++l)
       for (std::size_t i = 0; i < band_.size(); ++i) {
-        const std::int32_t* c = corners(band_[i]);
-        if (is_in[i] || c[0] == kNone || std::min({layer[c[0]], layer[c[1]], layer[c[2]]}) > l) continue;
+        if (is_in[i] || corners(band_[i])[0] == kNone) continue;
+        const auto n = numbers(band_[i]);
+        if (std::min({layer[n[0]], layer[n[1]], layer[n[2]]}) > l) continue;
         is_in[i] = 1;
-        for (int k = 0; k < 3; ++k) {
-          layer[c[k]] = std::min(layer[c[k]], static_cast<std::uint8_t>(l + 1));
-          sets.join(c[0], c[k]);
+        for (const std::int32_t own : n) {
+          layer[own] = std::min(layer[own], static_cast<std::uint8_t>(l + 1));
+          sets.join(n[0], own);
         }
       }
     std::map<std::int32_t, std::vector<std::int32_t>> joints;
     for (std::size_t i = 0; i < band_.size(); ++i)
-      if (is_in[i]) joints[sets.find(corners(band_[i])[0])].push_back(band_[i]);
-    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[c] < kLayers; });
+      if (is_in[i]) joints[sets.find(numbers(band_[i])[0])].push_back(band_[i]);
+    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[number_[c]] < kLayers; });
   }
 
   template <class IsInner>
@@ -274,17 +292,41 @@ class SeamBand {
 
   /// Without triangles and nodes that are gone.
   void close_ranks() {
-    std::vector<std::int32_t> place(mesh_.inner.size());
-    std::int32_t n = 0;
-    for (std::size_t i = 0; i < mesh_.inner.size(); ++i) {
-      if (is_gone_[i]) continue;
-      place[i] = n_boundary_ + n;
-      mesh_.inner[n++] = mesh_.inner[i];
+    std::vector<std::int32_t> nodes, triangles;
+    for (const std::int32_t corner : node_)
+      if (corner >= n_boundary_ && is_gone_[corner - n_boundary_]) nodes.push_back(corner - n_boundary_);
+    std::copy_if(band_.begin(), band_.end(), std::back_inserter(triangles),
+                 [&](std::int32_t t) { return corners(t)[0] == kNone; });
+    std::sort(nodes.begin(), nodes.end());
+    std::sort(triangles.begin(), triangles.end());
+    erase_rows(mesh_.corners, 3, triangles);
+    if (nodes.empty()) return;
+    const std::size_t n_before = mesh_.inner.size();
+    erase_rows(mesh_.inner, 1, nodes);
+    std::vector<std::int32_t>& place = number_;  // of each inner node, from here on
+    parallel_for(n_before, kPerPart, [&](std::size_t begin, std::size_t end) {
+      auto gone = std::lower_bound(nodes.begin(), nodes.end(), static_cast<std::int32_t>(begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        place[i] = n_boundary_ + static_cast<std::int32_t>(i) - static_cast<std::int32_t>(gone - nodes.begin());
+        if (gone != nodes.end() && static_cast<std::size_t>(*gone) == i) ++gone;
+      }
+    });
+    parallel_for(mesh_.corners.size(), kPerPart, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (mesh_.corners[i] >= n_boundary_) mesh_.corners[i] = place[mesh_.corners[i] - n_boundary_];
+    });
+  }
+
+  /// `gone`: rows, ascending.
+  template <class T>
+  static void erase_rows(std::vector<T>& v, std::ptrdiff_t width, std::span<const std::int32_t> gone) {
+    if (gone.empty()) return;
+    auto end = v.begin() + width * gone[0];
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      const auto next = i + 1 < gone.size() ? v.begin() + width * gone[i + 1] : v.end();
+      end = std::copy(v.begin() + width * (gone[i] + std::ptrdiff_t{1}), next, end);
     }
-    mesh_.inner.resize(n);
-    std::erase(mesh_.corners, kNone);
-    for (std::int32_t& c : mesh_.corners)
-      if (c >= n_boundary_) c = place[c - n_boundary_];
+    v.erase(end, v.end());
   }
 
   const Surface& surface_;
@@ -296,10 +338,12 @@ class SeamBand {
   const std::int32_t n_boundary_;
   std::vector<std::uint8_t> is_gone_;   // [n_inner]
   std::vector<std::uint8_t> layer_;     // of each corner: steps from a cut, kLayers + 1: more
-  std::vector<std::int32_t> piece_;     // of each corner, where it has one
+  std::vector<std::int32_t> number_;    // of each corner: place in node_, kNone: not in the band
+  std::vector<std::int32_t> node_;      // corners in the band
+  std::vector<std::int32_t> piece_;     // of each of these
   std::vector<std::int32_t> band_;      // triangles
   std::vector<std::int32_t> piece_of_;  // [n_band]
-  std::vector<std::uint8_t> is_joint_;  // of each corner: pieces share it
+  std::vector<std::uint8_t> is_joint_;  // of each in node_: pieces share it
   FaceMesh counted_;                    // folds of the pieces, for the count alone
 };
 

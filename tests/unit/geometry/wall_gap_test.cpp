@@ -29,7 +29,7 @@ class Wall {
   std::unique_ptr<Surface> surface_;
 };
 
-constexpr double kTolerance = 1e-6;
+constexpr double kMeetingTolerance = 1e-6;
 
 TEST(WallGap, tells_how_much_shorter_chords_of_walls_apart_must_be) {
   // spheres of 10 and 9.99: a chord of length l is off by l^2 / 80
@@ -39,14 +39,14 @@ TEST(WallGap, tells_how_much_shorter_chords_of_walls_apart_must_be) {
   const auto foot = inner.surface().exact_foot(a.x[0]);
   ASSERT_TRUE(foot);
   const WallTriangle b = inner.triangle(foot->x - 0.05, foot->y - 0.05, length);
-  const auto gap = measure_gap(outer.surface(), a, inner.surface(), b, kTolerance);
+  const auto gap = measure_gap(outer.surface(), a, inner.surface(), b, kMeetingTolerance);
   ASSERT_TRUE(gap);
   EXPECT_TRUE(gap->is_apart);
   EXPECT_GT(gap->factor, 0.1);
   EXPECT_LT(gap->factor, 0.4);
   // chords shorter by the factor are off by half of the gap together
   const auto again = measure_gap(outer.surface(), outer.triangle(1, 0.2, gap->factor * length), inner.surface(),
-                                 inner.triangle(foot->x, foot->y, gap->factor * length), kTolerance);
+                                 inner.triangle(foot->x, foot->y, gap->factor * length), kMeetingTolerance);
   ASSERT_TRUE(again);
   EXPECT_TRUE(again->is_apart);
   EXPECT_EQ(again->factor, 0.7) << "nothing is asked for but a little less";
@@ -69,7 +69,7 @@ TEST(WallGap, says_that_walls_that_cross_meet) {
   ASSERT_TRUE(foot);
   const WallTriangle b =
       triangle_on(top.surface(), {foot->x - 3, foot->y - 3}, {foot->x + 3, foot->y - 3}, {foot->x, foot->y + 3});
-  const auto gap = measure_gap(s, a, top.surface(), b, kTolerance);
+  const auto gap = measure_gap(s, a, top.surface(), b, kMeetingTolerance);
   ASSERT_TRUE(gap);
   EXPECT_FALSE(gap->is_apart);
 }

@@ -14,8 +14,8 @@ namespace st {
 namespace {
 
 /// A shape meshed with one length, nothing merged.
-struct Meshed : test::Meshed {
-  Meshed(const std::string& shape, double length) : test::Meshed(shape, length, MeshOptions{.merge_below = 0}) {
+struct MeshedShape : test::Meshed {
+  MeshedShape(const std::string& shape, double length) : test::Meshed(shape, length, MeshOptions{.merge_below = 0}) {
     std::fill(mesh.node_size.begin(), mesh.node_size.end(), length);
   }
   ShapeCauses causes(double angle_deg = 10) const {
@@ -69,13 +69,13 @@ TEST(CadCorners, are_none_at_a_seam_and_a_pole) {
 }
 
 TEST(ShapeCauses, are_none_on_a_good_mesh) {
-  const ShapeCauses c = Meshed("square", 1).causes();
+  const ShapeCauses c = MeshedShape("square", 1).causes();
   EXPECT_EQ(c.sharp.total(), 0);
   EXPECT_EQ(c.growth.total(), 0);
 }
 
 TEST(ShapeCauses, blame_the_corner_of_the_cad_for_the_triangle_in_it) {
-  const Meshed m("sharp_triangle", 0.5);
+  const MeshedShape m("sharp_triangle", 0.5);
   const ShapeCauses c = m.causes();
   ASSERT_GE(count(c.sharp, ShapeCause::kCorner), 1);
   const CausePlace& p = c.sharp.worst[static_cast<std::size_t>(ShapeCause::kCorner)][0];
@@ -86,7 +86,7 @@ TEST(ShapeCauses, blame_the_corner_of_the_cad_for_the_triangle_in_it) {
 }
 
 TEST(ShapeCauses, blame_a_short_edge_or_a_strip_of_the_cad) {
-  const ShapeCauses c = Meshed("stepped_box", 1).causes();
+  const ShapeCauses c = MeshedShape("stepped_box", 1).causes();
   EXPECT_GE(count(c.sharp, ShapeCause::kShortEdge), 1);
   EXPECT_GE(count(c.sharp, ShapeCause::kStrip), 1);
   EXPECT_GE(count(c.growth, ShapeCause::kShortEdge) + count(c.growth, ShapeCause::kStrip), 1);
@@ -96,7 +96,7 @@ TEST(ShapeCauses, blame_a_short_edge_or_a_strip_of_the_cad) {
 }
 
 TEST(ShapeCauses, are_free_where_a_node_inside_a_face_lies_badly) {
-  Meshed m("square", 1);
+  MeshedShape m("square", 1);
   const auto [a, b] = m.inner_edge();
   ASSERT_NE(a, kNone);
   m.mesh.node_xyz[a] = 0.06 * m.mesh.node_xyz[a] + 0.94 * m.mesh.node_xyz[b];
@@ -112,7 +112,7 @@ TEST(ShapeCauses, are_free_where_a_node_inside_a_face_lies_badly) {
 }
 
 TEST(ShapeCauses, blame_the_sizes_where_they_jump) {
-  Meshed m("square", 1);
+  MeshedShape m("square", 1);
   const auto [a, b] = m.inner_edge();
   m.mesh.node_xyz[a] = 0.06 * m.mesh.node_xyz[a] + 0.94 * m.mesh.node_xyz[b];
   m.mesh.node_size[a] = m.mesh.node_size[b] = 0.1;
@@ -122,8 +122,8 @@ TEST(ShapeCauses, blame_the_sizes_where_they_jump) {
 }
 
 TEST(ShapeCauses, do_not_excuse_an_ear_of_a_smooth_boundary) {
-  Meshed m("disc", 0.5);  // pull a node inside onto the chord of two of its boundary neighbours: a flat triangle on
-                          // three boundary nodes
+  MeshedShape m("disc", 0.5);  // pull a node inside onto the chord of two of its boundary neighbours: a flat triangle
+                               // on three boundary nodes
   EXPECT_EQ(m.causes().sharp.total(), 0);
   // the triangle of a boundary segment and a node inside, which becomes a node of the rim to the eye of the check
   for (TriangleId t = 0; t < m.mesh.n_triangles(); ++t) {
@@ -143,7 +143,7 @@ TEST(ShapeCauses, do_not_excuse_an_ear_of_a_smooth_boundary) {
 }
 
 TEST(ShapeCauses, keep_the_worst_places_first_and_count_all) {
-  Meshed m("square", 0.5);
+  MeshedShape m("square", 0.5);
   for (NodeId n = 0; n < m.mesh.n_nodes(); ++n)  // squeezed to a tenth: everything inside is sharp
     m.mesh.node_xyz[n].y *= 0.05;
   const ShapeCauses c = m.causes(20);

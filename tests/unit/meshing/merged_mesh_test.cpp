@@ -17,9 +17,9 @@
 namespace st {
 namespace {
 
-struct Meshed : test::Meshed {
+struct MergedMesh : test::Meshed {
   template <class Shape>
-  Meshed(Shape shape, double length, double merge_below)
+  MergedMesh(Shape shape, double length, double merge_below)
       : test::Meshed(std::move(shape), length, MeshOptions{.merge_below = merge_below}) {}
   double shortest_side() const {
     double shortest = 1e300;
@@ -33,7 +33,7 @@ struct Meshed : test::Meshed {
   }
 };
 
-void expect_sound(const Meshed& m, std::int64_t euler) {
+void expect_sound(const MergedMesh& m, std::int64_t euler) {
   EXPECT_TRUE(m.result.failures.empty());
   const TopologyReport topology = check_topology(m.mesh, edges_of(m.mesh));
   EXPECT_TRUE(topology.passes());
@@ -43,7 +43,7 @@ void expect_sound(const Meshed& m, std::int64_t euler) {
 }
 
 TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_triangles) {
-  const Meshed m("stepped_box", 1, 0.05);
+  const MergedMesh m("stepped_box", 1, 0.05);
   expect_sound(m, 2);
   EXPECT_EQ(m.topology.merged().edge.size(), 4u);
   EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
@@ -52,20 +52,20 @@ TEST(SmallFeatures, a_step_far_below_the_sizes_is_closed_and_forces_no_small_tri
 }
 
 TEST(SmallFeatures, a_step_is_meshed_when_nothing_is_to_be_merged) {
-  const Meshed m("stepped_box", 1, 0);
+  const MergedMesh m("stepped_box", 1, 0);
   expect_sound(m, 2);
   EXPECT_TRUE(m.topology.merged().empty());
   EXPECT_NEAR(m.shortest_side(), 0.02, 1e-9);
 }
 
 TEST(SmallFeatures, a_step_above_the_bound_is_kept) {
-  const Meshed m("stepped_box", 0.2, 0.05);
+  const MergedMesh m("stepped_box", 0.2, 0.05);
   expect_sound(m, 2);
   EXPECT_TRUE(m.topology.merged().empty());
 }
 
 TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
-  const Meshed m("wedge_strip", 1, 0.1);
+  const MergedMesh m("wedge_strip", 1, 0.1);
   expect_sound(m, 2);
   ASSERT_EQ(m.topology.merged().strip_face.size(), 1u);
   EXPECT_EQ(m.n_closed(), 0u);
@@ -78,7 +78,7 @@ TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
 }
 
 TEST(SmallFeatures, a_plate_thinner_than_the_bound_keeps_its_two_sides) {
-  const Meshed m("thin_plate", 1, 0.05);
+  const MergedMesh m("thin_plate", 1, 0.05);
   expect_sound(m, 2);
   EXPECT_EQ(m.n_closed(), 2u) << "closing neighbouring rims would give both sides the same triangles in the corners";
 }
@@ -186,13 +186,13 @@ TEST(SmallFeatures, between_a_group_with_a_tolerance_and_the_rest_have_the_small
 }
 
 TEST(SmallFeatures, strips_in_a_group_with_a_tolerance_are_closed_by_it) {
-  const Meshed m(stepped_box(0.03), 0.2, 0.05);
+  const MergedMesh m(stepped_box(0.03), 0.2, 0.05);
   EXPECT_TRUE(m.result.failures.empty());
   EXPECT_EQ(m.n_closed(), 4u) << "the step and the rims of the raised half";
 }
 
 /// The mesh with every edge in one group, and how many of its segments are no side of a triangle.
-std::int64_t segments_beside_the_mesh(Meshed& m) {
+std::int64_t segments_beside_the_mesh(MergedMesh& m) {
   m.mesh.labels.edge_groups = {{"all", "", "{}", std::vector<std::int32_t>(m.topology.tables().n_edges())}};
   std::vector<std::int32_t>& ids = m.mesh.labels.edge_groups[0].ids;
   std::iota(ids.begin(), ids.end(), 0);
@@ -212,7 +212,7 @@ std::int64_t segments_beside_the_mesh(Meshed& m) {
 
 TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
   for (const char* shape : {"stepped_box", "wedge_strip", "drilled_cylinder"}) {
-    Meshed m(shape, shape == std::string("drilled_cylinder") ? 5 : 1, 0.1);
+    MergedMesh m(shape, shape == std::string("drilled_cylinder") ? 5 : 1, 0.1);
     EXPECT_EQ(segments_beside_the_mesh(m), 0) << shape;
     const auto count = [&](EdgeId e) { return std::count(m.mesh.segment_edge.begin(), m.mesh.segment_edge.end(), e); };
     for (EdgeId e = 0; e < m.topology.tables().n_edges(); ++e) {
@@ -223,7 +223,7 @@ TEST(EdgeSegments, are_sides_of_triangles_on_seams_closed_edges_and_strips) {
 }
 
 TEST(EdgeSegments, are_none_without_groups_of_edges) {
-  Meshed m("stepped_box", 1, 0.05);
+  MergedMesh m("stepped_box", 1, 0.05);
   add_segments(m.mesh, m.result.edges, m.topology.tables().edge_vertices);
   EXPECT_TRUE(m.mesh.segment_nodes.empty());
 }

@@ -15,15 +15,15 @@ namespace st {
 namespace {
 
 /// A closed surface, normals out.
-struct Surface {
+struct BlankedSurface {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   SurfaceView view() const { return {points, triangles}; }
 };
 
 /// A box whose sides are cut into n x n squares.
-Surface box_surface(Vec3 lo, Vec3 hi, int n) {
-  Surface s;
+BlankedSurface box_surface(Vec3 lo, Vec3 hi, int n) {
+  BlankedSurface s;
   const Vec3 d = hi - lo;
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
@@ -57,7 +57,7 @@ struct Sized {
 
 constexpr double kLargest = 0.5, kSlope = 0.2;
 
-std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const Surface* surface,
+std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const BlankedSurface* surface,
                                  BlankSide side = BlankSide::kInside) {
   auto s = std::make_unique<Sized>();
   s->raster = build_octree(test::kUnitBox, boxes);
@@ -88,7 +88,7 @@ std::vector<RasterBox> fine_spot(Vec3 at, float cell) {
 TEST(Blanking, colours_what_lies_inside_outside_and_between) {
   const Vec3 lo{0.21, 0.32, 0.23}, hi{0.74, 0.81, 0.69};
   for (const BlankSide side : {BlankSide::kInside, BlankSide::kOutside}) {
-    const Surface surface = box_surface(lo, hi, 5);
+    const BlankedSurface surface = box_surface(lo, hi, 5);
     const auto s = size_with(fine_spot({0.9, 0.9, 0.9}, 0.07F), &surface, side);
     const OctreeView octree = s->raster.shape.view();
     int n_blanked = 0, n_cut = 0;
@@ -112,7 +112,7 @@ TEST(Blanking, colours_what_lies_inside_outside_and_between) {
 }
 
 TEST(Blanking, keeps_the_inside_of_a_body_to_itself) {
-  const Surface surface = box_surface({0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}, 7);
+  const BlankedSurface surface = box_surface({0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}, 7);
   const std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.5}, 0.06F);
   const auto open = size_with(boxes, nullptr), blanked = size_with(boxes, &surface);
   for (const Vec3 x : {Vec3{0.5, 0.5, 0.905}, Vec3{0.03, 0.5, 0.5}, Vec3{0.5, 0.9, 0.5}, Vec3{0.9, 0.9, 0.9}}) {
@@ -123,14 +123,14 @@ TEST(Blanking, keeps_the_inside_of_a_body_to_itself) {
 }
 
 TEST(Blanking, hides_the_outside_of_a_fluid_domain) {
-  const Surface surface = box_surface({0.1, 0.1, 0.1}, {0.6, 0.6, 0.6}, 7);
+  const BlankedSurface surface = box_surface({0.1, 0.1, 0.1}, {0.6, 0.6, 0.6}, 7);
   const auto blanked = size_with(fine_spot({0.9, 0.9, 0.9}, 0.06F), &surface, BlankSide::kOutside);
   EXPECT_EQ(size_at(*blanked, {0.55, 0.55, 0.55}), kLargest);
   EXPECT_EQ(size_at(*blanked, {0.6, 0.6, 0.6}), kLargest);
 }
 
 TEST(Blanking, is_no_obstacle_for_what_lies_outside) {
-  const Surface surface = box_surface({0.41, 0.43, 0.42}, {0.59, 0.61, 0.58}, 4);
+  const BlankedSurface surface = box_surface({0.41, 0.43, 0.42}, {0.59, 0.61, 0.58}, 4);
   const std::vector<RasterBox> boxes = fine_spot({0.9, 0.9, 0.9}, 0.04F);
   const auto open = size_with(boxes, nullptr), blanked = size_with(boxes, &surface);
   std::mt19937 random(5);
@@ -147,7 +147,7 @@ TEST(Blanking, is_no_obstacle_for_what_lies_outside) {
 /// A plate ten times thinner than the cells it lies in, wherever it lies in them.
 TEST(Blanking, plate_much_thinner_than_the_cells_blocks) {
   for (const double z : {0.4531, 0.4623, 0.4711, 0.4877, 0.4999, 0.5101}) {
-    const Surface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
+    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
     const std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.7}, 0.0625F);
     const auto open = size_with(boxes, nullptr), blocked = size_with(boxes, &plate);
     for (double x = 0.015; x < 1; x += 0.0413)
@@ -163,7 +163,7 @@ TEST(Blanking, plate_much_thinner_than_the_cells_blocks) {
 
 TEST(Blanking, lengths_pass_around_the_rim_of_a_plate) {
   const double z = 0.4711;
-  const Surface plate = box_surface({0.2, -0.5, z}, {0.8, 1.5, z + 0.006}, 40);
+  const BlankedSurface plate = box_surface({0.2, -0.5, z}, {0.8, 1.5, z + 0.006}, 40);
   const auto s = size_with(fine_spot({0.5, 0.5, 0.6}, 0.0625F), &plate);
   const double around = std::hypot(0.3, 0.13) + std::hypot(0.3, 0.05), at = size_at(*s, {0.5, 0.5, z - 0.05});
   EXPECT_GT(at, 0.01 + 0.9 * kSlope * around);
@@ -172,7 +172,7 @@ TEST(Blanking, lengths_pass_around_the_rim_of_a_plate) {
 
 /// A thin shell (two spheres): curved, walls thinner than a cell.
 TEST(Blanking, thin_curved_shell_blocks) {
-  Surface shell;
+  BlankedSurface shell;
   constexpr int kRings = 40, kSectors = 80;
   for (const double radius : {0.4, 0.39}) {
     const auto base = static_cast<NodeId>(shell.points.size());
@@ -224,7 +224,7 @@ TEST(Blanking, thin_curved_shell_blocks) {
 }
 
 TEST(WindingNumber, is_exact_where_rays_meet_edges_and_corners) {
-  const Surface box = box_surface({0, 0, 0}, {1, 1, 1}, 4);
+  const BlankedSurface box = box_surface({0, 0, 0}, {1, 1, 1}, 4);
   for (double x = 0.125; x < 1; x += 0.125)
     for (double y = 0.125; y < 1; y += 0.125)
       for (double z = 0.125; z < 1; z += 0.125) {
@@ -237,7 +237,7 @@ TEST(WindingNumber, is_exact_where_rays_meet_edges_and_corners) {
 /// Samples on both sides of a plate thinner than the cells: each side keeps its own.
 TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
   for (const double z : {0.4531, 0.4711, 0.4999}) {
-    const Surface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
+    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
     std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.45}, 0.0625F);
     boxes.erase(boxes.begin());
     const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
@@ -269,7 +269,7 @@ TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
 
 /// Nothing is known at a hole, and nothing is blanked.
 TEST(Blanking, leaves_a_hole_open_and_still_separates_what_is_far_from_it) {
-  Surface plate = box_surface({-0.5, -0.5, 0.4531}, {1.5, 1.5, 0.4591}, 1);
+  BlankedSurface plate = box_surface({-0.5, -0.5, 0.4531}, {1.5, 1.5, 0.4591}, 1);
   plate.triangles.pop_back();
   const RasterOctree raster = build_octree(test::kUnitBox, fine_spot({0.5, 0.5, 0.7}, 0.0625F));
   const OctreeView octree = raster.shape.view();

@@ -11,7 +11,7 @@
 namespace st {
 namespace {
 
-const Frame kFrame{{0, 0, 0.9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const Frame kCellFrame{{0, 0, 0.9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 double total(const std::vector<CellArea>& cells) {
   return std::accumulate(cells.begin(), cells.end(), 0.0, [](double sum, const CellArea& c) { return sum + c.area; });
@@ -19,7 +19,7 @@ double total(const std::vector<CellArea>& cells) {
 
 TEST(FaceCells, share_out_the_area_of_the_face) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   EXPECT_NEAR(total(locate_face(plane, {}, raster.shape.view(), 0)), 1, 1e-6);
   EXPECT_NEAR(total(locate_face(plane, {}, raster.shape.view(), 7)), 7, 1e-5);
 }
@@ -27,7 +27,7 @@ TEST(FaceCells, share_out_the_area_of_the_face) {
 TEST(FaceCells, put_each_part_where_it_lies) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
   const OctreeView octree = raster.shape.view();
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   for (const CellArea& c : locate_face(plane, {}, octree, 0)) {
     const double edge = octree.cell_edge(octree.leaf_levels[c.leaf]);
     ASSERT_LE(std::abs(octree.leaf_center(c.leaf).z - 0.9), 0.51 * edge);
@@ -37,7 +37,7 @@ TEST(FaceCells, put_each_part_where_it_lies) {
 
 TEST(FaceCells, respect_the_loops) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   const LoopPolygons half(
       std::vector<LoopSide>{{{0, 0}, {0.5, 0}}, {{0.5, 0}, {0.5, 1}}, {{0.5, 1}, {0, 1}}, {{0, 1}, {0, 0}}});
   const std::vector<CellArea> cells = locate_face(plane, half, raster.shape.view(), 0);
@@ -47,7 +47,7 @@ TEST(FaceCells, respect_the_loops) {
 
 TEST(FaceCells, give_a_sliver_its_whole_area) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(100));
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   const double v = 0.123456;
   const LoopPolygons sliver(std::vector<LoopSide>{
       {{0, v}, {1, v}}, {{1, v}, {1, v + 1e-9}}, {{1, v + 1e-9}, {0, v + 1e-9}}, {{0, v + 1e-9}, {0, v}}});
@@ -60,7 +60,7 @@ OctreeField field_on(const RasterOctree& raster, const ProlongedLengths& lengths
 
 TEST(FaceCells, know_the_plane_of_each_part) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   for (const CellArea& c : locate_face(plane, {}, raster.shape.view(), 0)) {
     EXPECT_NEAR(c.center[2], 0.9, 1e-6);
     EXPECT_NEAR(std::abs(c.normal[2]), 1, 1e-6);
@@ -87,7 +87,7 @@ TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
   const ProlongedLengths lengths =
       prolong(Neighbours(fine.shape.view()), fine.stored_length, fine.stored_cause, {0.2, 1});
   const OctreeField field = field_on(fine, lengths, 1);
-  const PlaneSurface plane(kFrame, 0, 1, 0, 1);
+  const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   double expected = 0;
   constexpr int n = 1000;
   for (int i = 0; i < n * n; ++i) {

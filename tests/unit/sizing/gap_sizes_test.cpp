@@ -11,7 +11,7 @@
 namespace st {
 namespace {
 
-const Frame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const Frame kGapFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 SamplingLimits limits(double max_length, double min_length, int gap_cells = 4) {
   SamplingLimits result{min_length, max_length, radians(10), 2};
@@ -131,8 +131,8 @@ TEST(GapSizes, see_only_the_part_inside_the_loops) {
 TEST(GapSizes, of_a_curved_wall_are_its_thickness) {
   for (const double wall : {0.4, 0.05}) {  // far thinner than the sagitta of a patch
     const double height = 5 * wall;
-    const AxialSurface outer(SurfaceType::kCylinder, kFrame, 10, 0, 0, 2 * kPi, 0, height);
-    const AxialSurface inner(SurfaceType::kCylinder, kFrame, 10 - wall, 0, 0, 2 * kPi, 0, height);
+    const AxialSurface outer(SurfaceType::kCylinder, kGapFrame, 10, 0, 0, 2 * kPi, 0, height);
+    const AxialSurface inner(SurfaceType::kCylinder, kGapFrame, 10 - wall, 0, 0, 2 * kPi, 0, height);
     std::vector<GapPatch> patches;
     add_patches(outer, Normals::kAlong, limits(5, 0.01), patches, 0);
     add_patches(inner, Normals::kAgainst, limits(5, 0.01), patches, 1);

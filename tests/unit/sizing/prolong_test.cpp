@@ -11,8 +11,8 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2;
-constexpr double kMaxLength = 0.06;
+constexpr double kFrontSlope = 0.2;
+constexpr double kFrontMaxLength = 0.06;
 
 struct Case {
   RasterOctree raster;
@@ -20,16 +20,16 @@ struct Case {
   OctreeView view() const { return raster.shape.view(); }
 };
 
-Case make_case(int n_boxes, double slope = kSlope) {
+Case make_case(int n_boxes, double slope = kFrontSlope) {
   Case c{build_octree(test::kUnitBox, test::sphere_boxes(n_boxes)), {}};
-  c.cells = prolong(Neighbours(c.view()), c.raster.stored_length, c.raster.stored_cause, {slope, kMaxLength});
+  c.cells = prolong(Neighbours(c.view()), c.raster.stored_length, c.raster.stored_cause, {slope, kFrontMaxLength});
   return c;
 }
 
 TEST(Prolong, never_exceeds_stored_lengths_nor_the_largest_length) {
   const Case c = make_case(2000);
   for (std::size_t i = 0; i < c.cells.cells.size(); ++i)
-    ASSERT_LE(c.cells.cells[i].length, std::min(c.raster.stored_length[i], static_cast<float>(kMaxLength)));
+    ASSERT_LE(c.cells.cells[i].length, std::min(c.raster.stored_length[i], static_cast<float>(kFrontMaxLength)));
 }
 
 TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
@@ -40,11 +40,11 @@ TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
   int n_limited = 0;
   for (std::int32_t a = 0; a < c.view().n_leaves(); ++a) {
     const std::size_t i = static_cast<std::size_t>(a);
-    float limit = std::min(c.raster.stored_length[i], static_cast<float>(kMaxLength));
+    float limit = std::min(c.raster.stored_length[i], static_cast<float>(kFrontMaxLength));
     const float own = limit;
     neighbours.for_each(a, [&](std::int32_t b, const CellStep&) {
       const double d = distance(c.view().leaf_center(a), c.view().leaf_center(b));
-      limit = std::min(limit, static_cast<float>(c.cells.cells[b].length + kSlope * d));
+      limit = std::min(limit, static_cast<float>(c.cells.cells[b].length + kFrontSlope * d));
     });
     ASSERT_NEAR(c.cells.cells[i].length, limit, 1e-6F * limit);
     n_limited += c.cells.cells[i].length < own;
@@ -57,7 +57,8 @@ TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
                                {{0.75, 0.5, 0.5}, 0.004F, 0.004F, pack_cause(CauseKind::kFace, 5)}};
   const RasterOctree raster = build_octree(test::kUnitBox, boxes);
   const OctreeView view = raster.shape.view();
-  const ProlongedLengths cells = prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kSlope, 0.05});
+  const ProlongedLengths cells =
+      prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kFrontSlope, 0.05});
   const auto cause_at = [&](Vec3 x) { return cells.cause[view.find_leaf(morton::encode(view.grid_point(x)))]; };
   EXPECT_EQ(cause_at({0.25, 0.5, 0.55}), boxes[0].cause);
   EXPECT_EQ(cause_at({0.75, 0.55, 0.5}), boxes[1].cause);
@@ -67,7 +68,7 @@ TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
 TEST(Prolong, does_nothing_without_stored_lengths) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
   const ProlongedLengths cells =
-      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kSlope, 0.5});
+      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kFrontSlope, 0.5});
   ASSERT_EQ(cells.cells.size(), 1u);
   EXPECT_EQ(cells.cells[0].length, 0.5F);
   EXPECT_EQ(cells.cells[0].upper, 0.5F);
@@ -78,12 +79,13 @@ TEST(Prolong, does_nothing_without_stored_lengths) {
 TEST(Prolong, gradient_is_the_slope_away_from_a_wall) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::wall_boxes(0.02F));
   const OctreeView view = raster.shape.view();
-  const ProlongedLengths cells = prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kSlope, 10});
+  const ProlongedLengths cells =
+      prolong(Neighbours(view), raster.stored_length, raster.stored_cause, {kFrontSlope, 10});
   for (const double x : {0.1, 0.2, 0.35, 0.6}) {
     const std::size_t leaf = static_cast<std::size_t>(view.find_leaf(morton::encode(view.grid_point({x, 0.5, 0.5}))));
-    EXPECT_NEAR(cells.cells[leaf].gradient[0], kSlope, 0.1 * kSlope);
-    EXPECT_NEAR(cells.cells[leaf].gradient[1], 0, 0.1 * kSlope);
-    EXPECT_NEAR(cells.cells[leaf].gradient[2], 0, 0.1 * kSlope);
+    EXPECT_NEAR(cells.cells[leaf].gradient[0], kFrontSlope, 0.1 * kFrontSlope);
+    EXPECT_NEAR(cells.cells[leaf].gradient[1], 0, 0.1 * kFrontSlope);
+    EXPECT_NEAR(cells.cells[leaf].gradient[2], 0, 0.1 * kFrontSlope);
   }
 }
 
@@ -100,7 +102,7 @@ TEST(Prolong, gradient_never_exceeds_the_slope_nor_leaves_the_neighbours_range) 
     const float* g = c.cells.cells[i].gradient;
     const float reach = 0.5F * static_cast<float>(c.view().cell_edge(c.view().leaf_levels[i])) *
                         (std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]));
-    ASSERT_LE(std::hypot(g[0], g[1], g[2]), kSlope * 1.000001);
+    ASSERT_LE(std::hypot(g[0], g[1], g[2]), kFrontSlope * 1.000001);
     ASSERT_EQ(c.cells.cells[i].upper, hi);
     ASSERT_GE(c.cells.cells[i].length - reach, lo * 0.999999F);
   }

@@ -11,8 +11,8 @@
 namespace st {
 namespace {
 
-const Frame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-const SamplingLimits kLimits{0.01, 1, radians(10), 2};
+const Frame kRasterFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const SamplingLimits kRasterLimits{0.01, 1, radians(10), 2};
 
 /// A surface by formula, derivatives by differences, of a type whose curvature varies freely.
 class FormulaSurface : public Surface {
@@ -64,7 +64,7 @@ struct Sampling {
   }
 };
 
-Sampling sample(const Surface& surface, const LoopPolygons& loops = {}, const SamplingLimits& limits = kLimits) {
+Sampling sample(const Surface& surface, const LoopPolygons& loops = {}, const SamplingLimits& limits = kRasterLimits) {
   Sampling s;
   s.report = raster_face(surface, loops, limits, pack_cause(CauseKind::kFace, 9), s.boxes);
   return s;
@@ -93,16 +93,16 @@ LoopPolygons polygon(const std::vector<std::vector<Vec2>>& loops) {
 
 TEST(RasterFace, gives_a_sphere_its_radius_times_alpha_everywhere) {
   for (const double radius : {0.3, 2.0}) {
-    const AxialSurface sphere(SurfaceType::kSphere, kFrame, radius, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+    const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, radius, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
     const Sampling s = sample(sphere);
-    expect_everywhere(sphere, s, radius * kLimits.alpha, 0.02);
+    expect_everywhere(sphere, s, radius * kRasterLimits.alpha, 0.02);
     EXPECT_NEAR(s.report.area, 4 * kPi * radius * radius, 0.01 * 4 * kPi * radius * radius);
   }
 }
 
 TEST(RasterFace, keeps_a_chord_error_where_it_asks_for_less_than_the_angle) {
-  const AxialSurface sphere(SurfaceType::kSphere, kFrame, 2, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
-  SamplingLimits limits = kLimits;
+  const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 2, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  SamplingLimits limits = kRasterLimits;
   limits.chord = 0.0005;
   expect_everywhere(sphere, sample(sphere, {}, limits), std::sqrt(8 * 2 * limits.chord), 0.02);
   limits.chord = 0.1;
@@ -116,41 +116,42 @@ TEST(RasterFace, gives_a_free_form_sphere_the_same_through_its_poles_and_stretch
         return Vec3{std::cos(v) * std::cos(kPi * u * u * u), std::cos(v) * std::sin(kPi * u * u * u), std::sin(v)};
       },
       -1, 1, -kPi / 2, kPi / 2);
-  expect_everywhere(sphere, sample(sphere), kLimits.alpha, 0.03);
+  expect_everywhere(sphere, sample(sphere), kRasterLimits.alpha, 0.03);
 }
 
 TEST(RasterFace, gives_a_cylinder_its_radius_times_alpha_everywhere) {
-  const AxialSurface cylinder(SurfaceType::kCylinder, kFrame, 1, 0, 0, 2 * kPi, 0, 30);
+  const AxialSurface cylinder(SurfaceType::kCylinder, kRasterFrame, 1, 0, 0, 2 * kPi, 0, 30);
   const Sampling s = sample(cylinder);
-  expect_everywhere(cylinder, s, kLimits.alpha, 0.02);
+  expect_everywhere(cylinder, s, kRasterLimits.alpha, 0.02);
   EXPECT_NEAR(s.report.area, 2 * kPi * 30, 0.01 * 2 * kPi * 30);
 }
 
 TEST(RasterFace, gives_a_plane_the_largest_length_for_few_evaluations) {
-  const PlaneSurface plane(kFrame, 0, 20, 0, 10);
+  const PlaneSurface plane(kRasterFrame, 0, 20, 0, 10);
   const Sampling s = sample(plane);
-  expect_everywhere(plane, s, kLimits.max_length, 1e-6);
+  expect_everywhere(plane, s, kRasterLimits.max_length, 1e-6);
   EXPECT_LT(s.boxes.size(), 300u);
   EXPECT_NEAR(s.report.area, 200, 1e-6);
 }
 
 TEST(RasterFace, follows_a_cone_towards_its_apex_without_a_spike) {
   const double half_angle = radians(30);
-  const AxialSurface cone(SurfaceType::kCone, kFrame, 0, half_angle, 0, 2 * kPi, 0, 4);
+  const AxialSurface cone(SurfaceType::kCone, kRasterFrame, 0, half_angle, 0, 2 * kPi, 0, 4);
   const Sampling s = sample(cone);
   for_grid(cone, 50, [&](Vec2 uv) {
     const double radius = uv.y * std::tan(half_angle);  // smallest principal radius at distance v from the apex
-    const double expected = std::clamp(radius * kLimits.alpha, kLimits.min_length, kLimits.max_length);
+    const double expected =
+        std::clamp(radius * kRasterLimits.alpha, kRasterLimits.min_length, kRasterLimits.max_length);
     const double length = s.length_at(cone.point(uv));
     // a box reaches one length further than its patch, where the cone is narrower
     ASSERT_LE(length, 1.02 * expected);
-    ASSERT_GE(length, std::max(kLimits.min_length, 0.75 * expected) * 0.999);
+    ASSERT_GE(length, std::max(kRasterLimits.min_length, 0.75 * expected) * 0.999);
   });
 }
 
 TEST(RasterFace, gives_a_torus_its_smallest_principal_radius_times_alpha) {
-  const AxialSurface torus(SurfaceType::kTorus, kFrame, 3, 0.5, 0, 2 * kPi, 0, 2 * kPi);
-  expect_everywhere(torus, sample(torus), 0.5 * kLimits.alpha, 0.02);
+  const AxialSurface torus(SurfaceType::kTorus, kRasterFrame, 3, 0.5, 0, 2 * kPi, 0, 2 * kPi);
+  expect_everywhere(torus, sample(torus), 0.5 * kRasterLimits.alpha, 0.02);
 }
 
 TEST(RasterFace, follows_the_principal_curvatures_of_an_ellipsoid) {
@@ -165,7 +166,7 @@ TEST(RasterFace, follows_the_principal_curvatures_of_an_ellipsoid) {
   for_grid(ellipsoid, 41, [&](Vec2 uv) {
     if (std::abs(std::abs(uv.y) - kPi / 2) < 0.01) return;
     const double radius = 1 / std::abs(principal_curvature(ellipsoid.evaluate2(uv)).k1);
-    const double ratio = s.length_at(ellipsoid.point(uv)) / (radius * kLimits.alpha);
+    const double ratio = s.length_at(ellipsoid.point(uv)) / (radius * kRasterLimits.alpha);
     worst_low = std::min(worst_low, ratio);
     worst_high = std::max(worst_high, ratio);
   });
@@ -174,11 +175,11 @@ TEST(RasterFace, follows_the_principal_curvatures_of_an_ellipsoid) {
 }
 
 TEST(RasterFace, gives_what_is_too_small_for_alpha_the_smallest_length) {
-  const double radius = 0.5 * kLimits.min_length / kLimits.alpha;
-  const AxialSurface cylinder(SurfaceType::kCylinder, kFrame, radius, 0, 0, 2 * kPi, 0, 0.3);
-  expect_everywhere(cylinder, sample(cylinder), kLimits.min_length, 1e-6);
-  const AxialSurface sphere(SurfaceType::kSphere, kFrame, radius, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
-  expect_everywhere(sphere, sample(sphere), kLimits.min_length, 1e-6);
+  const double radius = 0.5 * kRasterLimits.min_length / kRasterLimits.alpha;
+  const AxialSurface cylinder(SurfaceType::kCylinder, kRasterFrame, radius, 0, 0, 2 * kPi, 0, 0.3);
+  expect_everywhere(cylinder, sample(cylinder), kRasterLimits.min_length, 1e-6);
+  const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, radius, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  expect_everywhere(sphere, sample(sphere), kRasterLimits.min_length, 1e-6);
 }
 
 TEST(RasterFace, has_no_spike_at_the_pole_of_a_revolution) {
@@ -190,12 +191,12 @@ TEST(RasterFace, has_no_spike_at_the_pole_of_a_revolution) {
       0, 2 * kPi, 0, 2);
   const Sampling s = sample(bowl);
   for_grid(bowl, 41, [&](Vec2 uv) {
-    const double expected = std::sqrt(1 + uv.y * uv.y) * kLimits.alpha;  // across the meridian the smaller radius
+    const double expected = std::sqrt(1 + uv.y * uv.y) * kRasterLimits.alpha;  // across the meridian the smaller radius
     const double length = s.length_at(bowl.point(uv));
     ASSERT_LE(length, 1.02 * expected) << uv.y;
     ASSERT_GE(length, 0.75 * expected) << uv.y << ": a box reaches one length further than its patch";
   });
-  EXPECT_GT(s.smallest(), 0.98 * kLimits.alpha);
+  EXPECT_GT(s.smallest(), 0.98 * kRasterLimits.alpha);
 }
 
 TEST(RasterFace, finds_a_narrow_fillet_inside_one_surface) {
@@ -210,9 +211,9 @@ TEST(RasterFace, finds_a_narrow_fillet_inside_one_surface) {
       0, 4, 0, 2);
   const Sampling s = sample(fillet, {}, {0.001, 1, radians(10), 2});
   for (double v = 0.02; v < 2; v += 0.05)
-    EXPECT_LT(s.length_at(fillet.point({middle + 0.5 * radius * bend, v})), 1.2 * radius * kLimits.alpha);
+    EXPECT_LT(s.length_at(fillet.point({middle + 0.5 * radius * bend, v})), 1.2 * radius * kRasterLimits.alpha);
   EXPECT_GT(s.length_at(fillet.point({0.2, 1})), 0.5);
-  EXPECT_GT(s.smallest(), 0.7 * radius * kLimits.alpha);
+  EXPECT_GT(s.smallest(), 0.7 * radius * kRasterLimits.alpha);
 }
 
 TEST(RasterFace, does_not_refine_along_a_crease_between_smooth_parts) {
@@ -231,13 +232,13 @@ TEST(RasterFace, does_not_refine_along_a_crease_between_smooth_parts) {
   };
   const Ridge ridge;
   const Sampling s = sample(ridge);
-  EXPECT_NEAR(s.smallest(), kLimits.max_length, 1e-6);
-  expect_everywhere(ridge, s, kLimits.max_length, 1e-6);
+  EXPECT_NEAR(s.smallest(), kRasterLimits.max_length, 1e-6);
+  expect_everywhere(ridge, s, kRasterLimits.max_length, 1e-6);
 }
 
 TEST(RasterFace, covers_exactly_the_trimmed_part) {
   // a plane with an outer loop far smaller than its bounds, and a hole
-  const PlaneSurface plane(kFrame, -50, 50, -50, 50);
+  const PlaneSurface plane(kRasterFrame, -50, 50, -50, 50);
   std::vector<Vec2> outer, hole;
   for (int i = 0; i < 200; ++i) {
     const double t = 2 * kPi * i / 200;
@@ -257,7 +258,7 @@ TEST(RasterFace, covers_exactly_the_trimmed_part) {
 }
 
 TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {
-  const PlaneSurface plane(kFrame, 0, 20, 0, 20);
+  const PlaneSurface plane(kRasterFrame, 0, 20, 0, 20);
   const LoopPolygons loops = polygon({{{0.3, 0.7}, {19.1, 12.2}, {19.1, 12.201}, {0.3, 0.701}}});
   const Sampling s = sample(plane, loops);
   for (double t = 0; t <= 1; t += 0.001) ASSERT_GT(s.length_at({0.3 + 18.8 * t, 0.7005 + 11.5 * t, 0}), 0) << t;
@@ -271,21 +272,21 @@ TEST(RasterFace, takes_no_length_from_outside_the_loops) {
       },
       0, 4, 0, 2);
   const LoopPolygons loops = polygon({{{0, 0}, {2.5, 0}, {2.5, 2}, {0, 2}}});
-  EXPECT_NEAR(sample(bend, loops).smallest(), kLimits.max_length, 1e-6);
+  EXPECT_NEAR(sample(bend, loops).smallest(), kRasterLimits.max_length, 1e-6);
 }
 
 TEST(RasterFace, cuts_a_curvature_that_no_angle_confirms) {
   // one probe of a flat surface reports an absurd second derivative, as noisy parametrisations do
   class Noisy : public PlaneSurface {
    public:
-    Noisy() : PlaneSurface(kFrame, 0, 4, 0, 4) { type_ = SurfaceType::kBspline; }
+    Noisy() : PlaneSurface(kRasterFrame, 0, 4, 0, 4) { type_ = SurfaceType::kBspline; }
     SurfacePoint2 evaluate2(Vec2 uv) const override {
       SurfacePoint2 p = PlaneSurface::evaluate2(uv);
       if (uv.x == 2 && uv.y == 2) p.duu = {0, 0, 1e6};
       return p;
     }
   };
-  EXPECT_NEAR(sample(Noisy()).smallest(), kLimits.max_length, 1e-6);
+  EXPECT_NEAR(sample(Noisy()).smallest(), kRasterLimits.max_length, 1e-6);
 }
 
 TEST(RasterFace, ends_on_a_surface_without_extent) {
@@ -296,9 +297,9 @@ TEST(RasterFace, ends_on_a_surface_without_extent) {
 }
 
 TEST(RasterFace, covers_with_every_cell_per_length) {
-  const AxialSurface sphere(SurfaceType::kSphere, kFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
   for (const double ratio : {1.0, 2.0, 4.0, 8.0})
-    expect_everywhere(sphere, sample(sphere, {}, {0.01, 1, radians(10), ratio}), kLimits.alpha, 0.02);
+    expect_everywhere(sphere, sample(sphere, {}, {0.01, 1, radians(10), ratio}), kRasterLimits.alpha, 0.02);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2, kLargest = 0.2;
+constexpr double kSeedSlope = 0.2, kLargest = 0.2;
 
 struct Prolonged {
   RasterOctree raster;
@@ -42,12 +42,12 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, con
   const auto p = std::make_shared<Prolonged>();
   p->raster = build_octree(test::kUnitBox, boxes);
   if (!samples.empty()) forget_samples(p->raster);
-  seed_lengths(samples, kSlope, p->raster);
+  seed_lengths(samples, kSeedSlope, p->raster);
   const Neighbours neighbours(p->raster.shape.view());
-  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSlope, kLargest});
-  fit_samples(neighbours, samples, kSlope, nullptr, p->lengths);
+  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSeedSlope, kLargest});
+  fit_samples(neighbours, samples, kSeedSlope, nullptr, p->lengths);
   return std::make_unique<OctreeField>(
-      OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSlope, 1}, p);
+      OctreeFieldData{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSeedSlope, 1}, p);
 }
 
 /// Mean of |log(length / exact length)| at the samples.
@@ -56,7 +56,8 @@ double mean_error(const SizeField& field, const std::vector<RasterBox>& boxes) {
   int n = 0;
   for (std::size_t i = 0; i < boxes.size(); i += 7, ++n) {
     double exact = kLargest;
-    for (const RasterBox& b : boxes) exact = std::min(exact, b.length + kSlope * distance(b.center, boxes[i].center));
+    for (const RasterBox& b : boxes)
+      exact = std::min(exact, b.length + kSeedSlope * distance(b.center, boxes[i].center));
     sum += std::abs(std::log(field.size(boxes[i].center) / exact));
   }
   return sum / n;
@@ -110,7 +111,7 @@ TEST(SampleSeeds, leave_the_lengths_of_sources_alone) {
                                         {{0.8, 0.8, 0.8}, 0.1F, 0.01F, pack_cause(CauseKind::kSource, 3)}};
   RasterOctree octree = build_octree(test::kUnitBox, boxes);
   forget_samples(octree);
-  seed_lengths(sorted_samples({boxes.data(), 1}), kSlope, octree);
+  seed_lengths(sorted_samples({boxes.data(), 1}), kSeedSlope, octree);
   const std::int32_t leaf =
       octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
   EXPECT_EQ(octree.stored_length[leaf], 0.01F);
@@ -122,12 +123,12 @@ TEST(SampleSeeds, win_over_a_source_where_they_ask_for_less_at_the_centre_only) 
   RasterOctree octree = build_octree(test::kUnitBox, boxes);
   const OctreeView view = octree.shape.view();
   const std::int32_t leaf = view.find_leaf(morton::encode(view.grid_point(boxes[0].center)));
-  const float seed = static_cast<float>(0.02F + kSlope * distance(boxes[0].center, view.leaf_center(leaf)));
+  const float seed = static_cast<float>(0.02F + kSeedSlope * distance(boxes[0].center, view.leaf_center(leaf)));
   for (const float source : {0.9F * seed, 1.1F * seed}) {
     forget_samples(octree);
     octree.stored_length[leaf] = source;
     octree.stored_cause[leaf] = pack_cause(CauseKind::kSource, 3);
-    seed_lengths(sorted_samples(boxes), kSlope, octree);
+    seed_lengths(sorted_samples(boxes), kSeedSlope, octree);
     EXPECT_FLOAT_EQ(octree.stored_length[leaf], std::min(source, seed));
     EXPECT_EQ(cause_kind(octree.stored_cause[leaf]), source < seed ? CauseKind::kSource : CauseKind::kFace);
     octree.stored_cause[leaf] = pack_cause(CauseKind::kFace, 0);

@@ -8,7 +8,7 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2;
+constexpr double kSourceSlope = 0.2;
 
 SourceSpec point_source(SourceSpacing spacing) {
   SourceSpec spec;
@@ -17,7 +17,7 @@ SourceSpec point_source(SourceSpacing spacing) {
   return spec;
 }
 
-double size_at(const SourceSpec& spec, Vec3 x, double slope = kSlope) {
+double size_at(const SourceSpec& spec, Vec3 x, double slope = kSourceSlope) {
   return static_cast<const SizeField&>(*make_source(spec, slope)).size(x);
 }
 
@@ -45,8 +45,8 @@ TEST(Source, is_constant_inside_its_radius_and_twice_as_large_at_doubling) {
 
 TEST(Source, grows_no_faster_than_the_slope) {
   const SourceSpec exponential = point_source({0.01, 0, 1}), steep = point_source({0.01, 0, 0.001});
-  EXPECT_NEAR(size_at(exponential, {101, 0, 0}) - size_at(exponential, {100, 0, 0}), kSlope, 1e-9);
-  EXPECT_NEAR(size_at(steep, {1, 0, 0}), 0.01 + kSlope, 1e-12);
+  EXPECT_NEAR(size_at(exponential, {101, 0, 0}) - size_at(exponential, {100, 0, 0}), kSourceSlope, 1e-9);
+  EXPECT_NEAR(size_at(steep, {1, 0, 0}), 0.01 + kSourceSlope, 1e-12);
 }
 
 TEST(Source, without_doubling_grows_by_the_slope) {
@@ -96,7 +96,7 @@ TEST(Source, range_bounds_the_length_in_the_cube) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const SourceSpec& spec : one_of_each_kind()) {
-    const auto source = make_source(spec, kSlope);
+    const auto source = make_source(spec, kSourceSlope);
     for (int i = 0; i < 3000; ++i) {
       const Vec3 c = 2.0 * Vec3{uniform(random), uniform(random), uniform(random)};
       const double half = std::pow(10, -2 + 2 * std::abs(uniform(random)));
@@ -131,11 +131,11 @@ TEST(Source, may_be_stretched_along_a_direction_that_turns_with_it) {
   spec.direction = {1, 0, 0};
   const auto local = [](const SourceSpec& s, Vec3 x) {
     int hint = 0;
-    return make_source(s, kSlope)->local(x, hint);
+    return make_source(s, kSourceSlope)->local(x, hint);
   };
   EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({1, 0, 0}), 0.5);
   EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.1);
-  EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * (0.1 + 0.5 * kSlope), 1e-12);
+  EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * (0.1 + 0.5 * kSourceSlope), 1e-12);
   transform(parse_similarity("rotate 0 0 1 90", ""), spec);
   EXPECT_NEAR(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.5, 1e-9);
 }

@@ -71,13 +71,13 @@ std::string error_of(const std::function<void()>& work, ExitCode code) {
   return "";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(RasterStage, of_a_model_with_a_face_that_cannot_be_sampled_is_incomplete_and_keeps_its_artifact) {
   write_block_with_a_broken_face();
   const StageSummary summary = run_raster(options_, one_rank());
   EXPECT_EQ(summary.code, ExitCode::kIncomplete);
-  EXPECT_TRUE(has(summary.line, "INCOMPLETE: 1 parts not sampled")) << summary.line;
+  EXPECT_TRUE(mentions(summary.line, "INCOMPLETE: 1 parts not sampled")) << summary.line;
   EXPECT_EQ(nlohmann::json::parse(summary.json)["not_sampled"], 1);
   EXPECT_EQ(read_raster(options_.output).n_not_sampled, 1);
 }
@@ -98,7 +98,8 @@ TEST_F(RasterStage, that_is_incomplete_is_refused_by_prolongation_unless_allowed
   prolong.raster = options_.output;
   prolong.output = dir_ / "sizing.hdf";
   const std::string refusal = error_of([&] { run_prolong(prolong); }, ExitCode::kIncomplete);
-  EXPECT_TRUE(has(refusal, "raster.hdf: incomplete, 1 parts") && has(refusal, "--allow-incomplete")) << refusal;
+  EXPECT_TRUE(mentions(refusal, "raster.hdf: incomplete, 1 parts") && mentions(refusal, "--allow-incomplete"))
+      << refusal;
   prolong.allow_incomplete = true;
   EXPECT_EQ(run_prolong(prolong).code, ExitCode::kOk);
   EXPECT_EQ(map_sizing(prolong.output).face_weight.size(),
@@ -113,15 +114,15 @@ TEST_F(RasterStage, with_max_cells_takes_as_many_and_not_one_less_and_stores_not
   EXPECT_EQ(run()["cells"], n);
   EXPECT_EQ(read_bytes(options_.output), unlimited);
   options_.max_cells = n - 1;
-  EXPECT_TRUE(has(error_of([&] { run(); }, ExitCode::kUsage), "--max-cells"));
+  EXPECT_TRUE(mentions(error_of([&] { run(); }, ExitCode::kUsage), "--max-cells"));
 }
 
 TEST_F(RasterStage, refuses_lengths_that_would_fill_any_memory_before_it_samples) {
   write(test::import_shape("drilled_block"));
   options_.lmin = options_.lmax = "1e-9";
   const std::string refusal = error_of([&] { run(); }, ExitCode::kUsage);
-  EXPECT_TRUE(has(refusal, "at least") && has(refusal, "cells (") && has(refusal, "GB") &&
-              has(refusal, "larger lengths"))
+  EXPECT_TRUE(mentions(refusal, "at least") && mentions(refusal, "cells (") && mentions(refusal, "GB") &&
+              mentions(refusal, "larger lengths"))
       << refusal;
 }
 
@@ -130,7 +131,7 @@ TEST_F(RasterStage, refuses_samples_that_grow_beyond_the_limit_though_no_area_to
   options_.lmin = "1e-9";
   options_.alpha_deg = 0.01;
   options_.max_cells = 100000;
-  EXPECT_TRUE(has(error_of([&] { run(); }, ExitCode::kUsage), "samples"));
+  EXPECT_TRUE(mentions(error_of([&] { run(); }, ExitCode::kUsage), "samples"));
 }
 
 TEST_F(RasterStage, tells_of_samples_that_the_octree_is_not_deep_enough_for) {

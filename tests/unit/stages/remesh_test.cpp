@@ -23,7 +23,7 @@
 namespace st {
 namespace {
 
-const Communicator& one_rank() {
+const Communicator& single_rank() {
   static const Communicator comm;
   return comm;
 }
@@ -49,7 +49,7 @@ class Remesh : public testing::Test {
     r.lmax = std::string("4");
     r.lmin = lmin;
     r.alpha_deg = alpha_deg;
-    run_raster(r, one_rank());
+    run_raster(r, single_rank());
     ProlongStageOptions p;
     p.raster = r.output;
     p.output = dir_ / sizing;
@@ -61,7 +61,7 @@ class Remesh : public testing::Test {
     m.geometry = dir_ / geometry;
     m.sizing = dir_ / sizing;
     m.output = dir_ / "patches.hdf";
-    EXPECT_EQ(run_mesh(m, one_rank()).code, ExitCode::kOk);
+    EXPECT_EQ(run_mesh(m, single_rank()).code, ExitCode::kOk);
     merge("patches.hdf", output);
   }
   MeshArtifact merge(const std::string& patches, const std::string& output) {
@@ -110,10 +110,10 @@ TEST_F(Remesh, with_unchanged_sizes_redoes_nothing_and_gives_the_same_mesh) {
   prepare();
   RemeshStageOptions o = options("sizing.hdf");
   o.dry_run = true;
-  EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 0);
+  EXPECT_EQ(facts(run_remesh(o, single_rank()).json).at("faces_redone"), 0);
   EXPECT_FALSE(exists("remeshed.hdf"));
   o.dry_run = false;
-  EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+  EXPECT_EQ(run_remesh(o, single_rank()).code, ExitCode::kOk);
   EXPECT_EQ(facts(read_patches(o.output).header.options_json).at("faces_redone"), 0);
   const SurfaceMesh before = read_mesh(o.mesh).mesh, after = merge("remeshed.hdf", "again.hdf").mesh;
   EXPECT_EQ(after.n_nodes(), before.n_nodes());
@@ -124,7 +124,7 @@ TEST_F(Remesh, with_smaller_sizes_at_the_hole_redoes_only_what_they_reach) {
   prepare();
   size("geometry.hdf", "finer.hdf", 6);
   RemeshStageOptions o = options("finer.hdf");
-  EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+  EXPECT_EQ(run_remesh(o, single_rank()).code, ExitCode::kOk);
   const auto before = triangles_by_face(read_mesh(o.mesh).mesh),
              after = triangles_by_face(merge("remeshed.hdf", "finer_mesh.hdf").mesh);
   ASSERT_EQ(before.size(), 7u);
@@ -145,7 +145,7 @@ TEST_F(Remesh, with_smaller_sizes_at_the_hole_redoes_only_what_they_reach) {
 TEST_F(Remesh, with_smaller_sizes_everywhere_has_as_many_triangles_as_a_new_mesh) {
   prepare();
   size("geometry.hdf", "finer.hdf", 20, 0.5);
-  EXPECT_EQ(run_remesh(options("finer.hdf"), one_rank()).code, ExitCode::kOk);
+  EXPECT_EQ(run_remesh(options("finer.hdf"), single_rank()).code, ExitCode::kOk);
   const double redone = static_cast<double>(merge("remeshed.hdf", "redone.hdf").mesh.n_triangles());
   mesh("geometry.hdf", "finer.hdf", "fresh.hdf");
   EXPECT_NEAR(redone / static_cast<double>(read_mesh(dir_ / "fresh.hdf").mesh.n_triangles()), 1, 0.1);
@@ -154,7 +154,7 @@ TEST_F(Remesh, with_smaller_sizes_everywhere_has_as_many_triangles_as_a_new_mesh
 TEST_F(Remesh, with_larger_sizes_makes_fewer_triangles) {
   prepare();
   size("geometry.hdf", "coarser.hdf", 20, 2.5);
-  EXPECT_EQ(run_remesh(options("coarser.hdf"), one_rank()).code, ExitCode::kOk);
+  EXPECT_EQ(run_remesh(options("coarser.hdf"), single_rank()).code, ExitCode::kOk);
   EXPECT_LT(merge("remeshed.hdf", "coarser_mesh.hdf").mesh.n_triangles(),
             read_mesh(dir_ / "mesh.hdf").mesh.n_triangles() / 3);
 }
@@ -163,15 +163,15 @@ TEST_F(Remesh, refuses_sizes_and_meshes_of_another_geometry) {
   prepare();
   import("box", "box.hdf");
   size("box.hdf", "box_sizing.hdf", 20);
-  EXPECT_ERROR(run_remesh(options("box_sizing.hdf"), one_rank()), kMismatch, "box_sizing.hdf");
+  EXPECT_ERROR(run_remesh(options("box_sizing.hdf"), single_rank()), kMismatch, "box_sizing.hdf");
   MeshStageOptions m;
   m.geometry = dir_ / "geometry.hdf";
   m.sizing = dir_ / "box_sizing.hdf";
   m.output = dir_ / "wrong.hdf";
-  EXPECT_ERROR(run_mesh(m, one_rank()), kMismatch, "box_sizing.hdf");
+  EXPECT_ERROR(run_mesh(m, single_rank()), kMismatch, "box_sizing.hdf");
   RemeshStageOptions o = options("box_sizing.hdf");
   o.geometry = dir_ / "box.hdf";
-  EXPECT_ERROR(run_remesh(o, one_rank()), kMismatch, "mesh.hdf");
+  EXPECT_ERROR(run_remesh(o, single_rank()), kMismatch, "mesh.hdf");
   EXPECT_FALSE(exists("remeshed.hdf"));
   EXPECT_FALSE(exists("wrong.hdf"));
 }
@@ -179,11 +179,11 @@ TEST_F(Remesh, refuses_sizes_and_meshes_of_another_geometry) {
 TEST_F(Remesh, refuses_limits_that_make_no_sense) {
   RemeshStageOptions o = options("sizing.hdf");
   o.too_long = 1;
-  EXPECT_ERROR(run_remesh(o, one_rank()), kUsage, "--too-long");
+  EXPECT_ERROR(run_remesh(o, single_rank()), kUsage, "--too-long");
   o = options("sizing.hdf");
   for (double bad : {0.0, 1.0, -0.5}) {
     o.too_short = bad;
-    EXPECT_ERROR(run_remesh(o, one_rank()), kUsage, "--too-short");
+    EXPECT_ERROR(run_remesh(o, single_rank()), kUsage, "--too-short");
   }
 }
 
@@ -194,9 +194,9 @@ TEST_F(Remesh, limits_decide_what_is_redone) {
   o.dry_run = true;
   o.too_long = 10;
   o.too_short = 0.1;
-  EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 0);
+  EXPECT_EQ(facts(run_remesh(o, single_rank()).json).at("faces_redone"), 0);
   o.too_long = 1.05;
-  EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("faces_redone"), 7);
+  EXPECT_EQ(facts(run_remesh(o, single_rank()).json).at("faces_redone"), 7);
 }
 
 /// Old nodes inside a face that bound the holes of a remeshing: of triangles that stay and of such that go. `rest`:
@@ -219,7 +219,7 @@ TEST_F(Remesh, grows_a_hole_that_cannot_be_filled) {
   size("geometry.hdf", "finer.hdf", 6);
   RemeshStageOptions o = options("finer.hdf");
   o.merged = dir_ / "merged.hdf";
-  EXPECT_EQ(facts(run_remesh(o, one_rank()).json).at("holes_grown"), 0);
+  EXPECT_EQ(facts(run_remesh(o, single_rank()).json).at("holes_grown"), 0);
   MeshArtifact old = read_mesh(o.mesh);
   std::vector<NodeId> rest;
   const std::vector<NodeId> around = nodes_around_holes(old.mesh, read_mesh(o.merged).mesh, rest);
@@ -229,7 +229,7 @@ TEST_F(Remesh, grows_a_hole_that_cannot_be_filled) {
     if (old.mesh.triangles[c / 3].n[c % 3] == around[0])
       old.mesh.corner_uv[c] = old.mesh.corner_uv[c] + 1.5 * (old.mesh.corner_uv[c] - Vec2{30, 20});
   write_mesh(o.mesh, old);
-  const StageSummary s = run_remesh(o, one_rank());
+  const StageSummary s = run_remesh(o, single_rank());
   EXPECT_GT(facts(s.json).at("holes_grown"), 0);
   const MeshArtifact after = read_mesh(o.merged);
   EXPECT_TRUE(check_topology(after.mesh, edges_of(after.mesh)).passes());
@@ -242,14 +242,14 @@ TEST_F(Remesh, redoes_old_triangles_that_new_ones_cross) {
   size("geometry.hdf", "finer.hdf", 6);
   RemeshStageOptions o = options("finer.hdf");
   o.merged = dir_ / "merged.hdf";
-  run_remesh(o, one_rank());
+  run_remesh(o, single_rank());
   MeshArtifact old = read_mesh(o.mesh);
   std::vector<NodeId> rest;
   nodes_around_holes(old.mesh, read_mesh(o.merged).mesh, rest);
   old.mesh.node_xyz[rest[0]] = {30, 25, 21};  // through the new triangles of the top
   old.mesh.node_size[rest[0]] = map_sizing(o.sizing).field->size(old.mesh.node_xyz[rest[0]]);  // no reason to redo it
   write_mesh(o.mesh, old);
-  const StageSummary s = run_remesh(o, one_rank());
+  const StageSummary s = run_remesh(o, single_rank());
   EXPECT_EQ(facts(s.json).at("crossing_pairs"), 0) << s.json;
   EXPECT_GT(facts(s.json).at("refinements"), 0) << s.json;
   const MeshArtifact after = read_mesh(o.merged);
@@ -261,10 +261,10 @@ TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
   prepare();
   size("geometry.hdf", "finer.hdf", 6);
   RemeshStageOptions o = options("finer.hdf");
-  run_remesh(o, one_rank());
+  run_remesh(o, single_rank());
   const MeshArtifact expected = merge("remeshed.hdf", "by_merge.hdf");
   o.merged = dir_ / "merged.hdf";
-  run_remesh(o, one_rank());
+  run_remesh(o, single_rank());
   const MeshArtifact merged = read_mesh(o.merged);
   EXPECT_EQ(merged.header.content_hash, expected.header.content_hash);
   EXPECT_EQ(merged.mesh.node_previous, expected.mesh.node_previous);
@@ -291,7 +291,7 @@ TEST_F(Remesh, refuses_a_mesh_with_a_hole_on_no_face_and_says_where) {
   RemeshStageOptions o = options("sizing.hdf");
   o.mesh = dir_ / "broken.hdf";
   try {
-    run_remesh(o, one_rank());
+    run_remesh(o, single_rank());
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::kInput);
@@ -330,7 +330,7 @@ TEST_F(Remesh, of_a_mesh_with_closed_strips_follows_a_moved_geometry) {
       RemeshStageOptions o = options("moved_sizing.hdf");
       o.geometry = i.output;
       o.moved = true;
-      EXPECT_EQ(run_remesh(o, one_rank()).code, ExitCode::kOk);
+      EXPECT_EQ(run_remesh(o, single_rank()).code, ExitCode::kOk);
       const SurfaceMesh after = merge("remeshed.hdf", "after.hdf").mesh;
       EXPECT_TRUE(check_topology(after, edges_of(after)).passes());
       EXPECT_TRUE(check_crossings(after).passes());
