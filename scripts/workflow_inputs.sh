@@ -9,30 +9,56 @@ shopt -s inherit_errexit
 out=$1 bin=$2
 shift 2
 
-hash_of() { sha256sum < "$1" | cut -d' ' -f1; }
+# The hashes of files, one for each line; one program for all of them.
+hashes_of() {
+  local found
+  mapfile -t found < <(sha256sum -- "$@")
+  found=("${found[@]#\\}")  # before a name with a backslash
+  [ ${#found[@]} -eq $# ] || exit 3
+  printf '%.64s\n' "${found[@]}"
+}
 
-# The lines of option file and named files; relative names count from the folder in which make runs, as for the tools.
-options_of() {
-  local stage=$1 options=$out/$1.toml files file
-  if [ ! -f "$options" ]; then
-    "$bin/$stage" --print-options > "$options.tmp.$$"
-    mv "$options.tmp.$$" "$options"
-  fi
-  echo "options $(hash_of "$options")"
-  files=$("$bin/$stage" --options "$options" --print-inputs)
+has_options() { case $1 in st-export | st-info) return 1 ;; esac; }
+
+# The file that a stage's options name; relative names count from the folder in which make runs, as for the tools.
+named_files() {
+  local options=$out/$1.toml files file
+  files=$("$bin/$1" --options "$options" --print-inputs)
   while IFS= read -r file; do
     [ -n "$file" ] || continue
     [ -f "$file" ] || { echo "workflow: error: $options names '$file', which does not exist in $PWD" >&2; exit 3; }
-    echo "input $(hash_of "$file") $file"
+    printf '%s\n' "$file"
   done <<< "$files"
 }
 
 mkdir -p "$out/log"
+stages=() kinds=() files=()  # what is hashed
+add() { stages+=("$1") kinds+=("$2") files+=("$3"); }
 for stage in "$@"; do
-  lines="tool $(hash_of "$bin/$stage")"
-  case $stage in
-    st-export | st-info) ;;
-    *) lines+=$'\n'$(options_of "$stage") ;;
-  esac
-  echo "$lines" | "$(dirname "$0")/replace_if_changed.sh" "$out/log/$stage.ref"
+  add "$stage" tool "$bin/$stage"
+  has_options "$stage" || continue
+  options=$out/$stage.toml
+  if [ ! -f "$options" ]; then
+    "$bin/$stage" --print-options > "$options.tmp.$$"
+    mv "$options.tmp.$$" "$options"
+  fi
+  add "$stage" options "$options"
+  named=$(named_files "$stage")
+  while IFS= read -r file; do
+    [ -z "$file" ] || add "$stage" input "$file"
+  done <<< "$named"
+done
+hashes=$(hashes_of "${files[@]}")
+mapfile -t hashes <<< "$hashes"
+for stage in "$@"; do
+  text=
+  for i in "${!files[@]}"; do
+    [ "${stages[i]}" = "$stage" ] || continue
+    text+=${text:+$'\n'}"${kinds[i]} ${hashes[i]}"
+    [ "${kinds[i]}" != input ] || text+=" ${files[i]}"
+  done
+  ref=$out/log/$stage.ref
+  [ ! -f "$ref" ] || [ "$(< "$ref")" != "$text" ] || continue
+  printf '%s\n' "$text" > "$ref.tmp.$$"
+  mv "$ref.tmp.$$" "$ref"
 done
