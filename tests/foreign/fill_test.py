@@ -1,4 +1,4 @@
-"""What st-check passes as closed, TetGen and Gmsh fill: six models of the corpus, coarse; one of them up to a far field.
+"""What st-check passes as closed, TetGen and Gmsh fill: six models of the corpus, coarse, one of them to a far field.
 
 usage: fill_test.py
 environment: ST_BIN; ST_CORPUS: real CAD files, default ../shared/corpus beside the project
