@@ -169,7 +169,14 @@ class Resume(ToolTest):
         for _ in range(40):
             run = self.start(*options)
             time.sleep(self.random.uniform(0.1, 0.9) * self.seconds)
-            threads = [(t, p) for p in descendants(run.pid) for t in Path(f"/proc/{p}/task").glob("*")]
+            threads = [(t, p) for p in descendants(run.pid) for t in Path(f"/proc/{p}/task").glob("*")
+                       if t.name != str(p)]  # main threads of ranks pass messages
+            if not threads:
+                run.kill()
+                run.communicate(timeout=60)
+                shutil.rmtree(self.journal, ignore_errors=True)
+                self.patches.unlink(missing_ok=True)
+                continue
             busy = max(threads, key=lambda t: self.processor_time(t[0] / "stat"))
             ctypes.CDLL(None).syscall(SYS_TGKILL, busy[1], int(busy[0].name), int(signal.SIGSEGV))
             out, err = run.communicate(timeout=120)
@@ -182,7 +189,7 @@ class Resume(ToolTest):
     def processor_time(stat):
         try:
             fields = stat.read_text().rpartition(")")[2].split()
-            return int(fields[11]) if fields[0] == "R" else -1  # main threads of ranks wait, and have done most so far
+            return int(fields[11]) if fields[0] == "R" else -1
         except OSError:
             return -1
 
