@@ -20,7 +20,7 @@ hashes_of() {
 
 has_options() { case $1 in st-export | st-info) return 1 ;; esac; }
 
-# The file that a stage's options name; relative names count from the folder in which make runs, as for the tools.
+# The files that a stage's options name; relative names count from the folder in which make runs, as for the tools.
 named_files() {
   local options=$out/$1.toml files file
   files=$("$bin/$1" --options "$options" --print-inputs)
@@ -57,7 +57,7 @@ for stage in "$@"; do
     text+=${text:+$'\n'}"${kinds[i]} ${hashes[i]}"
     [ "${kinds[i]}" != input ] || text+=" ${files[i]}"
   done
-  ref=$out/log/$stage.ref
+  ref=$out/log/$stage.ref  # as replace_if_changed.sh, without three programs for each stage
   [ ! -f "$ref" ] || [ "$(< "$ref")" != "$text" ] || continue
   printf '%s\n' "$text" > "$ref.tmp.$$"
   mv "$ref.tmp.$$" "$ref"

@@ -28,7 +28,7 @@ void write_rest(Hdf5Writer& w, const PatchesArtifact& a) {
   write_labels(w, a.labels);
 }
 
-/// Of faces that were closed from their loops. Absent when none was.
+/// One value of each failure.
 template <class T, class Field>
 std::vector<T> column(const std::vector<FaceFailure>& failures, Field FaceFailure::*field) {
   std::vector<T> values;
@@ -41,6 +41,7 @@ void write_failures(Hdf5Writer& w, const std::vector<FaceFailure>& failures) {
   w.write_strings("/st/failure/cause", column<std::string>(failures, &FaceFailure::cause));
   w.write_strings("/st/failure/remedy", column<std::string>(failures, &FaceFailure::remedy));
   w.write("/st/failure/xyz", column<Vec3>(failures, &FaceFailure::xyz));
+  // of faces that were closed from their loops; absent when none was
   const auto is_closed = column<std::uint8_t>(failures, &FaceFailure::is_closed);
   if (std::find(is_closed.begin(), is_closed.end(), 1) == is_closed.end()) return;
   w.write("/st/failure/is_closed", is_closed);
