@@ -262,10 +262,19 @@ def small_files():
     resource.setrlimit(resource.RLIMIT_FSIZE, (2048, 2048))
 
 
+def german(env, folder):
+    """The environment with a decimal comma; the locale is made in a folder where the system can make it."""
+    made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(folder / "de_DE.UTF-8")], capture_output=True)
+    if not (folder / "de_DE.UTF-8").is_dir():
+        print(f"SKIPPED: localedef cannot make a locale with a decimal comma: {made.stderr.decode()}", flush=True)
+        return env
+    return env | {"LC_ALL": "de_DE.UTF-8", "LOCPATH": str(folder)}
+
+
 def surroundings(stages, folder):
     """(what, what is wrong) of each."""
     env, output = dict(os.environ), folder / "x.hdf"
-    odd = {"German locale": {"env": env | {"LC_ALL": "de_DE.UTF-8"}}, "empty environment": {"env": {}},
+    odd = {"German locale": {"env": german(env, stages.good)}, "empty environment": {"env": {}},
            "no HOME": {"env": {k: v for k, v in env.items() if k != "HOME"}},
            "no TMPDIR": {"env": {k: v for k, v in env.items() if k != "TMPDIR"}},
            "wrong TMPDIR": {"env": env | {"TMPDIR": "/does/not/exist"}}, "stack of 1 MB": {"preexec_fn": small_stack},

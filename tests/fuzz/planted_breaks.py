@@ -145,7 +145,7 @@ def build(work, sites, jobs):
     plant(source, sites)
     folder = source / "build/check"  # where make check has it: a compiler cache knows what is not changed
     subprocess.run(["cmake", "-S", source, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DST_TESTS=ON",
-                    "-DST_WERROR=ON", "-DST_WHOLE_SUITES=ON"], check=True, stdout=subprocess.DEVNULL)
+                    "-DST_WERROR=OFF", "-DST_WHOLE_SUITES=ON"], check=True, stdout=subprocess.DEVNULL)
     env = os.environ | {"CCACHE_BASEDIR": str(source), "CCACHE_NOHASHDIR": "1"}
     subprocess.run(["ninja", "-C", folder, f"-j{jobs}", "unit_io"], check=True, stdout=subprocess.DEVNULL, env=env)
     return folder / "tests/unit_io"
