@@ -11,9 +11,9 @@
 #include "base/assert.h"
 #include "base/predicates.h"
 #include "base/threads.h"
+#include "mesh/float_box.h"
 
 namespace st {
-
 namespace {
 
 using Points = std::array<Vec3, 3>;
@@ -137,25 +137,13 @@ Points rotated(const Points& t, int k) { return {t[k], t[(k + 1) % 3], t[(k + 2)
 
 // --- bounding volume hierarchy ---
 
-/// Box in single precision, rounded outwards.
-struct FloatBox {
-  std::array<float, 3> lo, hi;
-  bool meets(const FloatBox& o) const {
-    return lo[0] <= o.hi[0] && o.lo[0] <= hi[0] && lo[1] <= o.hi[1] && o.lo[1] <= hi[1] && lo[2] <= o.hi[2] &&
-           o.lo[2] <= hi[2];
-  }
-  void add(const FloatBox& o) {
-    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
-  }
-  float extent() const { return (hi[0] - lo[0]) + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
-};
-
 float round_down(double x) {
   const auto f = static_cast<float>(x);
   return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
 }
 float round_up(double x) { return -round_down(-x); }
 
+/// Rounded outwards.
 FloatBox box_of(const Points& t) {
   const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});

@@ -11,31 +11,13 @@
 
 #include "base/assert.h"
 #include "base/threads.h"
+#include "mesh/float_box.h"
 #include "mesh/patch_blocks.h"
 
 namespace st {
-
 namespace {
 
-/// Box in single precision. Rounding to nearest is monotonic: boxes that meet in double precision meet here.
-struct FloatBox {
-  std::array<float, 3> lo, hi;
-  bool meets(const FloatBox& o) const {
-    return (lo[0] <= o.hi[0]) & (o.lo[0] <= hi[0]) & (lo[1] <= o.hi[1]) & (o.lo[1] <= hi[1]) & (lo[2] <= o.hi[2]) &
-           (o.lo[2] <= hi[2]);
-  }
-  void add(const FloatBox& o) {
-    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], o.lo[k]), hi[k] = std::max(hi[k], o.hi[k]);
-  }
-  float extent() const { return (hi[0] - lo[0]) + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
-  int longest_axis() const {
-    int axis = 0;
-    for (int k = 1; k < 3; ++k)
-      if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
-    return axis;
-  }
-};
-
+/// Rounding to nearest is monotonic: boxes that meet in double precision meet here.
 FloatBox rounded(const Box3& box) {
   const auto f = [](double x) { return static_cast<float>(x); };
   return {{f(box.lo.x), f(box.lo.y), f(box.lo.z)}, {f(box.hi.x), f(box.hi.y), f(box.hi.z)}};
