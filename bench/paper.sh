@@ -26,7 +26,7 @@ case_of() { # name triangles raster-options...: out/name.geometry.hdf is there
     raster=$(seconds "$bin/st-raster" "$at.geometry.hdf" -o "$at.raster.hdf" "${on[@]}" "$@")
     prolong=$(seconds "$bin/st-prolong" "$at.raster.hdf" -o "$at.sizing.hdf" --target-triangles "$n" "${on[@]}")
     mesh=$(seconds "$bin/st-mesh" "$at.geometry.hdf" "$at.sizing.hdf" -o "$at.patches.hdf" --trace "$at.$threads.csv" \
-      "${on[@]}")
+      --journal-after 1e9 "${on[@]}")  # on more processors it ends before a journal begins
     merge=$(seconds "$bin/st-merge" "$at.patches.hdf" -o "$at.mesh.hdf" "${on[@]}")
     check=$(seconds "$bin/st-check" "$at.mesh.hdf" --geometry "$at.geometry.hdf" --sizing "$at.sizing.hdf" \
       "${on[@]}") || true

@@ -4,7 +4,8 @@
 usage: bench/replay.py TRACE [--ranks 1,2,16,256] [--threads N] [--latency S] [--bandwidth B] [--times N]
        bench/replay.py --validate GEOMETRY SIZING [--bin DIR] [--runs N]
 
-TRACE: what `st-mesh --trace` wrote with one rank and one thread. Processor times count, so a disk costs nothing.
+TRACE: what `st-mesh --trace` wrote with one rank and one thread, and --journal-after 1e9: what is replayed ends before
+it would begin a journal. Processor times count, so a disk costs nothing.
 What is replayed, with one processor for each thread:
 - tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
 - a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
