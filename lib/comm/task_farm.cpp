@@ -12,6 +12,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "base/current_work.h"
@@ -178,7 +180,13 @@ class WorkerThreads {
     int rank = 0;
     require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
     g_threads = this;
-    for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, rank, &compute] { work(rank, compute); });
+    try {
+      for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, rank, &compute] { work(rank, compute); });
+    } catch (const std::system_error& e) {  // those there are do it
+      if (!threads_.empty()) return;
+      g_threads = nullptr;
+      throw Error(ExitCode::kMemory, std::string("no thread can be started: ") + e.what());
+    }
   }
   ~WorkerThreads() {
     {

@@ -16,7 +16,8 @@ namespace st {
 namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 1'000'000;  // in memory, of several patches
-constexpr std::size_t kNodesPerWindow = 262'144;      // of a patch, whose sides are sorted together
+constexpr std::size_t kNodesPerWindow = 262'144;      // of a patch, whose sides are sorted together; at least
+constexpr std::size_t kMostWindows = 16;              // each looks at all triangles of the patch
 
 bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
 
@@ -114,9 +115,10 @@ InnerEdges count_window(const FacePatch& p, NodeId begin, NodeId end) {
 
 InnerEdges count_inner_edges(const FacePatch& p) {
   const std::size_t n_nodes = p.n_boundary + p.inner_xyz.size();
-  std::vector<InnerEdges> windows(n_nodes / kNodesPerWindow + 1);
-  parallel_for(n_nodes, kNodesPerWindow, [&](std::size_t begin, std::size_t end) {
-    windows[begin / kNodesPerWindow] = count_window(p, static_cast<NodeId>(begin), static_cast<NodeId>(end));
+  const std::size_t n_per_window = std::max(kNodesPerWindow, n_nodes / kMostWindows + 1);
+  std::vector<InnerEdges> windows(n_nodes / n_per_window + 1);
+  parallel_for(n_nodes, n_per_window, [&](std::size_t begin, std::size_t end) {
+    windows[begin / n_per_window] = count_window(p, static_cast<NodeId>(begin), static_cast<NodeId>(end));
   });
   InnerEdges all;
   for (const InnerEdges& w : windows) {

@@ -28,10 +28,11 @@ std::string host_name() {
 struct HostMemory {
   double of_rank = 0;  ///< least share of a rank in the memory of its host
   double of_host = 0;  ///< least memory of a host
+  double of_all = 0;   ///< of all hosts together
 };
 
 /// Collective, the same on every rank.
-HostMemory least_memory(const Communicator& comm) {
+HostMemory memory_of_hosts(const Communicator& comm) {
   Packer own;
   own.add(host_name());
   own.add(memory_limit());
@@ -46,11 +47,12 @@ HostMemory least_memory(const Communicator& comm) {
     least = std::min(least, memory);
     ++n_ranks;
   }
-  HostMemory least{kUnlimited, kUnlimited};
+  HostMemory memory{kUnlimited, kUnlimited, 0};
   for (const auto& [host, of] : hosts)
-    least = {std::min(least.of_rank, of.first / of.second), std::min(least.of_host, of.first)};
-  share(comm, least);
-  return least;
+    memory = {std::min(memory.of_rank, of.first / of.second), std::min(memory.of_host, of.first),
+              memory.of_all + of.first};
+  share(comm, memory);
+  return memory;
 }
 
 /// Cells that are larger are fewer, by the square on a surface, for as many samples.
@@ -78,11 +80,13 @@ CellBudget make_cell_budget(std::optional<int> max_cells, const ModelLimits& lim
   };
   CellBudget budget;
   budget.max_cells =
-      max_cells ? static_cast<std::uint64_t>(*max_cells) : countable(fitting_cells(least_memory(comm), limits));
+      max_cells ? static_cast<std::uint64_t>(*max_cells) : countable(fitting_cells(memory_of_hosts(comm), limits));
   budget.max_samples =
       countable(static_cast<double>(budget.max_cells) * raster_bytes_per_cell(limits) / bytes_per_sample(limits));
   return budget;
 }
+
+double memory_of_all_hosts(const Communicator& comm) { return memory_of_hosts(comm).of_all; }
 
 DepthLimit gather_depth_limit(const DepthLimit& own, const Communicator& comm) {
   Packer packer;

@@ -18,6 +18,9 @@ struct CellBudget {
 /// host, shared by its ranks, here and in st-prolong afterwards.
 CellBudget make_cell_budget(std::optional<int> max_cells, const ModelLimits& limits, const Communicator& comm);
 
+/// Collective, the same on every rank. Bytes.
+double memory_of_all_hosts(const Communicator& comm);
+
 /// Collective: the sum of all ranks on rank 0.
 DepthLimit gather_depth_limit(const DepthLimit& own, const Communicator& comm);
 

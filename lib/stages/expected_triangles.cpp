@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/local_size.h"
 #include "base/log.h"
-#include "base/memory.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -85,10 +84,8 @@ void require_countable_mesh(const ModelTables& tables, std::span<const double> f
                                                                : "use larger lengths, or mesh parts with --faces"));
 }
 
-void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
-                            std::span<const FaceId> faces, const std::string& sizing) {
-  const double fitting = kShare * memory_limit() / kMeshBytesPerTriangle;
-  require_countable_mesh(tables, face_weight, faces, sizing, std::min(static_cast<double>(kMaxTriangles), fitting));
+double most_triangles_in(double memory) {
+  return std::min(static_cast<double>(kMaxTriangles), kShare * memory / kMeshBytesPerTriangle);
 }
 
 }  // namespace st

@@ -32,13 +32,12 @@ void report_expected_triangles(std::span<const double> face_weight, std::span<co
 /// some 40,000 queries of the field.
 std::vector<double> face_weights_on(const SurfaceMesh& mesh, const SizeField& field, FaceId n_faces);
 
-/// Throws Error(kUsage) when `faces` (empty: all) would have more triangles than a mesh can number or than fit
-/// 80 % of the memory: with the expected number, the face that asks for most, and what to do. Weights that are not one
-/// per face say nothing. `sizing`: its file, for the message.
-void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
-                            std::span<const FaceId> faces, const std::string& sizing);
+/// No more than a mesh can number, and than fit 80 % of so many bytes.
+double most_triangles_in(double memory);
 
-/// The same with another limit, for tests.
+/// Throws Error(kUsage) when `faces` (empty: all) would have more triangles than `limit`: with the expected number, the
+/// face that asks for most, and what to do. Weights that are not one per face say nothing. `sizing`: its file, for the
+/// message.
 void require_countable_mesh(const ModelTables& tables, std::span<const double> face_weight,
                             std::span<const FaceId> faces, const std::string& sizing, double limit);
 

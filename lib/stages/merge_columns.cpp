@@ -16,7 +16,7 @@ constexpr std::int64_t kRowsAtOnce = 65'536;
 
 class MergedRows {
  public:
-  MergedRows(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order)
+  MergedRows(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order)
       : patches_(patches), input_(input), order_(order) {}
 
   /// Nodes on boundaries as they are, then `value_of` each face for its nodes inside.
@@ -39,13 +39,13 @@ class MergedRows {
   template <class T, class ValueOf>
   Column<T> of_faces(const ValueOf& value_of) const {
     return {n_triangles(), [this, value_of](const auto& take) {
-              for (const PatchPlace& p : patches_) repeat(value_of(p.face()), p.file->n_triangles(p.patch), take);
+              for (const PatchInFile& p : patches_) repeat(value_of(p.face()), p.file->n_triangles(p.patch), take);
             }};
   }
   template <class T>
   Column<T> of_triangles(RowPlace PatchRows::*rows) const {
     return {n_triangles(), [this, rows](const auto& take) {
-              for (const PatchPlace& p : patches_)
+              for (const PatchInFile& p : patches_)
                 in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
                   const auto values = read<T>(p, rows, p.file->triangle_begin(p.patch) + begin, n);
                   take(values);
@@ -81,7 +81,7 @@ class MergedRows {
   }
 
   template <class T>
-  static std::vector<T> read(const PatchPlace& p, RowPlace PatchRows::*rows, std::int64_t first, std::int64_t n) {
+  static std::vector<T> read(const PatchInFile& p, RowPlace PatchRows::*rows, std::int64_t first, std::int64_t n) {
     const RowPlace& place = p.file->rows().*rows;
     std::vector<T> values = p.file->row_reader().read<T>(place, first, n);
     if constexpr (!std::is_same_v<T, std::int32_t> && !std::is_same_v<T, Triangle>)
@@ -91,7 +91,7 @@ class MergedRows {
 
   template <class T, class Take>
   void take_inner(std::size_t i, RowPlace PatchRows::*rows, const Take& take) const {
-    const PatchPlace& p = patches_[i];
+    const PatchInFile& p = patches_[i];
     const std::vector<std::uint8_t> is_used =
         order_.has_unused[i] ? used_inner_nodes(p.file->shape(p.patch)) : std::vector<std::uint8_t>();
     in_pieces(p.file->n_inner(p.patch), [&](std::int64_t begin, std::int64_t n) {
@@ -108,7 +108,7 @@ class MergedRows {
 
   template <class Take>
   void take_corner_uv(std::size_t i, const Take& take) const {
-    const PatchPlace& p = patches_[i];
+    const PatchInFile& p = patches_[i];
     const FacePatch patch = p.file->corners(p.patch);
     in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
       std::vector<Vec2> uv = corner_uvs(patch, static_cast<std::size_t>(begin), static_cast<std::size_t>(begin + n));
@@ -119,7 +119,7 @@ class MergedRows {
 
   /// Node of the mesh for each of the patch; of those inside only where some are left out.
   std::vector<NodeId> numbers(std::size_t i) const {
-    const PatchPlace& p = patches_[i];
+    const PatchInFile& p = patches_[i];
     const FacePatch shape = order_.has_unused[i] ? p.file->shape(p.patch) : p.file->boundary(p.patch);
     std::vector<NodeId> number;
     for (std::int32_t n = 0; n < shape.n_boundary; ++n)
@@ -133,7 +133,7 @@ class MergedRows {
 
   template <class Take>
   void take_triangles(std::size_t i, const Take& take) const {
-    const PatchPlace& p = patches_[i];
+    const PatchInFile& p = patches_[i];
     const std::vector<NodeId> number = numbers(i);
     const auto n_known = static_cast<NodeId>(number.size());
     const NodeId shift = order_.inner_begin[i] - n_known;
@@ -148,19 +148,19 @@ class MergedRows {
     });
   }
 
-  const std::vector<PatchPlace>& patches_;
+  const std::vector<PatchInFile>& patches_;
   const MergeInput input_;
   const MergeOrder& order_;
 };
 
 }  // namespace
 
-std::vector<PatchPlace> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files) {
-  std::vector<PatchPlace> all;
+std::vector<PatchInFile> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files) {
+  std::vector<PatchInFile> all;
   for (const auto& file : files)
     for (std::size_t i = 0; i < file->n_patches(); ++i) all.push_back({file.get(), i});
   std::stable_sort(all.begin(), all.end(),
-                   [](const PatchPlace& a, const PatchPlace& b) { return a.face() < b.face(); });
+                   [](const PatchInFile& a, const PatchInFile& b) { return a.face() < b.face(); });
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i].face() != all[i - 1].face()) continue;
     if (all[i].file == all[i - 1].file) all[i].file->reader().fail("/st/patch/face", "names a face twice");
@@ -170,9 +170,9 @@ std::vector<PatchPlace> patches_of(const std::vector<std::unique_ptr<PatchesFile
   return all;
 }
 
-PatchSource source_of(const std::vector<PatchPlace>& patches) {
+PatchSource source_of(const std::vector<PatchInFile>& patches) {
   PatchSource source;
-  for (const PatchPlace& p : patches) {
+  for (const PatchInFile& p : patches) {
     source.face.push_back(p.face());
     source.n_triangles.push_back(p.file->n_triangles(p.patch));
   }
@@ -180,7 +180,7 @@ PatchSource source_of(const std::vector<PatchPlace>& patches) {
   return source;
 }
 
-MeshColumns merged_columns(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order) {
+MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order) {
   const auto rows = std::make_shared<const MergedRows>(patches, input, order);
   const SurfaceMesh& head = order.boundary;
   const auto group_of = [groups = input.face_group](FaceId f) {

@@ -12,18 +12,18 @@
 namespace st {
 
 /// A patch in one of several files.
-struct PatchPlace {
+struct PatchInFile {
   const PatchesFile* file = nullptr;
   std::size_t patch = 0;
   FaceId face() const { return file->face(patch); }
 };
 
 /// By face. Throws Error(kMismatch) for a face that is in two files.
-std::vector<PatchPlace> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files);
+std::vector<PatchInFile> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files);
 
-PatchSource source_of(const std::vector<PatchPlace>& patches);
+PatchSource source_of(const std::vector<PatchInFile>& patches);
 
 /// `patches`, `order` and `input` outlive the columns. Columns throw Error(kInput) for contents that no mesh can have.
-MeshColumns merged_columns(const std::vector<PatchPlace>& patches, const MergeInput& input, const MergeOrder& order);
+MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order);
 
 }  // namespace st

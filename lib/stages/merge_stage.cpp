@@ -33,9 +33,9 @@ std::string list_faces(std::span<const FaceId> faces) {
   return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
 }
 
-std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::vector<PatchPlace>& patches) {
+std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::vector<PatchInFile>& patches) {
   std::vector<std::uint8_t> is_meshed(rest.labels.face_name.size(), 0);
-  for (const PatchPlace& p : patches) is_meshed[p.face()] = 1;
+  for (const PatchInFile& p : patches) is_meshed[p.face()] = 1;
   for (const FaceId f : closed_faces(rest.merged, rest.edges, rest.edge_vertices)) is_meshed[f] = 1;
   std::vector<FaceId> missing;
   for (std::size_t f = 0; f < is_meshed.size(); ++f)
@@ -78,7 +78,7 @@ void add_part(PatchesArtifact& all, const PatchesArtifact& part, const std::stri
 /// What is to be merged: files of patches, and what they have besides.
 struct MergeParts {
   std::vector<std::unique_ptr<PatchesFile>> files;
-  std::vector<PatchPlace> patches;
+  std::vector<PatchInFile> patches;
   PatchesArtifact rest;  // of all files; without patches
   std::vector<InputRef> inputs;
 };

@@ -17,6 +17,7 @@
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "meshing/engine/mesh_regions.h"
+#include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
@@ -81,13 +82,14 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
 struct EarlierPart {
   EdgeMesh edges;
   MergedFeatures merged;
+  std::string content_hash;
 };
 
 EarlierPart read_earlier_part(const MeshStageOptions& o, const ArtifactHeader& geometry) {
   if (o.edges.empty()) return {};
   PatchesArtifact earlier = read_patches(o.edges);
   require_same_geometry(o.geometry, geometry, o.edges, earlier.header);
-  return {std::move(earlier.edges), std::move(earlier.merged)};
+  return {std::move(earlier.edges), std::move(earlier.merged), earlier.header.content_hash};
 }
 
 MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std::vector<FaceId> faces, EdgeMesh fixed,
@@ -139,8 +141,10 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   const Model model = stored_model(geometry, o.geometry);
   std::vector<FaceId> faces = select_faces(o, model.tables());
-  require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing);
+  require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing,
+                         most_triangles_in(memory_of_all_hosts(comm)));
   EarlierPart earlier = read_earlier_part(o, geometry.header);
+  require_same_inputs(comm, {{o.edges, earlier.content_hash}});
   const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, trace)
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();

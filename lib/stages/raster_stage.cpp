@@ -463,6 +463,8 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
                               t.face_area[f]);
         } catch (const LateWork& e) {
           failure = fmt::format("{}: its cells were not found, {}", t.face_label(f), e.what());
+        } catch (const std::bad_alloc&) {
+          throw;
         } catch (const std::exception&) {  // reported when it was sampled
           cells.clear();
         }

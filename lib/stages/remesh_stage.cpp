@@ -332,7 +332,7 @@ void require_countable_sizes(const RemeshStageOptions& o, const RemeshInput& in,
   if (faces.empty()) return;
   const ModelTables& tables = in.model.tables();
   require_countable_mesh(tables, face_weights_on(in.old.mesh, field, tables.n_faces()), faces,
-                         o.sizes_on_nodes.empty() ? o.sizing : o.sizes_on_nodes);
+                         o.sizes_on_nodes.empty() ? o.sizing : o.sizes_on_nodes, most_triangles_in(memory_limit()));
 }
 
 HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in) {
@@ -345,9 +345,21 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
   return mark;
 }
 
+/// Of --sizes-on-nodes.
+std::string nodes_file(const RemeshStageOptions& o) { return o.sizes_on_nodes.substr(0, o.sizes_on_nodes.rfind(':')); }
+
+/// Collective. As require_same_inputs(), of files without a hash of their own, and of --made-for.
+void require_same_files(const RemeshStageOptions& o, const Communicator& comm) {
+  if (comm.size() == 1) return;
+  for (const std::string& path : {o.made_for, nodes_file(o)}) {
+    Hasher hasher;
+    if (!path.empty()) hasher.add(std::string_view(read_text_file(path)));
+    require_same_inputs(comm, {{path, hasher.hex()}});
+  }
+}
+
 /// Digest of what the results depend on. The contents of files without a hash of their own count by the file's.
 std::string run_of(const RemeshStageOptions& o, const RemeshInput& in) {
-  const std::string nodes_file = o.sizes_on_nodes.substr(0, o.sizes_on_nodes.rfind(':'));
   Hasher hasher;
   for (const std::string& text :
        {in.old.header.content_hash, in.geometry.content_hash, in.sizing.header.content_hash, o.keep, o.tolerance,
@@ -355,7 +367,7 @@ std::string run_of(const RemeshStageOptions& o, const RemeshInput& in) {
     hasher.add(std::string_view(text));
     hasher.add(std::string_view("\n"));
   }
-  for (const std::string& path : {o.made_for, nodes_file})
+  for (const std::string& path : {o.made_for, nodes_file(o)})
     if (!path.empty()) hasher.add(std::string_view(read_text_file(path)));
   return hasher.hex();
 }
@@ -386,6 +398,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  require_same_files(o, comm);
   if (comm.is_root()) require_countable_sizes(o, in, mark, field);
   const std::optional<StageSummary> association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();

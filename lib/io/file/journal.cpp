@@ -166,9 +166,9 @@ JournalReader::JournalReader(const std::string& folder, const WorkKey& run_key) 
     next_run_ = std::max(next_run_, run_of(name) + 1);
     read(folder + "/" + name, run_key);
   }
-  for (auto it = deaths_.begin(); it != deaths_.end();) it = place_.contains(it->first) ? deaths_.erase(it) : ++it;
-  for (const auto& [key, n] : deaths_)
+  for (const auto& [key, n] : deaths_)  // also where it was finished since: by being left out
     if (n >= kMostDeaths && face_of_[key] != kNone) crashes_.try_emplace(face_of_[key], SIGKILL);
+  for (auto it = deaths_.begin(); it != deaths_.end();) it = place_.contains(it->first) ? deaths_.erase(it) : ++it;
 }
 
 JournalReader::~JournalReader() {
@@ -177,27 +177,39 @@ JournalReader::~JournalReader() {
 
 void JournalReader::read(const std::string& path, const WorkKey& run_key) {
   const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (file < 0) return;
-  files_.push_back(file);
-  if (flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    is_in_use_ = true;
+  if (file < 0) {
+    if (errno == EMFILE || errno == ENFILE)
+      log_warning(path + " cannot be read (" + std::strerror(errno) + "); what it has kept is made again");
     return;
   }
+  if (read_records(file, run_key))
+    files_.push_back(file);
+  else
+    close(file);  // many ranks leave many files
+}
+
+bool JournalReader::read_records(int file, const WorkKey& run_key) {
+  if (flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    is_in_use_ = true;
+    return false;
+  }
   const auto start = read_head(file, 0);
-  if (!start || start->kind != kStart || start->key != run_key) return;
+  if (!start || start->kind != kStart || start->key != run_key) return false;
+  bool has_done = false;
   std::map<WorkKey, FaceId> begun;
   bool is_explained = false;
   for_each_record(file, [&](const RecordHead& head, std::uint64_t at) {
     const auto face = static_cast<FaceId>(head.face);
     if (head.kind == kBegun) begun[head.key] = face;
-    if (head.kind == kDone) place_[head.key] = {file, at, head.n_bytes, head.digest};
+    if (head.kind == kDone) place_[head.key] = {file, at, head.n_bytes, head.digest}, has_done = true;
     if (head.kind == kDone || head.kind == kFailed) begun.erase(head.key);
     if (head.kind == kFailed) ++deaths_[head.key], face_of_[head.key] = face;
     if (head.kind == kCrashed) crashes_[face] = head.signal;
     if (head.kind == kCrashed || head.kind == kEnded) is_explained = true;
   });
-  if (is_explained) return;
-  for (const auto& [key, face] : begun) ++deaths_[key], face_of_[key] = face;
+  if (!is_explained)
+    for (const auto& [key, face] : begun) ++deaths_[key], face_of_[key] = face;
+  return has_done;
 }
 
 std::optional<Bytes> JournalReader::result(const WorkKey& key) const {

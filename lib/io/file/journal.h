@@ -65,8 +65,10 @@ class JournalReader {
     WorkKey digest;  // of the bytes
   };
   void read(const std::string& path, const WorkKey& run_key);
+  /// Whether it has finished work: then `file` has to stay open.
+  bool read_records(int file, const WorkKey& run_key);
 
-  std::vector<int> files_;  // descriptors
+  std::vector<int> files_;  // descriptors of those with finished work
   std::map<WorkKey, Place> place_;
   std::map<WorkKey, int> deaths_;
   std::map<WorkKey, FaceId> face_of_;  // of deaths_

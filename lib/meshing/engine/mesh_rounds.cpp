@@ -67,11 +67,12 @@ void MeshRounds::run() {
   }
 }
 
-/// Collective. Whether it is known what it takes to part them, at some of rank 0's places.
+/// Collective. Whether it is known what it takes to part them, at some of rank 0's places, and that is affordable.
 bool MeshRounds::is_measured(const Places& places) const {
-  char is = std::any_of(places.begin(), places.end(), [](const RefinementPoint& p) { return p.factor > 0; });
+  char is = !has_said_walls_ &&
+            std::any_of(places.begin(), places.end(), [](const RefinementPoint& p) { return p.factor > 0; });
   share(executor_, is);
-  return is != 0 && !has_said_walls_;
+  return is != 0;
 }
 
 /// Collective. Whether more was meshed again than refining can be worth, as on surfaces that are damaged.

@@ -96,6 +96,7 @@ class EdgeCheck {
   }
 
   void report_edge(const NodePair& edge) {
+    if (r_.refinement.size() >= kMostRefined) return;
     for (std::size_t i = 0; i < r_.corners.size(); ++i) {
       const std::size_t j = i % 3 == 2 ? i - 2 : i + 1;
       if (NodePair(std::minmax({node_key(r_.corners[i]), node_key(r_.corners[j])})) != edge) continue;

@@ -137,6 +137,36 @@ TEST_F(JournalTest, counts_what_ran_out_of_memory) {
   EXPECT_EQ(JournalReader(folder(), kRun).crashes(), (std::map<FaceId, int>{{3, SIGKILL}}));
 }
 
+TEST_F(JournalTest, suspects_still_what_was_left_out_and_noted_as_done) {
+  for (const int run : {1, 2}) {
+    Journal journal(place(run));
+    journal.begin(work_at(3));
+    journal.fail(work_at(3));
+  }
+  {
+    Journal journal(place(3));
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
+  }
+  const JournalReader reader(folder(), kRun);
+  EXPECT_EQ(reader.crashes(), (std::map<FaceId, int>{{3, SIGKILL}}));
+  EXPECT_TRUE(reader.deaths().empty()) << "it is not tried again";
+}
+
+TEST_F(JournalTest, keeps_only_files_open_that_have_results) {
+  const auto n_open = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+  };
+  for (const int run : {1, 2, 3, 4, 5}) {
+    Journal journal(place(run));
+    journal.begin(work_at(run));
+    if (run == 3) journal.finish(work_at(run), [&] { return bytes_of(10, 1); });
+  }
+  const auto n_before = n_open();
+  const JournalReader reader(folder(), kRun), other(folder(), kOtherRun);
+  EXPECT_EQ(n_open(), n_before + 1);
+  EXPECT_TRUE(reader.result(work_at(3).key));
+}
+
 TEST_F(JournalTest, blames_the_face_of_a_crash_alone) {
   {
     Journal journal(place(1, 1000));

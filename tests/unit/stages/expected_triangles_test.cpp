@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "base/memory.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -50,12 +49,10 @@ TEST_F(ExpectedTriangles, name_the_number_the_heaviest_face_and_what_to_do) {
   EXPECT_TRUE(has(one, "larger --scale") && !has(one, "--faces")) << one;
 }
 
-TEST_F(ExpectedTriangles, are_refused_by_default_where_sides_pass_32_bits_or_they_need_most_of_the_memory) {
-  const double limit = std::min(static_cast<double>(kMaxTriangles), 0.8 * memory_limit() / 150);
-  const std::vector<double> most(6, limit / 6 / kTrianglesPerWeight);
-  EXPECT_NO_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 0.999 * most[0]), {}, "s"));
-  EXPECT_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 1.001 * most[0]), {}, "s"), Error);
-  EXPECT_THROW(require_countable_mesh(model_.tables(), std::vector<double>(6, 1e300), {}, "s"), Error);
+TEST_F(ExpectedTriangles, are_as_many_as_sides_of_32_bits_and_most_of_the_memory_allow) {
+  EXPECT_EQ(most_triangles_in(1.5e9), 8e6);
+  EXPECT_EQ(most_triangles_in(1e13), static_cast<double>(kMaxTriangles));
+  EXPECT_NE(refusal(std::vector<double>(6, 1e300), {}, most_triangles_in(1e300)), "");
 }
 
 /// Edges four times as long along x.
