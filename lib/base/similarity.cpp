@@ -1,5 +1,6 @@
 #include "base/similarity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -10,6 +11,8 @@
 
 namespace st {
 namespace {
+
+constexpr double kMostNumber = 1e12;  // where st-import ends: lengths have no digits left beyond
 
 /// One step as it is written.
 struct Step {
@@ -37,6 +40,14 @@ Step read_step(const std::string& text) {
   step.is_readable = rest == "at" && point.size() == 3 && !(words >> rest);
   if (step.is_readable) step.at = Vec3{point[0], point[1], point[2]};
   return step;
+}
+
+/// Whether its numbers can move a model to where it still has its shape.
+bool is_in_range(const Step& step) {
+  std::vector<double> all = step.numbers;
+  if (step.at) all.insert(all.end(), {step.at->x, step.at->y, step.at->z});
+  const bool is_tiny = step.verb == "scale" && !all.empty() && all[0] > 0 && all[0] < 1 / kMostNumber;
+  return !is_tiny && std::all_of(all.begin(), all.end(), [](double x) { return std::abs(x) <= kMostNumber; });
 }
 
 /// The motion of a step; nullopt for one that is none.
@@ -108,7 +119,11 @@ Similarity parse_similarity(const std::string& text, const std::string& option) 
   std::istringstream steps(text);
   for (std::string step; std::getline(steps, step, ';');) {
     if (trimmed(step).empty()) continue;
-    const std::optional<Similarity> one = motion_of(read_step(step));
+    const Step read = read_step(step);
+    if (!is_in_range(read))
+      throw Error(ExitCode::kUsage,
+                  option + ": '" + trimmed(step) + "': numbers are at most 1e12, and scales at least 1e-12");
+    const std::optional<Similarity> one = motion_of(read);
     if (!one)
       throw Error(ExitCode::kUsage,
                   option + ": '" + trimmed(step) +

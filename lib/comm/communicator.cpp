@@ -227,12 +227,13 @@ int code_of(const ProgramEnd& end, const std::optional<LostRank>& lost) {
   if (end.is_signalled)
     throw Error(static_cast<ExitCode>(end.exit_code),
                 "mpirun was ended by " + signal_text(end.exit_code - 128) + ", and with it all ranks; run again");
+  constexpr int kDocumented[] = {0, 2, 3, 4, 5, 6, 7, 8, 70};  // by ranks; 128 and more: signals
+  const bool is_signal = end.exit_code > 128 && end.exit_code <= 128 + 64;
+  if (!is_signal && std::find(std::begin(kDocumented), std::end(kDocumented), end.exit_code) == std::end(kDocumented))
+    throw Error(ExitCode::kInternal, "mpirun failed with code " + std::to_string(end.exit_code) +
+                                         "; the lines above are its own; leave --np out, or see that mpirun works");
   return end.exit_code;
 }
-
-}  // namespace
-
-namespace {
 
 /// Started here; a batch system's job may have many machines.
 int most_ranks() {

@@ -223,7 +223,17 @@ Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, 
   return c;
 }
 
-/// Crossings, those apart where the CAD touches itself; how many of the others are the CAD's own.
+/// Whether a group is named as far field: the outside is to be filled.
+bool has_flow_domain(const SurfaceMesh& mesh) {
+  const FaceLabels& labels = mesh.labels;
+  for (std::size_t g = 0; g < labels.group_name.size(); ++g)
+    if ((labels.group_role.empty() ? role_of_name(labels.group_name[g]) : labels.group_role[g]) == "farfield")
+      return true;
+  return false;
+}
+
+/// Crossings, those apart where the CAD touches itself; how many of the others are the CAD's own. The fluid in a flow
+/// domain is one body of the CAD, but the parts of its boundary are bodies that may touch.
 void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, Findings& f) {
   if (!cad) {
     f.crossings = check_crossings(mesh);
@@ -237,15 +247,10 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
     n_cad += contacts.crosses(pair);
     return false;
   };
-  f.crossings = check_crossings(mesh, {touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); },
-                                       [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); }});
+  CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
+  if (!has_flow_domain(mesh)) pairs.is_one_body = [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); };
+  f.crossings = check_crossings(mesh, pairs);
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
-}
-
-/// Whether a group is named as far field: the outside is to be filled.
-bool has_flow_domain(const ModelTables& tables) {
-  const std::vector<FaceRole> roles = face_roles(tables, RoleGuess::kForbidden).role;
-  return std::find(roles.begin(), roles.end(), FaceRole::kFarfield) != roles.end();
 }
 
 std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, bool is_filled_outside,
@@ -490,7 +495,7 @@ std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* fie
 /// What the measures mean.
 void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
            Findings& f) {
-  f.checks = list_mesh_checks(artifact, o.thresholds, cad && has_flow_domain(cad->model.tables()), f);
+  f.checks = list_mesh_checks(artifact, o.thresholds, has_flow_domain(artifact.mesh), f);
   if (cad) {
     run_cad_checks(artifact.mesh, *cad, o.area_tolerance, f);
     f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,

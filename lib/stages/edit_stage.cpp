@@ -158,7 +158,25 @@ void take_out(const std::vector<FaceId>& kept, Edited& e) {
   e.motion.resize(kept.size());
 }
 
+/// What st-import would refuse is not made here either.
+void require_in_range(const Move& move, const ModelTables& t) {
+  constexpr double kMostCoordinate = 1e12, kLeastDiagonal = 1e-9;  // model unit
+  Box3 box;
+  for (const FaceId f : move.faces) {
+    const Vec3 lo = t.face_box[f].lo, hi = t.face_box[f].hi;
+    for (int corner = 0; corner < 8; ++corner)
+      box.add(move.motion({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z}));
+  }
+  const auto is_far = [](Vec3 x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) > kMostCoordinate; };
+  if (is_far(box.lo) || is_far(box.hi) || box.diagonal() < kLeastDiagonal)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--transform: the model would reach from ({:.4g} {:.4g} {:.4g}) to ({:.4g} {:.4g} {:.4g}); "
+                            "coordinates are at most 1e12, and models no smaller than 1e-9",
+                            box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z));
+}
+
 void apply(const Move& move, int number, Edited& e) {
+  require_in_range(move, e.tables());
   if (move.faces.size() == static_cast<std::size_t>(e.tables().n_faces())) {
     e.model = transform(e.model, move.motion);
   } else {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -44,6 +45,10 @@ std::string heaviest_faces(std::span<const double> face_weight, std::span<const 
 void report_expected_triangles(std::span<const double> face_weight, std::span<const std::string> face_name,
                                std::optional<int> limit, const std::string& sizing, double many) {
   const double n = expected_triangles(face_weight);
+  if (!std::isfinite(n))
+    throw Error(ExitCode::kUsage, fmt::format("{}: these sizes need more triangles than can be counted; use a larger "
+                                              "--scale, or larger lengths of st-raster",
+                                              sizing));
   if (!(n > (limit ? *limit : many))) return;
   const std::string text =
       fmt::format("{}: these sizes need about {:.3g} triangles: {}", sizing, n, heaviest_faces(face_weight, face_name));

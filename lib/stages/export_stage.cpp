@@ -1,6 +1,7 @@
 #include "stages/export_stage.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,11 +38,14 @@ using Json = nlohmann::ordered_json;
 /// Names in artifacts are any bytes; JSON wants UTF-8.
 std::string dump(const Json& json) { return json_text(json); }
 
-StageSummary export_summary(const std::string& artifact, const std::string& output, const Timer& timer) {
+/// `outputs`: at least one.
+StageSummary export_summary(const std::string& artifact, const std::vector<std::string>& outputs, const Timer& timer) {
   StageSummary summary;
-  summary.line = fmt::format("{}: {} exported, {:.2f} s", output, artifact, timer.seconds());
-  summary.json =
-      dump({{"tool", "st-export"}, {"artifact", artifact}, {"output", output}, {"seconds", timer.seconds()}});
+  summary.line = fmt::format("{}: {} exported, {:.2f} s", fmt::join(outputs, ", "), artifact, timer.seconds());
+  Json json{{"tool", "st-export"}, {"artifact", artifact}, {"output", outputs[0]}};
+  if (outputs.size() > 1) json["outputs"] = outputs;
+  json["seconds"] = timer.seconds();
+  summary.json = dump(json);
   return summary;
 }
 
@@ -129,12 +133,16 @@ void export_sol_artifact(const ExportStageOptions& o) {
   export_sol(o.output, artifact.mesh, *field);
 }
 
-void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
+/// The files of the groups, with --split-groups; else none is named.
+std::vector<std::string> export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
   const bool is_sol = o.output.ends_with(".sol");
   if (is_sol != !o.sizing.empty())
     throw Error(ExitCode::kUsage, is_sol ? o.output + ": .sol holds the requested sizes; give --sizing sizing.hdf"
                                          : "--sizing is for .sol only; leave it out, or give -o mesh.sol");
-  if (is_sol) return export_sol_artifact(o);
+  if (is_sol) {
+    export_sol_artifact(o);
+    return {};
+  }
   const bool is_in_blocks = o.output.ends_with(".vtm");
   if (is_in_blocks) options.format = "vtu";
   require_export_format(o.output, options);
@@ -149,12 +157,15 @@ void export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
   if (!o.geometry.empty()) use_geometry(o, elements, artifact, added);
   options.unit = change_unit(o, artifact, added);
   progress.step("writing", 0.5);
+  std::vector<std::string> files;
   if (is_in_blocks)
     export_blocks(o.output, artifact.mesh, added.values, options);
   else if (o.split_groups)
-    export_groups(o.output, artifact.mesh, added.values, options);
+    for (const GroupFile& file : export_groups(o.output, artifact.mesh, added.values, options))
+      files.push_back(file.path);
   else
     export_and_warn(o.output, {artifact.mesh, elements, added.mid_nodes, added.values}, options);
+  return files;
 }
 
 /// Throws Error(kUsage) for an option that only meshes have.
@@ -183,12 +194,14 @@ void export_page(const std::string& geometry, const std::string& output) {
   run_report(options);
 }
 
-void export_artifact(const ExportStageOptions& o) {
+/// The files that it wrote.
+std::vector<std::string> export_artifact(const ExportStageOptions& o) {
   const auto& [artifact, output] = std::tie(o.artifact, o.output);
+  std::vector<std::string> files;
   const std::string schema = read_header(artifact).schema;
   if (schema != "mesh") refuse_mesh_options(o, schema);
   if (schema == "mesh") {
-    export_mesh_artifact(o, mesh_options(o));
+    files = export_mesh_artifact(o, mesh_options(o));
   } else if (schema == "raster" || schema == "sizing") {
     require_writable(output);
     export_octree(artifact, output);
@@ -196,7 +209,10 @@ void export_artifact(const ExportStageOptions& o) {
     require_writable(output);
     export_failures(artifact, output);
   } else if (schema == "geometry") {
-    if (output.ends_with(".html")) return export_page(artifact, output);
+    if (output.ends_with(".html")) {
+      export_page(artifact, output);
+      return {output};
+    }
     if (!output.ends_with(".vtu"))
       throw Error(
           ExitCode::kInput,
@@ -213,6 +229,7 @@ void export_artifact(const ExportStageOptions& o) {
             "{}: is a {} artifact, which has no export; give a geometry, mesh, raster, sizing or failures artifact",
             artifact, schema));
   }
+  return files.empty() ? std::vector{output} : files;
 }
 
 /// A geometry as FLITE surfaces; the summary says how close they are and what was divided.
@@ -255,8 +272,7 @@ StageSummary run_export(const ExportStageOptions& o) {
   const Timer timer;
   parse_length(o.tolerance, "--tolerance");
   if (o.output.ends_with(".dat") && read_header(o.artifact).schema == "geometry") return export_flite(o, timer);
-  export_artifact(o);
-  return export_summary(o.artifact, o.output, timer);
+  return export_summary(o.artifact, export_artifact(o), timer);
 }
 
 }  // namespace st

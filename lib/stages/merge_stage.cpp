@@ -19,19 +19,10 @@
 #include "mesh/edge_segments.h"
 #include "stages/merge_columns.h"
 #include "stages/mesh_export.h"
+#include "stages/orientation_warnings.h"
 
 namespace st {
-
 namespace {
-
-/// Faces without a patch, 1-based, the first of them by number: "3, 17, 20 and 5 more".
-std::string list_faces(std::span<const FaceId> faces) {
-  constexpr std::size_t kShown = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(faces.size(), kShown); ++i)
-    text += (i ? ", " : "") + std::to_string(faces[i] + 1);
-  return faces.size() > kShown ? fmt::format("{} and {} more", text, faces.size() - kShown) : text;
-}
 
 std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::vector<PatchInFile>& patches) {
   std::vector<std::uint8_t> is_meshed(rest.labels.face_name.size(), 0);
@@ -123,18 +114,6 @@ void require_outputs(const MergeStageOptions& options) {
     require_export_format(path, {});
     require_writable(path);
   }
-}
-
-void warn_of_changes(const OrientationReport& report) {
-  if (!report.turned_faces.empty())
-    log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(),
-                            list_faces(report.turned_faces)));
-  if (report.turned_components)
-    log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components,
-                            list_faces(report.inside_out_faces)));
-  if (report.n_one_sided)
-    log_warning(
-        fmt::format("{} parts are one-sided (like a Moebius strip) and cannot be oriented", report.n_one_sided));
 }
 
 /// Without triangles, and of nodes those on boundaries.

@@ -54,7 +54,7 @@ void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<c
                    const ExportOptions& options) {
   const std::filesystem::path target(path), folder = target.parent_path() / target.stem();
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
+  const bool is_new = std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ExitCode::kOutput, fmt::format("{}: cannot be made ({})", folder.string(), failure.message()));
   const std::string block = (folder / target.stem()).string() + ".vtu";
@@ -62,12 +62,17 @@ void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<c
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
   int index = 0;
-  for (const auto& [group, file] : export_groups(block, mesh, values, options)) {
-    const std::filesystem::path name(file);
-    text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", index++, xml_escaped(group),
-                        xml_escaped((folder.filename() / name.filename()).string()));
+  try {
+    for (const auto& [group, file] : export_groups(block, mesh, values, options)) {
+      const std::filesystem::path name(file);
+      text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", index++, xml_escaped(group),
+                          xml_escaped((folder.filename() / name.filename()).string()));
+    }
+    write_text_file(path, text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
+  } catch (...) {
+    if (is_new) std::filesystem::remove_all(folder, failure);
+    throw;
   }
-  write_text_file(path, text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
 }
 
 }  // namespace st

@@ -61,6 +61,8 @@ std::vector<FaceId> select_faces(const MeshStageOptions& o, const ModelTables& t
     const FaceId first = parse_face(item.substr(0, dash), o.faces, t.n_faces());
     const FaceId last =
         dash == std::string_view::npos ? first : parse_face(item.substr(dash + 1), o.faces, t.n_faces());
+    if (last < first)
+      throw Error(ExitCode::kUsage, fmt::format("--faces '{}': '{}' ends before it begins", o.faces, item));
     for (FaceId f = first; f <= last; ++f) chosen[f] = 1;
   }
   if (!o.group.empty()) {

@@ -28,6 +28,7 @@
 #include "sizing/node_field.h"
 #include "stages/expected_triangles.h"
 #include "stages/foreign_mesh.h"
+#include "stages/orientation_warnings.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
 #include "stages/same_inputs.h"
@@ -256,6 +257,7 @@ MeshArtifact merged_artifact(const RemeshStageOptions& o, const RemeshInput& in,
   number_as_in_file(in, mesh.node_previous, mesh.triangle_previous);
   mesh.labels = in.old.mesh.labels;
   mesh.merged = in.old.mesh.merged;
+  if (o.moved) warn_of_changes(orient_outward(mesh));  // as st-merge does: a mirrored mesh is inside out
   if (!mesh.labels.edge_groups.empty()) add_segments(mesh, r.edges, holes.mesh().tables.edge_vertices);
   return artifact;
 }

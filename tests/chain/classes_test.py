@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MODELS, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
+from chain import INCOMPLETE, MODELS, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 SIZES = {"defaults": (), "coarse": ("--lmax", "10%", "--lmin", "0.5%", "--alpha", "20"),
          "fine": ("--lmax", "1%", "--lmin", "0.02%")}
@@ -43,6 +43,14 @@ class Classes(ToolTest):
         for _, check, _ in self.chains("touching_boxes", "--join"):
             self.assertEqual(check["checks"]["contacts"]["count"], 0)
             self.assertEqual(check["components"], 1)
+
+    def test_bodies_that_touch_in_a_far_field_fail_the_check_with_the_cad_and_without(self):
+        f = make_chain(MODELS / "touching_boxes.brep", self.folder / "far", import_options=("--farfield", "box:3"))
+        for geometry in ((), ("--geometry", f / "geometry.hdf")):
+            check = Run("st-check", f / "mesh.hdf", *geometry, "--json")
+            self.assertEqual(check.code, INCOMPLETE)
+            self.assertGreater(check.json()["checks"]["contacts"]["count"], 0)
+            self.assertFalse(check.json()["checks"]["contacts"]["passes"])
 
     def test_a_body_that_is_there_twice_is_meshed_once(self):
         for _, check, said in self.chains("box_twice"):

@@ -159,6 +159,25 @@ class Move(EditTest):
         check = self.mesh(self.folder / "edited.hdf")
         self.assertAlmostEqual(check["volume"] / facts["volume"], 1, delta=0.01)
 
+    def test_a_mesh_that_follows_a_mirrored_body_is_turned_and_says_so(self):
+        good = artifacts_of("block_with_hole")
+        self.edit(good / "geometry.hdf", "--transform", "mirror 0 1 0")
+        must("st-prolong", good / "raster.hdf", "--geometry", self.folder / "edited.hdf", "-o", self.folder / "s.hdf")
+        run = must("st-remesh", good / "mesh.hdf", self.folder / "edited.hdf", self.folder / "s.hdf", "--moved",
+                   "--merged", self.folder / "m.hdf")
+        self.assertIn("inside out", run.err)
+        volume = must("st-check", self.folder / "m.hdf", "--json").json()["volume"]
+        self.assertAlmostEqual(volume / must("st-check", good / "mesh.hdf", "--json").json()["volume"], 1, delta=0.01)
+
+    def test_where_no_model_keeps_its_shape_it_is_not_moved(self):
+        box = artifacts_of("box") / "geometry.hdf"
+        for steps in ("translate 1e308 0 0", "translate 0 1e13 0", "scale 1e300", "scale 1e-300", "mirror 1e200 0 0",
+                      "hinge 0 0 0 1e200 0 0 5", "rotate 0 0 1 5 at 1e13 0 0", "translate 9e11 0 0; translate 9e11 0 0",
+                      "scale 1e11", "scale 1e-11"):
+            self.expect_error(USAGE, "st-edit", box, "-o", self.folder / "x.hdf", "--transform", steps,
+                              says="--transform")
+        self.edit(box, "--transform", "translate 9e8 0 0", "--transform", "scale 100")
+
     def test_a_flap_turns_about_its_hinge_and_the_mesh_follows(self):
         done = subprocess.run([EXAMPLE, MODELS / "wing_with_flap.step", self.folder, BIN], capture_output=True,
                               text=True, timeout=300)

@@ -253,6 +253,12 @@ class Geometry(ToolTest):
                           says=["--lmin", "--unit"])
         self.expect_nothing_left(self.folder)
 
+    def test_ranges_of_faces_that_end_before_they_begin_are_2(self):
+        box = artifacts_of("box")
+        for faces in ("3-1", "5,3-1"):
+            self.expect_error(USAGE, "st-mesh", box / "geometry.hdf", box / "sizing.hdf", "--faces", faces,
+                              *output("st-mesh", self.folder), says="'3-1' ends before it begins")
+
     def test_lmin_above_lmax_is_2(self):
         geometry = artifacts_of("box") / "geometry.hdf"
         self.expect_error(USAGE, "st-raster", geometry, "--lmin", "5", "--lmax", "1", *output("st-raster", self.folder),

@@ -63,6 +63,10 @@ class Limits(ToolTest):
                    "1e-12", "--json")
         self.assertGreater(run.json()["expected_triangles"], 1e24)
 
+    def test_what_cannot_be_counted_is_refused(self):
+        self.expect_error(USAGE, "st-prolong", artifacts_of("assembly") / "raster.hdf", "-o", self.folder / "s.hdf",
+                          "--scale", "1e-300", says="more triangles than can be counted")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

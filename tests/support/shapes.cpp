@@ -505,6 +505,12 @@ const std::map<std::string, Factory>& factories() {
        [] {
          return occt::compound_of({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});
        }},
+      {"box_of_60", [] { return box(60, 60, 60); }},
+      {"nested_boxes",
+       [] {
+         return occt::compound_of(
+             {moved(box(10, 10, 10), 20, 20, 20), box(60, 60, 60), moved(box(10, 10, 10), 40, 40, 0)});
+       }},
       {"square", [] { return rectangle(10, 10); }},
       {"disc", disc},
       {"annulus", annulus},

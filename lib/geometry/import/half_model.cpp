@@ -4,6 +4,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepClass_FaceClassifier.hxx>
 #include <BRepGProp.hxx>
 #include <BRepLib.hxx>
@@ -340,8 +341,57 @@ TopoDS_Shape fluid_of(const std::vector<TopoDS_Shape>& shells, const TopoDS_Face
   return solid;
 }
 
-/// Faces of the body in the order of their ids: with a far field neither those of cavities inside a solid, which no
-/// flow reaches, nor those between two solids.
+/// The outermost shell of a solid, as a solid of its own: without cavities.
+TopoDS_Solid filled(const TopoDS_Shape& solid) {
+  TopoDS_Solid result;
+  BRep_Builder builder;
+  builder.MakeSolid(result);
+  for (TopExp_Explorer s(solid, TopAbs_SHELL); s.More(); s.Next())
+    if (volume_of(s.Current()) > 0) builder.Add(result, s.Current());
+  return result;
+}
+
+bool is_inside(const Box3& a, const Box3& b) {
+  return a.lo.x >= b.lo.x && a.lo.y >= b.lo.y && a.lo.z >= b.lo.z && a.hi.x <= b.hi.x && a.hi.y <= b.hi.y &&
+         a.hi.z <= b.hi.z;
+}
+
+/// Whether all vertices are inside, or on the boundary but not all of them.
+bool is_inside(const TopoDS_Shape& body, const TopoDS_Solid& outer) {
+  constexpr double kOnBoundary = 1e-7;
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(body, TopAbs_VERTEX, vertices);
+  BRepClass3d_SolidClassifier classifier(outer);
+  bool is_any = false;
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    classifier.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))), kOnBoundary);
+    if (classifier.State() == TopAbs_OUT) return false;
+    is_any = is_any || classifier.State() == TopAbs_IN;
+  }
+  return is_any;
+}
+
+/// Faces of solids that lie inside another one, in its cavities, too.
+TopTools_IndexedMapOfShape inner_bodies(const TopoDS_Shape& shape, std::vector<ImportFinding>& findings) {
+  std::vector<TopoDS_Shape> solids;
+  std::vector<Box3> boxes;
+  for (TopExp_Explorer e(shape, TopAbs_SOLID); e.More(); e.Next()) {
+    solids.push_back(e.Current());
+    boxes.push_back(rough_box(e.Current()));
+  }
+  TopTools_IndexedMapOfShape faces;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      if (i == k || !is_inside(boxes[i], boxes[k]) || !is_inside(solids[i], filled(solids[k]))) continue;
+      TopExp::MapShapes(solids[i], TopAbs_FACE, faces);
+      findings.push_back({FindingKind::kInnerBodyLeftOut, "", boxes[i].center(), boxes[i].diagonal(), false});
+      break;
+    }
+  return faces;
+}
+
+/// Faces of the body in the order of their ids: with a far field neither those of cavities inside a solid and of bodies
+/// inside another, which no flow reaches, nor those between two solids.
 Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool leave_cavities,
                  std::vector<ImportFinding>& findings) {
   TopTools_IndexedMapOfShape cavities;
@@ -353,6 +403,8 @@ Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool
         findings.push_back({FindingKind::kCavityLeftOut, "", box.center(), box.diagonal(), false});
       }
   }
+  const TopTools_IndexedMapOfShape inner =
+      leave_cavities ? inner_bodies(model.shape, findings) : TopTools_IndexedMapOfShape();
   std::vector<int> n_sides(model.faces.Extent() + 1, 0);
   for (TopExp_Explorer e(model.shape, TopAbs_FACE); leave_cavities && e.More(); e.Next())
     ++n_sides[model.faces.FindIndex(e.Current())];
@@ -360,7 +412,7 @@ Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     const TopoDS_Face f = TopoDS::Face(model.faces(i));
     if (n_sides[i] > 1) continue;
-    if (!cavities.Contains(f) && !(cut && is_in_plane(f, *cut))) faces.push_back(f);
+    if (!cavities.Contains(f) && !inner.Contains(f) && !(cut && is_in_plane(f, *cut))) faces.push_back(f);
   }
   return faces;
 }

@@ -60,7 +60,7 @@ ModelUnit choose_unit(const CadFile& file, const std::string& asked) {
     unit.in_m = unit_in_metres(asked);
     if (!unit.in_m)
       throw Error(ExitCode::kUsage, "--unit: '" + asked + "' is not a unit of length; use mm, cm, m, in or ft");
-    unit.name = asked;
+    unit.name = unit_name(*unit.in_m * 1000);  // "MM" is "mm"
     if (file.unit_in_mm) unit.shape_units = *unit.in_m * 1000;
   } else if (file.unit_in_mm) {
     unit.name = unit_name(*file.unit_in_mm);

@@ -31,6 +31,7 @@ constexpr Wording kWordings[] = {
      "tolerance not used for sewing: the faces are named by numbers, which --symmetry and --farfield change"},
     {"cut at the symmetry plane", "cut at the symmetry plane"},
     {"cavity inside a solid left out of the fluid", "cavity inside a solid left out of the fluid"},
+    {"body inside another left out of the fluid", "body inside another left out of the fluid"},
     {"duplicated face, removed", "duplicated face, removed: it lies on face {} of the file"},
     {"solid that is there twice, removed", "solid that is there twice, removed: it lies on solid {} of the file"},
     {"edges inside, on which other faces end, made slits", "edges inside, on which other faces end, made slits"},

@@ -26,6 +26,7 @@ enum class FindingKind : std::uint8_t {
   kUnusedTolerance,        ///< a group's tolerance could not be used for sewing
   kCutAtSymmetry,          ///< the model reached across the symmetry plane
   kCavityLeftOut,          ///< a cavity in a solid that is no part of the fluid
+  kInnerBodyLeftOut,       ///< a body inside another one, which no flow reaches
   kDuplicateFace,          ///< removed
   kDuplicateSolid,         ///< removed
   kSlit,                   ///< edges inside a face on which other faces end
