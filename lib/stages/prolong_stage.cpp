@@ -121,6 +121,17 @@ struct Barrier {
   std::vector<InputRef> file;     ///< of --blank
 };
 
+/// Of a mesh in metres about a model in millimetres no cell would be blanked, and nothing else would say so.
+void warn_of_unit(const std::string& path, const SurfaceMesh& mesh, double model_diagonal) {
+  constexpr double kFactor = 100;
+  Box3 box;
+  for (const Vec3 x : mesh.node_xyz) box.add(x);
+  const double ratio = box.diagonal() / model_diagonal;
+  if (ratio < 1 / kFactor || ratio > kFactor)
+    log_warning(fmt::format("--blank {}: its extent is {:.3g} times that of the walls; is it in the model's unit?",
+                            path, ratio));
+}
+
 Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const Similarity& to_octree) {
   if (o.no_blank) return {};
   if (o.blank.empty()) {
@@ -128,6 +139,7 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
     return {std::move(raster.surface), along, {}};
   }
   BlankInput blank = read_blank(o.blank, o.blank_side);
+  warn_of_unit(o.blank, blank.mesh, raster.numbers.diagonal);
   if (to_octree != Similarity()) transform(to_octree, blank.mesh);
   return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side}, 0, {blank.file}};
 }

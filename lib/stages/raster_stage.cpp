@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
 #include "base/current_work.h"
@@ -492,6 +495,22 @@ void warn_of_depth(const DepthLimit& depth) {
       depth.n_samples, depth.smallest_length, kMaxLevel, depth.smallest_cell));
 }
 
+/// Places of samples are kept in single precision.
+void warn_of_distance(const Box3& box, std::span<const float> lengths) {
+  constexpr double kTolerated = 0.05;  // of a length
+  if (lengths.empty()) return;
+  const double length = *std::min_element(lengths.begin(), lengths.end());
+  double farthest = 0;
+  for (const Vec3 x : {box.lo, box.hi}) farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  const double step = farthest * std::numeric_limits<float>::epsilon();
+  if (step <= kTolerated * length) return;
+  const Vec3 middle = box.center();
+  log_warning(fmt::format(
+      "the model reaches {:.3g} from the origin, where places are kept to {:.2g}, but lengths go down to {:.3g}: sizes "
+      "may be too coarse; move it first (st-edit --transform 'translate {:.6g} {:.6g} {:.6g}'), and the mesh back",
+      farthest, step, length, -middle.x, -middle.y, -middle.z));
+}
+
 nlohmann::json depth_json(const DepthLimit& depth) {
   nlohmann::json json{
       {"deepest_level", kMaxLevel}, {"smallest_cell", depth.smallest_cell}, {"samples", depth.n_samples}};
@@ -671,6 +690,7 @@ class RasterRun {
     times_.gather(comm_);
     if (!comm_.is_root()) return {};
     warn_of_depth(counts_.depth);
+    warn_of_distance(model_.tables().box(), artifact_.octree.stored_length);
     write();
     times_.end("writing");
     return report();

@@ -206,6 +206,13 @@ class Blanking(ToolTest):
         must("st-export", self.folder / "s.hdf", "-o", self.folder / "s.vtu")
         self.assertIn(b'Name="colour"', (self.folder / "s.vtu").read_bytes())
 
+    def test_a_mesh_in_another_unit_is_asked_about(self):
+        block = artifacts_of("block_with_hole")
+        must("st-export", block / "mesh.hdf", "-o", self.folder / "m.stl", "--unit", "m")
+        for mesh, is_odd in ((self.folder / "m.stl", True), (block / "mesh.hdf", False)):
+            run = must("st-prolong", block / "raster.hdf", "-o", self.folder / "s.hdf", "--blank", mesh)
+            self.assertEqual("is it in the model's unit?" in run.err, is_odd, run.err)
+
     def test_an_stl_blanks_like_the_mesh_it_was_exported_from(self):
         tube = artifacts_of("tube_with_rod")
         must("st-export", tube / "mesh.hdf", "-o", self.folder / "m.stl")

@@ -105,7 +105,8 @@ void expect_error(ExitCode code, const std::string& says, const std::string& sha
 
 /// Whole, or only as much of it as the outer one leaves: there is no flow inside a body.
 TEST(HalfModel, bodies_inside_others_are_no_walls_of_the_fluid) {
-  const ImportResult fluid = import_domain("nested_boxes", "", "box:3"), alone = import_domain("box_of_60", "", "box:3");
+  const ImportResult fluid = import_domain("nested_boxes", "", "box:3"),
+                     alone = import_domain("box_of_60", "", "box:3");
   EXPECT_EQ(fluid.tables.n_faces(), 12);
   EXPECT_NEAR(fluid.volume, alone.volume, 1e-9 * alone.volume);
   EXPECT_EQ(std::count_if(fluid.findings.begin(), fluid.findings.end(),

@@ -89,6 +89,14 @@ TEST(Import, takes_the_numbers_of_a_brep_as_they_are) {
   EXPECT_NEAR(r.volume, 48000, 1e-6);
 }
 
+TEST(Import, knows_a_unit_by_all_its_names) {
+  for (const auto& [given, name] : {std::pair("MM", "mm"), {"inch", "in"}, {"Metre", "m"}, {"micron", "um"}}) {
+    ImportOptions options;
+    options.unit = given;
+    EXPECT_EQ(import_step("box", "MM", options).tables.unit, name);
+  }
+}
+
 TEST(Import, refuses_an_unknown_unit) {
   const TemporaryDirectory dir;
   test::write_brep("box", dir / "box.brep");
