@@ -97,9 +97,10 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
 std::string write_own_patches(const PatchTarget& target, const std::vector<FacePatch>& patches) {
   try {
     PatchRowsFile rows(target);
-    parallel_for(target.face.size(), 1, [&](std::size_t i, std::size_t) {
-      if (const FacePatch& patch = patches[target.face[i]]; !patch.triangles.empty()) rows.write(i, patch);
-    });
+    std::vector<std::function<void()>> jobs;
+    for (std::size_t i = 0; i < target.face.size(); ++i)
+      if (const FacePatch& patch = patches[target.face[i]]; !patch.triangles.empty()) rows.add_writes(i, patch, jobs);
+    run_jobs(jobs);
     rows.close();
   } catch (const Error& e) {
     if (e.code() != ExitCode::kOutput) throw;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/assert.h"
+#include "base/threads.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/hdf5/merged_features.h"
@@ -116,12 +117,24 @@ PatchesWriter::~PatchesWriter() = default;
 std::string PatchesWriter::commit() { return writer_->commit(); }
 
 void PatchRowsFile::write(std::size_t i, const FacePatch& p) const {
+  std::vector<std::function<void()>> jobs;
+  add_writes(i, p, jobs);
+  run_jobs(jobs);
+}
+
+void PatchRowsFile::add_writes(std::size_t i, const FacePatch& p, std::vector<std::function<void()>>& jobs) const {
+  constexpr std::size_t kPerJob = std::size_t{4} << 20;
   ST_ASSERT(target_.face.at(i) == p.face);
   std::size_t array = 0;
   const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets) {
     ST_ASSERT(static_cast<std::int64_t>(values.size()) == offsets[i + 1] - offsets[i]);
-    file_.write(target_.begin[array++] + static_cast<std::uint64_t>(offsets[i]) * sizeof(T),
-                std::as_bytes(std::span(values)), "the patch of face " + std::to_string(p.face + 1));
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
+    const std::uint64_t begin = target_.begin[array++] + static_cast<std::uint64_t>(offsets[i]) * sizeof(T);
+    for (std::size_t at = 0; at < bytes.size(); at += kPerJob)
+      jobs.emplace_back(
+          [this, face = p.face, to = begin + at, some = bytes.subspan(at, std::min(kPerJob, bytes.size() - at))] {
+            file_.write(to, some, "the patch of face " + std::to_string(face + 1));
+          });
   };
   rows(p.boundary_dim, target_.boundary);
   rows(p.boundary_entity, target_.boundary);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -58,7 +59,10 @@ class PatchRowsFile {
  public:
   /// `target` outlives the object.
   explicit PatchRowsFile(const PatchTarget& target) : target_(target), file_(target.file, target.label) {}
-  /// Patch i of the target. Several threads may write patches at a time. Precondition: it is of that face and size.
+  /// Appends jobs that write patch i of the target, in pieces of some megabytes that threads share. They need both
+  /// until they are done. Precondition: it is of that face and size.
+  void add_writes(std::size_t i, const FacePatch& patch, std::vector<std::function<void()>>& jobs) const;
+  /// All of it.
   void write(std::size_t i, const FacePatch& patch) const;
   void close() { file_.close(); }
 

@@ -40,6 +40,25 @@ TEST(PatchesWriter, makes_the_bytes_of_one_process_whoever_writes_which_patch) {
   EXPECT_EQ(read_bytes(dir / "some.hdf"), read_bytes(dir / "one.hdf"));
 }
 
+TEST(PatchesWriter, writes_large_patches_in_pieces) {
+  const TemporaryDirectory dir;
+  PatchesArtifact a = sample_patches();
+  FacePatch& p = a.patches.back();
+  constexpr std::size_t kMany = 400'000;  // 9.6 MB of coordinates
+  for (std::size_t i = p.inner_xyz.size(); i < kMany; ++i) {
+    const auto x = static_cast<double>(i);
+    p.inner_xyz.push_back({x, 0.5 * x, -x});
+    p.inner_uv.push_back({x, -x});
+    p.inner_size.push_back(1 + x);
+  }
+  for (FacePatch& q : a.patches) q.inner_previous.clear(), q.triangle_previous.clear();
+  write_patches(dir / "large.hdf", a);
+  const PatchesArtifact back = read_patches(dir / "large.hdf");
+  EXPECT_EQ(back.patches.back().inner_xyz, p.inner_xyz);
+  EXPECT_EQ(back.patches.back().inner_uv, p.inner_uv);
+  EXPECT_EQ(back.patches.back().inner_size, p.inner_size);
+}
+
 TEST(PatchesWriter, leaves_nothing_without_commit) {
   const TemporaryDirectory dir;
   const PatchesArtifact a = sample_patches();
