@@ -65,10 +65,6 @@ class ByteCursor {
     at_ += sizeof v;
     return v;
   }
-  void skip(std::uint64_t n) {
-    if (bytes_.size() - at_ < n) fail("cut off: the file ends inside its data");
-    at_ += n;
-  }
   /// A number of things that take `least` bytes each; refused where the rest of the file has no room for so many.
   std::size_t count(std::int64_t n, std::size_t least, const char* what) {
     if (n < 0) fail("a negative number of " + std::string(what));

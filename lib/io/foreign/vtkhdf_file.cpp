@@ -25,15 +25,16 @@ class VtkhdfParser {
   VtkhdfParser& operator=(const VtkhdfParser&) = delete;
 
   TriangulationFile run() {
-    if (H5Lexists(file_, "/VTKHDF", H5P_DEFAULT) <= 0) fail("an HDF5 file without a group /VTKHDF; give a mesh");
     const auto xyz = require<double>("Points", H5T_NATIVE_DOUBLE);
-    const auto n_parts = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);
-    if (n_parts.size() != 1) fail("has " + std::to_string(n_parts.size()) + " parts; write the mesh as one");
+    const auto n_cells = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);  // of each part
+    if (n_cells.size() != 1) fail("has " + std::to_string(n_cells.size()) + " parts; write the mesh as one");
     const auto nodes = require<std::int64_t>("Connectivity", H5T_NATIVE_INT64),
                offsets = require<std::int64_t>("Offsets", H5T_NATIVE_INT64),
                types = require<std::int64_t>("Types", H5T_NATIVE_INT64);
     const auto face = read<std::int64_t>("CellData/face", H5T_NATIVE_INT64);
-    if (xyz.size() % 3 != 0 || offsets.size() != types.size() + 1) fail("has arrays that do not fit each other");
+    if (xyz.size() % 3 != 0 || offsets.size() != types.size() + 1 ||
+        n_cells[0] != static_cast<std::int64_t>(types.size()))
+      fail("has arrays that do not fit each other");
     TriangulationFile result;
     for (std::size_t i = 0; i < xyz.size(); i += 3) result.node_xyz.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
     for (std::size_t c = 0; c < types.size(); ++c) {

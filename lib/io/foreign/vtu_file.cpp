@@ -2,7 +2,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "io/file/byte_cursor.h"
 #include "io/foreign/triangulation_file.h"
@@ -84,12 +86,8 @@ class VtuParser {
     head_ = std::string_view(bytes_).substr(at, end - at);
     if (attribute(head_, "type") != "UnstructuredGrid")
       fail("holds VTK's " + attribute(head_, "type") + "; an UnstructuredGrid (.vtu) is expected");
-    if (attribute(head_, "byte_order") == "BigEndian")
-      fail("written on a machine of another byte order; write it as ascii");
     header_bytes_ = attribute(head_, "header_type") == "UInt64" ? 8 : 4;
     compressor_ = attribute(head_, "compressor");
-    if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor")
-      fail("compressed by " + compressor_ + "; compress by zlib or not at all");
     const std::size_t appended = bytes_.find("<AppendedData", end);
     xml_ = std::string_view(bytes_).substr(0, appended);
     if (appended == std::string::npos) {
@@ -163,36 +161,49 @@ class VtuParser {
     if (format == "ascii") {
       ByteCursor in(path_, array.body);
       in.is_binary = true;
-      while (!in.is_at_end()) result.push_back(static_cast<Value>(in.real()));
+      while (!in.is_at_end()) result.push_back(converted<Value>(in.real(), name));
     } else if (type == "Float64") {
-      result = convert<Value, double>(binary(array, format));
+      result = convert<Value, double>(binary(array, format), name);
     } else if (type == "Float32") {
-      result = convert<Value, float>(binary(array, format));
+      result = convert<Value, float>(binary(array, format), name);
     } else if (type == "Int64" || type == "UInt64") {
-      result = convert<Value, std::int64_t>(binary(array, format));
+      result = convert<Value, std::int64_t>(binary(array, format), name);
     } else if (type == "Int32" || type == "UInt32") {
-      result = convert<Value, std::int32_t>(binary(array, format));
+      result = convert<Value, std::int32_t>(binary(array, format), name);
     } else if (type == "UInt8" || type == "Int8") {
-      result = convert<Value, std::uint8_t>(binary(array, format));
+      result = convert<Value, std::uint8_t>(binary(array, format), name);
     } else {
       fail("array '" + name + "' has the type '" + type + "', which is not read");
     }
     return result;
   }
 
+  /// A value of the array `name`, which may have to be an integer.
   template <class Value, class Stored>
-  static std::vector<Value> convert(const std::string& bytes) {
+  Value converted(Stored value, const std::string& name) const {
+    if constexpr (std::is_integral_v<Value> && std::is_floating_point_v<Stored>)
+      if (!(std::abs(value) < 9e15) || value != std::trunc(value))
+        fail("damaged: array '" + name + "' has the value " + std::to_string(value) + ", which is no integer");
+    return static_cast<Value>(value);
+  }
+
+  template <class Value, class Stored>
+  std::vector<Value> convert(const std::string& bytes, const std::string& name) const {
     std::vector<Value> result(bytes.size() / sizeof(Stored));
     for (std::size_t i = 0; i < result.size(); ++i) {
       Stored v;
       std::memcpy(&v, bytes.data() + i * sizeof v, sizeof v);
-      result[i] = static_cast<Value>(v);
+      result[i] = converted<Value>(v, name);
     }
     return result;
   }
 
   /// The bytes of an array that is not ascii.
   std::string binary(const Array& array, const std::string& format) const {
+    if (attribute(head_, "byte_order") == "BigEndian")
+      fail("written on a machine of another byte order; write it as ascii");
+    if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor")
+      fail("compressed by " + compressor_ + "; compress by zlib or not at all");
     std::string_view text = array.body;
     bool is_base64 = true;
     if (format == "appended") {

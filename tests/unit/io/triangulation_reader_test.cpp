@@ -1,6 +1,7 @@
 // Triangulations of other programs: every format gives the same mesh, every damage a message.
 #include "io/foreign/triangulation_reader.h"
 #include "io/export/export.h"
+#include "io/foreign/triangulation_file.h"
 
 #include <gtest/gtest.h>
 
@@ -204,7 +205,8 @@ TEST_F(TriangulationReader, says_what_is_wrong_and_where) {
   expect_message(replaced(text_msh2(), "5 0.000000", "5 zero"), "line 10: 'zero' is no number");
   expect_message(replaced(text_msh2(), "2.2 0 8", "1.0 0 8"), "only MSH 2.2 and 4.1");
   expect_message(replaced(fro(), "1 1 3 2 7", "1 1 3 9 7"), "triangle 1 names node 9 of 4");
-  expect_message(replaced(fro(), "4 4 1", "4000000 4 1"), "cut off");
+  expect_message(replaced(fro(), "4 4 1", "4000000 4 1"), "it should have 4000000 triangles, more than there is room");
+  expect_message(replaced(fro(), "4 4 1", "0 4 1"), "no triangles in it");
   expect_message(replaced(fro(), "  4 4 1", " 1 4 4 1"), "has 1 quadrangles");
   expect_message(replaced(fro(), "\n2 ", "\n3 "), "the nodes are not numbered");
   expect_message(replaced(fro(), "1 1 3 2 7", "7 1 3 2 7"), "the triangles are not numbered");
@@ -214,6 +216,68 @@ TEST_F(TriangulationReader, says_what_is_wrong_and_where) {
   expect_message(replaced(ascii_vtu(), "0 2 1 ", "0 2 4 "), "triangle 1 names node 5 of 4");
   expect_message(replaced(ascii_vtu(), "UnstructuredGrid", "PolyData"), "PolyData");
   expect_message(binary_stl().substr(0, 100), "cut off: a binary STL file");
+  EXPECT_ERROR(parse_fro("a.fro", "4\n"), kInput, "begins with the numbers of triangles and nodes");
+}
+
+TEST_F(TriangulationReader, says_why_a_path_is_no_file_to_read) {
+  EXPECT_ERROR(read_triangulation(dir_.path()), kInput, "is a directory; name a file");
+  EXPECT_ERROR(read_triangulation(dir_ / "none"), kInput, "no such file; check the path");
+  EXPECT_ERROR(read_triangulation(write("empty", "")), kInput, "empty, or it cannot be read");
+}
+
+TEST_F(TriangulationReader, tells_each_damage_of_a_gmsh_text_from_the_others) {
+  const char *const node = "\n$Nodes\n4\n", *const triangle = "3 2 2 0 7";
+  expect_message(replaced(text_msh2(), "2.2 0 8", "2.2 0 4"), "only 8 bytes per number are read");
+  expect_message(replaced(text_msh2(), "$EndNodes\n", "$EndNodes\nrubbish\n"), "'rubbish' is no section");
+  expect_message(replaced(text_msh2(), "$EndNodes\n", "$EndOfThem\n"), "cut off: $EndNodes is missing");
+  expect_message(replaced(text_msh2(), node, "\n$Nodes\n-4\n"), "a negative number of nodes");
+  expect_message(replaced(text_msh2(), node, "\n$Nodes\n4000\n"), "should have 4000 nodes, more than there is room");
+  expect_message(replaced(text_msh2(), "\n10 ", "\n5 "), "has two nodes of the number 5");
+  expect_message(replaced(text_msh2(), triangle, "3 two 2 0 7"), "'two' is no integer");
+  expect_message(replaced(text_msh2(), triangle, "3 99 2 0 7"), "elements of the unknown type 99");
+  expect_message(replaced(text_msh2(), triangle, "3 2 -1 0 7"), "an element has -1 tags");
+  expect_message(replaced(text_msh2(), triangle, "3 2 1001 0 7"), "an element has 1001 tags");
+}
+
+TEST_F(TriangulationReader, tells_each_damage_of_a_binary_gmsh_file_from_the_others) {
+  const auto integers = [](const std::vector<std::int32_t>& values) {
+    std::string bytes;
+    for (const std::int32_t value : values) put(bytes, value);
+    return bytes;
+  };
+  const std::string good = binary_msh2(), block = integers({2, 4, 2});
+  expect_message(replaced(good, integers({1}) + "\n$End", integers({1 << 24}) + "\n$End"), "of another byte order");
+  for (const std::int32_t n : {0, 5})
+    expect_message(replaced(good, block, integers({2, n, 2})), "another number of them than announced");
+  expect_message(good.substr(0, good.rfind("\n$EndElements") - 4), "cut off: the file ends inside its data");
+}
+
+TEST_F(TriangulationReader, tells_each_damage_of_a_vtu_text_from_the_others) {
+  const char *const head = "<UnstructuredGrid>", *const types = "5 5 5 5", *const offsets = "3 6 9 12";
+  const std::string good = ascii_vtu(), piece = "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"></Piece>";
+  expect_message(replaced(good, "<Piece", "<Peace"), "there is no piece of a mesh in it");
+  expect_message(replaced(good, head, head + piece), "has several pieces");
+  expect_message(replaced(good, "Points=\"4\"", "Points=\"four\""), "NumberOfPoints 'four' is no number of them");
+  expect_message(replaced(good, "Cells=\"4\"", "Cells=\"3000000000\""), "Cells '3000000000' is no number of them");
+  expect_message(replaced(good, offsets, "3 6 9"), "array 'offsets' has 3 values instead of 4");
+  expect_message(replaced(good, offsets, "3 7 9 12"), "cell 1 has offsets that do not fit");
+  expect_message(replaced(replaced(good, types, "1 5 5 5"), offsets, "99 102 9 12"), "cell 1 has offsets that do not");
+  expect_message(replaced(good, "ascii\">3 6", "hexadecimal\">3 6"), "array 'offsets' is written as 'hexadecimal'");
+  for (const char* const value : {"1.5", "nan", "-1e300"})
+    expect_message(replaced(good, "ascii\">0 2", std::string("ascii\">").append(value).append(" 2")),
+                   "array 'connectivity' has the value");
+  for (const char* const length : {"-1", "inf", "nan"}) {
+    const std::string sizes = std::string("Name=\"size\" format=\"ascii\">1 ") + length + " 1 1</DataArray>";
+    expect_message(replaced(good, "<CellData>", "<PointData><DataArray " + sizes + "</PointData><CellData>"),
+                   "the length (point data 'size') of node 2 is not positive and finite");
+  }
+}
+
+TEST_F(TriangulationReader, reads_numbers_written_as_text_whatever_the_head_says_of_bytes) {
+  for (const char* const head : {"byte_order=\"BigEndian\"", "compressor=\"vtkLZ4DataCompressor\""}) {
+    const std::string vtu = replaced(ascii_vtu(), "byte_order=\"LittleEndian\"", head);
+    EXPECT_EQ(read_triangulation(write("text.vtu", vtu)).n_triangles(), 4) << head;
+  }
 }
 
 TEST_F(TriangulationReader, leaves_artifacts_and_missing_files_to_their_own_reader) {
