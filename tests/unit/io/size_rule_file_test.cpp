@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "io/file/text_file.h"
@@ -63,6 +64,22 @@ TEST_F(SizeRuleFiles, refuse_rules_that_set_nothing_and_keys_that_they_do_not_kn
   EXPECT_NE(refusal("groups = \"WING\"").find("sets nothing"), std::string::npos);
   EXPECT_NE(refusal("lmim = 2").find("unknown key 'lmim' of a [[size]], did you mean 'lmin'"), std::string::npos);
   EXPECT_NE(refusal("between = [\"A\"]\nlmax = 1").find("two names"), std::string::npos);
+}
+
+TEST_F(SizeRuleFiles, refuse_values_that_a_key_does_not_take) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"detected = \"wing\"", "sizes.toml:3: detected: takes \"trailing\", \"leading\" or a list of these"},
+      {"for = \"edges\"", "sizes.toml:3: for: takes \"curves\", \"surfaces\" or \"both\""},
+      {"sample = 1", "sizes.toml:3: sample: takes true or false"},
+      {"alpha = \"7\"", "sizes.toml:3: alpha: takes a number in [0.001, 90]"},
+      {"chord = true", "sizes.toml:3: chord: takes a length such as 0.2"},
+  };
+  for (const auto& [key, message] : cases) EXPECT_ERROR(read(std::string("lmax = 1\n") + key), kUsage, message);
+}
+
+TEST_F(SizeRuleFiles, without_a_rule_are_refused) {
+  write_text_file(dir_ / "none.toml", "alpha = 7\n");
+  EXPECT_ERROR(read_size_rules(dir_ / "none.toml"), kUsage, "none.toml: no table [[size]] in it");
 }
 
 }  // namespace
