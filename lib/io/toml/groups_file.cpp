@@ -136,9 +136,10 @@ class EntryReader : TomlEntry {
 
   std::int32_t color(const toml::node& node) const {
     const std::string text = node.value_or(std::string());
+    const std::string digits = text.starts_with('#') ? text.substr(1) : "";
     std::int32_t rgb = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
-    if (text.size() != 7 || text[0] != '#' || text[1] == '-' || error != std::errc() || end != text.data() + 7)
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
+    if (digits.size() != 6 || digits[0] == '-' || error != std::errc() || end != digits.data() + 6)
       fail(node, "colors: takes \"#rrggbb\", such as \"#ff8000\", or a list of these");
     return rgb;
   }

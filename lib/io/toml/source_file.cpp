@@ -70,6 +70,10 @@ class LineReader {
     if (!(value >= 0 && value <= 1e9) || value != std::floor(value)) fail(std::string(what) + ": not a count");
     return static_cast<std::int64_t>(value);
   }
+  std::int64_t node_number(double value) const {
+    if (!(std::abs(value) <= 1e15) || value != std::floor(value)) fail("not the number of a node");
+    return static_cast<std::int64_t>(value);
+  }
 
  private:
   std::string path_, text_;
@@ -77,11 +81,19 @@ class LineReader {
   int line_ = 0;
 };
 
+/// Gives the node that is added next to the mesh its number in the file.
+void number_node(const LineReader& file, double number, const BackgroundMesh& mesh,
+                 std::map<std::int64_t, std::int32_t>& index) {
+  const std::int64_t id = file.node_number(number);
+  if (!index.emplace(id, static_cast<std::int32_t>(mesh.node_xyz.size())).second)
+    file.fail("has two nodes of the number " + std::to_string(id));
+}
+
 std::array<std::int32_t, 4> tet_of(const LineReader& file, const std::map<std::int64_t, std::int32_t>& index,
                                    const double* ids) {
   std::array<std::int32_t, 4> tet{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto it = index.find(static_cast<std::int64_t>(ids[k]));
+    const auto it = index.find(file.node_number(ids[k]));
     if (it == index.end()) file.fail("tetrahedron names a node that does not exist");
     tet[k] = it->second;
   }
@@ -101,6 +113,7 @@ void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets,
   std::map<std::int64_t, std::int32_t> index;
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const std::vector<double> at = file.numbers("a background node", 4);
+    number_node(file, at[0], mesh, index);
     LocalSize size;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<double> v = file.numbers("a direction and its spacing", 4);
@@ -108,7 +121,6 @@ void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets,
       size.length = axis ? std::min(size.length, v[3]) : v[3];
       if (v[3] > size.along) size.along = v[3], size.direction = {v[0], v[1], v[2]};
     }
-    index.emplace(static_cast<std::int64_t>(at[0]), static_cast<std::int32_t>(i));
     mesh.node_xyz.push_back({at[1], at[2], at[3]});
     mesh.node_size.push_back(uniaxial(size));
   }
@@ -137,10 +149,10 @@ SourceFile read_bac(const std::string& path) {
   file.line("the title");
   const std::vector<double> n = file.numbers("the numbers of nodes, tetrahedra and sources", 5);
   SourceFile result;
-  read_bac_nodes(file, file.count(n[0], "nodes"), file.count(n[1], "tetrahedra"), result.background);
   const SourceKind kinds[] = {SourceKind::kPoint, SourceKind::kLine, SourceKind::kTriangle};
   std::int64_t n_left = 0;
   for (int k = 0; k < 3; ++k) n_left += file.count(n[2 + k], "sources");
+  read_bac_nodes(file, file.count(n[0], "nodes"), file.count(n[1], "tetrahedra"), result.background);
   for (int k = 0; k < 3 && n_left > 0; ++k) {
     const std::int64_t count = file.count(n[2 + k], "sources");
     read_bac_sources(file, kinds[k], count, result.sources);
@@ -157,7 +169,7 @@ void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32
   const std::int64_t n = file.count(file.numbers("the number of elements", 1)[0], "elements");
   for (std::int64_t i = 0; i < n; ++i) {
     const std::vector<double> e = file.numbers("an element", 3);
-    if (static_cast<int>(e[1]) != kMshTet) continue;
+    if (e[1] != kMshTet) continue;
     const std::size_t first = 3 + static_cast<std::size_t>(file.count(e[2], "tags"));
     if (e.size() < first + 4) file.fail("a tetrahedron: four nodes expected");
     mesh.tets.push_back(tet_of(file, index, e.data() + first));
@@ -190,23 +202,21 @@ void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>&
   const std::int64_t n = file.count(integers[2], "values");
   for (std::int64_t i = 0; i < n; ++i) {
     const std::vector<double> v = file.numbers("a node and its value", is_metric ? 10 : 2);
-    const auto it = index.find(static_cast<std::int64_t>(v[0]));
+    const auto it = index.find(file.node_number(v[0]));
     if (it == index.end()) file.fail("$NodeData names a node that does not exist");
     if (!is_metric && !(v[1] > 0)) file.fail("length must be positive");
     mesh.node_size[it->second] = is_metric ? size_of_metric(file, v.data() + 1) : LocalSize{v[1], v[1], {}};
   }
 }
 
-std::map<std::int64_t, std::int32_t> read_msh_nodes(LineReader& file, BackgroundMesh& mesh) {
-  std::map<std::int64_t, std::int32_t> index;
+void read_msh_nodes(LineReader& file, std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
   const std::int64_t n = file.count(file.numbers("the number of nodes", 1)[0], "nodes");
   for (std::int64_t i = 0; i < n; ++i) {
     const std::vector<double> v = file.numbers("a node", 4);
-    index.emplace(static_cast<std::int64_t>(v[0]), static_cast<std::int32_t>(i));
+    number_node(file, v[0], mesh, index);
     mesh.node_xyz.push_back({v[1], v[2], v[3]});
   }
   mesh.node_size.resize(mesh.node_xyz.size());
-  return index;
 }
 
 SourceFile read_msh(const std::string& path) {
@@ -223,7 +233,7 @@ SourceFile read_msh(const std::string& path) {
         file.fail("only MSH 2.2 as text is read (gmsh -format msh22); this is version " +
                   std::to_string(format[0]).substr(0, 3));
     }
-    if (section == "$Nodes") index = read_msh_nodes(file, mesh);
+    if (section == "$Nodes") read_msh_nodes(file, index, mesh);
     if (section == "$Elements") read_msh_elements(file, index, mesh);
     if (section == "$NodeData" && !has_data) {
       read_msh_data(file, index, mesh);
@@ -260,6 +270,12 @@ class SourceTable {
     if (!node) return "";
     if (const auto* s = node->as_string()) return s->get();
     fail(std::string(key) + ": text expected", node);
+  }
+  /// false where it is not given.
+  bool flag(const char* key) const {
+    const toml::node* node = table_.get(key);
+    if (node && !node->is_boolean()) fail(std::string(key) + ": takes true or false", node);
+    return node && node->as_boolean()->get();
   }
   Vec3 vector(const char* key) const {
     const toml::node* node = table_.get(key);
@@ -390,8 +406,6 @@ void read_stretch(const SourceTable& table, SourceSpec& source) {
 }
 
 SourceSpec read_source(const SourceTable& table) {
-  table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent", "length",
-                       "radius", "doubling", "aspect", "direction"});
   SourceSpec source;
   source.name = table.text("name");
   const auto kind = kKinds.find(table.text("type"));
@@ -411,6 +425,12 @@ SourceSpec read_source(const SourceTable& table) {
   return source;
 }
 
+std::string name_to_delete(const SourceTable& table) {
+  const std::string name = table.text("name");
+  if (name.empty()) table.fail("delete: needs the name of a source");
+  return name;
+}
+
 SourceFile read_toml(const std::string& path, const ModelScale& scale) {
   const toml::table file = parse_toml(path, read_text(path), ExitCode::kInput);
   SourceFile result;
@@ -419,9 +439,10 @@ SourceFile read_toml(const std::string& path, const ModelScale& scale) {
     throw Error(ExitCode::kInput, path + ": no table [[source]] in it; see docs/st-prolong.md");
   for (const toml::table* entry : entries) {
     const SourceTable table(path, *entry, scale);
-    const toml::node* deleted = entry->get("delete");
-    if (deleted && deleted->value<bool>().value_or(false))
-      result.deleted.push_back(table.text("name"));
+    table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent",
+                         "length", "radius", "doubling", "aspect", "direction"});
+    if (table.flag("delete"))
+      result.deleted.push_back(name_to_delete(table));
     else
       result.sources.push_back(read_source(table));
   }

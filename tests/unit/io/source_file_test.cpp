@@ -98,6 +98,9 @@ length = 1
 
 TEST_F(SourceFiles, toml_deletes_by_name) {
   EXPECT_EQ(toml("[[source]]\nname = \"wake\"\ndelete = true").deleted, std::vector<std::string>{"wake"});
+  expect_error("[[source]]\nname = \"wake\"\ndelete = 1", "s.toml:3: delete: takes true or false");
+  expect_error("[[source]]\ndelete = true", "s.toml:1: delete: needs the name of a source");
+  expect_error("[[source]]\nnmae = \"wake\"\ndelete = true", "s.toml:2: unknown key 'nmae'");
 }
 
 TEST_F(SourceFiles, toml_may_be_an_option_file) {
@@ -216,9 +219,14 @@ TEST_F(SourceFiles, damaged_bac_files_are_refused_with_the_line) {
                   {{"4  1  1", "-4  1  1", ":2: nodes: not a count"},
                    {"4  1  1", "4.5  1  1", ":2: nodes: not a count"},
                    {"4  1  1", "4  1e10  1", ":2: tetrahedra: not a count"},
+                   {"4  1  1", "4  1  0.5", ":2: sources: not a count"},
                    {"10  0 0 0", "10  0 0", ":3: a background node: 4 numbers expected"},
+                   {"10  0 0 0", "10.5  0 0 0", ":3: not the number of a node"},
+                   {"10  0 0 0", "1e300  0 0 0", ":3: not the number of a node"},
+                   {"11  1.0D0", "10  1.0D0", ":7: has two nodes of the number 10"},
                    {"0 1 0 0.25", "0 1 0 0.2.5", ":9: a direction and its spacing: 4 numbers expected"},
                    {"0 1 0 0.25", "0 1 0 0", ":9: spacing must be positive; check the file"},
+                   {"11 12 13", "11 12 12.5", ":19: not the number of a node"},
                    {"11 12 13", "11 12 14", ":19: tetrahedron names a node that does not exist"},
                    {"0.1  0  2", "0  0  2", ":22: spacing must be positive, and radii not negative"},
                    {"0.1  0  2", "0.1  -1  2", ":22: spacing must be positive, and radii not negative"}});
@@ -317,6 +325,8 @@ TEST_F(SourceFiles, damaged_msh_files_are_refused_with_the_line) {
   expect_refusals("bad.msh", kMsh,
                   {{"2.2 0", "4.1 0", ":2: only MSH 2.2 as text is read"},
                    {"2.2 0", "2.2 1", ":2: only MSH 2.2 as text is read"},
+                   {"5 0 1 0\n", "2 0 1 0\n", ":8: has two nodes of the number 2"},
+                   {"$EndNodes", "$Nodes\n1\n1 9 9 9\n$EndNodes", ":12: has two nodes of the number 1"},
                    {"2 4 2 0 1", "2 4 -1 0 1", ":14: tags: not a count"},
                    {"1 2 5 7\n", "1 2 5\n", ":14: a tetrahedron: four nodes expected"},
                    {"1 2 5 7\n", "1 2 5 8\n", ":14: tetrahedron names a node that does not exist"},
@@ -325,6 +335,7 @@ TEST_F(SourceFiles, damaged_msh_files_are_refused_with_the_line) {
                    {"3\n0\n1\n4\n", "2\n0\n1\n4\n", ":23: $NodeData: a length per node expected"},
                    {"0\n1\n4\n", "0\n3\n4\n", ":24: $NodeData: a length per node expected"},
                    {"7 0.4", "8 0.4", ":28: $NodeData names a node that does not exist"},
+                   {"7 0.4", "7.5 0.4", ":28: not the number of a node"},
                    {"7 0.4", "7 0", ":28: length must be positive"},
                    {"4\n1 0.1", "3\n1 0.1", ":29: a tetrahedron has a node without a length"}});
 }
