@@ -30,16 +30,17 @@ PLANTED = """#pragma once
 #include <unistd.h>
 #include <cstdlib>
 #include <string>
+/// Opened before any test, for there are tests that let no file be opened.
+inline const int st_planted_log =
+    std::getenv("ST_PLANTED_LOG") ? open(std::getenv("ST_PLANTED_LOG"), O_WRONLY | O_APPEND | O_CREAT, 0666) : -1;
 /// Whether this break is planted; says once that it was asked. Written by tests/fuzz/planted_breaks.py.
 inline bool st_planted(int n) {
   static const int chosen = std::getenv("ST_PLANTED") ? std::atoi(std::getenv("ST_PLANTED")) : -1;
   static bool asked[4096];
-  if (!asked[n] && std::getenv("ST_PLANTED_LOG")) {
+  if (!asked[n] && st_planted_log >= 0) {
     asked[n] = true;
-    const int fd = open(std::getenv("ST_PLANTED_LOG"), O_WRONLY | O_APPEND | O_CREAT, 0666);
     const std::string line = std::to_string(n) + "\\n";
-    if (write(fd, line.data(), line.size()) < 0) std::abort();
-    close(fd);
+    if (write(st_planted_log, line.data(), line.size()) < 0) std::abort();
   }
   return n == chosen;
 }
@@ -160,7 +161,7 @@ def run(program, planted=None, log=None):
         limit = ["bash", "-c", 'ulimit -v 16000000; exec "$@"', "bash"]
         try:
             return subprocess.run([*limit, program, "--gtest_brief=1", "--gtest_fail_fast"], env=env, cwd=folder,
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=300).returncode == 0
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=90).returncode == 0
         except subprocess.TimeoutExpired:
             return False
 

@@ -580,9 +580,7 @@ void Hdf5Reader::Impl::open() {
     throw Error(
         ExitCode::kInput,
         path + ": is HDF5, but no artifact of an st tool (no group /st); give a .hdf file that an st tool wrote");
-  const Group root(H5Gopen2(file, kRoot, H5P_DEFAULT));
-  if (!root.is_valid()) damaged("group /st cannot be read");
-  read_attributes(root, kRoot);
+  read_attributes(Group(H5Gopen2(file, kRoot, H5P_DEFAULT)), kRoot);
   read_header();
 }
 
@@ -611,7 +609,6 @@ void Hdf5Reader::Impl::read_group(const std::string& name, int depth) {
   const std::string path_name = name.empty() ? "/" : name;
   if (depth > kMaxDepth) damaged(path_name + ": groups too deep");
   const Group group(H5Gopen2(file, path_name.c_str(), H5P_DEFAULT));
-  if (!group.is_valid()) damaged("group " + path_name + " cannot be read");
   read_attributes(group, path_name);
   const auto names = link_names(group, kMaxObjects);
   if (!names) damaged("group " + path_name + " cannot be listed, or has more than 10000 parts");
@@ -626,11 +623,12 @@ void Hdf5Reader::Impl::read_group(const std::string& name, int depth) {
   }
 }
 
+/// `group` may be one that could not be opened.
 void Hdf5Reader::Impl::read_attributes(hid_t group, const std::string& name) {
   H5O_info_t info{};
   if (H5Oget_info2(group, &info, H5O_INFO_NUM_ATTRS) < 0) damaged("group " + name + " cannot be read");
   for (hsize_t i = 0; i < info.num_attrs; ++i) {
-    const Attribute attribute(H5Aopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT));
+    const Attribute attribute(H5Aopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_NATIVE, i, H5P_DEFAULT, H5P_DEFAULT));
     char attribute_name[256] = {};
     if (!attribute.is_valid() || H5Aget_name(attribute, sizeof attribute_name, attribute_name) < 0)
       damaged("an attribute of " + name + " cannot be read");

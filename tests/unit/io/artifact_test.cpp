@@ -506,6 +506,10 @@ TEST(Artifacts, of_geometries_with_numbers_that_are_none_are_refused) {
       {"edge/range", [](auto& t) { t.edge_range[1] = t.edge_range[0] - 1; }},
       {"edge/length", [](auto& t) { t.edge_length[0] = -1; }},
       {"edge/range", [](auto& t) { t.edge_range[0] = std::nan(""); }},
+      {"/st/edge_group/ids: row 1 names entity 9 of 4",
+       [](auto& t) {
+         t.labels.edge_groups[0].ids = {1, 9};
+       }},
       {"n_shells", [](auto& t) { t.n_shells = 1 << 30; }},
       {"n_solids", [](auto& t) { t.n_solids = 1 << 30; }}};
   for (const auto& [name, break_it] : breaks) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/hdf5/hdf5_file.h"
+#include "unit/io/copied_artifact.h"
 #include "unit/io/sample_sizing.h"
 #include "unit/io/temporary_directory.h"
 
@@ -77,49 +78,20 @@ class Forger {
   }
 
   void write(const std::string& to, const std::string& forged, char letter) const {
-    Hdf5Writer out(to, in_.header());
-    for (const DatasetInfo& d : in_.datasets()) {
-      const bool is_forged = d.name == forged;
-      if (!is_forged || letter != kMissing) copy(d, is_forged ? letter : 0, out);
-    }
-    for (const AttributeSummary& a : attributes_) copy(a, a.name == forged ? letter : 0, out);
-    out.commit();
-  }
-
- private:
-  void copy(const DatasetInfo& d, char letter, Hdf5Writer& out) const {
-    if (d.is_foreign) return out.write_vtk_strings(d.name, std::vector<std::string>(d.shape[0], "name"));
-    with_element(d.type, [&](const auto& element) {
-      using T = std::decay_t<decltype(element)>;
-      const std::size_t columns = d.shape.size() > 1 ? d.shape[1] : 1;
-      if constexpr (std::is_same_v<T, std::string>) {
-        std::vector<std::string> values = in_.read_strings(d.name);
-        if (letter) values.empty() ? values.push_back("more") : forgeries_of_texts().at(letter)(values, 1);
-        out.write_strings(d.name, values);
-      } else {
-        std::vector<T> values = in_.read<T>(d.name, columns);
-        if (letter) values.empty() ? values.resize(columns) : forgeries<T>().at(letter)(values, columns);
-        out.write<T>(d.name, values, columns);
-      }
+    copy_artifact(in_, to, [&](const std::string& name, auto& values, std::size_t columns) {
+      if (name != forged) return true;
+      if (letter != kMissing) forge(letter, values, columns);
+      return letter != kMissing;
     });
   }
 
-  static void copy(const AttributeSummary& a, char letter, Hdf5Writer& out) {
-    const std::size_t at = a.name.find('@');
-    const std::string group = a.name.substr(0, at), name = a.name.substr(at + 1);
-    if (name == "schema" || name == "schema_version" || name.rfind("unit", 0) == 0) return;  // of the header
-    if (letter == kMissing) return;
-    if (const auto* text = std::get_if<std::string>(&a.value)) {
-      out.set_attribute(group, name, letter ? *text + "\xff" : *text);
-    } else if (const auto* number = std::get_if<double>(&a.value)) {
-      std::vector<double> value{*number};
-      if (letter) forgeries<double>().at(letter)(value, 1);
-      out.set_attribute(group, name, value[0]);
-    } else if (const auto* integer = std::get_if<std::int64_t>(&a.value)) {
-      std::vector<std::int64_t> value{*integer};
-      if (letter) forgeries<std::int64_t>().at(letter)(value, 1);
-      out.set_attribute(group, name, value[0]);
-    }
+ private:
+  static void forge(char letter, std::vector<std::string>& values, std::size_t columns) {
+    values.empty() ? values.push_back("more") : forgeries_of_texts().at(letter)(values, columns);
+  }
+  template <class T>
+  static void forge(char letter, std::vector<T>& values, std::size_t columns) {
+    values.empty() ? values.resize(columns) : forgeries<T>().at(letter)(values, columns);
   }
 
   Hdf5Reader in_;

@@ -157,6 +157,16 @@ TEST(Hdf5File, says_what_is_wrong_with_a_request) {
                "is a sizing artifact, but a mesh artifact is needed; give the file that st-merge wrote");
 }
 
+TEST(Hdf5File, refuses_to_write_what_makes_no_dataset) {
+  const TemporaryDirectory dir;
+  Hdf5Writer writer(dir / "a.hdf", sizing_header());
+  writer.write("/st/bytes", std::vector<std::uint8_t>{});
+  EXPECT_ERROR(writer.write("/st/bytes", std::vector<std::uint8_t>{}), kOutput, "cannot write /st/bytes");
+  EXPECT_ERROR(writer.write("/st/table", std::vector<std::int32_t>{1, 2, 3}, 2), kInternal,
+               "/st/table: 3 values are not rows of 2");
+  EXPECT_ERROR(writer.set_attribute("st", "count", std::int64_t{1}), kInternal, "st: not an absolute path");
+}
+
 TEST(Hdf5File, leaves_nothing_without_commit) {
   TemporaryDirectory dir;
   {

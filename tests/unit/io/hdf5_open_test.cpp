@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include "io/foreign/node_array.h"
@@ -126,6 +127,45 @@ TEST(Hdf5Open, refuses_artifacts_that_are_not_plain) {
     c.fill(file);
     H5Fclose(file);
     EXPECT_ERROR(Hdf5Reader{path}, kInput, c.says);
+  }
+}
+
+TEST(Hdf5Open, refuses_foreign_files_with_too_many_objects) {
+  const TemporaryDirectory dir;
+  const std::string path = make(dir / "f.hdf", [](hid_t file) {
+    add_dataset(file, "lengths");
+    for (const char* group : {"/a", "/b"}) {
+      H5Gclose(H5Gcreate2(file, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      for (int i = 0; i < 5000; ++i)
+        H5Lcreate_hard(file, "/lengths", file, (group + ("/n" + std::to_string(i))).c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    }
+  });
+  EXPECT_ERROR(read_node_lengths(path, "/lengths", 10), kInput, "is one of more than 10000 objects");
+}
+
+/// In the oldest form of HDF5, which has no checksums.
+TEST(Hdf5Open, refuses_foreign_files_of_which_a_part_is_damaged) {
+  const TemporaryDirectory dir;
+  std::size_t header = 0;
+  const std::string good = make(dir / "good.hdf", [&](hid_t file) {
+    add_dataset(file, "lengths");
+    H5O_info_t info{};
+    H5Oget_info_by_name2(file, "lengths", &info, H5O_INFO_BASIC, H5P_DEFAULT);
+    header = info.addr;
+    H5Gclose(H5Gcreate2(file, "/group", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    add_dataset(file, "/group/a_b");
+  });
+  EXPECT_EQ(read_node_lengths(good, "/lengths", 10).size(), 10u);
+  const std::string bytes = read_bytes(good);
+  const std::size_t index = bytes.rfind("TREE"), name = bytes.find("a_b");  // of the group made last, and in it
+  for (const auto& [says, at, damage] : {std::tuple("/lengths cannot be opened", header, '\x7f'),
+                                         {"/group cannot be listed", index, '?'},
+                                         {"/group/a/b cannot be read", name + 1, '/'}}) {
+    ASSERT_LT(at, bytes.size());
+    std::string damaged = bytes;
+    damaged[at] = damage;
+    write_bytes(dir / "f.hdf", damaged);
+    EXPECT_ERROR(read_node_lengths(dir / "f.hdf", "/lengths", 10), kInput, dir / "f.hdf" + ": " + says);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 
@@ -36,8 +37,18 @@ TEST_F(RowReaderTest, gives_rows_from_the_middle) {
   const auto place = rows.find<double>("/st/values");
   EXPECT_EQ(rows.read<double>(place, 298, 3), (std::vector<double>{298, 299, 300}));
   EXPECT_TRUE(rows.read<double>(place, 1000, 0).empty());
-  EXPECT_THROW(rows.read<double>(place, 999, 2), Error);
+  EXPECT_ERROR(rows.read<double>(place, 999, 2), kInput, "/st/values: has not the rows that its triangles need");
   EXPECT_THROW(rows.find<float>("/st/values"), Error);
+}
+
+TEST_F(RowReaderTest, says_which_rows_of_a_file_that_was_removed_or_cut_cannot_be_read) {
+  const Hdf5Reader r(path_);
+  EXPECT_ERROR(RowReader(dir_ / "none", r), kInput, path_ + ": /st: cannot be read");
+  const RowReader rows(path_, r);
+  const auto place = rows.find<double>("/st/values");
+  std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(place.offset + 80));
+  EXPECT_EQ(rows.read<double>(place, 9, 1)[0], 9);
+  EXPECT_ERROR(rows.read<double>(place, 9, 2), kInput, "/st/values: cannot be read");
 }
 
 TEST_F(RowReaderTest, finds_rows_that_do_not_fit_their_checksum) {
@@ -56,11 +67,12 @@ TEST_F(RowReaderTest, finds_rows_that_do_not_fit_their_checksum) {
 }
 
 TEST_F(RowReaderTest, of_appended_rows_fewer_or_more_than_announced_are_a_defect) {
-  for (const std::size_t n : {2, 4}) {
+  for (const auto& [n, wrong] : {std::pair<std::size_t, const char*>(2, "fewer rows than were announced"),
+                                 {4, "more rows than were announced"}}) {
     Hdf5Writer w(dir_ / "b.hdf", sample_header());
     const std::vector<double> values(n);
     w.append(w.begin_rows<double>("/st/values", 3), std::span<const double>(values));
-    EXPECT_THROW(w.commit(), Error);
+    EXPECT_ERROR(w.commit(), kInternal, wrong);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "io/file/temporary_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,6 +65,27 @@ TEST(TemporaryFile, is_refused_where_it_cannot_be_written) {
   const TemporaryDirectory dir;
   EXPECT_ERROR(TemporaryFile(dir / "none/a"), kOutput, "none");
   EXPECT_ERROR(TemporaryFile(dir.path()), kOutput, "director");
+}
+
+TEST(TemporaryFile, is_refused_by_what_is_wrong_with_its_name) {
+  const TemporaryDirectory dir;
+  write_bytes(dir / "file", "");
+  ASSERT_EQ(mkfifo((dir / "pipe").c_str(), 0600), 0);
+  for (const auto& [name, wrong] : {std::pair<std::string, const char*>("none/", "is a directory name"),
+                                    {"pipe", "is a device, a pipe or a socket and would be replaced"},
+                                    {"file/a", "file is not a directory"},
+                                    {std::string(224, 'n'), "the name is too long"}})
+    EXPECT_ERROR(TemporaryFile(dir / name), kOutput, wrong);
+  EXPECT_EQ(dir.files().size(), 2u);
+}
+
+TEST(TemporaryFile, that_is_gone_or_cannot_get_its_name_is_an_error) {
+  const TemporaryDirectory dir;
+  TemporaryFile gone(dir / "a"), late(dir / "b");
+  std::filesystem::remove(gone.name());
+  EXPECT_ERROR(gone.commit(), kOutput, dir / "a" + ": cannot be synced (No such file or directory)");
+  std::filesystem::create_directory(dir / "b");
+  EXPECT_ERROR(late.commit(), kOutput, dir / "b" + ": cannot be renamed into place (Is a directory)");
 }
 
 }  // namespace

@@ -18,10 +18,11 @@ TEST(TextFile, has_the_bytes_that_were_written) {
   EXPECT_EQ(dir.files(), std::vector<std::string>{"t"}) << "no temporary is left";
 }
 
-TEST(TextFile, refuses_folders_and_missing_files) {
+TEST(TextFile, refuses_folders_devices_and_missing_files) {
   const TemporaryDirectory dir;
   EXPECT_ERROR(read_text_file(dir.path()), kInput, "is a directory");
   EXPECT_ERROR(read_text_file(dir / "none"), kInput, "cannot be read");
+  EXPECT_ERROR(read_text_file("/dev/null"), kInput, "is a pipe or a device, which might never end");
   EXPECT_ERROR(write_text_file(dir / "none/t", "x"), kOutput, "none");
   EXPECT_TRUE(dir.files().empty());
 }
