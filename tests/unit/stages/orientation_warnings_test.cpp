@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "base/log.h"
+
 namespace st {
 namespace {
 
@@ -16,8 +18,10 @@ TEST(OrientationWarnings, list_the_first_faces_by_their_numbers) {
 
 TEST(OrientationWarnings, say_what_was_turned_and_what_cannot_be) {
   const auto said = [](const OrientationReport& report) {
+    set_verbosity(Verbosity::kNormal);
     testing::internal::CaptureStderr();
     warn_of_changes(report);
+    set_verbosity(Verbosity::kQuiet);  // as other tests of stages want it
     return testing::internal::GetCapturedStderr();
   };
   OrientationReport report;
