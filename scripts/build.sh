@@ -12,7 +12,7 @@ done
 log=$build/build.log
 mkdir -p "$build"
 # What one clone compiled serves the next, wherever that lies.
-export CCACHE_BASEDIR=${CCACHE_BASEDIR-$root} CCACHE_NOHASHDIR=1
+export CCACHE_BASEDIR=${CCACHE_BASEDIR-$root} CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=gcno_cwd
 
 say() { if [ -t 1 ]; then printf '\r\033[K%s' "$1"; fi; }
 fail() {

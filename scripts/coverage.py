@@ -21,14 +21,26 @@ FLOORS = ROOT / "tests/coverage_floors.txt"
 CHUNK = 8  # files for one call of gcov
 
 
-def read_counts(counters):
-    """{source file: {line: it ran}} of some .gcda files. Paths in them may be relative, whatever wrote them."""
+def compiled_in(build):
+    """Where the compiler ran, to which paths of sources are relative."""
+    return next(folder for folder in [build, *build.parents] if (folder / "build.ninja").is_file())
+
+
+def gather_counts(build):
+    """Moves counts to their objects. GCOV_PREFIX put them into counts/, by the path of whatever clone compiled these."""
+    for counter in sorted((build / "counts").rglob("*.gcda")):
+        path = str(counter)
+        counter.replace(build / path[path.rindex("/CMakeFiles/") + 1:])
+
+
+def read_counts(counters, folder):
+    """{source file: {line: it ran}} of some .gcda files of objects compiled in a folder."""
     command = ["gcov", "--json-format", "--stdout", *map(str, counters)]
     output = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
     lines = defaultdict(lambda: defaultdict(bool))
     for report in map(json.loads, output.splitlines()):
         for file in report["files"]:
-            path = os.path.normpath(os.path.join(report["current_working_directory"], file["file"]))
+            path = os.path.normpath(os.path.join(folder, file["file"]))
             if path.startswith(f"{ROOT}/lib/"):
                 for line in file["lines"]:
                     lines[path[len(f"{ROOT}/"):]][line["line_number"]] |= line["count"] > 0
@@ -37,12 +49,14 @@ def read_counts(counters):
 
 def measure(build):
     """The same for all that ran in a build."""
+    gather_counts(build)
     counters = sorted(build.rglob("*.gcda"))
     if not counters:
         sys.exit(f"coverage: error: no .gcda file below {build}; build with --coverage and run the tests")
     merged = defaultdict(lambda: defaultdict(bool))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for counts in pool.map(read_counts, [counters[i:i + CHUNK] for i in range(0, len(counters), CHUNK)]):
+        chunks = [counters[i:i + CHUNK] for i in range(0, len(counters), CHUNK)]
+        for counts in pool.map(read_counts, chunks, [compiled_in(build)] * len(chunks)):
             for path, ran in counts.items():
                 for line, has_run in ran.items():
                     merged[path][line] |= has_run
