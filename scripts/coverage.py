@@ -27,7 +27,7 @@ def compiled_in(build):
 
 
 def gather_counts(build):
-    """Moves counts to their objects. GCOV_PREFIX put them into counts/, by the path of whatever clone compiled these."""
+    """Moves counts from counts/, where GCOV_PREFIX put them, to their objects, whatever clone compiled these."""
     for counter in sorted((build / "counts").rglob("*.gcda")):
         path = str(counter)
         counter.replace(build / path[path.rindex("/CMakeFiles/") + 1:])

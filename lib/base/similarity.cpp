@@ -12,8 +12,6 @@
 namespace st {
 namespace {
 
-constexpr double kMostNumber = 1e12;  // where st-import ends: lengths have no digits left beyond
-
 /// One step as it is written.
 struct Step {
   std::string verb;
@@ -46,8 +44,8 @@ Step read_step(const std::string& text) {
 bool is_in_range(const Step& step) {
   std::vector<double> all = step.numbers;
   if (step.at) all.insert(all.end(), {step.at->x, step.at->y, step.at->z});
-  const bool is_tiny = step.verb == "scale" && !all.empty() && all[0] > 0 && all[0] < 1 / kMostNumber;
-  return !is_tiny && std::all_of(all.begin(), all.end(), [](double x) { return std::abs(x) <= kMostNumber; });
+  const bool is_tiny = step.verb == "scale" && !all.empty() && all[0] > 0 && all[0] < 1 / kLargestCoordinate;
+  return !is_tiny && std::all_of(all.begin(), all.end(), [](double x) { return std::abs(x) <= kLargestCoordinate; });
 }
 
 /// The motion of a step; nullopt for one that is none.

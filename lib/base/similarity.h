@@ -8,6 +8,9 @@
 
 namespace st {
 
+/// Coordinates of models, in their unit: a million kilometres in mm. Lengths have no digits left beyond.
+inline constexpr double kLargestCoordinate = 1e12;
+
 /// Rotation or reflection, then scaling in common, then translation.
 struct Similarity {
   std::array<Vec3, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows; orthonormal, left-handed where it mirrors

@@ -15,7 +15,6 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/threads.h"
-#include "features/face_roles.h"
 #include "geometry/model/cad_tolerance.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"

@@ -160,14 +160,16 @@ void take_out(const std::vector<FaceId>& kept, Edited& e) {
 
 /// What st-import would refuse is not made here either.
 void require_in_range(const Move& move, const ModelTables& t) {
-  constexpr double kMostCoordinate = 1e12, kLeastDiagonal = 1e-9;  // model unit
+  constexpr double kLeastDiagonal = 1e-9;  // model unit
   Box3 box;
   for (const FaceId f : move.faces) {
     const Vec3 lo = t.face_box[f].lo, hi = t.face_box[f].hi;
     for (int corner = 0; corner < 8; ++corner)
       box.add(move.motion({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z}));
   }
-  const auto is_far = [](Vec3 x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) > kMostCoordinate; };
+  const auto is_far = [](Vec3 x) {
+    return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) > kLargestCoordinate;
+  };
   if (is_far(box.lo) || is_far(box.hi) || box.diagonal() < kLeastDiagonal)
     throw Error(ExitCode::kUsage,
                 fmt::format("--transform: the model would reach from ({:.4g} {:.4g} {:.4g}) to ({:.4g} {:.4g} {:.4g}); "

@@ -350,18 +350,20 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
 /// Of --sizes-on-nodes.
 std::string nodes_file(const RemeshStageOptions& o) { return o.sizes_on_nodes.substr(0, o.sizes_on_nodes.rfind(':')); }
 
-/// Collective. As require_same_inputs(), of files without a hash of their own, and of --made-for.
-void require_same_files(const RemeshStageOptions& o, const Communicator& comm) {
-  if (comm.size() == 1) return;
+/// --made-for and the sizes on nodes: files without a hash of their own.
+std::vector<OpenedFile> digested_files(const RemeshStageOptions& o) {
+  std::vector<OpenedFile> files;
   for (const std::string& path : {o.made_for, nodes_file(o)}) {
+    if (path.empty()) continue;
     Hasher hasher;
-    if (!path.empty()) hasher.add(std::string_view(read_text_file(path)));
-    require_same_inputs(comm, {{path, hasher.hex()}});
+    hasher.add(std::string_view(read_text_file(path)));
+    files.push_back({path, hasher.hex()});
   }
+  return files;
 }
 
-/// Digest of what the results depend on. The contents of files without a hash of their own count by the file's.
-std::string run_of(const RemeshStageOptions& o, const RemeshInput& in) {
+/// Digest of what the results depend on.
+std::string run_of(const RemeshStageOptions& o, const RemeshInput& in, const std::vector<OpenedFile>& files) {
   Hasher hasher;
   for (const std::string& text :
        {in.old.header.content_hash, in.geometry.content_hash, in.sizing.header.content_hash, o.keep, o.tolerance,
@@ -369,8 +371,7 @@ std::string run_of(const RemeshStageOptions& o, const RemeshInput& in) {
     hasher.add(std::string_view(text));
     hasher.add(std::string_view("\n"));
   }
-  for (const std::string& path : {o.made_for, nodes_file(o)})
-    if (!path.empty()) hasher.add(std::string_view(read_text_file(path)));
+  for (const OpenedFile& file : files) hasher.add(std::string_view(file.content_hash));
   return hasher.hex();
 }
 
@@ -400,14 +401,16 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
-  require_same_files(o, comm);
+  const std::vector<OpenedFile> files = digested_files(o);
+  require_same_inputs(comm, files);
   if (comm.is_root()) require_countable_sizes(o, in, mark, field);
   const std::optional<StageSummary> association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
   if (o.dry_run) return with_association(dry_run_summary(holes), association);
   const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
-  Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in), {o.journal_after, o.begins_new});
+  Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in, files),
+                        {o.journal_after, o.begins_new});
   MeshOptions options;
   options.left_out = resumption.left_out();
   MeshResult result = mesh_regions(holes, field, output, options, resumption);

@@ -23,6 +23,7 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
+#include <algorithm>
 #include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
@@ -197,20 +198,47 @@ TopoDS_Face planar_face(const gp_Pln& plane, const std::vector<TopoDS_Wire>& wir
   return face;
 }
 
+/// A closed wire whose edges follow each other, or its parts that pass no vertex twice: a section that touches itself,
+/// as that of a ring in a plane that touches its hole, is a figure of eight.
+std::vector<TopoDS_Wire> simple_loops(const TopoDS_Wire& wire) {
+  std::vector<TopoDS_Wire> loops;
+  std::vector<TopoDS_Edge> path;
+  for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) {
+    path.push_back(TopoDS::Edge(e.Current()));
+    const TopoDS_Vertex end = TopExp::LastVertex(path.back(), true);
+    const auto first = std::find_if(
+        path.begin(), path.end(), [&](const TopoDS_Edge& edge) { return TopExp::FirstVertex(edge, true).IsSame(end); });
+    if (first == path.end()) continue;
+    BRep_Builder builder;
+    TopoDS_Wire loop;
+    builder.MakeWire(loop);
+    for (auto edge = first; edge != path.end(); ++edge) builder.Add(loop, *edge);
+    loop.Closed(true);
+    loops.push_back(loop);
+    path.erase(first, path.end());
+  }
+  return loops.size() > 1 && path.empty() ? loops : std::vector<TopoDS_Wire>{wire};
+}
+
+double area_of(const TopoDS_Shape& shape) {
+  GProp_GProps area;
+  BRepGProp::SurfaceProperties(shape, area);
+  return std::fabs(area.Mass());
+}
+
 std::vector<PlaneLoop> loops_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
   Handle(TopTools_HSequenceOfShape) sequence = new TopTools_HSequenceOfShape, wires;
   for (const TopoDS_Edge& e : edges) sequence->Append(e);
   ShapeAnalysis_FreeBounds::ConnectEdgesToWires(sequence, Precision::Confusion(), true, wires);
   std::vector<PlaneLoop> loops;
   for (int i = 1; i <= wires->Length(); ++i) {
-    const TopoDS_Wire wire = TopoDS::Wire(wires->Value(i));
-    BRepBuilderAPI_MakeFace make(plane_of(cut), wire, true);
-    if (!BRep_Tool::IsClosed(wire) || !make.IsDone())
-      throw Error(ExitCode::kGeometry, path + ": the edges in the symmetry plane do not close; free edges at " +
-                                           places(edges) + "; close the model there in the CAD system");
-    GProp_GProps area;
-    BRepGProp::SurfaceProperties(make.Face(), area);
-    loops.push_back({wire, make.Face(), std::fabs(area.Mass())});
+    for (const TopoDS_Wire& loop : simple_loops(TopoDS::Wire(wires->Value(i)))) {
+      BRepBuilderAPI_MakeFace make(plane_of(cut), loop, true);
+      if (!BRep_Tool::IsClosed(loop) || !make.IsDone())
+        throw Error(ExitCode::kGeometry, path + ": the edges in the symmetry plane do not close; free edges at " +
+                                             places(edges) + "; close the model there in the CAD system");
+      loops.push_back({loop, make.Face(), area_of(make.Face())});
+    }
   }
   return loops;
 }
@@ -351,11 +379,6 @@ TopoDS_Solid filled(const TopoDS_Shape& solid) {
   return result;
 }
 
-bool is_inside(const Box3& a, const Box3& b) {
-  return a.lo.x >= b.lo.x && a.lo.y >= b.lo.y && a.lo.z >= b.lo.z && a.hi.x <= b.hi.x && a.hi.y <= b.hi.y &&
-         a.hi.z <= b.hi.z;
-}
-
 /// Whether all vertices are inside, or on the boundary but not all of them.
 bool is_inside(const TopoDS_Shape& body, const TopoDS_Solid& outer) {
   constexpr double kOnBoundary = 1e-7;
@@ -382,7 +405,7 @@ TopTools_IndexedMapOfShape inner_bodies(const TopoDS_Shape& shape, std::vector<I
   TopTools_IndexedMapOfShape faces;
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t k = 0; k < solids.size(); ++k) {
-      if (i == k || !is_inside(boxes[i], boxes[k]) || !is_inside(solids[i], filled(solids[k]))) continue;
+      if (i == k || !is_within(boxes[i], boxes[k]) || !is_inside(solids[i], filled(solids[k]))) continue;
       TopExp::MapShapes(solids[i], TopAbs_FACE, faces);
       findings.push_back({FindingKind::kInnerBodyLeftOut, "", boxes[i].center(), boxes[i].diagonal(), false});
       break;

@@ -46,10 +46,6 @@ std::vector<LooseShell> loose_closed_shells(const ImportedShape& model, const Fa
   return shells;
 }
 
-bool is_inside(const Box3& a, const Box3& b) {
-  return a.lo.x > b.lo.x && a.lo.y > b.lo.y && a.lo.z > b.lo.z && a.hi.x < b.hi.x && a.hi.y < b.hi.y && a.hi.z < b.hi.z;
-}
-
 TopoDS_Solid solid_of(const TopoDS_Shape& shell) {
   TopoDS_Solid solid;
   BRep_Builder builder;
@@ -59,7 +55,7 @@ TopoDS_Solid solid_of(const TopoDS_Shape& shell) {
 }
 
 bool contains(const LooseShell& outer, const LooseShell& inner) {
-  if (outer.volume <= inner.volume || !is_inside(inner.box, outer.box)) return false;
+  if (outer.volume <= inner.volume || !is_within(inner.box, outer.box)) return false;
   const TopExp_Explorer vertex(inner.original, TopAbs_VERTEX);
   if (!vertex.More()) return false;
   BRepClass3d_SolidClassifier classifier(solid_of(outer.outward), BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())),

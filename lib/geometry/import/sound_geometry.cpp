@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/similarity.h"
 
 namespace st::occt {
 namespace {

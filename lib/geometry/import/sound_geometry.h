@@ -13,10 +13,6 @@ namespace st::occt {
 /// of a thousand bodies' lengths around details of a thousandth is just within it.
 inline constexpr double kFarthestPoint = 1e6;
 
-/// Coordinates may be this large, in the unit of reading: a million kilometres in mm. Squares of much larger ones pass
-/// the numbers there are.
-inline constexpr double kLargestCoordinate = 1e12;
-
 /// Throws Error(kGeometry) naming the face or edge and the point when a vertex, a control point or a weight of a
 /// spline of `shape` is not finite, beyond kLargestCoordinate, or farther away than kFarthestPoint: no stage behind
 /// could end on it. Linear in the number of points.

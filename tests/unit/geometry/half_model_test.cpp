@@ -121,6 +121,17 @@ TEST(HalfModel, open_elsewhere_or_away_from_the_plane_is_an_error_with_places) {
   expect_error(ExitCode::kGeometry, "other side", "box", "y=-1000-", "");
 }
 
+/// The plane x=14 touches the hole of the torus: its section is a figure of eight.
+TEST(HalfModel, is_whole_where_the_section_touches_itself) {
+  for (const char* side : {"", "-"}) {
+    const ImportResult beside = import_domain("torus", std::string("x=13.999") + side, ""),
+                       touching = import_domain("torus", std::string("x=14") + side, "");
+    EXPECT_TRUE(touching.is_closed);
+    EXPECT_NEAR(touching.volume, beside.volume, 1e-3 * beside.volume);
+    EXPECT_NEAR(touching.area, beside.area, 1e-3 * beside.area);
+  }
+}
+
 TEST(HalfModel, wrong_values_are_usage_errors) {
   for (const char* bad : {"y", "y=", "w=0", "y=0x", "y=+-", "y=nan", "=0"})
     expect_error(ExitCode::kUsage, "--symmetry", "box", bad, "");
