@@ -9,7 +9,6 @@
 #include <unistd.h>
 #include <csignal>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -78,10 +77,8 @@ TEST_P(Artifact, is_refused_when_truncated_anywhere) {
 TEST_P(Artifact, is_refused_or_unchanged_when_any_byte_is_flipped) {
   kind().write(file());
   const std::string whole = read_bytes(file());
-  constexpr std::size_t kFlips = 1200;
-  const std::size_t stride = std::max<std::size_t>(29, whole.size() / kFlips | 1);
   int n_refused = 0, n_unchanged = 0;
-  for (std::size_t i = 0; i < whole.size(); i += stride) {
+  for (std::size_t i = 0; i < whole.size(); i += 29) {
     std::string flipped = whole;
     flipped[i] = static_cast<char>(flipped[i] ^ 0x10);
     write_bytes(file("flipped.hdf"), flipped);
