@@ -57,8 +57,23 @@ Box3 box_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FaceP
 }
 
 /// Those of the triangles that meet the box.
-void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
-               std::span<const std::int32_t> triangles, const Box3& others, PatchPart& part) {
+void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
+               std::span<const std::int32_t> triangles, const Box3& others, bool is_of_one_face, PatchPart& part) {
+  const FacePatch& p = section.patch;
+  const auto add_key = [&](std::int64_t key) {
+    part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
+    part.key.push_back(key);
+  };
+  const auto add_corner = [&](NodeId n, Vec3 x) {
+    if (n < p.n_boundary) {
+      add_key(boundary_key(p, n));
+    } else if (is_of_one_face) {
+      const auto& shared = section.shared;
+      const auto it = std::lower_bound(shared.begin(), shared.end(), n - p.n_boundary);
+      if (it != shared.end() && *it == n - p.n_boundary) add_key(section.shared_key[it - shared.begin()]);
+    }
+    part.xyz.push_back(x);
+  };
   Box3 all;
   for (const std::int32_t t : triangles) {
     Vec3 x[3];
@@ -66,13 +81,7 @@ void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const Fa
     for (int k = 0; k < 3; ++k) box.add(x[k] = node_place(edges, vertex_xyz, p, p.triangles[t].n[k]));
     if (!meet(box, others)) continue;
     all.add(box);
-    for (int k = 0; k < 3; ++k) {
-      if (const NodeId n = p.triangles[t].n[k]; n < p.n_boundary) {
-        part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
-        part.key.push_back(boundary_key(p, n));
-      }
-      part.xyz.push_back(x[k]);
-    }
+    for (int k = 0; k < 3; ++k) add_corner(p.triangles[t].n[k], x[k]);
     part.triangle.push_back(t);
   }
   if (!all.is_empty()) part.boxes.push_back(all);
@@ -235,13 +244,14 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
   return pairs;
 }
 
-PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near) {
+PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, bool is_of_one_face) {
   constexpr std::size_t kBlocksPerPiece = 256;
   std::vector<PatchPart> parts(near.size() / kBlocksPerPiece + 1);
   parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      add_block(edges, vertex_xyz, p, blocks.triangles(near[i].block), near[i].others, parts[begin / kBlocksPerPiece]);
+      add_block(edges, vertex_xyz, section, blocks.triangles(near[i].block), near[i].others, is_of_one_face,
+                parts[begin / kBlocksPerPiece]);
   });
   return joined(std::move(parts));
 }

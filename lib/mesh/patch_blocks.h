@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "mesh/patch_section.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -70,19 +71,20 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
 struct PatchPart {
   std::vector<std::int32_t> triangle;  ///< places in the patch
   std::vector<Vec3> xyz;               ///< [3*n_triangles] of the corners
-  std::vector<std::int32_t> corner;    ///< ascending: corners on the boundary
-  std::vector<std::int64_t> key;       ///< likewise, their boundary_key()
+  std::vector<std::int32_t> corner;    ///< ascending: corners on the boundary, and at nodes that sections share
+  std::vector<std::int64_t> key;       ///< likewise, their boundary_key() or inner_key()
   std::vector<Box3> boxes;             ///< of some of them each, together of all
 
   static auto fields(auto& p) { return std::tie(p.triangle, p.xyz, p.corner, p.key, p.boxes); }
 };
 
-/// The triangles of the blocks `near` that meet the boxes there. Linear in these.
-PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near);
+/// The triangles of the blocks `near` that meet the boxes there. Linear in these. `is_of_one_face`: what they are
+/// compared with is another section of the face.
+PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, bool is_of_one_face = false);
 
-/// Two parts of different faces as one mesh: those of `a`, then those of `b`, with common nodes where both are on the
-/// boundary. Corners elsewhere have nodes of their own, whoever shares them within a part.
+/// Two parts of different faces, or sections, as one mesh: those of `a`, then those of `b`, with common nodes by key.
+/// Corners elsewhere have nodes of their own, whoever shares them within a part.
 struct TwoParts {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;

@@ -82,24 +82,26 @@ ArtifactHeader complete(ArtifactHeader header, const ArtifactHeader& geometry) {
 /// Of all faces that have triangles.
 std::vector<PatchCounts> counts_of(const MeshResult& r) {
   std::vector<PatchCounts> counts;
-  for (std::size_t f = 0; f < r.patches.size(); ++f) {
-    if (!r.places.empty() && r.places[f].is_there()) {
-      const PatchPlace& p = r.places[f];
-      counts.push_back({static_cast<FaceId>(f), p.n_boundary, p.n_inner, p.n_triangles, p.n_own_uv});
-    } else if (r.places.empty() && !r.patches[f].triangles.empty()) {
-      counts.push_back(st::counts_of(r.patches[f]));
-    }
+  for (const FacePatch& p : r.patches)
+    if (!p.triangles.empty()) counts.push_back(st::counts_of(p));
+  for (std::size_t f = 0; f < r.places.size(); ++f) {
+    if (!r.places[f].is_there()) continue;
+    const PatchPlace& last = r.places[f].sections.back();
+    counts.push_back({static_cast<FaceId>(f), last.n_boundary, last.begin.inner + last.n_inner,
+                      last.begin.triangle + last.n_triangles, last.begin.own_uv + last.n_own_uv});
   }
   return counts;
 }
 
 /// Local, on each rank: its patches into their places. What went wrong, or nothing.
-std::string write_own_patches(const PatchTarget& target, const std::vector<FacePatch>& patches) {
+std::string write_own_patches(const PatchTarget& target, const std::vector<SectionRows>& own) {
   try {
     PatchRowsFile rows(target);
     std::vector<std::function<void()>> jobs;
-    for (std::size_t i = 0; i < target.face.size(); ++i)
-      if (const FacePatch& patch = patches[target.face[i]]; !patch.triangles.empty()) rows.add_writes(i, patch, jobs);
+    for (const SectionRows& some : own) {
+      const auto patch = std::lower_bound(target.face.begin(), target.face.end(), some.rows.face);
+      rows.add_writes(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.begin, jobs);
+    }
     run_jobs(jobs);
     rows.close();
   } catch (const Error& e) {
@@ -111,7 +113,7 @@ std::string write_own_patches(const PatchTarget& target, const std::vector<FaceP
 
 /// Collective. Returns the content hash on rank 0.
 std::string write_everywhere(const std::string& path, const PatchesArtifact& rest,
-                             const std::vector<PatchCounts>& counts, const std::vector<FacePatch>& patches,
+                             const std::vector<PatchCounts>& counts, const std::vector<SectionRows>& rows,
                              const Executor& executor) {
   std::optional<PatchesWriter> writer;
   PatchTarget target;
@@ -121,7 +123,7 @@ std::string write_everywhere(const std::string& path, const PatchesArtifact& res
   }
   share(executor, target);
   executor.begin_phase("rows");  // each rank its own
-  const std::string own = write_own_patches(target, patches);
+  const std::string own = write_own_patches(target, rows);
   for (const Bytes& bytes : executor.gather(Bytes(packed(own)))) {
     std::string failure;
     unpack(bytes, failure);
@@ -245,7 +247,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   }
   const Timer write_timer;
   if (is_everywhere) {
-    written.hash = write_everywhere(path, out, counts, result.patches, executor);
+    written.hash = write_everywhere(path, out, counts, result.rows, executor);
   } else {
     out.patches = std::move(result.patches);
     std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });

@@ -175,7 +175,7 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   PatchesWriter writer(path, a, counts);
   PatchRowsFile rows(writer.target());
   std::vector<std::function<void()>> jobs;
-  for (std::size_t i = 0; i < a.patches.size(); ++i) rows.add_writes(i, a.patches[i], jobs);
+  for (std::size_t i = 0; i < a.patches.size(); ++i) rows.add_writes(i, a.patches[i], {}, jobs);
   run_jobs(jobs);
   rows.close();
   return writer.commit();

@@ -118,36 +118,38 @@ std::string PatchesWriter::commit() { return writer_->commit(); }
 
 void PatchRowsFile::write(std::size_t i, const FacePatch& p) const {
   std::vector<std::function<void()>> jobs;
-  add_writes(i, p, jobs);
+  add_writes(i, p, {}, jobs);
   run_jobs(jobs);
 }
 
-void PatchRowsFile::add_writes(std::size_t i, const FacePatch& p, std::vector<std::function<void()>>& jobs) const {
+void PatchRowsFile::add_writes(std::size_t i, const FacePatch& p, const SectionBegin& begin_row,
+                               std::vector<std::function<void()>>& jobs) const {
   constexpr std::size_t kPerJob = std::size_t{4} << 20;
   ST_ASSERT(target_.face.at(i) == p.face);
   std::size_t array = 0;
-  const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets) {
-    ST_ASSERT(static_cast<std::int64_t>(values.size()) == offsets[i + 1] - offsets[i]);
+  const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets,
+                                 std::int64_t first) {
+    ST_ASSERT(first + static_cast<std::int64_t>(values.size()) <= offsets[i + 1] - offsets[i]);
     const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
-    const std::uint64_t begin = target_.begin[array++] + static_cast<std::uint64_t>(offsets[i]) * sizeof(T);
+    const std::uint64_t begin = target_.begin[array++] + static_cast<std::uint64_t>(offsets[i] + first) * sizeof(T);
     for (std::size_t at = 0; at < bytes.size(); at += kPerJob)
       jobs.emplace_back(
           [this, face = p.face, to = begin + at, some = bytes.subspan(at, std::min(kPerJob, bytes.size() - at))] {
             file_.write(to, some, "the patch of face " + std::to_string(face + 1));
           });
   };
-  rows(p.boundary_dim, target_.boundary);
-  rows(p.boundary_entity, target_.boundary);
-  rows(p.boundary_index, target_.boundary);
-  rows(p.inner_xyz, target_.inner);
-  rows(p.inner_uv, target_.inner);
-  rows(p.inner_size, target_.inner);
-  rows(p.triangles, target_.triangle);
-  rows(p.uv_corner, target_.own_uv);
-  rows(p.own_uv, target_.own_uv);
+  rows(p.boundary_dim, target_.boundary, 0);
+  rows(p.boundary_entity, target_.boundary, 0);
+  rows(p.boundary_index, target_.boundary, 0);
+  rows(p.inner_xyz, target_.inner, begin_row.inner);
+  rows(p.inner_uv, target_.inner, begin_row.inner);
+  rows(p.inner_size, target_.inner, begin_row.inner);
+  rows(p.triangles, target_.triangle, begin_row.triangle);
+  rows(p.uv_corner, target_.own_uv, begin_row.own_uv);
+  rows(p.own_uv, target_.own_uv, begin_row.own_uv);
   if (target_.begin.size() < PatchTarget::kArrays) return;
-  rows(p.inner_previous, target_.inner);
-  rows(p.triangle_previous, target_.triangle);
+  rows(p.inner_previous, target_.inner, begin_row.inner);
+  rows(p.triangle_previous, target_.triangle, begin_row.triangle);
 }
 
 }  // namespace st

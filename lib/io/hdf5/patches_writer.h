@@ -12,6 +12,7 @@
 
 #include "io/file/row_file.h"
 #include "io/hdf5/artifact.h"
+#include "mesh/patch_section.h"
 
 namespace st {
 
@@ -59,10 +60,11 @@ class PatchRowsFile {
  public:
   /// `target` outlives the object.
   explicit PatchRowsFile(const PatchTarget& target) : target_(target), file_(target.file, target.label) {}
-  /// Appends jobs that write patch i of the target, in pieces of some megabytes that threads share. They need both
-  /// until they are done. Precondition: it is of that face and size.
-  void add_writes(std::size_t i, const FacePatch& patch, std::vector<std::function<void()>>& jobs) const;
-  /// All of it.
+  /// Appends jobs that write rows of patch i of the target, in pieces of some megabytes that threads share. They need
+  /// both until they are done. Precondition: they are of that face, and within its size.
+  void add_writes(std::size_t i, const FacePatch& rows, const SectionBegin& begin,
+                  std::vector<std::function<void()>>& jobs) const;
+  /// All of the patch.
   void write(std::size_t i, const FacePatch& patch) const;
   void close() { file_.close(); }
 

@@ -55,7 +55,7 @@ bool BoundarySegments::contain(std::int64_t a, std::int64_t b) const {
   return (b == a + 1 && a >= kOnEdge) || std::binary_search(at_ends_.begin(), at_ends_.end(), std::pair{a, b});
 }
 
-std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch) {
+std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch, std::int64_t first) {
   constexpr std::size_t kPerPiece = 65'536;
   std::vector<std::vector<Chord>> found(patch.triangles.size() / kPerPiece + 1);
   parallel_for(patch.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -65,7 +65,8 @@ std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch
         if (std::max(m, n) >= patch.n_boundary) continue;
         const auto [a, b] = std::minmax({boundary_key(patch, m), boundary_key(patch, n)});
         if (segments.contain(a, b)) continue;
-        found[begin / kPerPiece].push_back({a, b, {patch.face, static_cast<std::int32_t>(i)}});
+        found[begin / kPerPiece].push_back(
+            {a, b, {patch.face, static_cast<std::int32_t>(first + static_cast<std::int64_t>(i))}});
       }
   });
   std::vector<Chord> chords;
@@ -96,97 +97,124 @@ struct CrossingSearch::Search {
   const PatchStore& store;
   const Executor& executor;
   const BoundaryNumbering& numbering;
-  const std::vector<PatchPlace>& places;
+  const std::vector<PlacedPatch>& sections;  // of all patches: by face, by number
   const BoundarySegments segments{numbering};
 
-  std::shared_ptr<const StoredPatch> own(FaceId f) const { return store.get(f, places[f].version); }
+  std::shared_ptr<const StoredPatch> own(std::int32_t s) const {
+    return store.get(sections[s].face, sections[s].place);
+  }
+  /// The section that has the triangle.
+  std::int32_t section_of(const Facet& facet) const {
+    const auto after = std::upper_bound(sections.begin(), sections.end(), facet, [](const Facet& f, const auto& s) {
+      return std::pair<FaceId, std::int64_t>(f.face, f.index) < std::pair(s.face, s.place.begin.triangle);
+    });
+    return static_cast<std::int32_t>(after - sections.begin()) - 1;
+  }
+  Facet facet(std::int32_t s, std::int32_t triangle) const {
+    return {sections[s].face, static_cast<std::int32_t>(sections[s].place.begin.triangle + triangle)};
+  }
   /// The rank that has more to lose by sending.
   std::int32_t home(const Job& job) const {
-    return places[places[job.a].n_triangles < places[job.b].n_triangles ? job.b : job.a].rank;
+    const PatchPlace &a = sections[job.a].place, &b = sections[job.b].place;
+    return a.n_triangles < b.n_triangles ? b.rank : a.rank;
   }
   /// About the time it takes.
   double weight(const Job& job) const {
     constexpr double kAcross = 0.1, kAlways = 500;  // triangles
-    const double n = places[job.a].n_triangles;
-    return kAlways + (job.a == job.b ? n : kAcross * (n + places[job.b].n_triangles));
+    const double n = sections[job.a].place.n_triangles;
+    return kAlways + (job.a == job.b ? n : kAcross * (n + sections[job.b].place.n_triangles));
   }
 
-  Found within(FaceId f) const {
-    const auto stored = own(f);
-    const FacePatch& p = stored->patch;
+  Found within(std::int32_t s) const {
+    const auto stored = own(s);
+    const FacePatch& p = stored->section.patch;
     const std::vector<Vec3> xyz = node_places(numbering.edges, numbering.tables.vertex_xyz, p);
     const std::int32_t begin[] = {0, static_cast<std::int32_t>(p.triangles.size())}, body[] = {0};
     Found found;
     for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}))
-      add({f, pair.a}, {f, pair.b}, pair.n_shared, found.pairs);
-    found.chords = find_chords(segments, p);
+      add(facet(s, pair.a), facet(s, pair.b), pair.n_shared, found.pairs);
+    found.chords = find_chords(segments, p, sections[s].place.begin.triangle);
     return found;
   }
 
-  /// Of `f`, at its rank: what is near `others`.
-  PatchPart near(FaceId f, const PatchBlocks& others) const {
-    const auto stored = own(f);
-    return part_of(numbering.edges, numbering.tables.vertex_xyz, stored->patch, stored->blocks,
-                   stored->blocks.meeting(others));
+  /// Of `s`, at its rank: what is near `others`.
+  PatchPart near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
+    const auto stored = own(s);
+    return part_of(numbering.edges, numbering.tables.vertex_xyz, stored->section, stored->blocks,
+                   stored->blocks.meeting(others), is_of_one_face);
   }
   Bytes answer(const Bytes& request) const {
-    FaceId f = 0;
+    std::int32_t s = 0;
     std::vector<Box3> boxes;
-    unpack(request, f, boxes);
-    return packed(near(f, PatchBlocks(std::move(boxes))));
+    bool is_of_one_face = false;
+    unpack(request, s, boxes, is_of_one_face);
+    return packed(near(s, PatchBlocks(std::move(boxes)), is_of_one_face));
   }
 
-  /// What of `f` is near `other`, a patch of this rank, whoever has `f`.
-  PatchPart near_own(FaceId f, const StoredPatch& other) const {
+  /// What of `s` is near `other`, a section of this rank, whoever has `s`.
+  PatchPart near_own(std::int32_t s, const StoredPatch& other, bool is_of_one_face) const {
+    const PatchPlace& place = sections[s].place;
     PatchPart part;
-    if (store.is_own(places[f])) {
-      part = near(f, other.blocks);
+    if (store.is_own(place)) {
+      part = near(s, other.blocks, is_of_one_face);
       executor.has_own(PackedSize::of(part));
       return part;
     }
     std::vector<Box3> boxes;
-    for (const PatchBlocks::Meeting& m : other.blocks.meeting(places[f].box)) boxes.push_back(other.blocks[m.block]);
-    if (!boxes.empty()) unpack(executor.ask({{places[f].rank, packed(f, boxes)}})[0], part);
+    for (const PatchBlocks::Meeting& m : other.blocks.meeting(place.box)) boxes.push_back(other.blocks[m.block]);
+    if (!boxes.empty()) unpack(executor.ask({{place.rank, packed(s, boxes, is_of_one_face)}})[0], part);
     return part;
   }
 
   Found between(const Job& job) const {
-    const bool has_a = store.is_own(places[job.a]);
-    const FaceId here = has_a ? job.a : job.b, there = has_a ? job.b : job.a;
-    const PatchPart other = near_own(there, *own(here));
+    const bool has_a = store.is_own(sections[job.a].place);
+    const std::int32_t here = has_a ? job.a : job.b, there = has_a ? job.b : job.a;
+    const bool is_of_one_face = sections[job.a].face == sections[job.b].face;
+    const PatchPart other = near_own(there, *own(here), is_of_one_face);
     Found found;
     if (other.triangle.empty()) return found;
-    const PatchPart near_here = near(here, PatchBlocks(other.boxes));
+    const PatchPart near_here = near(here, PatchBlocks(other.boxes), is_of_one_face);
     const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
     const TwoParts both = join_parts(a, b);
     const auto n_first = static_cast<std::int32_t>(a.triangle.size());
     for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first))
-      add({job.a, a.triangle[pair.a]}, {job.b, b.triangle[pair.b - n_first]}, pair.n_shared, found.pairs);
+      add(facet(job.a, a.triangle[pair.a]), facet(job.b, b.triangle[pair.b - n_first]), pair.n_shared, found.pairs);
     return found;
   }
 
   /// Of this rank.
   Corners corners(const Facet& facet) const {
-    const auto stored = own(facet.face);
-    const FacePatch& p = stored->patch;
-    const NodeId* n = p.triangles[facet.index].n;
+    const std::int32_t s = section_of(facet);
+    const auto stored = own(s);
+    const FacePatch& p = stored->section.patch;
+    const auto t = static_cast<std::size_t>(facet.index - sections[s].place.begin.triangle);
+    const NodeId* n = p.triangles[t].n;
     Corners corners{{}, std::max({n[0], n[1], n[2]}) < p.n_boundary};
     for (std::size_t k = 0; k < 3; ++k) {
       corners.places.x[k] = node_place(numbering.edges, numbering.tables.vertex_xyz, p, n[k]);
-      corners.places.uv[k] = corner_uv(p, 3 * static_cast<std::size_t>(facet.index) + k);
+      corners.places.uv[k] = corner_uv(p, 3 * t + k);
     }
     return corners;
   }
-  /// Of triangles of one face, whoever has it.
+  /// Of triangles of one face, whoever has them.
   std::vector<Corners> corners(const std::vector<Facet>& facets) const {
-    const PatchPlace& place = places[facets.at(0).face];
-    std::vector<Corners> all;
-    if (store.is_own(place))
-      for (const Facet& f : facets) all.push_back(corners(f));
-    else
-      unpack(executor.ask({{place.rank, packed(facets)}})[0], all);
+    std::vector<Corners> all(facets.size());
+    std::map<std::int32_t, std::vector<std::size_t>> elsewhere;  // by rank
+    for (std::size_t i = 0; i < facets.size(); ++i)
+      if (const PatchPlace& place = sections[section_of(facets[i])].place; store.is_own(place))
+        all[i] = corners(facets[i]);
+      else
+        elsewhere[place.rank].push_back(i);
+    for (const auto& [rank, numbers] : elsewhere) {
+      std::vector<Facet> asked;
+      for (const std::size_t i : numbers) asked.push_back(facets[i]);
+      std::vector<Corners> answer;
+      unpack(executor.ask({{rank, packed(asked)}})[0], answer);
+      for (std::size_t k = 0; k < numbers.size(); ++k) all[numbers[k]] = answer[k];
+    }
     return all;
   }
+  /// Of triangles of this rank.
   Bytes answer_corners(const Bytes& request) const {
     std::vector<Facet> facets;
     unpack(request, facets);
@@ -240,25 +268,34 @@ NamedTasks tasks_of(const std::vector<Batch>& batches, const char* kind) {
 
 }  // namespace
 
-/// Faces that changed, and every two that meet of which one did. Local, on rank 0.
-std::vector<CrossingSearch::Job> CrossingSearch::jobs_of(const std::vector<PatchPlace>& places) const {
+/// Those of faces that changed, and every two that meet of which one is of such a face. Local, on rank 0.
+std::vector<CrossingSearch::Job> CrossingSearch::jobs_of(const std::vector<PlacedPatch>& sections) const {
   std::vector<Job> jobs;
   std::vector<Box3> boxes;
-  for (FaceId f = 0; f < static_cast<FaceId>(places.size()); ++f) {
-    boxes.push_back(places[f].is_there() ? places[f].box : Box3());
-    if (places[f].is_there() && face_is_fresh_[f]) jobs.push_back({f, f});
+  for (std::int32_t s = 0; s < static_cast<std::int32_t>(sections.size()); ++s) {
+    boxes.push_back(sections[s].place.box);
+    if (face_is_fresh_[sections[s].face]) jobs.push_back({s, s});
   }
-  for (const auto& [f, g] : meeting_pairs(boxes))
+  for (const auto& [s, t] : meeting_pairs(boxes)) {
+    const FaceId f = sections[s].face, g = sections[t].face;
     if ((face_is_fresh_[f] || face_is_fresh_[g]) && (face_body_[f] == face_body_[g] || may_be_apart(f, g)))
-      jobs.push_back({f, g});
+      jobs.push_back({s, t});
+  }
   return jobs;
 }
 
-std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& numbering, std::vector<PatchPlace> places) {
+std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& numbering,
+                                                 const std::vector<FacePlace>& places) {
+  std::vector<PlacedPatch> sections;
   std::vector<Job> jobs;
-  if (executor_.is_root()) jobs = jobs_of(places);
-  share(executor_, places, jobs);
-  const Search search{store_, executor_, numbering, places};
+  if (executor_.is_root()) {
+    for (std::size_t f = 0; f < places.size(); ++f)
+      for (const PatchPlace& place : places[f].sections)
+        if (place.is_there()) sections.push_back({static_cast<FaceId>(f), place});
+    jobs = jobs_of(sections);
+  }
+  share(executor_, sections, jobs);
+  const Search search{store_, executor_, numbering, sections};
   const std::vector<Batch> batches = batches_of(
       jobs, [&](const Job& job) { return search.home(job); }, [&](const Job& job) { return search.weight(job); });
   NamedTasks tasks = tasks_of(batches, "crossings");
@@ -305,7 +342,8 @@ std::vector<CrossingSearch::Corners> CrossingSearch::corners(std::vector<Facet> 
   share(executor_, facets);
   if (facets.empty()) return {};
   const std::vector<Batch> batches = batches_of(
-      facets, [&](const Facet& f) { return search.places[f.face].rank; }, [](const Facet&) { return 1; });
+      facets, [&](const Facet& f) { return search.sections[search.section_of(f)].place.rank; },
+      [](const Facet&) { return 1; });
   std::vector<Corners> all(executor_.is_root() ? facets.size() : 0);
   executor_.run_named_tasks(
       tasks_of(batches, "corners"),
@@ -381,7 +419,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, con
   share(executor_, unknown);
   const std::vector<FacetPairs> groups = by_faces(unknown);
   if (groups.empty()) return known;
-  const auto home = [&](const FacetPairs& p) { return search.places[p[0].a.face].rank; };
+  const auto home = [&](const FacetPairs& p) { return search.sections[search.section_of(p[0].a)].place.rank; };
   const std::vector<Batch> batches =
       batches_of(groups, home, [](const FacetPairs& p) { return kPerWall * static_cast<double>(p.size()); });
   NamedTasks tasks = tasks_of(batches, "walls");
@@ -417,8 +455,8 @@ std::vector<CrossingSearch::FacetPairs> CrossingSearch::by_faces(const FacetPair
   return groups;
 }
 
-/// Pairs of two faces, at the rank of the first. Where these are of two bodies, some places tell whether the bodies
-/// meet everywhere.
+/// Pairs of two faces, at the rank of the first one's triangle. Where these are of two bodies, some places tell whether
+/// the bodies meet everywhere.
 CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kept, const Search& search) const {
   constexpr std::size_t kTried = 16;  // of two bodies: none apart, and they meet
   constexpr std::size_t kMostMeasured = 1000;

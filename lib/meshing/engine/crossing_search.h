@@ -21,7 +21,7 @@ namespace st {
 /// A triangle of a face.
 struct Facet {
   FaceId face = kNone;
-  std::int32_t index = 0;  ///< in its patch
+  std::int32_t index = 0;  ///< in the patch of the face
 };
 
 /// An edge of a triangle between two nodes on boundaries that is no segment of these.
@@ -42,8 +42,8 @@ class BoundarySegments {
                                                                 // sorted
 };
 
-/// The chords of a patch.
-std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch);
+/// The chords of a patch, or of a section whose triangles begin with this one.
+std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch, std::int64_t first = 0);
 
 /// Pairs of triangles of two faces about one chord: an edge between the same two nodes on boundaries inside both faces,
 /// sorted, at least one face fresh. Two faces along common edges, too flat for a node inside, lie on each other there.
@@ -55,8 +55,8 @@ std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> cho
 RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c);
 
 /// Remembers the pairs that it found: searched are only those with a patch made since the last search. Triangles of
-/// two bodies count where the CAD keeps these apart; parts in contact cross as they like. Each face, and every two that
-/// meet, are a task of the rank that has the larger patch.
+/// two bodies count where the CAD keeps these apart; parts in contact cross as they like. Each section of a face, and
+/// every two that meet, are a task of the rank that has the larger one.
 class CrossingSearch {
  public:
   /// All references outlive the object. `across_bodies`: bodies are compared with each other, too.
@@ -71,9 +71,9 @@ class CrossingSearch {
 
   /// Local. The face's patch is another one now.
   void renew(FaceId f) { face_is_fresh_[f] = 1; }
-  /// Collective. `places` [n_faces] by face, of rank 0. On rank 0 two places for each pair that smaller triangles can
+  /// Collective. `places` [n_faces], of rank 0. On rank 0 two places for each pair that smaller triangles can
   /// part, up to some thousand. What follows is of rank 0.
-  std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, std::vector<PatchPlace> places);
+  std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places);
   /// By the last run.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
   /// Faces with triangles of the last run, ascending; those of which two triangles cross each other, or all.
@@ -94,8 +94,8 @@ class CrossingSearch {
     auto key() const { return std::tuple(a.face, b.face, a.index, b.index, factor); }
   };
   using FacetPairs = std::vector<FacetPair>;
-  struct Job {  // a face with itself, or two
-    FaceId a, b;
+  struct Job {  // a section with itself, or two, by their numbers of all
+    std::int32_t a, b;
   };
   struct Found {
     FacetPairs pairs;
@@ -108,7 +108,7 @@ class CrossingSearch {
   static constexpr double kHalve = 0, kHopeless = -1, kUnknown = -2, kMeets = -3;
 
   bool may_be_apart(FaceId a, FaceId b) const;
-  std::vector<Job> jobs_of(const std::vector<PatchPlace>& places) const;
+  std::vector<Job> jobs_of(const std::vector<PlacedPatch>& sections) const;
   struct Corners {  // of a triangle
     WallTriangle places;
     bool is_spanning;  // all are on the boundary

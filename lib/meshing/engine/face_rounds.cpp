@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/current_work.h"
@@ -102,13 +103,13 @@ std::vector<Vec3> FaceRounds::nodes_of(const FacePatch& patch) const {
 
 /// Local, on rank 0: its own patch of the face, from now on.
 void FaceRounds::put(FaceId f, FacePatch&& patch) {
-  places_[f] = store_.put(std::move(patch), --own_version_, result_.edges, tables_.vertex_xyz);
+  places_[f] = FacePlace(store_.put({std::move(patch)}, 0, --own_version_, result_.edges, tables_.vertex_xyz));
   crossings_.renew(f);
 }
 
 /// Collective. Copies of these patches (rank 0's choice) on rank 0.
 FaceRounds::Patches FaceRounds::bring(const std::vector<FaceId>& faces) const {
-  std::vector<PlacedPatch> wanted;
+  std::vector<PlacedFace> wanted;
   for (const FaceId f : faces)
     if (places_[f].is_there()) wanted.push_back({f, places_[f]});
   Patches patches;
@@ -163,7 +164,7 @@ bool FaceRounds::refill_once() {
   share(executor_, is_sound);
   if (is_sound) return false;
   const int n_pairs = crossings_.n_pairs();
-  const std::vector<PatchPlace> before = places_;
+  const std::vector<FacePlace> before = places_;
   for (const auto& [f, triangles] : bad)
     if (FacePatch& patch = patches[f]; refill(nodes_of(patch), triangles, patch) > 0) put(f, std::move(patch));
   crossings_.run(*numbering_, places_);
@@ -185,7 +186,7 @@ void FaceRounds::part_touching() {
   share(executor_, n_pairs);
   if (n_pairs == 0) return;
   Patches patches = bring(crossings_.crossing_faces(true));
-  const std::vector<PatchPlace> before = places_;
+  const std::vector<FacePlace> before = places_;
   std::vector<FaceId> moved;
   if (executor_.is_root()) moved = crossings_.move_touching_apart(*numbering_, patches);
   share(executor_, moved);
@@ -219,19 +220,30 @@ void FaceRounds::report(PatchesGo patches) {
 
 /// Collective. The patches go into the result.
 void FaceRounds::hand_over(PatchesGo patches) {
-  Patches remote;
-  std::vector<FaceId> elsewhere;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    if (places_[f].rank > 0) elsewhere.push_back(f);
-  if (patches == PatchesGo::kToRoot) remote = bring(elsewhere);
-  result_.patches.resize(tables_.n_faces());
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
-    result_.patches[f].face = f;
-    if (store_.is_own(places_[f])) result_.patches[f] = store_.take(f, places_[f].version);
-    if (patches == PatchesGo::kToRoot && !executor_.is_root()) result_.patches[f] = {};
+  if (patches == PatchesGo::kToRoot) {
+    std::vector<FaceId> all(tables_.n_faces());
+    std::iota(all.begin(), all.end(), 0);
+    Patches whole = bring(all);
+    result_.patches.resize(tables_.n_faces());
+    for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+      result_.patches[f].face = f;
+      if (const auto it = whole.find(f); it != whole.end()) result_.patches[f] = std::move(it->second);
+    }
+    return;
   }
-  for (auto& [f, patch] : remote) result_.patches[f] = std::move(patch);
-  if (patches == PatchesGo::kNowhere) result_.places = places_;
+  struct OwnSection {
+    FaceId face;
+    std::size_t number;
+  };
+  std::vector<OwnSection> own;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
+      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s});
+  result_.rows.resize(own.size());
+  parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
+    result_.rows[i] = store_.take(own[i].face, places_[own[i].face], own[i].number);
+  });
+  result_.places = places_;
 }
 
 void FaceRounds::mesh_edges() {
@@ -308,8 +320,8 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
                [&](FaceId f) { return !tiled.is_cut(f) && !std::binary_search(light.begin(), light.end(), f); });
   mesh_faces(whole, tiled, progress);
-  executor_.begin_phase("join tiles");
-  std::vector<FaceId> failed = join(tiled);
+  executor_.begin_phase("seams");
+  std::vector<FaceId> failed = mesh_seams(tiled);
   share(executor_, failed);
   TiledRegions none(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (!failed.empty()) mesh_faces(failed, none, progress);
@@ -341,9 +353,10 @@ std::string FaceRounds::made_from() const {
   return hash_hex(bytes.data(), bytes.size());
 }
 
-/// Local, on any rank: the patch stays here.
-FaceRounds::FaceReport FaceRounds::keep_whole(FaceResult&& result) {
-  result.report.place = store_.put(std::move(result.patch), version_, result_.edges, tables_.vertex_xyz);
+/// Local, on any rank: the patch, or its last section, stays here.
+FaceRounds::FaceReport FaceRounds::keep(FaceResult&& result) {
+  PatchPlace& place = result.report.place;
+  place = store_.put(std::move(result.section), place.section, version_, result_.edges, tables_.vertex_xyz);
   return std::move(result.report);
 }
 
@@ -351,20 +364,21 @@ FaceRounds::FaceReport FaceRounds::keep_whole(FaceResult&& result) {
 Bytes FaceRounds::record_whole(FaceId f, const Bytes& bytes) const {
   FaceReport report;
   unpack(bytes, report);
-  if (!report.place.is_there()) return packed(FacePatch(), report);
-  return packed(store_.get(f, report.place.version)->patch, report);
+  if (!report.place.is_there()) return packed(PatchSection(), report);
+  return packed(store_.get(f, report.place)->section, report);
 }
 
 Bytes FaceRounds::restore_whole(Bytes&& whole) {
   FaceResult result;
   unpack(whole, result);
-  return packed(keep_whole(std::move(result)));
+  return packed(keep(std::move(result)));
 }
 
 void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
   FaceReport report;
   unpack(bytes, report);
-  take_face(f, std::move(report));
+  FacePlace place(report.place);
+  take_face(f, std::move(report), std::move(place));
 }
 
 /// Tasks: the cuts, then light faces.
@@ -388,7 +402,7 @@ void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& ti
          return task < n_cuts ? std::move(whole) : restore_whole(std::move(whole));
        }},
       [&](std::int32_t task) {
-        return task < n_cuts ? tiled.cut(task) : packed(keep_whole(mesh_whole(light[task - n_cuts])));
+        return task < n_cuts ? tiled.cut(task) : packed(keep(mesh_whole(light[task - n_cuts])));
       },
       [&](std::int32_t task, Bytes&& bytes) {
         if (task < n_cuts) return tiled.take_cut(task, bytes);
@@ -406,7 +420,7 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
   for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
   const auto label = [&](std::int32_t task) {
     if (task < n_whole) return TaskLabel{"face", whole[task]};
-    const TiledRegions::Tile& tile = tiled.tile(task - n_whole);
+    const TiledRegions::Section& tile = tiled.section(task - n_whole);
     return TaskLabel{"tile", tile.region, tile.index};
   };
   const auto record = [&](std::int32_t task, const Bytes& result) {
@@ -418,8 +432,7 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
   executor_.run_named_tasks(
       {heaviest_first(work), label, made_from(), {}, record, restore},
       [&](std::int32_t task) {
-        return task < n_whole ? packed(keep_whole(mesh_whole(whole[task])))
-                              : tiled.compute(task - n_whole, executor_.rank());
+        return task < n_whole ? packed(keep(mesh_whole(whole[task]))) : tiled.compute(task - n_whole, executor_.rank());
       },
       [&](std::int32_t task, Bytes&& bytes) {
         task < n_whole ? take_whole(whole[task], bytes) : tiled.take_place(task - n_whole, bytes);
@@ -428,39 +441,87 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
 }
 
 /// Tasks: the faces that were cut. Returns those of which a tile failed, or whose tiles do not fit, on rank 0.
-std::vector<FaceId> FaceRounds::join(TiledRegions& tiled) {
+std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
   std::vector<FaceId> failed;
   const std::vector<FaceId> cut = tiled.cut_regions();
   if (cut.empty()) return failed;
-  tiled.share_places(executor_);
+  tiled.mesh_groups(executor_, made_from());
   std::vector<double> work;
   for (const FaceId f : cut) work.push_back(weight(f));
+  std::map<FaceId, FaceReport> parted;
   executor_.run_named_tasks(
       {heaviest_first(work),
        [&](std::int32_t task) {
-         return TaskLabel{"join", cut[task]};
+         return TaskLabel{"seams", cut[task], tiled.n_sections_of(cut[task])};
        },
        made_from(),
        {},
        [&](std::int32_t task, const Bytes& result) { return record_whole(cut[task], result); },
        [&](std::int32_t, Bytes&& whole) { return restore_whole(std::move(whole)); },
        [&](const Bytes& request) { return tiled.answer(request); }},
-      [&](std::int32_t task) {
-        return packed(keep_whole(
-            make_face(cut[task], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-              return tiled.join(surface, cut[task], boundary, executor_);
-            })));
-      },
+      [&](std::int32_t task) { return packed(keep(mesh_seams_of(cut[task], tiled))); },
       [&](std::int32_t task, Bytes&& bytes) {
         FaceReport report;
         unpack(bytes, report);
-        if (report.cause == FailureCause::kNone)
-          take_face(cut[task], std::move(report));
-        else
+        if (report.cause != FailureCause::kNone)
           failed.push_back(cut[task]);
+        else if (report.is_parted)
+          parted[cut[task]] = std::move(report);
+        else
+          take_whole(cut[task], bytes);
       });
+  store_sections(tiled, std::move(parted));
   std::sort(failed.begin(), failed.end());
   return failed;
+}
+
+/// The seams as the last section of the patch; the whole patch where it has folds to be repaired.
+FaceRounds::FaceResult FaceRounds::mesh_seams_of(FaceId f, TiledRegions& tiled) const {
+  bool is_parted = false;
+  SeamMesh seams;
+  const auto make_mesh = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+    seams = tiled.seams(surface, f, boundary, executor_);
+    is_parted = seams.mesh.n_folds == 0 && !seams.mesh.corners.empty();
+    return is_parted ? std::move(seams.mesh) : tiled.join(f, boundary, std::move(seams), executor_);
+  };
+  FaceResult result = make_face(f, make_mesh);
+  if (!is_parted || result.report.cause != FailureCause::kNone) return result;
+  result.report.is_parted = true;
+  result.report.place.section = tiled.n_sections_of(f);
+  set_owners(seams.owner, result.section);
+  return result;
+}
+
+/// Collective. What is left of tiles and groups are sections of the patches of these faces (rank 0's), where they are.
+void FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted) {
+  std::vector<std::int32_t> sections;
+  for (std::int32_t s = 0; s < tiled.n_sections(); ++s)
+    if (parted.contains(tiled.section(s).region)) sections.push_back(s);
+  share(executor_, sections);
+  std::map<FaceId, std::vector<PatchPlace>> places;
+  for (auto& [f, report] : parted) places[f].resize(tiled.n_sections_of(f));
+  NamedTasks tasks;
+  for (const std::int32_t s : sections) tasks.home.push_back(tiled.rank_of(s));
+  tasks.order.resize(sections.size());
+  std::iota(tasks.order.begin(), tasks.order.end(), 0);
+  tasks.label = [&](std::int32_t task) {
+    return TaskLabel{"section", tiled.section(sections[task]).region, tiled.section(sections[task]).index};
+  };
+  executor_.run_named_tasks(
+      tasks,
+      [&](std::int32_t task) {
+        const auto [f, index] = tiled.section(sections[task]);
+        return packed(store_.put(make_section(tables_, f, index, tiled.take(sections[task]), *numbering_), index,
+                                 version_, result_.edges, tables_.vertex_xyz));
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        const auto [f, index] = tiled.section(sections[task]);
+        unpack(bytes, places[f][index]);
+      });
+  for (auto& [f, report] : parted) {
+    places[f].push_back(report.place);
+    take_face(f, std::move(report), FacePlace(std::move(places[f])));
+  }
 }
 
 FaceMeshOptions FaceRounds::face_options() const {
@@ -483,7 +544,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   FaceResult result;
   FaceReport& report = result.report;
   FaceBoundary boundary;
-  result.patch.face = f;
+  result.section.patch.face = f;
   try {
     if (const auto it = options_.left_out.find(f); it != options_.left_out.end())
       throw Error(ExitCode::kInternal, it->second);
@@ -492,7 +553,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     const FaceField field(field_, refinements_, tables_.face_box[f]);
     mesh = make_mesh(*surface, boundary, field.get());
     repair_folds(*surface, boundary, field.get(), face_options(), mesh);
-    if (mesh.cause == FailureCause::kNone) result.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
+    if (mesh.cause == FailureCause::kNone) result.section.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
   } catch (const Error& e) {
     mesh.cause = FailureCause::kError;
     report.error = e.what();
@@ -505,10 +566,10 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
 }
 
 /// Local, on rank 0.
-void FaceRounds::take_face(FaceId f, FaceReport&& report) {
+void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
   FaceOutcome& o = outcomes_[f];
-  n_meshed_ += static_cast<std::uint64_t>(report.place.n_triangles);
-  places_[f] = report.place;
+  n_meshed_ += static_cast<std::uint64_t>(place.n_triangles());
+  places_[f] = std::move(place);
   o.cause = report.cause;
   o.error = std::move(report.error);
   o.failed = std::move(report.failed);
@@ -600,10 +661,12 @@ void FaceRounds::remember_whole() {
 /// Collective. Patches that are neither part of the mesh nor of the one to go back to.
 void FaceRounds::drop_replaced() {
   std::vector<PlacedPatch> live;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    if (places_[f].is_there()) live.push_back({f, places_[f]});
+  const auto add = [&](FaceId f, const FacePlace& place) {
+    for (const PatchPlace& section : place.sections) live.push_back({f, section});
+  };
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) add(f, places_[f]);
   if (whole_)
-    for (const auto& [f, before] : whole_->faces) live.push_back({f, before.first});
+    for (const auto& [f, before] : whole_->faces) add(f, before.first);
   share(executor_, live);
   store_.keep_only(live);
 }

@@ -44,7 +44,7 @@ class FaceRounds : public MeshRounds {
   };
   struct WholeMesh {  // no face failed: what has been redone since, as it was
     EdgeMesh edges;
-    std::map<FaceId, std::pair<PatchPlace, FaceOutcome>> faces;
+    std::map<FaceId, std::pair<FacePlace, FaceOutcome>> faces;
   };
 
   void mesh_edges() override;
@@ -58,20 +58,23 @@ class FaceRounds : public MeshRounds {
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
   void end_at_vertices(EdgeId e, EdgeMesh& nodes) const;
   struct FaceReport {
-    PatchPlace place;
+    PatchPlace place;        // of the whole patch, or of its last section
+    bool is_parted = false;  // it has more
     FailureCause cause = FailureCause::kNone;
     std::string error;
     std::vector<RefinementPoint> wanted;
     int n_folds = 0;
     FailedFace failed;
 
-    static auto fields(auto& x) { return std::tie(x.place, x.cause, x.error, x.wanted, x.n_folds, x.failed); }
+    static auto fields(auto& x) {
+      return std::tie(x.place, x.is_parted, x.cause, x.error, x.wanted, x.n_folds, x.failed);
+    }
   };
   struct FaceResult {
-    FacePatch patch;
+    PatchSection section;
     FaceReport report;
 
-    static auto fields(auto& x) { return std::tie(x.patch, x.report); }
+    static auto fields(auto& x) { return std::tie(x.section, x.report); }
   };
   using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
   FaceMeshOptions face_options() const;
@@ -82,15 +85,17 @@ class FaceRounds : public MeshRounds {
   std::string made_from() const;
   void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
   void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
-  FaceReport keep_whole(FaceResult&& result);
+  FaceReport keep(FaceResult&& result);
   Bytes record_whole(FaceId f, const Bytes& report) const;
   Bytes restore_whole(Bytes&& whole);
   void take_whole(FaceId f, const Bytes& bytes);
   void put(FaceId f, FacePatch&& patch);
   double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
-  std::vector<FaceId> join(TiledRegions& tiled);
+  std::vector<FaceId> mesh_seams(TiledRegions& tiled);
+  FaceResult mesh_seams_of(FaceId f, TiledRegions& tiled) const;
+  void store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted);
   Regions faces_as_regions() const;
-  void take_face(FaceId f, FaceReport&& report);
+  void take_face(FaceId f, FaceReport&& report, FacePlace&& place);
   bool has_holes() const;
   void close_holes();
   void close_hole(FaceId f);
@@ -125,9 +130,9 @@ class FaceRounds : public MeshRounds {
   std::optional<WholeMesh> whole_;                    // the last one, on rank 0
   bool is_restored_ = false;
   PatchStore store_;
-  std::vector<PatchPlace> places_;  // [n_faces] of the patches, on rank 0
-  std::int64_t version_ = 0;        // of patches made in this round
-  std::int64_t own_version_ = 0;    // of patches that rank 0 changed itself: negative
+  std::vector<FacePlace> places_;  // [n_faces] of the patches, on rank 0
+  std::int64_t version_ = 0;       // of patches made in this round
+  std::int64_t own_version_ = 0;   // of patches that rank 0 changed itself: negative
   CrossingSearch crossings_;
 };
 

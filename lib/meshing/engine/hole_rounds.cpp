@@ -227,7 +227,7 @@ void HoleRounds::fill_holes(const std::vector<HoleRim>& rims, const std::vector<
   for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
   const auto label = [&](std::int32_t task) {
     if (task < n_whole) return TaskLabel{"hole", rims[whole[task]].face, whole[task]};
-    return TaskLabel{"hole tile", rims[tiled.tile(task - n_whole).region].face, task - n_whole};
+    return TaskLabel{"hole tile", rims[tiled.section(task - n_whole).region].face, task - n_whole};
   };
   const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
     return mesh_face(surface, boundary, field, face_options());
@@ -259,7 +259,7 @@ std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& 
   const std::vector<std::int32_t> cut = tiled.cut_regions();
   std::vector<std::int32_t> failed;
   if (cut.empty()) return failed;
-  tiled.share_places(executor_);
+  tiled.mesh_groups(executor_, made_from(rims));
   std::vector<double> work;
   for (const std::int32_t i : cut) work.push_back(expected[i]);
   const auto label = [&](std::int32_t task) { return TaskLabel{"hole join", rims[cut[task]].face, cut[task]}; };
@@ -274,7 +274,7 @@ std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& 
       [&](std::int32_t task) {
         return packed(
             fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-              return tiled.join(surface, cut[task], boundary, executor_);
+              return tiled.join(cut[task], boundary, tiled.seams(surface, cut[task], boundary, executor_), executor_);
             }));
       },
       [&](std::int32_t task, Bytes&& result) { unpack(result, fills[cut[task]]); });

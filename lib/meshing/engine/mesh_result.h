@@ -42,10 +42,12 @@ struct MeshTimes {
 /// rank.
 struct MeshResult {
   EdgeMesh edges;
-  std::vector<FacePatch> patches;        ///< by face; without triangles where the face failed, or is on another rank
-  std::vector<PatchPlace> places;        ///< by face: of those that stay where they were made; else empty
-  SurfaceMesh mesh;                      ///< the whole, where holes of one were filled and it was asked for
-  std::vector<FaceFailure> failures;     ///< by face
+  std::vector<FacePatch> patches;     ///< by face; without triangles where the face failed. Or, where they stay where
+                                      ///< they were made:
+  std::vector<SectionRows> rows;      ///< those of this rank
+  std::vector<FacePlace> places;      ///< by face
+  SurfaceMesh mesh;                   ///< the whole, where holes of one were filled and it was asked for
+  std::vector<FaceFailure> failures;  ///< by face
   std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
   std::vector<RefinementPoint> folds;    ///< places where a triangle is still turned against the surface
   int n_rounds = 0, n_refinements = 0;

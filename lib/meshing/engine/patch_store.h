@@ -6,23 +6,46 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/executor.h"
 #include "mesh/patch_blocks.h"
+#include "mesh/patch_section.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
 
-/// Where the patch of a face is, and how large.
+/// Where a section of a patch is, and how large; see PatchSection.
 struct PatchPlace {
-  std::int32_t rank = kNone;  ///< kNone: the face has no triangles
+  std::int32_t rank = kNone;  ///< kNone: it has no triangles
+  std::int32_t section = 0;   ///< of its face
   std::int64_t version = 0;   ///< a face may have several patches at a time, of different rounds
-  std::int32_t n_boundary = 0, n_inner = 0, n_triangles = 0, n_own_uv = 0;
+  std::int32_t n_boundary = 0, n_inner = 0, n_triangles = 0, n_own_uv = 0;  ///< n_inner: of its own
+  SectionBegin begin;
   Box3 box;  ///< of the triangles
 
   bool is_there() const { return rank != kNone; }
+};
+
+/// Where the patch of a face is.
+struct FacePlace {
+  std::vector<PatchPlace> sections;  ///< by number; the last one has all boundary nodes. None: no triangles
+
+  FacePlace() = default;
+  explicit FacePlace(const PatchPlace& whole) {
+    if (whole.is_there()) sections.push_back(whole);
+  }
+  /// Sections of one face, whose rows follow each other.
+  explicit FacePlace(std::vector<PatchPlace> sections);
+
+  bool is_there() const { return !sections.empty(); }
+  std::int64_t n_triangles() const;
+  std::vector<SectionBegin> begins() const;
+
+  static auto fields(auto& p) { return std::tie(p.sections); }
 };
 
 struct PlacedPatch {
@@ -30,8 +53,15 @@ struct PlacedPatch {
   PatchPlace place;
 };
 
+struct PlacedFace {
+  FaceId face = kNone;
+  FacePlace place;
+
+  static auto fields(auto& p) { return std::tie(p.face, p.place); }
+};
+
 struct StoredPatch {
-  FacePatch patch;
+  PatchSection section;
   PatchBlocks blocks;
 };
 
@@ -41,21 +71,22 @@ class PatchStore {
   /// `executor` outlives the object.
   explicit PatchStore(const Executor& executor) : executor_(executor) {}
 
-  /// Keeps a patch whose boundary has its nodes on these edges; one without triangles is dropped.
-  PatchPlace put(FacePatch&& patch, std::int64_t version, const EdgeMesh& edges, std::span<const Vec3> vertex_xyz);
+  /// Keeps a section whose boundary has its nodes on these edges; one without triangles is dropped.
+  PatchPlace put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
+                 std::span<const Vec3> vertex_xyz);
   bool is_own(const PatchPlace& place) const { return place.rank == executor_.rank(); }
   /// Precondition: it is kept here.
-  std::shared_ptr<const StoredPatch> get(FaceId face, std::int64_t version) const;
-  /// Likewise, and it is not kept any more.
-  FacePatch take(FaceId face, std::int64_t version);
-  /// Drops all others. `live`: by face; of other ranks, too.
+  std::shared_ptr<const StoredPatch> get(FaceId face, const PatchPlace& place) const;
+  /// Likewise, and it is not kept any more: section `number` of the patch that is there.
+  SectionRows take(FaceId face, const FacePlace& place, std::size_t number);
+  /// Drops all others. `live`: of other ranks, too.
   void keep_only(const std::vector<PlacedPatch>& live);
 
   /// Collective. Copies of these patches on rank 0, which alone knows what it wants; nothing on other ranks.
-  std::vector<FacePatch> bring(std::vector<PlacedPatch> wanted) const;
+  std::vector<FacePatch> bring(std::vector<PlacedFace> wanted) const;
 
  private:
-  using Key = std::pair<FaceId, std::int64_t>;
+  using Key = std::tuple<FaceId, std::int64_t, std::int32_t>;  // face, version, section
 
   const Executor& executor_;
   mutable std::mutex mutex_;

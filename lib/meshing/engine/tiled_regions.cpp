@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
@@ -39,12 +40,19 @@ void TiledRegions::share_cuts(const Executor& executor) {
   share(executor, chosen_cuts_);
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     if (chosen_cuts_[i].tiles.empty()) continue;
-    const auto n = static_cast<std::int32_t>(chosen_cuts_[i].tiles.size());
-    for (std::int32_t t = 0; t < n; ++t) tiles_.push_back({chosen_[i], t});
-    meshes_[chosen_[i]].resize(chosen_cuts_[i].tiles.size());
-    cuts_.emplace(chosen_[i], std::move(chosen_cuts_[i]));
+    const std::int32_t region = chosen_[i];
+    const TileCut& cut = cuts_.emplace(region, std::move(chosen_cuts_[i])).first->second;
+    const TileGroups& groups = groups_.emplace(region, TileGroups(cut)).first->second;
+    meshes_[region].resize(static_cast<std::size_t>(groups.n_tiles() + groups.n_groups()));
+    first_[region].tile = static_cast<std::int32_t>(sections_.size());
+    for (std::int32_t t = 0; t < groups.n_tiles(); ++t) sections_.push_back({region, t});
   }
-  rank_of_.assign(tiles_.size(), 0);
+  n_tiles_ = static_cast<std::int32_t>(sections_.size());
+  for (const auto& [region, groups] : groups_) {
+    first_[region].group = static_cast<std::int32_t>(sections_.size());
+    for (std::int32_t g = 0; g < groups.n_groups(); ++g) sections_.push_back({region, groups.n_tiles() + g});
+  }
+  rank_of_.assign(sections_.size(), 0);
 }
 
 std::vector<std::int32_t> TiledRegions::cut_regions() const {
@@ -54,64 +62,153 @@ std::vector<std::int32_t> TiledRegions::cut_regions() const {
 }
 
 Bytes TiledRegions::compute(std::int32_t tile, int rank) {
-  const auto [region, index] = tiles_[tile];
+  const auto [region, index] = sections_[tile];
   const FaceId f = regions_.face(region);
   const CurrentWork at_face("face", f + 1, limit_);
   const TileCut& cut = cuts_.at(region);
-  FaceMesh mesh;
+  SplitMesh& split = meshes_.at(region)[index];
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary whole = regions_.boundary(region, *surface);
-    mesh = mesh_face(*surface, tile_boundary(whole, cut, cut.tiles[index]), field_of(f).get(), options_);
+    FaceMesh mesh = mesh_face(*surface, tile_boundary(whole, cut, cut.tiles[index]), field_of(f).get(), options_);
+    split = split_tile(whole, cut, index, std::move(mesh));
   } catch (const Error&) {
-    mesh.cause = FailureCause::kError;
+    split.band.cause = FailureCause::kError;
   }
-  mesh.inner.shrink_to_fit();
-  mesh.corners.shrink_to_fit();
-  meshes_.at(region)[index] = std::move(mesh);
   return packed(static_cast<std::int32_t>(rank));
 }
 
-Bytes TiledRegions::restore(std::int32_t tile, const Bytes& bytes) {
-  unpack(bytes, meshes_.at(tiles_[tile].region)[tiles_[tile].index]);
+Bytes TiledRegions::restore(std::int32_t section, const Bytes& bytes) {
+  unpack(bytes, meshes_.at(sections_[section].region)[sections_[section].index]);
   return packed(std::int32_t{0});
 }
 
-void TiledRegions::take_place(std::int32_t tile, const Bytes& bytes) { unpack(bytes, rank_of_[tile]); }
-
-Bytes TiledRegions::answer(const Bytes& request) {
-  Tile tile{};
-  unpack(request, tile);
-  return packed(std::exchange(meshes_.at(tile.region)[tile.index], {}));
+void TiledRegions::mesh_groups(const Executor& executor, const std::string& made_from) {
+  share(executor, rank_of_);
+  const std::int32_t n_groups = n_sections() - n_tiles_;
+  if (n_groups == 0) return;
+  std::vector<double> work;
+  for (std::int32_t s = n_tiles_; s < n_sections(); ++s)
+    work.push_back(static_cast<double>(cuts_.at(sections_[s].region).nodes.size()));
+  const auto label = [&](std::int32_t task) {
+    const Section& s = sections_[n_tiles_ + task];
+    return TaskLabel{"seams", regions_.face(s.region), s.index};
+  };
+  executor.run_named_tasks(
+      {heaviest_first(work),
+       label,
+       made_from,
+       {},
+       [&](std::int32_t task, const Bytes&) { return record(n_tiles_ + task); },
+       [&](std::int32_t task, Bytes&& bytes) { return restore(n_tiles_ + task, bytes); },
+       [&](const Bytes& request) { return answer(request); }},
+      [&](std::int32_t task) {
+        mesh_group(n_tiles_ + task, executor);
+        return packed(static_cast<std::int32_t>(executor.rank()));
+      },
+      [&](std::int32_t task, Bytes&& bytes) { take_place(n_tiles_ + task, bytes); });
+  share(executor, rank_of_);
 }
 
-FaceMesh TiledRegions::join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
-                            const Executor& executor) {
-  std::vector<FaceMesh> meshes = std::move(meshes_.at(region));
-  std::vector<Request> requests;
-  std::vector<std::int32_t> missing;
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (tiles_[i].region != region) continue;
-    if (rank_of_[i] == executor.rank()) {
-      executor.has_own(PackedSize::of(meshes[tiles_[i].index]));
-      continue;
-    }
-    requests.push_back({rank_of_[i], packed(tiles_[i])});
-    missing.push_back(tiles_[i].index);
+void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
+  const auto [region, index] = sections_[section];
+  const FaceId f = regions_.face(region);
+  const CurrentWork at_face("face", f + 1, limit_);
+  const TileCut& cut = cuts_.at(region);
+  const TileGroups& groups = groups_.at(region);
+  SplitMesh& split = meshes_.at(region)[index];
+  const std::int32_t group = index - groups.n_tiles();
+  std::vector<SeamBand> bands = gather<SeamBand>(region, groups.members(group), executor);
+  try {
+    const auto surface = model_.surface(f);
+    const SurfaceMaker make_surface = [&] { return model_.surface(f); };
+    const FaceBoundary whole = regions_.boundary(region, *surface);
+    const FaceField field = field_of(f);
+    const SeamMaker maker{*surface, make_surface, whole, cut, groups, field.get(), options_};
+    split = split_group(whole, cut, index, maker.of_group(group, std::move(bands)));
+  } catch (const Error&) {
+    split.band.cause = FailureCause::kError;
   }
-  constexpr std::size_t kAtOnce = 8;  // tiles that are on their way
+}
+
+namespace {
+
+struct SectionRequest {
+  TiledRegions::Section section;
+  bool wants_band;
+};
+
+}  // namespace
+
+/// Moves the band out of the section, or all of it.
+template <class Part>
+Part TiledRegions::take_part(const Section& section) {
+  SplitMesh& mesh = meshes_.at(section.region)[section.index];
+  if constexpr (std::is_same_v<Part, SeamBand>)
+    return std::exchange(mesh.band, {});
+  else
+    return std::exchange(mesh, {});
+}
+
+/// Of these sections [first, end) of the region, whoever has them: they are gone there.
+template <class Part>
+std::vector<Part> TiledRegions::gather(std::int32_t region, const std::array<std::int32_t, 2>& members,
+                                       const Executor& executor) {
+  std::vector<Part> parts;
+  std::vector<Request> requests;
+  std::vector<std::size_t> missing;
+  for (std::int32_t index = members[0]; index < members[1]; ++index) {
+    parts.emplace_back();
+    if (const int rank = rank_of(number_of(region, index)); rank != executor.rank()) {
+      requests.push_back({rank, packed(SectionRequest{{region, index}, std::is_same_v<Part, SeamBand>})});
+      missing.push_back(parts.size() - 1);
+    } else {
+      parts.back() = take_part<Part>({region, index});
+      executor.has_own(PackedSize::of(parts.back()));
+    }
+  }
+  constexpr std::size_t kAtOnce = 16;  // that are on their way
   for (std::size_t first = 0; first < requests.size(); first += kAtOnce) {
     const std::size_t end = std::min(first + kAtOnce, requests.size());
     std::vector<Bytes> answers = executor.ask(
         {requests.begin() + static_cast<std::ptrdiff_t>(first), requests.begin() + static_cast<std::ptrdiff_t>(end)});
     for (std::size_t i = 0; i < answers.size(); ++i) {
-      unpack(answers[i], meshes[missing[first + i]]);
+      unpack(answers[i], parts[missing[first + i]]);
       answers[i] = {};
     }
   }
+  return parts;
+}
+
+std::int32_t TiledRegions::number_of(std::int32_t region, std::int32_t index) const {
+  const First& first = first_.at(region);
+  const std::int32_t n_tiles = groups_.at(region).n_tiles();
+  return index < n_tiles ? first.tile + index : first.group + index - n_tiles;
+}
+
+Bytes TiledRegions::answer(const Bytes& request) {
+  SectionRequest asked{};
+  unpack(request, asked);
+  return asked.wants_band ? packed(take_part<SeamBand>(asked.section)) : packed(take_part<SplitMesh>(asked.section));
+}
+
+SplitMesh TiledRegions::take(std::int32_t section) { return take_part<SplitMesh>(sections_[section]); }
+
+SeamMesh TiledRegions::seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
+                             const Executor& executor) {
   const FaceId f = regions_.face(region);
-  const auto make_surface = [&] { return model_.surface(f); };
-  return join_tiles(surface, make_surface, boundary, cuts_.at(region), field_of(f).get(), options_, std::move(meshes));
+  const SurfaceMaker make_surface = [&] { return model_.surface(f); };
+  const TileGroups& groups = groups_.at(region);
+  const FaceField field = field_of(f);
+  return SeamMaker{surface, make_surface, boundary, cuts_.at(region), groups, field.get(), options_}.of_face(
+      gather<SeamBand>(region, groups.members_of_face(), executor));
+}
+
+FaceMesh TiledRegions::join(std::int32_t region, const FaceBoundary& boundary, SeamMesh seams,
+                            const Executor& executor) {
+  if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
+  return join_sections(static_cast<std::int32_t>(boundary.nodes.size()),
+                       gather<SplitMesh>(region, {0, n_sections_of(region)}, executor), std::move(seams));
 }
 
 }  // namespace st

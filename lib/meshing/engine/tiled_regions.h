@@ -1,8 +1,10 @@
-// Heavy faces and holes as several tasks: cut into tiles, meshed tile by tile, joined.
+// Heavy faces and holes as several tasks: cut into tiles, meshed tile by tile, enhanced along the cuts.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,8 +12,8 @@
 #include "base/executor.h"
 #include "base/share.h"
 #include "geometry/model/model.h"
-#include "meshing/face/face_tiles.h"
 #include "meshing/face/refinements.h"
+#include "meshing/face/seam_mesh.h"
 
 namespace st {
 
@@ -38,8 +40,9 @@ struct Regions {
   std::function<std::vector<BoundaryPlace>(const FaceBoundary& boundary)> places;
 };
 
-/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, then the joins. All tasks are
-/// pure functions of the boundary and the sizes.
+/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams or
+/// joins. All tasks are pure functions of the boundary and the sizes. Tiles, and groups of them, are the sections of a
+/// region (see SeamMesh): each stays on the rank that makes it.
 class TiledRegions {
  public:
   /// All references outlive the object. `limit`: of a tile.
@@ -65,30 +68,48 @@ class TiledRegions {
   bool is_cut(std::int32_t region) const { return cuts_.contains(region); }
   /// Those that are, ascending.
   std::vector<std::int32_t> cut_regions() const;
-  std::int32_t n_tiles() const { return static_cast<std::int32_t>(tiles_.size()); }
+  std::int32_t n_tiles() const { return n_tiles_; }
   /// Expected triangles.
-  double weight(std::int32_t tile) const { return cuts_.at(tiles_[tile].region).tiles[tiles_[tile].index].weight; }
+  double weight(std::int32_t tile) const {
+    return cuts_.at(sections_[tile].region).tiles[sections_[tile].index].weight;
+  }
 
-  struct Tile {
-    std::int32_t region, index;
+  struct Section {
+    std::int32_t region, index;  ///< tiles first, then groups
   };
-  const Tile& tile(std::int32_t tile) const { return tiles_[tile]; }
+  /// The tiles of all regions, then the groups.
+  std::int32_t n_sections() const { return static_cast<std::int32_t>(sections_.size()); }
+  const Section& section(std::int32_t section) const { return sections_[section]; }
+  std::int32_t n_sections_of(std::int32_t region) const { return static_cast<std::int32_t>(meshes_.at(region).size()); }
   /// Local: the mesh of one tile, which stays on this rank: returns where that is, for take_place() on rank 0.
   Bytes compute(std::int32_t tile, int rank);
-  void take_place(std::int32_t tile, const Bytes& bytes);
+  void take_place(std::int32_t section, const Bytes& bytes) { unpack(bytes, rank_of_[section]); }
   /// Local, on its rank: the mesh. Likewise what of an earlier run comes to rank 0; returns as compute() does.
-  Bytes record(std::int32_t tile) const { return packed(meshes_.at(tiles_[tile].region)[tiles_[tile].index]); }
-  Bytes restore(std::int32_t tile, const Bytes& bytes);
-  /// Collective, when all were taken: every rank knows where the tiles are.
-  void share_places(const Executor& executor) { share(executor, rank_of_); }
+  Bytes record(std::int32_t section) const {
+    return packed(meshes_.at(sections_[section].region)[sections_[section].index]);
+  }
+  Bytes restore(std::int32_t section, const Bytes& bytes);
+  /// Collective, when all tiles were taken: the seams within groups. `made_from`: as for NamedTasks.
+  void mesh_groups(const Executor& executor, const std::string& made_from);
+  int rank_of(std::int32_t section) const { return rank_of_[section]; }
 
-  /// Local, by tasks that `answer` belongs to: the whole mesh of a region; its tiles are gone after it. Several threads
-  /// may join different regions.
-  FaceMesh join(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
-  /// Local: a tile for a rank that joins its region.
+  /// Local, by tasks that `answer` belongs to: the triangles about the cuts between the sections of a region. Several
+  /// threads may do this for different regions; once for each.
+  SeamMesh seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
+  /// Likewise after it: the mesh of the whole region; its sections are gone then.
+  FaceMesh join(std::int32_t region, const FaceBoundary& boundary, SeamMesh seams, const Executor& executor);
+  /// Local: of a section, for a rank that asks for it.
   Bytes answer(const Bytes& request);
+  /// Local, on its rank: what is left of it without the band.
+  SplitMesh take(std::int32_t section);
 
  private:
+  template <class Part>
+  std::vector<Part> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, const Executor& executor);
+  template <class Part>
+  Part take_part(const Section& section);
+  std::int32_t number_of(std::int32_t region, std::int32_t index) const;
+  void mesh_group(std::int32_t section, const Executor& executor);
   TileCut cut_of(std::int32_t region) const;
   FaceField field_of(FaceId f) const { return FaceField(field_, refinements_, model_.tables().face_box[f]); }
 
@@ -102,9 +123,15 @@ class TiledRegions {
   std::vector<std::int32_t> chosen_;
   std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
   std::map<std::int32_t, TileCut> cuts_;
-  std::vector<Tile> tiles_;
-  std::vector<std::int32_t> rank_of_;                     // [n_tiles] where its mesh is
-  std::map<std::int32_t, std::vector<FaceMesh>> meshes_;  // by region, of its tiles: those that are here
+  std::map<std::int32_t, TileGroups> groups_;  // by region
+  std::vector<Section> sections_;
+  std::int32_t n_tiles_ = 0;
+  std::vector<std::int32_t> rank_of_;  // [n_sections] where its mesh is
+  struct First {
+    std::int32_t tile, group;
+  };
+  std::map<std::int32_t, First> first_;                    // by region: numbers of its sections among all
+  std::map<std::int32_t, std::vector<SplitMesh>> meshes_;  // by region, of its sections: those that are here
 };
 
 }  // namespace st

@@ -20,12 +20,13 @@ class EdgeCheck {
   EdgeCheck(const FaceBoundary& boundary, FaceMesh& mesh)
       : boundary_(boundary), r_(mesh), n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {}
 
-  void run() {
+  void run(std::span<const std::array<std::int32_t, 2>> elsewhere) {
     constexpr std::size_t kPerPiece = 65'536;
     const std::size_t n = r_.corners.size() / 3;
     std::vector<Scan> scans((n + kPerPiece - 1) / kPerPiece);
     parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) { scan(begin, end, scans[begin / kPerPiece]); });
     std::vector<NodePair> uses, loop_uses;  // of edges with a boundary node
+    for (const auto& [a, b] : elsewhere) uses.push_back({a, b});
     for (const Scan& s : scans) {
       for (const RefinementPoint& p : s.narrow) {
         r_.cause = FailureCause::kNarrowPart;
@@ -118,7 +119,9 @@ bool has_pole_side(const Triangulation& mesh, const PlaneTriangle& t) {
   return are_one_pole(n[t.v[0]], n[t.v[1]]) || are_one_pole(n[t.v[1]], n[t.v[2]]) || are_one_pole(n[t.v[2]], n[t.v[0]]);
 }
 
-void check_edges(const FaceBoundary& boundary, FaceMesh& mesh) { EdgeCheck(boundary, mesh).run(); }
+void check_edges(const FaceBoundary& boundary, FaceMesh& mesh, std::span<const std::array<std::int32_t, 2>> elsewhere) {
+  EdgeCheck(boundary, mesh).run(elsewhere);
+}
 
 void check_folds(const Triangulation& m, FaceMesh& mesh) {
   const auto report = [&](const PlaneTriangle& t) {

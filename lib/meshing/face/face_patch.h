@@ -1,15 +1,27 @@
 // A face's patch: made from its mesh.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "geometry/model/model.h"
+#include "mesh/patch_section.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/seam_mesh.h"
 
 namespace st {
 
 /// A face's mesh as a patch: boundary nodes once each, triangles out of the solid.
 FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
                      const BoundaryNumbering& numbering);
+
+/// What is left of a tile or group likewise, as the section of this number.
+PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, SplitMesh&& split,
+                          const BoundaryNumbering& numbering);
+
+/// The nodes of other sections, which are the last inner ones.
+void set_owners(std::span<const SectionNode> owner, PatchSection& section);
 
 }  // namespace st

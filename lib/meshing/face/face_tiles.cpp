@@ -6,11 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
+#include <set>
 
-#include "base/parallel_reserve.h"
-#include "base/threads.h"
-#include "meshing/face/face_check.h"
 #include "meshing/face/scaled_field.h"
 
 namespace st {
@@ -171,15 +168,26 @@ class TileCutter {
     return std::move(result_);
   }
 
+  /// A side of a coarse triangle, from corner a to corner b.
+  struct Side {
+    std::int32_t a, b, triangle;
+    auto operator<=>(const Side&) const = default;
+  };
+
   void find_sides() {
-    triangle_left_of_.clear();
+    sides_.clear();
     for (std::int32_t t = 0; t < n_coarse(); ++t)
-      for (int k = 0; k < 3; ++k) triangle_left_of_[{corner(t, k), corner(t, (k + 1) % 3)}] = t;
+      for (int k = 0; k < 3; ++k) sides_.push_back({corner(t, k), corner(t, (k + 1) % 3), t});
+    std::sort(sides_.begin(), sides_.end());
+    beyond_.assign(coarse_.corners.size(), kNone);
+    for (std::int32_t t = 0; t < n_coarse(); ++t)
+      for (int k = 0; k < 3; ++k) beyond_[3 * t + k] = left_of(corner(t, (k + 1) % 3), corner(t, k));
   }
 
+  /// The triangle that has the side from a to b.
   std::int32_t left_of(std::int32_t a, std::int32_t b) const {
-    const auto it = triangle_left_of_.find({a, b});
-    return it == triangle_left_of_.end() ? kNone : it->second;
+    const auto it = std::lower_bound(sides_.begin(), sides_.end(), Side{a, b, 0});
+    return it == sides_.end() || it->a != a || it->b != b ? kNone : it->triangle;
   }
 
   void weigh() {
@@ -244,7 +252,7 @@ class TileCutter {
         if (touches_pole(t)) continue;
         std::array<std::int32_t, 3> beyond;
         for (int k = 0; k < 3; ++k) {
-          const std::int32_t o = left_of(corner(t, (k + 1) % 3), corner(t, k));
+          const std::int32_t o = beyond_[3 * t + k];
           beyond[k] = o == kNone ? kNone : part_[o];
         }
         for (int k = 0; k < 3; ++k)
@@ -278,7 +286,7 @@ class TileCutter {
         if (it != part_of_pole_.end()) part = it->second;
       } else if (from != kNone && to != kNone && left_of(from, to) != kNone) {
         part = part_[left_of(from, to)];
-        is_boundary_[{from, to}] = 1;
+        is_boundary_.insert({from, to});
       }
       if (part == kNone) return false;
       for_each_segment(parts_[s], [&](std::int32_t i, std::int32_t j) {
@@ -290,10 +298,10 @@ class TileCutter {
 
   /// Edges of the coarse mesh between two parts, cut into segments, to the tiles on both sides.
   void add_cuts() {
-    for (const auto& [side, t] : triangle_left_of_) {
-      const auto [a, b] = side;
+    for (const auto& [a, b, t] : sides_) {
+      if (a > b) continue;
       const std::int32_t o = left_of(b, a);
-      if (o == kNone || a > b || part_[t] == part_[o] || is_boundary_.contains({a, b})) continue;
+      if (o == kNone || part_[t] == part_[o] || is_boundary_.contains({a, b})) continue;
       const std::vector<std::int32_t> chain = cut_nodes(a, b);
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         result_.tiles[part_[t]].segments.push_back({chain[i], chain[i + 1]});
@@ -355,9 +363,10 @@ class TileCutter {
   FaceMesh coarse_;                      // its corners: coarse boundary nodes, then its inner ones
   std::vector<std::int32_t> of_coarse_;  // boundary node of each coarse boundary node
   std::vector<Corners> coarse_segments_;
-  std::vector<Part> parts_;  // what each of these stands for
-  std::map<Corners, std::int32_t> triangle_left_of_;
-  std::map<Corners, char> is_boundary_;
+  std::vector<Part> parts_;           // what each of these stands for
+  std::vector<Side> sides_;           // sorted
+  std::vector<std::int32_t> beyond_;  // [3*n_coarse] triangle across each side, kNone: none
+  std::set<Corners> is_boundary_;
   std::vector<double> weight_;  // of the coarse triangles: triangles expected in each
   std::vector<Vec3> middle_;
   std::vector<std::int32_t> part_;
@@ -368,34 +377,16 @@ class TileCutter {
   TileCut result_;
 };
 
-/// Nodes of a tile in the order of its boundary.
-std::vector<std::int32_t> nodes_of(const Tile& tile) {
-  std::vector<std::int32_t> nodes;
-  for (const auto& [a, b] : tile.segments) nodes.insert(nodes.end(), {a, b});
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-/// The nodes between each two tiles are a piece; so is each junction.
-std::vector<std::int32_t> pieces_of_cuts(const TileCut& cut, std::int32_t n_boundary) {
-  using Tiles = std::pair<std::int32_t, std::int32_t>;  // the first and the last that has the node
-  std::vector<Tiles> tiles(cut.nodes.size(), {kNone, kNone});
-  for (std::size_t i = 0; i < cut.tiles.size(); ++i)
-    for (const auto& segment : cut.tiles[i].segments)
-      for (const std::int32_t n : segment) {
-        if (n < n_boundary) continue;
-        Tiles& own = tiles[n - n_boundary];
-        own.second = static_cast<std::int32_t>(i);
-        if (own.first == kNone) own.first = own.second;
-      }
-  std::vector<Tiles> all = tiles;
+/// Boundary nodes of the face that several tiles have, ascending.
+std::vector<std::int32_t> shared_nodes(const std::vector<Tile>& tiles, std::int32_t n_boundary) {
+  std::vector<std::int32_t> all, shared;
+  for (const Tile& tile : tiles)
+    for (const std::int32_t n : nodes_of(tile))
+      if (n < n_boundary) all.push_back(n);
   std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  std::vector<std::int32_t> pieces;
-  for (const Tiles& own : tiles)
-    pieces.push_back(static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), own) - all.begin()));
-  return pieces;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i] == all[i - 1] && (shared.empty() || shared.back() != all[i])) shared.push_back(all[i]);
+  return shared;
 }
 
 }  // namespace
@@ -414,7 +405,18 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
 
 TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
                  const SizeField& field, double tile_triangles) {
-  return TileCutter(surface, boundary, places, field, tile_triangles).run();
+  TileCut cut = TileCutter(surface, boundary, places, field, tile_triangles).run();
+  cut.n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
+  cut.shared = shared_nodes(cut.tiles, cut.n_boundary);
+  return cut;
+}
+
+std::vector<std::int32_t> nodes_of(const Tile& tile) {
+  std::vector<std::int32_t> nodes;
+  for (const auto& [a, b] : tile.segments) nodes.insert(nodes.end(), {a, b});
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
 }
 
 FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, const Tile& tile) {
@@ -428,43 +430,6 @@ FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, con
   };
   for (const auto& [a, b] : tile.segments) own.segments.push_back({local(a), local(b)});
   return own;
-}
-
-FaceMesh join_tiles(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
-                    const TileCut& cut, const SizeField& field, const FaceMeshOptions& options,
-                    std::vector<FaceMesh> meshes) {
-  const auto n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
-  FaceMesh joined;
-  std::vector<std::size_t> first_inner{cut.nodes.size()}, first_corner{0};
-  for (const FaceMesh& mesh : meshes) {
-    if (joined.cause == FailureCause::kNone) joined.cause = mesh.cause;
-    joined.n_folds += mesh.n_folds;
-    for (const RefinementPoint& p : mesh.refinement)
-      if (joined.refinement.size() < kMostRefined) joined.refinement.push_back(p);
-    first_inner.push_back(first_inner.back() + mesh.inner.size());
-    first_corner.push_back(first_corner.back() + mesh.corners.size());
-  }
-  if (joined.cause != FailureCause::kNone) return joined;
-  parallel_reserve(joined.inner, first_inner.back());
-  parallel_reserve(joined.corners, first_corner.back());
-  joined.inner = cut.nodes;
-  for (FaceNode& n : joined.inner) n.id = kNone;
-  joined.inner.resize(first_inner.back());
-  joined.corners.resize(first_corner.back());
-  parallel_for(meshes.size(), 1, [&](std::size_t i, std::size_t) {
-    const std::vector<std::int32_t> nodes = nodes_of(cut.tiles[i]);
-    const auto n_own = static_cast<std::int32_t>(nodes.size());
-    const auto first = n_boundary + static_cast<std::int32_t>(first_inner[i]);
-    std::transform(meshes[i].corners.begin(), meshes[i].corners.end(), joined.corners.begin() + first_corner[i],
-                   [&](std::int32_t c) { return c == kNone  ? kNone
-                                                : c < n_own ? nodes[c]
-                                                            : first + c - n_own; });
-    std::copy(meshes[i].inner.begin(), meshes[i].inner.end(), joined.inner.begin() + first_inner[i]);
-    meshes[i] = {};
-  });
-  improve_seams(surface, make_surface, boundary, field, options, pieces_of_cuts(cut, n_boundary), joined);
-  check_edges(boundary, joined);
-  return joined;
 }
 
 }  // namespace st

@@ -1,4 +1,4 @@
-// A heavy face cut into tiles that are meshed one by one, and joined without a trace.
+// A heavy face cut into tiles that are meshed one by one.
 #pragma once
 
 #include <array>
@@ -9,7 +9,6 @@
 
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
-#include "meshing/face/tile_seams.h"
 
 namespace st {
 
@@ -36,10 +35,12 @@ struct Tile {
 
 /// How a face is cut: by its boundary and the sizes alone.
 struct TileCut {
-  std::vector<FaceNode> nodes;  ///< on the cuts, with ids beyond those of the boundary
-  std::vector<Tile> tiles;      ///< empty: the face stays whole
+  std::vector<FaceNode> nodes;       ///< on the cuts, with ids beyond those of the boundary
+  std::vector<Tile> tiles;           ///< empty: the face stays whole
+  std::int32_t n_boundary = 0;       ///< nodes on the boundary of the face
+  std::vector<std::int32_t> shared;  ///< of these, ascending: those that several tiles have
 
-  static auto fields(auto& x) { return std::tie(x.nodes, x.tiles); }
+  static auto fields(auto& x) { return std::tie(x.nodes, x.tiles, x.n_boundary, x.shared); }
 };
 
 /// Cuts a face along edges of a coarse mesh of itself into tiles of about `tile_triangles` triangles (Chen, Zhao, Zheng
@@ -48,13 +49,10 @@ struct TileCut {
 TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
                  const SizeField& field, double tile_triangles);
 
+/// Its nodes, ascending: the numbers of those of its boundary are their places here.
+std::vector<std::int32_t> nodes_of(const Tile& tile);
+
 /// What mesh_face() needs of one tile.
 FaceBoundary tile_boundary(const FaceBoundary& boundary, const TileCut& cut, const Tile& tile);
-
-/// The mesh of the face from the meshes of its tiles ([n_tiles]), improved in a band about the cuts: see
-/// improve_seams(). Its cause is that of the first tile that failed. Local, pure.
-FaceMesh join_tiles(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
-                    const TileCut& cut, const SizeField& field, const FaceMeshOptions& options,
-                    std::vector<FaceMesh> meshes);
 
 }  // namespace st

@@ -16,17 +16,19 @@
 namespace st {
 namespace {
 
-constexpr int kLayers = 4;  // of triangles on each side of a cut
 constexpr std::size_t kPerPart = 65'536;
 
 /// Disjoint triangles of a mesh that are enhanced together, and what becomes of them.
 class SeamPiece {
  public:
-  /// `is_inner(corner)`: all triangles of this node are in the piece.
+  using Sides = std::vector<std::pair<std::int32_t, std::int32_t>>;  // ids of the ends, the smaller first; sorted
+
+  /// `loops`: of the whole face. `is_inner(corner)`: all triangles of this node are in the piece.
   template <class IsInner>
-  SeamPiece(const Surface& surface, const FaceBoundary& boundary, const SizeField& field, FaceMesh& mesh,
-            std::vector<std::int32_t> triangles, const IsInner& is_inner)
+  SeamPiece(const Surface& surface, const FaceBoundary& boundary, const Sides& loops, const SizeField& field,
+            FaceMesh& mesh, std::vector<std::int32_t> triangles, const IsInner& is_inner)
       : boundary_(boundary),
+        loops_(loops),
         mesh_(mesh),
         n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
         triangles_(std::move(triangles)) {
@@ -114,29 +116,18 @@ class SeamPiece {
 
   /// Segments of the loops with triangles on both sides, too.
   void keep_loops() {
-    std::vector<std::int32_t> ids;  // of boundary nodes here
-    for (std::int32_t i = 0; i < n_fixed_; ++i)
-      if (of_number_[i] < n_boundary_) ids.push_back(boundary_.nodes[of_number_[i]].id);
-    std::sort(ids.begin(), ids.end());
-    const auto is_here = [&](std::int32_t n) {
-      return std::binary_search(ids.begin(), ids.end(), boundary_.nodes[n].id);
-    };
-    std::vector<std::pair<std::int32_t, std::int32_t>> loops;  // ids
-    for (const auto& [a, b] : boundary_.segments)
-      if (!ids.empty() && is_here(a) && is_here(b))
-        loops.push_back(std::minmax({boundary_.nodes[a].id, boundary_.nodes[b].id}));
-    std::sort(loops.begin(), loops.end());
     Triangulation& m = work_.mesh;
     for (std::size_t t = 0; t < m.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
         const std::int32_t a = m.nodes[m.triangles[t].v[k]].id, b = m.nodes[m.triangles[t].v[(k + 1) % 3]].id;
         if (a == kNone || b == kNone || a == b) continue;
         const std::pair<std::int32_t, std::int32_t> side = std::minmax({a, b});
-        if (std::binary_search(loops.begin(), loops.end(), side)) m.constrain(static_cast<std::int32_t>(t), k);
+        if (std::binary_search(loops_.begin(), loops_.end(), side)) m.constrain(static_cast<std::int32_t>(t), k);
       }
   }
 
   const FaceBoundary& boundary_;
+  const Sides& loops_;
   FaceMesh& mesh_;
   const std::int32_t n_boundary_;
   const std::vector<std::int32_t> triangles_;
@@ -157,7 +148,11 @@ class SeamBand {
         options_(options),
         mesh_(mesh),
         n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
-        is_gone_(mesh.inner.size(), 0) {}
+        is_gone_(mesh.inner.size(), 0) {
+    for (const auto& [a, b] : boundary.segments)
+      loops_.push_back(std::minmax({boundary.nodes[a].id, boundary.nodes[b].id}));
+    std::sort(loops_.begin(), loops_.end());
+  }
 
   void run(std::span<const std::int32_t> piece_of_cut) {
     find_band(piece_of_cut);
@@ -174,7 +169,7 @@ class SeamBand {
   void find_band(std::span<const std::int32_t> piece_of_cut) {
     const std::size_t n_triangles = mesh_.corners.size() / 3, n_nodes = n_boundary_ + mesh_.inner.size();
     parallel_reserve(layer_, n_nodes);
-    layer_.assign(n_nodes, kLayers + 1);
+    layer_.assign(n_nodes, kSeamLayers + 1);
     parallel_reserve(number_, n_nodes);
     number_.assign(n_nodes, kNone);
     for (std::size_t i = 0; i < piece_of_cut.size(); ++i) {
@@ -183,7 +178,7 @@ class SeamBand {
     }
     std::vector<std::uint8_t> is_in(n_triangles, 0);
     std::vector<std::vector<std::int32_t>> found(n_triangles / kPerPart + 1);
-    for (int layer = 0; layer < kLayers; ++layer) {
+    for (int layer = 0; layer < kSeamLayers; ++layer) {
       parallel_for(n_triangles, kPerPart, [&](std::size_t begin, std::size_t end) {
         std::vector<std::int32_t>& here = found[begin / kPerPart];
         here.clear();
@@ -222,7 +217,7 @@ class SeamBand {
   }
 
   /// All triangles of the node are in the band.
-  bool is_inside(std::int32_t corner) const { return corner >= n_boundary_ && layer_[corner] < kLayers; }
+  bool is_inside(std::int32_t corner) const { return corner >= n_boundary_ && layer_[corner] < kSeamLayers; }
 
   /// Each with the nodes that no other has.
   void improve_pieces() {
@@ -243,7 +238,7 @@ class SeamBand {
 
   /// Layers about the nodes that pieces share, as pieces of their own.
   void improve_joints() {
-    std::vector<std::uint8_t> layer(node_.size(), kLayers + 1), is_in(band_.size(), 0);
+    std::vector<std::uint8_t> layer(node_.size(), kSeamLayers + 1), is_in(band_.size(), 0);
     for (std::size_t i = 0; i < layer.size(); ++i)
       if (is_joint_[i]) layer[i] = 0;
     DisjointSets sets(static_cast<std::int64_t>(layer.size()));
@@ -251,7 +246,7 @@ class SeamBand {
       const std::int32_t* c = corners(t);
       return std::array{number_[c[0]], number_[c[1]], number_[c[2]]};
     };
-    for (int l = 0; l < kLayers; ++l)
+    for (int l = 0; l < kSeamLayers; ++l)
       for (std::size_t i = 0; i < band_.size(); ++i) {
         if (is_in[i] || corners(band_[i])[0] == kNone) continue;
         const auto n = numbers(band_[i]);
@@ -265,7 +260,7 @@ class SeamBand {
     std::map<std::int32_t, std::vector<std::int32_t>> joints;
     for (std::size_t i = 0; i < band_.size(); ++i)
       if (is_in[i]) joints[sets.find(numbers(band_[i])[0])].push_back(band_[i]);
-    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[number_[c]] < kLayers; });
+    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[number_[c]] < kSeamLayers; });
   }
 
   template <class IsInner>
@@ -275,7 +270,7 @@ class SeamBand {
     std::vector<FaceMesh> counts(triangles.size());
     parallel_for(triangles.size(), 1, [&](std::size_t i, std::size_t) {
       const std::unique_ptr<Surface> own = make_surface_ ? make_surface_() : nullptr;
-      SeamPiece piece(own ? *own : surface_, boundary_, field_, mesh_, std::move(triangles[i]), is_inner);
+      SeamPiece piece(own ? *own : surface_, boundary_, loops_, field_, mesh_, std::move(triangles[i]), is_inner);
       piece.enhance_it(options_);
       piece.count_folds(counts[i]);
       piece.store(is_gone_);
@@ -286,7 +281,8 @@ class SeamBand {
   /// Of the whole band, as it is now.
   void count_folds() {
     std::erase_if(band_, [&](std::int32_t t) { return corners(t)[0] == kNone; });
-    const SeamPiece all(surface_, boundary_, field_, mesh_, band_, [&](std::int32_t c) { return is_inside(c); });
+    const SeamPiece all(surface_, boundary_, loops_, field_, mesh_, band_,
+                        [&](std::int32_t c) { return is_inside(c); });
     all.count_folds(mesh_);
   }
 
@@ -336,8 +332,9 @@ class SeamBand {
   const FaceMeshOptions& options_;
   FaceMesh& mesh_;
   const std::int32_t n_boundary_;
+  SeamPiece::Sides loops_;
   std::vector<std::uint8_t> is_gone_;   // [n_inner]
-  std::vector<std::uint8_t> layer_;     // of each corner: steps from a cut, kLayers + 1: more
+  std::vector<std::uint8_t> layer_;     // of each corner: steps from a cut, kSeamLayers + 1: more
   std::vector<std::int32_t> number_;    // of each corner: place in node_, kNone: not in the band
   std::vector<std::int32_t> node_;      // corners in the band
   std::vector<std::int32_t> piece_;     // of each of these

@@ -10,6 +10,9 @@
 
 namespace st {
 
+/// Rows of triangles on each side of a cut that are enhanced.
+inline constexpr int kSeamLayers = 4;
+
 /// Makes a surface once more: one object serves one thread, for it remembers where it was evaluated last.
 using SurfaceMaker = std::function<std::unique_ptr<Surface>()>;
 

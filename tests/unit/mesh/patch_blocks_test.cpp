@@ -101,8 +101,8 @@ TEST_F(TwoSquares, meet_in_the_blocks_whose_boxes_meet) {
 
 TEST_F(TwoSquares, cross_in_the_triangles_that_the_whole_mesh_has) {
   const PatchBlocks a(edges, {}, flat), b(edges, {}, wave);
-  const PatchPart of_b = part_of(edges, {}, wave, b, b.meeting(a)),
-                  of_a = part_of(edges, {}, flat, a, a.meeting(PatchBlocks(of_b.boxes)));
+  const PatchPart of_b = part_of(edges, {}, {wave}, b, b.meeting(a)),
+                  of_a = part_of(edges, {}, {flat}, a, a.meeting(PatchBlocks(of_b.boxes)));
   EXPECT_LT(of_a.triangle.size() + of_b.triangle.size(), flat.triangles.size());
   const TwoParts both = join_parts(of_a, of_b);
   const auto n_first = static_cast<std::int32_t>(of_a.triangle.size());

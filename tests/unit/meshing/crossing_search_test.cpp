@@ -9,6 +9,7 @@
 
 #include "meshing/engine/patch_store.h"
 #include "support/meshed.h"
+#include "support/patch_sections.h"
 
 namespace st {
 namespace {
@@ -20,7 +21,7 @@ struct Search {
   const Meshed& meshed;
   PatchStore store{test::one_rank};
   std::int64_t version = 0;
-  std::vector<PatchPlace> places;
+  std::vector<FacePlace> places;
   CrossingSearch search;
 
   explicit Search(const Meshed& m, bool across_bodies = true)
@@ -29,7 +30,20 @@ struct Search {
     ++version;
     places.clear();
     for (FacePatch p : patches)
-      places.push_back(store.put(std::move(p), version, meshed.result.edges, meshed.model.tables().vertex_xyz));
+      places.emplace_back(store.put({std::move(p)}, 0, version, meshed.result.edges, meshed.model.tables().vertex_xyz));
+    return search.run(meshed.numbering(), places);
+  }
+  /// Each patch in two sections.
+  std::vector<RefinementPoint> run_in_two(const std::vector<FacePatch>& patches) {
+    ++version;
+    places.clear();
+    for (const FacePatch& p : patches) {
+      std::vector<PatchPlace> two;
+      for (PatchSection& s : test::in_two(p))
+        two.push_back(store.put(std::move(s), static_cast<std::int32_t>(two.size()), version, meshed.result.edges,
+                                meshed.model.tables().vertex_xyz));
+      places.emplace_back(std::move(two));
+    }
     return search.run(meshed.numbering(), places);
   }
   int n_pairs() const { return search.n_pairs(); }
@@ -91,6 +105,34 @@ TEST(CrossingSearch, measures_what_it_takes_to_part_bodies_and_leaves_those_in_c
   }
   EXPECT_TRUE(within.run(pin.result.patches).empty());
   EXPECT_TRUE(touching.run(boxes.result.patches).empty());
+}
+
+TEST(CrossingSearch, finds_in_sections_what_it_finds_in_whole_patches) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  Search sound(m);
+  EXPECT_TRUE(sound.run_in_two(patches).empty()) << "sections of a face have common nodes";
+  push_through(m, 0, patches[0]);
+  Search whole(m), sections(m);
+  const std::vector<RefinementPoint> places = whole.run(patches);
+  ASSERT_FALSE(places.empty());
+  EXPECT_EQ(sections.run_in_two(patches).size(), places.size());
+  EXPECT_EQ(sections.n_pairs(), whole.n_pairs());
+  for (FaceId f = 0; f < static_cast<FaceId>(patches.size()); ++f)
+    EXPECT_EQ(sections.search.crossing_in(f, true), whole.search.crossing_in(f, true));
+}
+
+TEST(CrossingSearch, finds_a_face_that_crosses_itself_from_section_to_section) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  std::swap(patches[2].inner_xyz.front(), patches[2].inner_xyz.back());
+  Search whole(m), sections(m);
+  whole.run(patches);
+  sections.run_in_two(patches);
+  const std::vector<std::size_t> least = whole.search.crossing_in(2, false),
+                                 all = sections.search.crossing_in(2, false);
+  ASSERT_FALSE(least.empty());
+  EXPECT_TRUE(std::ranges::includes(all, least)) << "the cone rule hides some within one section";
 }
 
 TEST(CrossingSearch, parts_faces_that_touch_in_a_node) {

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "meshing/engine/tiled_regions.h"
-#include "unit/meshing/faces.h"
+#include "unit/meshing/tiled_faces.h"
 
 namespace st {
 namespace {
@@ -14,19 +13,10 @@ using test::MeshView;
 
 constexpr double kTile = 1000;
 
-std::vector<BoundaryPlace> places_of(const FaceCase& face) {
-  return boundary_places(face.boundary, BoundaryNumbering(MeshTopology(face.model.tables()), face.edges));
-}
+TileCut cut(const FaceCase& face, const SizeField& field) { return test::cut(face, field, kTile); }
 
-TileCut cut(const FaceCase& face, const SizeField& field) {
-  return cut_face(*face.surface, face.boundary, places_of(face), field, kTile);
-}
-
-FaceMesh mesh_tiles(const FaceCase& face, const TileCut& cut, const SizeField& field) {
-  std::vector<FaceMesh> meshes;
-  for (const Tile& tile : cut.tiles)
-    meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, cut, tile), field, {}));
-  return join_tiles(*face.surface, {}, face.boundary, cut, field, {}, std::move(meshes));
+FaceMesh mesh_in_tiles(const FaceCase& face, const TileCut& cut, const SizeField& field) {
+  return test::join(face, test::mesh_sections(face, cut, field, test::mesh_tiles(face, cut, field)));
 }
 
 /// Face `id` of a shape, with the length that gives about ten tiles.
@@ -43,7 +33,7 @@ TEST_P(FaceTiles, are_joined_to_a_mesh_as_good_as_that_of_the_whole_face) {
   const FaceCase face(GetParam().shape, field, GetParam().id);
   const TileCut tiles = cut(face, field);
   ASSERT_GE(tiles.tiles.size(), 8u);
-  const FaceMesh whole = face.mesh(field), joined = mesh_tiles(face, tiles, field);
+  const FaceMesh whole = face.mesh(field), joined = mesh_in_tiles(face, tiles, field);
   test::expect_valid(face.boundary, joined);
   const MeshView a{face.boundary, whole}, b{face.boundary, joined};
   EXPECT_NEAR(b.area(), a.area(), 2e-3 * a.area());
@@ -91,7 +81,7 @@ TEST(TileCut, follows_sizes_that_grow_so_that_tiles_expect_alike) {
   const TileCut tiles = cut(face, field);
   ASSERT_GE(tiles.tiles.size(), 4u);
   for (const Tile& tile : tiles.tiles) EXPECT_LT(tile.weight, 2 * kTile);
-  test::expect_valid(face.boundary, mesh_tiles(face, tiles, field));
+  test::expect_valid(face.boundary, mesh_in_tiles(face, tiles, field));
 }
 
 TEST(TileCut, leaves_light_faces_and_stretched_ones_whole) {
@@ -99,27 +89,6 @@ TEST(TileCut, leaves_light_faces_and_stretched_ones_whole) {
   EXPECT_TRUE(cut(FaceCase("square", coarse), coarse).tiles.empty());
   const test::StretchedField stretched({0.1, 0.4, {1, 0, 0}});
   EXPECT_TRUE(cut(FaceCase("square", stretched), stretched).tiles.empty());
-}
-
-TEST(JoinTiles, says_of_the_first_tile_that_failed_why) {
-  const UniformField field(0.1);
-  const FaceCase face("square", field);
-  const TileCut tiles = cut(face, field);
-  ASSERT_GE(tiles.tiles.size(), 2u);
-  std::vector<FaceMesh> meshes(tiles.tiles.size());
-  meshes[1].cause = FailureCause::kTooManyNodes;
-  EXPECT_EQ(join_tiles(*face.surface, {}, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kTooManyNodes);
-}
-
-TEST(JoinTiles, sees_a_tile_that_is_missing) {
-  const UniformField field(0.1);
-  const FaceCase face("square", field);
-  const TileCut tiles = cut(face, field);
-  std::vector<FaceMesh> meshes;
-  for (const Tile& tile : tiles.tiles)
-    meshes.push_back(mesh_face(*face.surface, tile_boundary(face.boundary, tiles, tile), field, {}));
-  meshes.back() = {};
-  EXPECT_NE(join_tiles(*face.surface, {}, face.boundary, tiles, field, {}, meshes).cause, FailureCause::kNone);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/meshed.h"
+#include "support/patch_sections.h"
 
 namespace st {
 namespace {
@@ -14,31 +15,45 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
   const Meshed m("box", 8);
   PatchStore store(test::one_rank);
   const auto put = [&](FaceId f, std::int64_t version) {
-    return store.put(FacePatch(m.result.patches[f]), version, m.result.edges, m.model.tables().vertex_xyz);
+    return store.put({m.result.patches[f]}, 0, version, m.result.edges, m.model.tables().vertex_xyz);
   };
   const PatchPlace a = put(0, 1), b = put(0, 2), c = put(3, 1);
   EXPECT_TRUE(store.is_own(a));
   EXPECT_EQ(a.n_triangles, static_cast<std::int32_t>(m.result.patches[0].triangles.size()));
   EXPECT_LT(distance(c.box.center(), m.model.tables().face_box[3].center()), 1e-9);
-  EXPECT_EQ(packed(store.get(3, 1)->patch), packed(m.result.patches[3]));
-  const std::vector<FacePatch> copies = store.bring({{3, c}, {0, b}});
+  EXPECT_EQ(packed(store.get(3, c)->section.patch), packed(m.result.patches[3]));
+  const std::vector<FacePatch> copies = store.bring({{3, FacePlace(c)}, {0, FacePlace(b)}});
   ASSERT_EQ(copies.size(), 2u);
   EXPECT_EQ(copies[0].face, 3);
   EXPECT_EQ(packed(copies[1]), packed(m.result.patches[0]));
-  EXPECT_EQ(packed(store.take(0, 2)), packed(m.result.patches[0]));
+  EXPECT_EQ(packed(store.take(0, FacePlace(b), 0).rows), packed(m.result.patches[0]));
 }
 
 TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patch) {
   const Meshed m("box", 8);
   PatchStore store(test::one_rank);
-  const PatchPlace a = store.put(FacePatch(m.result.patches[0]), 1, m.result.edges, m.model.tables().vertex_xyz);
-  store.put(FacePatch(m.result.patches[1]), 1, m.result.edges, m.model.tables().vertex_xyz);
+  const PatchPlace a = store.put({m.result.patches[0]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
+  const PatchPlace b = store.put({m.result.patches[1]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
   store.keep_only({{0, a}});
-  EXPECT_NO_THROW(store.get(0, 1));
-  EXPECT_THROW(store.get(1, 1), std::out_of_range);
+  EXPECT_NO_THROW(store.get(0, a));
+  EXPECT_THROW(store.get(1, b), std::out_of_range);
   FacePatch empty;
   empty.face = 2;
-  EXPECT_FALSE(store.put(std::move(empty), 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
+  EXPECT_FALSE(store.put({std::move(empty)}, 0, 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
+}
+
+TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
+  const Meshed m("box", 8);
+  const FacePatch& whole = m.result.patches[0];
+  PatchStore store(test::one_rank);
+  std::vector<PatchPlace> places;
+  for (PatchSection& s : test::in_two(whole))
+    places.push_back(store.put(std::move(s), static_cast<std::int32_t>(places.size()), 1, m.result.edges,
+                               m.model.tables().vertex_xyz));
+  const FacePlace place(places);
+  EXPECT_EQ(place.n_triangles(), static_cast<std::int64_t>(whole.triangles.size()));
+  EXPECT_EQ(place.sections[1].begin.triangle, static_cast<std::int64_t>(whole.triangles.size() / 2));
+  EXPECT_EQ(packed(store.bring({{0, place}}).at(0)), packed(whole));
 }
 
 }  // namespace

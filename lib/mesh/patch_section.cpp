@@ -1,0 +1,80 @@
+#include "mesh/patch_section.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/threads.h"
+
+namespace st {
+namespace {
+
+constexpr int kSectionShift = 31;
+constexpr std::size_t kPerPiece = 65'536;
+
+}  // namespace
+
+std::int64_t inner_key(std::int32_t section, std::int32_t number) {
+  return -1 - (std::int64_t{section} << kSectionShift | number);
+}
+
+SectionRows rows_of(PatchSection&& section, std::span<const SectionBegin> begins, std::size_t own,
+                    std::int32_t n_boundary) {
+  SectionRows all{std::move(section.patch), begins[own], section.is_whole_boundary};
+  if (begins.size() == 1) return all;
+  FacePatch& p = all.rows;
+  const std::int32_t n_local = p.n_boundary, n_own = static_cast<std::int32_t>(p.inner_xyz.size()) - section.n_foreign;
+  std::vector<NodeId> foreign;  // where other sections have them
+  for (const std::int64_t key : std::span(section.shared_key).last(section.n_foreign)) {
+    const std::int64_t place = -1 - key;
+    const std::int64_t number = place & ((std::int64_t{1} << kSectionShift) - 1);
+    foreign.push_back(static_cast<NodeId>(n_boundary + begins[place >> kSectionShift].inner + number));
+  }
+  const auto number = [&](NodeId n) -> NodeId {
+    if (n < n_local) return all.has_boundary ? n : section.boundary_number[n];
+    n -= n_local;
+    return n < n_own ? static_cast<NodeId>(n_boundary + all.begin.inner + n) : foreign[n - n_own];
+  };
+  parallel_for(p.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (NodeId& n : p.triangles[t].n) n = number(n);
+  });
+  for (std::int32_t& corner : p.uv_corner) corner += static_cast<std::int32_t>(3 * all.begin.triangle);
+  p.inner_xyz.resize(n_own);
+  p.inner_uv.resize(n_own);
+  p.inner_size.resize(n_own);
+  if (!all.has_boundary) {
+    p.boundary_dim.clear();
+    p.boundary_entity.clear();
+    p.boundary_index.clear();
+  }
+  p.n_boundary = n_boundary;
+  return all;
+}
+
+FacePatch join_rows(std::vector<SectionRows>&& rows) {
+  if (rows.size() == 1) return std::move(rows[0].rows);
+  FacePatch whole;
+  const auto append = [&](auto FacePatch::*column, FacePatch& some) {
+    (whole.*column).insert((whole.*column).end(), (some.*column).begin(), (some.*column).end());
+    some.*column = {};
+  };
+  for (SectionRows& some : rows) {
+    FacePatch& p = some.rows;
+    whole.face = p.face;
+    whole.n_boundary = p.n_boundary;
+    append(&FacePatch::boundary_dim, p);
+    append(&FacePatch::boundary_entity, p);
+    append(&FacePatch::boundary_index, p);
+    append(&FacePatch::inner_xyz, p);
+    append(&FacePatch::inner_uv, p);
+    append(&FacePatch::inner_size, p);
+    append(&FacePatch::triangles, p);
+    append(&FacePatch::uv_corner, p);
+    append(&FacePatch::own_uv, p);
+    append(&FacePatch::inner_previous, p);
+    append(&FacePatch::triangle_previous, p);
+  }
+  return whole;
+}
+
+}  // namespace st

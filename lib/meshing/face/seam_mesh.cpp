@@ -1,0 +1,443 @@
+#include "meshing/face/seam_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "base/parallel_reserve.h"
+#include "base/threads.h"
+#include "meshing/face/face_check.h"
+
+namespace st {
+namespace {
+
+constexpr std::int32_t kFewTiles = 12;  // whose cuts are enhanced at once
+
+std::int32_t size_of(const auto& rows) { return static_cast<std::int32_t>(rows.size()); }
+
+/// Separates what is near the cuts from the rest of a section.
+class SectionSplitter {
+ public:
+  /// `places`: of the boundary nodes of the mesh among boundary and cut nodes. `owner`: of its last inner nodes.
+  SectionSplitter(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section,
+                  std::vector<std::int32_t> places, FaceMesh mesh, std::vector<SectionNode> owner)
+      : boundary_(boundary),
+        cut_(cut),
+        section_(section),
+        n_face_(size_of(boundary.nodes)),
+        places_(std::move(places)),
+        n_boundary_(size_of(places_)),
+        mesh_(std::move(mesh)),
+        owner_(std::move(owner)),
+        n_own_(size_of(mesh_.inner) - size_of(owner_)) {}
+
+  SplitMesh run() {
+    SeamBand& band = split_.band;
+    band.cause = mesh_.cause;
+    band.refinement = std::move(mesh_.refinement);
+    band.n_folds = mesh_.n_folds;
+    if (mesh_.cause != FailureCause::kNone) return std::move(split_);
+    find_layers();
+    find_uses();
+    number_nodes();
+    number_boundary();
+    share_triangles();
+    return std::move(split_);
+  }
+
+ private:
+  static constexpr std::uint8_t kInRest = 1, kInBand = 2;
+
+  /// Steps from a cut node; nodes that the face's boundary shares with other tiles are a step away at most.
+  void find_layers() {
+    layer_.assign(n_boundary_ + mesh_.inner.size(), kSeamLayers + 1);
+    for (std::int32_t i = 0; i < n_boundary_; ++i) {
+      if (places_[i] >= n_face_)
+        layer_[i] = 0;
+      else if (std::binary_search(cut_.shared.begin(), cut_.shared.end(), places_[i]))
+        layer_[i] = 1;
+    }
+    is_in_band_.assign(mesh_.corners.size() / 3, 0);
+    std::vector<std::size_t> found;
+    for (int layer = 0; layer < kSeamLayers; ++layer) {
+      found.clear();
+      for (std::size_t t = 0; t < is_in_band_.size(); ++t)
+        if (!is_in_band_[t] && nearest_layer(t) <= layer) found.push_back(t);
+      for (const std::size_t t : found) {
+        is_in_band_[t] = 1;
+        for (int k = 0; k < 3; ++k) {
+          std::uint8_t& own = layer_[mesh_.corners[3 * t + k]];
+          own = std::min(own, static_cast<std::uint8_t>(layer + 1));
+        }
+      }
+    }
+  }
+
+  std::uint8_t nearest_layer(std::size_t t) const {
+    const std::int32_t* c = &mesh_.corners[3 * t];
+    return std::min({layer_[c[0]], layer_[c[1]], layer_[c[2]]});
+  }
+
+  void find_uses() {
+    uses_.assign(n_boundary_ + mesh_.inner.size(), 0);
+    for (std::size_t i = 0; i < mesh_.corners.size(); ++i)
+      uses_[mesh_.corners[i]] |= is_in_band_[i / 3] ? kInBand : kInRest;
+  }
+
+  /// Nodes of the rest are its own, then others'; so are those of the band: its own, then those of sections.
+  void number_nodes() {
+    in_rest_.assign(mesh_.inner.size(), kNone);
+    in_band_.assign(mesh_.inner.size(), kNone);
+    const auto uses = [&](std::int32_t i) { return uses_[n_boundary_ + i]; };
+    for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
+      if (!(uses(i) & kInRest)) continue;
+      in_rest_[i] = size_of(split_.rest.inner);
+      split_.rest.inner.push_back(mesh_.inner[i]);
+      if (i >= n_own_) split_.owner.push_back(owner_[i - n_own_]);
+      if (i < n_own_ && uses(i) & kInBand) split_.shared.push_back(in_rest_[i]);
+    }
+    SeamBand& band = split_.band;
+    const auto add = [&](std::int32_t i) {
+      in_band_[i] = size_of(band.nodes);
+      band.nodes.push_back(mesh_.inner[i]);
+    };
+    for (std::int32_t i = 0; i < n_own_; ++i)
+      if (uses(i) == kInBand) add(i);
+    for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
+      if (!(uses(i) & kInBand) || in_band_[i] != kNone) continue;
+      add(i);
+      band.owner.push_back(i < n_own_ ? SectionNode{section_, in_rest_[i]} : owner_[i - n_own_]);
+    }
+  }
+
+  void number_boundary() {
+    std::vector<std::int32_t> ids;  // of the whole boundary
+    for (const FaceNode& n : boundary_.nodes) ids.push_back(n.id);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    boundary_in_rest_.assign(n_boundary_, kNone);
+    for (std::int32_t i = 0; i < n_boundary_; ++i) {
+      if (!(uses_[i] & kInRest)) continue;
+      boundary_in_rest_[i] = size_of(split_.boundary);
+      split_.boundary.push_back(boundary_.nodes[places_[i]]);
+      split_.number.push_back(places_[i]);
+      const auto own = std::lower_bound(ids.begin(), ids.end(), split_.boundary.back().id);
+      split_.boundary_number.push_back(static_cast<std::int32_t>(own - ids.begin()));
+    }
+    std::vector<std::int32_t>& numbers = split_.boundary_number;
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+
+  /// Triangles that stay have no cut node, for these have the band around them.
+  void share_triangles() {
+    const std::int32_t first_in_band = n_face_ + size_of(cut_.nodes), first_in_rest = size_of(split_.boundary);
+    for (std::size_t t = 0; t < is_in_band_.size(); ++t) {
+      const std::int32_t* c = &mesh_.corners[3 * t];
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t inner = c[k] - n_boundary_;
+        if (is_in_band_[t]) {
+          split_.band.corners.push_back(inner < 0 ? places_[c[k]] : first_in_band + in_band_[inner]);
+          continue;
+        }
+        split_.rest.corners.push_back(inner < 0 ? boundary_in_rest_[c[k]] : first_in_rest + in_rest_[inner]);
+        if (const std::int32_t d = c[(k + 1) % 3]; inner < 0 && d < n_boundary_)
+          split_.band.sides.push_back({std::min(id(c[k]), id(d)), std::max(id(c[k]), id(d))});
+      }
+    }
+    split_.rest.corners.shrink_to_fit();
+    split_.rest.inner.shrink_to_fit();
+  }
+
+  std::int32_t id(std::int32_t corner) const { return boundary_.nodes[places_[corner]].id; }
+
+  const FaceBoundary& boundary_;
+  const TileCut& cut_;
+  const std::int32_t section_, n_face_;
+  const std::vector<std::int32_t> places_;
+  const std::int32_t n_boundary_;
+  FaceMesh mesh_;
+  const std::vector<SectionNode> owner_;
+  const std::int32_t n_own_;
+  std::vector<std::uint8_t> layer_, uses_;       // of each corner
+  std::vector<std::uint8_t> is_in_band_;         // [n_triangles]
+  std::vector<std::int32_t> in_rest_, in_band_;  // [n_inner] the inner node there
+  std::vector<std::int32_t> boundary_in_rest_;   // [n_boundary]
+  SplitMesh split_;
+};
+
+/// For each cut node the first and the last tile that have it.
+std::vector<std::array<std::int32_t, 2>> tiles_of_cuts(const TileCut& cut) {
+  std::vector<std::array<std::int32_t, 2>> tiles(cut.nodes.size(), {kNone, kNone});
+  for (std::int32_t i = 0; i < size_of(cut.tiles); ++i)
+    for (const auto& segment : cut.tiles[i].segments)
+      for (const std::int32_t n : segment) {
+        if (n < cut.n_boundary) continue;
+        auto& [first, last] = tiles[n - cut.n_boundary];
+        last = i;
+        if (first == kNone) first = i;
+      }
+  return tiles;
+}
+
+/// Puts bands together. Nodes that stay, on the boundary of the face, on cuts and in sections, are the boundary of this
+/// mesh, in this order. `is_inside`: the cut nodes that do not stay.
+class SeamMesher {
+ public:
+  SeamMesher(const SeamMaker& maker, std::span<const Tile> tiles, std::vector<char> is_inside,
+             std::vector<SeamBand> bands)
+      : maker_(maker),
+        tiles_(tiles),
+        is_inside_(std::move(is_inside)),
+        bands_(std::move(bands)),
+        n_face_(size_of(maker.boundary.nodes)),
+        n_fixed_(n_face_ + size_of(maker.cut.nodes)),
+        boundary_(maker.boundary) {}
+
+  SeamMesh run() {
+    add_up();
+    if (mesh_.cause == FailureCause::kNone) {
+      add_nodes();
+      add_triangles();
+      const std::vector<std::array<std::int32_t, 2>> rim = find_rim();
+      improve_seams(maker_.surface, maker_.make_surface, boundary_, maker_.field, maker_.options, pieces_, mesh_);
+      boundary_.segments = outline();
+      for (const auto& [a, b] : rim) boundary_.segments.push_back({a, b});
+      check_edges(boundary_, mesh_, seams_.sides);
+      renumber();
+    }
+    seams_.mesh = std::move(mesh_);
+    return std::move(seams_);
+  }
+
+ private:
+  void add_up() {
+    for (const SeamBand& band : bands_) {
+      if (mesh_.cause == FailureCause::kNone) mesh_.cause = band.cause;
+      mesh_.n_folds += band.n_folds;
+      for (const RefinementPoint& p : band.refinement)
+        if (mesh_.refinement.size() < kMostRefined) mesh_.refinement.push_back(p);
+    }
+  }
+
+  void add_nodes() {
+    const TileCut& cut = maker_.cut;
+    const std::vector<std::array<std::int32_t, 2>> tiles = tiles_of_cuts(cut);
+    std::vector<std::array<std::int32_t, 2>> inside;  // of each cut node there
+    number_of_cut_.assign(cut.nodes.size(), kNone);
+    std::int32_t last_id = 0;
+    for (const FaceNode& n : boundary_.nodes) last_id = std::max(last_id, n.id);
+    for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) {
+      last_id = std::max(last_id, cut.nodes[i].id);
+      boundary_.nodes.push_back(cut.nodes[i]);
+      if (!is_inside_[i]) continue;
+      number_of_cut_[i] = size_of(mesh_.inner);
+      mesh_.inner.push_back(cut.nodes[i]);
+      mesh_.inner.back().id = kNone;
+      inside.push_back(tiles[i]);
+    }
+    find_pieces(inside);
+    for (const SeamBand& band : bands_) {
+      const auto end = band.nodes.begin() + band.n_own();
+      first_own_.push_back(size_of(mesh_.inner));
+      mesh_.inner.insert(mesh_.inner.end(), band.nodes.begin(), end);
+      first_rim_.push_back(size_of(boundary_.nodes));
+      for (auto n = end; n != band.nodes.end(); ++n) {
+        boundary_.nodes.push_back(*n);
+        boundary_.nodes.back().id = ++last_id;
+      }
+      seams_.owner.insert(seams_.owner.end(), band.owner.begin(), band.owner.end());
+    }
+  }
+
+  /// The nodes between each two tiles are a piece; so is each junction.
+  void find_pieces(const std::vector<std::array<std::int32_t, 2>>& tiles) {
+    std::vector<std::array<std::int32_t, 2>> all = tiles;
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (const auto& own : tiles)
+      pieces_.push_back(static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), own) - all.begin()));
+  }
+
+  void add_triangles() {
+    const std::int32_t n_boundary = size_of(boundary_.nodes);
+    for (std::size_t i = 0; i < bands_.size(); ++i) {
+      SeamBand& band = bands_[i];
+      const std::int32_t n_own = band.n_own();
+      for (std::int32_t c : band.corners) {
+        if (c >= n_fixed_ + n_own)
+          c += first_rim_[i] - n_fixed_ - n_own;
+        else if (c >= n_fixed_)
+          c += n_boundary + first_own_[i] - n_fixed_;
+        else if (c >= n_face_ && is_inside_[c - n_face_])
+          c = n_boundary + number_of_cut_[c - n_face_];
+        mesh_.corners.push_back(c);
+      }
+      seams_.sides.insert(seams_.sides.end(), band.sides.begin(), band.sides.end());
+      band = {};
+    }
+  }
+
+  /// Sides that rests have on their other side, too. Those between nodes of the face's boundary are among seams_.sides.
+  std::vector<std::array<std::int32_t, 2>> find_rim() const {
+    const std::int32_t n_boundary = size_of(boundary_.nodes);
+    std::vector<std::array<std::int32_t, 2>> sides;
+    for (std::size_t i = 0; i < mesh_.corners.size(); ++i) {
+      const std::int32_t a = mesh_.corners[i], b = mesh_.corners[i % 3 == 2 ? i - 2 : i + 1];
+      if (std::max(a, b) < n_boundary && std::max(a, b) >= n_fixed_) sides.push_back({a, b});
+    }
+    return without_opposite(std::move(sides));
+  }
+
+  /// The boundary of all tiles together.
+  std::vector<std::pair<std::int32_t, std::int32_t>> outline() const {
+    std::vector<std::array<std::int32_t, 2>> sides;
+    for (const Tile& tile : tiles_) sides.insert(sides.end(), tile.segments.begin(), tile.segments.end());
+    std::vector<std::pair<std::int32_t, std::int32_t>> segments;
+    for (const auto& [a, b] : without_opposite(std::move(sides))) segments.push_back({a, b});
+    return segments;
+  }
+
+  static std::vector<std::array<std::int32_t, 2>> without_opposite(std::vector<std::array<std::int32_t, 2>> sides) {
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::array<std::int32_t, 2>> once;
+    std::copy_if(sides.begin(), sides.end(), std::back_inserter(once), [&](const auto& side) {
+      return !std::binary_search(sides.begin(), sides.end(), std::array{side[1], side[0]});
+    });
+    return once;
+  }
+
+  /// As in a SeamMesh.
+  void renumber() {
+    const std::int32_t n_boundary = size_of(boundary_.nodes), n_own = size_of(mesh_.inner);
+    for (std::int32_t& c : mesh_.corners)
+      if (c >= n_boundary)
+        c -= n_boundary - n_fixed_;
+      else if (c >= n_fixed_)
+        c += n_own;
+    for (std::int32_t i = n_fixed_; i < n_boundary; ++i) {
+      mesh_.inner.push_back(boundary_.nodes[i]);
+      mesh_.inner.back().id = kNone;
+    }
+  }
+
+  const SeamMaker& maker_;
+  const std::span<const Tile> tiles_;
+  const std::vector<char> is_inside_;
+  std::vector<SeamBand> bands_;
+  const std::int32_t n_face_, n_fixed_;  // nodes on the boundary of the face; and on cuts
+  FaceBoundary boundary_;
+  std::vector<std::int32_t> number_of_cut_;          // [n_cut] inner node
+  std::vector<std::int32_t> pieces_;                 // of these
+  std::vector<std::int32_t> first_own_, first_rim_;  // [n_bands] inner node, boundary node
+  FaceMesh mesh_;
+  SeamMesh seams_;
+};
+
+}  // namespace
+
+TileGroups::TileGroups(const TileCut& cut) : n_tiles_(size_of(cut.tiles)), n_groups_(0) {
+  // so many that the cuts within a group are as long as those between all groups, about
+  if (n_tiles_ > kFewTiles) n_groups_ = static_cast<std::int32_t>(std::lround(std::cbrt(n_tiles_)));
+  std::vector<std::int32_t> group(n_tiles_, 0);
+  for (std::int32_t g = 0; g < n_groups_; ++g)
+    std::fill(group.begin() + first_tile(g), group.begin() + first_tile(g + 1), g);
+  group_of_.assign(cut.nodes.size(), kNone);
+  if (n_groups_ == 0) return;
+  std::vector<char> is_between(cut.nodes.size(), 0);
+  for (std::int32_t t = 0; t < n_tiles_; ++t)
+    for (const auto& segment : cut.tiles[t].segments)
+      for (const std::int32_t n : segment) {
+        if (n < cut.n_boundary) continue;
+        std::int32_t& own = group_of_[n - cut.n_boundary];
+        if (own != kNone && own != group[t]) is_between[n - cut.n_boundary] = 1;
+        own = group[t];
+      }
+  for (std::size_t i = 0; i < group_of_.size(); ++i)
+    if (is_between[i]) group_of_[i] = kNone;
+}
+
+std::int32_t TileGroups::first_tile(std::int32_t group) const {
+  return static_cast<std::int32_t>(std::int64_t{n_tiles_} * group / n_groups_);
+}
+
+std::array<std::int32_t, 2> TileGroups::members(std::int32_t group) const {
+  return {first_tile(group), first_tile(group + 1)};
+}
+
+std::array<std::int32_t, 2> TileGroups::members_of_face() const {
+  return n_groups_ > 0 ? std::array{n_tiles_, n_tiles_ + n_groups_} : std::array{0, n_tiles_};
+}
+
+SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh) {
+  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), std::move(mesh), {}).run();
+}
+
+SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, SeamMesh mesh) {
+  std::vector<std::int32_t> places(boundary.nodes.size() + cut.nodes.size());
+  std::iota(places.begin(), places.end(), 0);
+  SplitMesh split =
+      SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh.mesh), std::move(mesh.owner)).run();
+  split.band.sides.insert(split.band.sides.end(), mesh.sides.begin(), mesh.sides.end());
+  return split;
+}
+
+SeamMesh SeamMaker::of_group(std::int32_t group, std::vector<SeamBand> bands) const {
+  std::vector<char> is_inside;
+  for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == group);
+  const auto [first, end] = groups.members(group);
+  const std::span<const Tile> tiles = std::span(cut.tiles).subspan(first, end - first);
+  return SeamMesher(*this, tiles, std::move(is_inside), std::move(bands)).run();
+}
+
+SeamMesh SeamMaker::of_face(std::vector<SeamBand> bands) const {
+  std::vector<char> is_inside;
+  for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == kNone);
+  SeamMesh seams = SeamMesher(*this, cut.tiles, std::move(is_inside), std::move(bands)).run();
+  const std::int32_t n_boundary = size_of(boundary.nodes);
+  for (std::int32_t& c : seams.mesh.corners)
+    if (c >= n_boundary) c -= size_of(cut.nodes);
+  return seams;
+}
+
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, SeamMesh seams) {
+  if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
+  SplitMesh last;
+  last.rest = std::move(seams.mesh);
+  last.owner = std::move(seams.owner);
+  FaceMesh joined;
+  joined.n_folds = last.rest.n_folds;
+  joined.refinement = last.rest.refinement;
+  std::vector<std::size_t> first_inner{0}, first_corner{0};
+  sections.push_back(std::move(last));
+  for (const SplitMesh& s : sections) {
+    first_inner.push_back(first_inner.back() + s.n_own());
+    first_corner.push_back(first_corner.back() + s.rest.corners.size());
+  }
+  parallel_reserve(joined.inner, first_inner.back());
+  parallel_reserve(joined.corners, first_corner.back());
+  joined.inner.resize(first_inner.back());
+  joined.corners.resize(first_corner.back());
+  parallel_for(sections.size(), 1, [&](std::size_t i, std::size_t) {
+    const SplitMesh& s = sections[i];
+    const bool is_last = i + 1 == sections.size();
+    const std::int32_t n_local = is_last ? n_boundary : size_of(s.boundary), n_own = s.n_own();
+    const auto first = [&](std::size_t section) {
+      return n_boundary + static_cast<std::int32_t>(first_inner[section]);
+    };
+    std::transform(s.rest.corners.begin(), s.rest.corners.end(), joined.corners.begin() + first_corner[i],
+                   [&](std::int32_t c) {
+                     if (c < n_local) return is_last ? c : s.number[c];
+                     c -= n_local;
+                     if (c < n_own) return first(i) + c;
+                     return first(s.owner[c - n_own].section) + s.owner[c - n_own].number;
+                   });
+    std::copy(s.rest.inner.begin(), s.rest.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
+  });
+  return joined;
+}
+
+}  // namespace st

@@ -1,0 +1,112 @@
+// The tiles of a face without the triangles about the cuts, and these on their own: whoever enhances the cuts does not
+// need the tiles.
+//
+// A heavy face has many cuts. Those within groups of neighbouring tiles are enhanced first, group by group; then those
+// between groups. So a group is to the face what a tile is to the group: a section, with a band that it gives away.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "meshing/face/face_tiles.h"
+#include "meshing/face/tile_seams.h"
+
+namespace st {
+
+/// An inner node of another section of the face. Sections: the tiles, then the groups of tiles.
+struct SectionNode {
+  std::int32_t section, number;
+};
+
+/// Triangles within some layers of the cuts. Their corners, and those of a SeamMesh: boundary node i of the face as i,
+/// cut node j as n_boundary + j, inner node k as n_boundary + n_cut + k.
+struct SeamBand {
+  std::vector<FaceNode> nodes;     ///< inner nodes of these triangles
+  std::vector<SectionNode> owner;  ///< of the last ones, which stay in sections
+  std::vector<std::int32_t> corners;
+  std::vector<std::array<std::int32_t, 2>> sides;  ///< ids of the ends, the smaller first: each use of an edge between
+                                                   ///< boundary nodes by triangles that are in no band any more
+  FailureCause cause = FailureCause::kNone;        ///< of the section, as the rest
+  std::vector<RefinementPoint> refinement;
+  int n_folds = 0;
+
+  std::int32_t n_own() const { return static_cast<std::int32_t>(nodes.size() - owner.size()); }
+  static auto fields(auto& x) {
+    return std::tie(x.nodes, x.owner, x.corners, x.sides, x.cause, x.refinement, x.n_folds);
+  }
+};
+
+/// Triangles about cuts, enhanced.
+struct SeamMesh {
+  FaceMesh mesh;                                   ///< inner: its own nodes, then those of sections
+  std::vector<SectionNode> owner;                  ///< of the latter
+  std::vector<std::array<std::int32_t, 2>> sides;  ///< as in the bands that it is made of
+
+  std::int32_t n_own() const { return static_cast<std::int32_t>(mesh.inner.size() - owner.size()); }
+  static auto fields(auto& x) { return std::tie(x.mesh, x.owner, x.sides); }
+};
+
+/// A section, and what it gives away.
+struct SplitMesh {
+  std::vector<FaceNode> boundary;             ///< nodes that triangles of the rest have on the boundary of the face
+  std::vector<std::int32_t> number;           ///< of each among the nodes of the face's boundary
+  std::vector<std::int32_t> boundary_number;  ///< of their ids, ascending, once each, among all of the face's boundary
+  FaceMesh rest;                              ///< without the band: its boundary is `boundary`
+  std::vector<SectionNode> owner;             ///< of its last inner nodes, which are those of other sections
+  std::vector<std::int32_t> shared;           ///< ascending: its own inner nodes that others have, too
+  SeamBand band;
+
+  std::int32_t n_own() const { return static_cast<std::int32_t>(rest.inner.size() - owner.size()); }
+  static auto fields(auto& x) {
+    return std::tie(x.boundary, x.number, x.boundary_number, x.rest, x.owner, x.shared, x.band);
+  }
+};
+
+/// Which tiles make up a group: those that follow each other. One group of all is none.
+class TileGroups {
+ public:
+  explicit TileGroups(const TileCut& cut);
+
+  std::int32_t n_tiles() const { return n_tiles_; }
+  std::int32_t n_groups() const { return n_groups_; }  ///< 0: all cuts are enhanced at once
+  /// Sections that give their bands to this group, to the face where there is none: [first, end).
+  std::array<std::int32_t, 2> members(std::int32_t group) const;
+  std::array<std::int32_t, 2> members_of_face() const;
+  /// The group that a cut node lies within, kNone: between several.
+  std::int32_t group_of(std::int32_t cut_node) const { return group_of_[cut_node]; }
+
+ private:
+  std::int32_t first_tile(std::int32_t group) const;
+  std::int32_t n_tiles_, n_groups_;
+  std::vector<std::int32_t> group_of_;
+};
+
+/// Takes the band off the mesh of a tile, and off that of a group, which is section n_tiles + group. Local, pure.
+/// Linear.
+SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
+SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, SeamMesh mesh);
+
+/// What does the enhancing.
+struct SeamMaker {
+  const Surface& surface;
+  const SurfaceMaker& make_surface;  ///< see improve_seams()
+  const FaceBoundary& boundary;
+  const TileCut& cut;
+  const TileGroups& groups;
+  const SizeField& field;
+  const FaceMeshOptions& options;
+
+  /// The bands of a group's tiles, of the tiles or groups of the face, as one mesh, improved: see improve_seams(). Its
+  /// cause is that of the first section that failed, or tells that they do not fit; its folds are those of all. Local,
+  /// pure.
+  SeamMesh of_group(std::int32_t group, std::vector<SeamBand> bands) const;
+  SeamMesh of_face(std::vector<SeamBand> bands) const;  ///< its corners are on no cut: inner node k is n_boundary + k
+};
+
+/// The mesh of the whole face from its sections and the seams of the face: section by section, the seams last.
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, SeamMesh seams);
+
+}  // namespace st
