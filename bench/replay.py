@@ -10,7 +10,7 @@ What is replayed, with one processor for each thread:
 - tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
 - a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
 - what a task asks of others is on another rank as often as chance has it;
-- a broadcast goes through a tree; all wait for what rank 0 does alone. Its threads share loops, but no piece of one.
+- a broadcast goes through a tree, a long one in shares, each of which goes around; all wait for what rank 0 does alone. Its threads share loops, but no piece of one.
   So do threads that are idle when a task begins. Requested lengths, and rows of patches, are each rank's own.
 --times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
 --validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one, also with
@@ -30,6 +30,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 
+SCATTERED = 1 << 20  # bytes from which a broadcast goes in shares: Communicator::broadcast()
 EVERYWHERE = {"requests", "rows"}  # phases in which each rank works on its own patches
 
 
@@ -148,6 +149,13 @@ class Machine:
             end = max(end, main_free)
         return end
 
+    def broadcast(self, n_bytes):
+        levels = math.ceil(math.log2(self.ranks))
+        if n_bytes < SCATTERED:
+            return levels * self.wire(1, n_bytes)
+        apart = (self.ranks - 1) / self.ranks * n_bytes / self.options.bandwidth if self.ranks > 1 else 0.0
+        return 2 * apart + (levels + self.ranks - 1) * self.options.latency
+
     def run(self, trace):
         time = 0.0
         for kind, name, what in trace.steps:
@@ -157,7 +165,7 @@ class Machine:
                 time += (seconds - in_loops) * self.options.times
                 time += max(in_loops * self.options.times / n, longest)
             elif kind == "broadcast":
-                time += math.ceil(math.log2(self.ranks)) * self.wire(1, what * self.options.times)
+                time += self.broadcast(what * self.options.times)
             else:
                 time = self.run_call(time, what)
         return time

@@ -143,11 +143,14 @@ struct CrossingSearch::Search {
     return part_of(numbering.edges, numbering.tables.vertex_xyz, stored->section, stored->blocks,
                    stored->blocks.meeting(others), is_of_one_face);
   }
+  /// What another rank asks for: corners of triangles, or what is near boxes.
   Bytes answer(const Bytes& request) const {
+    std::vector<Facet> facets;
     std::int32_t s = 0;
     std::vector<Box3> boxes;
     bool is_of_one_face = false;
-    unpack(request, s, boxes, is_of_one_face);
+    unpack(request, facets, s, boxes, is_of_one_face);
+    if (!facets.empty()) return packed(corners(facets));
     return packed(near(s, PatchBlocks(std::move(boxes)), is_of_one_face));
   }
 
@@ -162,7 +165,8 @@ struct CrossingSearch::Search {
     }
     std::vector<Box3> boxes;
     for (const PatchBlocks::Meeting& m : other.blocks.meeting(place.box)) boxes.push_back(other.blocks[m.block]);
-    if (!boxes.empty()) unpack(executor.ask({{place.rank, packed(s, boxes, is_of_one_face)}})[0], part);
+    if (!boxes.empty())
+      unpack(executor.ask({{place.rank, packed(std::vector<Facet>(), s, boxes, is_of_one_face)}})[0], part);
     return part;
   }
 
@@ -209,16 +213,16 @@ struct CrossingSearch::Search {
       std::vector<Facet> asked;
       for (const std::size_t i : numbers) asked.push_back(facets[i]);
       std::vector<Corners> answer;
-      unpack(executor.ask({{rank, packed(asked)}})[0], answer);
+      unpack(executor.ask({{rank, packed(asked, std::int32_t{0}, std::vector<Box3>(), false)}})[0], answer);
       for (std::size_t k = 0; k < numbers.size(); ++k) all[numbers[k]] = answer[k];
     }
     return all;
   }
-  /// Of triangles of this rank.
-  Bytes answer_corners(const Bytes& request) const {
-    std::vector<Facet> facets;
-    unpack(request, facets);
-    return packed(corners(facets));
+  /// The face is one section.
+  bool is_whole(std::int32_t s) const {
+    const auto n = static_cast<std::int32_t>(sections.size());
+    return (s == 0 || sections[s - 1].face != sections[s].face) &&
+           (s + 1 == n || sections[s + 1].face != sections[s].face);
   }
 
   /// With two common nodes: folded flat onto each other. With one they only meet there.
@@ -309,9 +313,11 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
       [&](std::int32_t task) {
         Found all;
         for (const std::size_t i : batches[task].jobs) {
-          const Found found = jobs[i].a == jobs[i].b ? search.within(jobs[i].a) : search.between(jobs[i]);
+          Found found = jobs[i].a == jobs[i].b ? search.within(jobs[i].a) : search.between(jobs[i]);
+          measure_whole_faces(jobs[i], search, found);
           all.pairs.insert(all.pairs.end(), found.pairs.begin(), found.pairs.end());
           all.chords.insert(all.chords.end(), found.chords.begin(), found.chords.end());
+          all.touching.insert(all.touching.end(), found.touching.begin(), found.touching.end());
         }
         return packed(all);
       },
@@ -320,6 +326,7 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
         unpack(bytes, found);
         fresh.insert(fresh.end(), found.pairs.begin(), found.pairs.end());
         for (const Chord& c : found.chords) chords_[c.facet.face].push_back(c);
+        for (const auto& [a, b] : found.touching) touching_.insert({a, b});
       });
   if (executor_.is_root()) {
     std::vector<Chord> chords;
@@ -405,12 +412,24 @@ bool CrossingSearch::may_be_apart(FaceId a, FaceId b) const {
          !touching_.contains(std::minmax(a, b));
 }
 
+/// Local. Walls that are whole are measured where they are compared: bodies in contact cross in many places.
+void CrossingSearch::measure_whole_faces(const Job& job, const Search& search, Found& found) const {
+  if (found.pairs.empty() || job.a == job.b || !search.is_whole(job.a) || !search.is_whole(job.b)) return;
+  const FaceId a = search.sections[job.a].face, b = search.sections[job.b].face;
+  if (share_a_vertex(model_.tables(), a, b)) return;
+  std::sort(found.pairs.begin(), found.pairs.end(),
+            [](const FacetPair& p, const FacetPair& q) { return p.key() < q.key(); });
+  found.pairs = measured_pair_of_faces(std::move(found.pairs), search);
+  if (found.pairs.empty()) found.touching.push_back({a, b});
+}
+
 /// Collective. With their factors, without pairs where two bodies meet. `pairs`: sorted, of rank 0.
 CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, const Search& search) {
+  const auto is_unknown = [](const FacetPair& p) { return p.factor == kUnknown; };
   FacetPairs known, unknown;  // those that share a vertex, and those whose walls are to be measured
   for (const FacetPairs& some : by_faces(pairs)) {
     const FaceId a = some[0].a.face, b = some[0].b.face;
-    const bool is_known = a == b || share_a_vertex(model_.tables(), a, b);
+    const bool is_known = a == b || std::ranges::none_of(some, is_unknown) || share_a_vertex(model_.tables(), a, b);
     for (FacetPair p : some) {
       if (is_known && p.factor == kUnknown) p.factor = kHalve;
       (is_known ? known : unknown).push_back(p);
@@ -423,7 +442,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, con
   const std::vector<Batch> batches =
       batches_of(groups, home, [](const FacetPairs& p) { return kPerWall * static_cast<double>(p.size()); });
   NamedTasks tasks = tasks_of(batches, "walls");
-  tasks.answer = [&](const Bytes& request) { return search.answer_corners(request); };
+  tasks.answer = [&](const Bytes& request) { return search.answer(request); };
   executor_.run_named_tasks(
       tasks,
       [&](std::int32_t task) {

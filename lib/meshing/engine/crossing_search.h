@@ -1,6 +1,7 @@
 // Triangles of patches that cross each other, as places where the sizes must become smaller.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -100,8 +101,9 @@ class CrossingSearch {
   struct Found {
     FacetPairs pairs;
     std::vector<Chord> chords;
+    std::vector<std::array<FaceId, 2>> touching;  // faces of two bodies that meet
 
-    static auto fields(auto& f) { return std::tie(f.pairs, f.chords); }
+    static auto fields(auto& f) { return std::tie(f.pairs, f.chords, f.touching); }
   };
   struct Search;  // one run on one rank
 
@@ -117,6 +119,7 @@ class CrossingSearch {
   std::vector<RefinementPoint> places_to_refine(const Search& search) const;
   std::vector<Corners> corners(std::vector<Facet> facets, const Search& search) const;
   static std::vector<FacetPairs> by_faces(const FacetPairs& pairs);
+  void measure_whole_faces(const Job& job, const Search& search, Found& found) const;
   FacetPairs measured(const FacetPairs& pairs, const Search& search);
   FacetPairs measured_pair_of_faces(FacetPairs kept, const Search& search) const;
 

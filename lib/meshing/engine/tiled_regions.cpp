@@ -20,7 +20,8 @@ TileCut TiledRegions::cut_of(std::int32_t region) const {
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary boundary = regions_.boundary(region, *surface);
-    return cut_face(*surface, boundary, regions_.places(boundary), field_of(f).get(), tile_triangles_);
+    const SurfaceMaker make_surface = [&] { return model_.surface(f); };
+    return cut_face(*surface, make_surface, boundary, regions_.places(boundary), field_of(f).get(), tile_triangles_);
   } catch (const Error&) {  // the region as a whole will say what is wrong
     return {};
   }

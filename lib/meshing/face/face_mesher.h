@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,6 +21,9 @@ inline constexpr double kFoldedCosine = -0.8;
 
 /// Places to refine that a face tells of, at most.
 inline constexpr std::size_t kMostRefined = 64;
+
+/// Makes a surface once more: one object serves one thread, for it remembers where it was evaluated last.
+using SurfaceMaker = std::function<std::unique_ptr<Surface>()>;
 
 /// The loops of a face as nodes in (u,v) and segments between them.
 struct FaceBoundary {

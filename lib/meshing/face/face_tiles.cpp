@@ -5,15 +5,17 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 
+#include "base/threads.h"
 #include "meshing/face/scaled_field.h"
 
 namespace st {
 namespace {
 
-constexpr double kCoarsePerTile = 64;  // triangles of the coarse mesh for each tile
+constexpr double kCoarsePerTile = 24;  // triangles of the coarse mesh for each tile
 constexpr int kCoarseRounds = 2;       // of the enhancer: cuts should be straight and meet at wide angles
 constexpr int kSamplesPerNode = 4;     // of a cut, to space its nodes
 constexpr int kMaxSamples = 1 << 14;
@@ -22,9 +24,10 @@ using Corners = std::pair<std::int32_t, std::int32_t>;
 
 class TileCutter {
  public:
-  TileCutter(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
-             const SizeField& field, double tile_triangles)
+  TileCutter(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+             std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles)
       : surface_(surface),
+        make_surface_(make_surface),
         boundary_(boundary),
         places_(places),
         field_(field),
@@ -218,8 +221,10 @@ class TileCutter {
       const Vec3& x = middle_[t];
       return extent.x >= extent.y && extent.x >= extent.z ? x.x : extent.y >= extent.z ? x.y : x.z;
     };
-    std::sort(triangles.begin(), triangles.end(),
-              [&](std::int32_t a, std::int32_t b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
+    std::vector<std::pair<double, std::int32_t>> order;
+    for (const std::int32_t t : triangles) order.push_back({along(t), t});
+    std::sort(order.begin(), order.end());
+    std::transform(order.begin(), order.end(), triangles.begin(), [](const auto& place) { return place.second; });
     const std::int32_t n_low = n / 2;
     const double wanted = total * n_low / n;
     double sum = 0;
@@ -298,14 +303,28 @@ class TileCutter {
 
   /// Edges of the coarse mesh between two parts, cut into segments, to the tiles on both sides.
   void add_cuts() {
-    for (const auto& [a, b, t] : sides_) {
+    constexpr std::size_t kPerPiece = 128;
+    std::vector<Side> cuts;
+    for (const Side& side : sides_) {
+      const auto& [a, b, t] = side;
       if (a > b) continue;
       const std::int32_t o = left_of(b, a);
-      if (o == kNone || part_[t] == part_[o] || is_boundary_.contains({a, b})) continue;
-      const std::vector<std::int32_t> chain = cut_nodes(a, b);
-      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        result_.tiles[part_[t]].segments.push_back({chain[i], chain[i + 1]});
-        result_.tiles[part_[o]].segments.push_back({chain[i + 1], chain[i]});
+      if (o != kNone && part_[t] != part_[o] && !is_boundary_.contains({a, b})) cuts.push_back(side);
+    }
+    std::vector<std::vector<FaceNode>> inside(cuts.size());
+    parallel_for(cuts.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      const std::unique_ptr<Surface> own = make_surface_ ? make_surface_() : nullptr;
+      for (std::size_t i = begin; i < end; ++i) inside[i] = cut_nodes(own ? *own : surface_, cuts[i].a, cuts[i].b);
+    });
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      const auto& [a, b, t] = cuts[i];
+      std::vector<std::int32_t> chain{end_node(a)};
+      for (const FaceNode& n : inside[i]) chain.push_back(add_node(n));
+      chain.push_back(end_node(b));
+      const std::int32_t o = left_of(b, a);
+      for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+        result_.tiles[part_[t]].segments.push_back({chain[k], chain[k + 1]});
+        result_.tiles[part_[o]].segments.push_back({chain[k + 1], chain[k]});
       }
     }
   }
@@ -314,44 +333,51 @@ class TileCutter {
   std::int32_t end_node(std::int32_t c) {
     if (c < static_cast<std::int32_t>(of_coarse_.size())) return of_coarse_[c];
     const auto [it, is_new] = junction_.try_emplace(c, kNone);
-    if (is_new) it->second = add_node(node(c).uv);
+    if (is_new) it->second = add_node(node_at(surface_, node(c).uv));
     return it->second;
   }
 
-  std::int32_t add_node(Vec2 uv) {
+  FaceNode node_at(const Surface& surface, Vec2 uv) const {
+    int hint = 0;
+    const Vec3 x = surface.point(uv);
+    return {uv, x, field_.size(x, hint), kNone, false};
+  }
+
+  std::int32_t add_node(FaceNode n) {
     if (result_.nodes.empty())
-      for (const FaceNode& n : boundary_.nodes) last_id_ = std::max(last_id_, n.id);
-    const Vec3 x = surface_.point(uv);
-    result_.nodes.push_back({uv, x, field_.size(x, hint_), ++last_id_, false});
+      for (const FaceNode& other : boundary_.nodes) last_id_ = std::max(last_id_, other.id);
+    n.id = ++last_id_;
+    result_.nodes.push_back(n);
     return n_boundary_ + static_cast<std::int32_t>(result_.nodes.size()) - 1;
   }
 
-  /// Nodes from corner a to corner b, straight in (u,v), spaced by the integral of 1/h.
-  std::vector<std::int32_t> cut_nodes(std::int32_t a, std::int32_t b) {
+  /// Nodes between corners a and b, straight in (u,v), spaced by the integral of 1/h.
+  std::vector<FaceNode> cut_nodes(const Surface& surface, std::int32_t a, std::int32_t b) const {
+    int hint = 0;
     const Vec2 from = node(a).uv, to = node(b).uv;
-    const double h = std::min(field_.size(node(a).x, hint_), field_.size(node(b).x, hint_));
+    const double h = std::min(field_.size(node(a).x, hint), field_.size(node(b).x, hint));
     const int n_samples = static_cast<int>(
         std::clamp(kSamplesPerNode * distance(node(a).x, node(b).x) / h, 16.0, static_cast<double>(kMaxSamples)));
     std::vector<double> sum{0};
-    Vec3 last = surface_.point(from);
+    Vec3 last = surface.point(from);
     for (int i = 1; i <= n_samples; ++i) {
-      const Vec3 x = surface_.point(from + (static_cast<double>(i) / n_samples) * (to - from));
-      sum.push_back(sum.back() + distance(last, x) / field_.size(0.5 * (last + x), hint_));
+      const Vec3 x = surface.point(from + (static_cast<double>(i) / n_samples) * (to - from));
+      sum.push_back(sum.back() + distance(last, x) / field_.size(0.5 * (last + x), hint));
       last = x;
     }
     const int n = std::max(1, static_cast<int>(std::lround(sum.back())));
-    std::vector<std::int32_t> chain{end_node(a)};
+    std::vector<FaceNode> nodes;
     for (int k = 1, i = 0; k < n; ++k) {
       const double wanted = sum.back() * k / n;
       while (sum[static_cast<std::size_t>(i) + 1] < wanted) ++i;
       const double share = (wanted - sum[i]) / (sum[i + 1] - sum[i]);
-      chain.push_back(add_node(from + ((i + share) / n_samples) * (to - from)));
+      nodes.push_back(node_at(surface, from + ((i + share) / n_samples) * (to - from)));
     }
-    chain.push_back(end_node(b));
-    return chain;
+    return nodes;
   }
 
   const Surface& surface_;
+  const SurfaceMaker& make_surface_;
   const FaceBoundary& boundary_;
   const std::span<const BoundaryPlace> places_;
   const SizeField& field_;
@@ -403,9 +429,9 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
   return places;
 }
 
-TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
-                 const SizeField& field, double tile_triangles) {
-  TileCut cut = TileCutter(surface, boundary, places, field, tile_triangles).run();
+TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+                 std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles) {
+  TileCut cut = TileCutter(surface, make_surface, boundary, places, field, tile_triangles).run();
   cut.n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
   cut.shared = shared_nodes(cut.tiles, cut.n_boundary);
   return cut;

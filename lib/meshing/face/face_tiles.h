@@ -45,9 +45,10 @@ struct TileCut {
 
 /// Cuts a face along edges of a coarse mesh of itself into tiles of about `tile_triangles` triangles (Chen, Zhao, Zheng
 /// et al., Proc. 22nd International Meshing Roundtable, 2013, cut a background mesh likewise). `places`: of the
-/// boundary's nodes. Local, pure. Cost: the coarse mesh, some hundred triangles per tile.
-TileCut cut_face(const Surface& surface, const FaceBoundary& boundary, std::span<const BoundaryPlace> places,
-                 const SizeField& field, double tile_triangles);
+/// boundary's nodes. `make_surface`: see improve_seams(). Local, pure. Cost: the coarse mesh, some ten triangles per
+/// tile.
+TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+                 std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles);
 
 /// Its nodes, ascending: the numbers of those of its boundary are their places here.
 std::vector<std::int32_t> nodes_of(const Tile& tile);

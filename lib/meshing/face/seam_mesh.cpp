@@ -294,6 +294,7 @@ class SeamMesher {
 
   /// The boundary of all tiles together.
   std::vector<std::pair<std::int32_t, std::int32_t>> outline() const {
+    if (tiles_.size() == maker_.cut.tiles.size()) return maker_.boundary.segments;
     std::vector<std::array<std::int32_t, 2>> sides;
     for (const Tile& tile : tiles_) sides.insert(sides.end(), tile.segments.begin(), tile.segments.end());
     std::vector<std::pair<std::int32_t, std::int32_t>> segments;

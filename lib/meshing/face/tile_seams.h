@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <span>
 
 #include "meshing/face/face_mesher.h"
@@ -12,9 +10,6 @@ namespace st {
 
 /// Rows of triangles on each side of a cut that are enhanced.
 inline constexpr int kSeamLayers = 4;
-
-/// Makes a surface once more: one object serves one thread, for it remembers where it was evaluated last.
-using SurfaceMaker = std::function<std::unique_ptr<Surface>()>;
 
 /// Enhances the triangles in a band about the first inner nodes, those of the cuts, and counts the folds in it.
 /// Everything else stays as it is. `piece_of_cut` [n_cut] from 0: nodes of one piece of the cuts are enhanced together.

@@ -11,7 +11,7 @@ namespace st::test {
 
 inline TileCut cut(const FaceCase& face, const SizeField& field, double tile_triangles) {
   const BoundaryNumbering numbering(MeshTopology(face.model.tables()), face.edges);
-  return cut_face(*face.surface, face.boundary, boundary_places(face.boundary, numbering), field, tile_triangles);
+  return cut_face(*face.surface, {}, face.boundary, boundary_places(face.boundary, numbering), field, tile_triangles);
 }
 
 inline std::vector<FaceMesh> mesh_tiles(const FaceCase& face, const TileCut& cut, const SizeField& field) {
