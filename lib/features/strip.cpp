@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
+#include "base/threads.h"
 #include "features/arc_table.h"
 #include "geometry/shape/projection.h"
 
@@ -131,13 +133,18 @@ std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
 std::vector<Strip> find_strips(const Model& model) {
   const ModelTables& t = model.tables();
   const std::vector<int> uses = count_uses(t);
+  constexpr std::size_t kPerPiece = 16;
+  std::vector<std::vector<Strip>> pieces(static_cast<std::size_t>(t.n_faces()) / kPerPiece + 1);
+  parallel_for(t.n_faces(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      Strip strip;
+      if (!long_edges(t, static_cast<FaceId>(f), uses, strip)) continue;
+      measure_strip(model, strip);
+      pieces[begin / kPerPiece].push_back(std::move(strip));
+    }
+  });
   std::vector<Strip> strips;
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
-    Strip strip;
-    if (!long_edges(t, f, uses, strip)) continue;
-    measure_strip(model, strip);
-    strips.push_back(std::move(strip));
-  }
+  for (std::vector<Strip>& some : pieces) std::move(some.begin(), some.end(), std::back_inserter(strips));
   return strips;
 }
 

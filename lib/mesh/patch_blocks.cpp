@@ -246,7 +246,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
 
 PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
                   const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, bool is_of_one_face) {
-  constexpr std::size_t kBlocksPerPiece = 256;
+  constexpr std::size_t kBlocksPerPiece = 32;
   std::vector<PatchPart> parts(near.size() / kBlocksPerPiece + 1);
   parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -257,7 +257,7 @@ PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const
 }
 
 TwoParts join_parts(const PatchPart& a, const PatchPart& b) {
-  constexpr std::size_t kPerPart = 16'384;
+  constexpr std::size_t kPerPart = 4096;
   TwoParts both;
   const std::size_t n_a = a.xyz.size(), n = n_a + b.xyz.size();
   parallel_reserve(both.points, n);

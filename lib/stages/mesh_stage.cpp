@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
@@ -138,10 +140,14 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
     for (const std::string& path : o.trace.empty() ? std::vector{o.output} : std::vector{o.output, o.trace})
       require_writable(path);
   GeometryArtifact geometry = read_geometry(o.geometry);
-  const MappedSizing sizing = map_sizing(o.sizing);
+  std::optional<MappedSizing> mapped;
+  std::optional<Model> stored;
+  run_jobs(
+      {[&] { stored.emplace(stored_model(geometry, o.geometry)); }, [&] { mapped.emplace(map_sizing(o.sizing)); }});
+  const MappedSizing& sizing = *mapped;
+  const Model& model = *stored;
   require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizing, sizing.header.content_hash}});
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  const Model model = stored_model(geometry, o.geometry);
   std::vector<FaceId> faces = select_faces(o, model.tables());
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing,
                          most_triangles_in(memory_of_all_hosts(comm)));

@@ -97,12 +97,11 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
 std::string write_own_patches(const PatchTarget& target, const std::vector<SectionRows>& own) {
   try {
     PatchRowsFile rows(target);
-    std::vector<std::function<void()>> jobs;
-    for (const SectionRows& some : own) {
+    parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
+      const SectionRows& some = own[i];
       const auto patch = std::lower_bound(target.face.begin(), target.face.end(), some.rows.face);
-      rows.add_writes(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.begin, jobs);
-    }
-    run_jobs(jobs);
+      rows.write(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.begin);
+    });
     rows.close();
   } catch (const Error& e) {
     if (e.code() != ExitCode::kOutput) throw;

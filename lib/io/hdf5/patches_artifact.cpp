@@ -174,9 +174,7 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
   for (const FacePatch& p : a.patches) counts.push_back(counts_of(p));
   PatchesWriter writer(path, a, counts);
   PatchRowsFile rows(writer.target());
-  std::vector<std::function<void()>> jobs;
-  for (std::size_t i = 0; i < a.patches.size(); ++i) rows.add_writes(i, a.patches[i], {}, jobs);
-  run_jobs(jobs);
+  parallel_for(a.patches.size(), 1, [&](std::size_t i, std::size_t) { rows.write(i, a.patches[i]); });
   rows.close();
   return writer.commit();
 }

@@ -1,6 +1,7 @@
 #include "io/hdf5/patches_writer.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 #include "base/assert.h"
@@ -116,16 +117,10 @@ PatchesWriter::~PatchesWriter() = default;
 
 std::string PatchesWriter::commit() { return writer_->commit(); }
 
-void PatchRowsFile::write(std::size_t i, const FacePatch& p) const {
-  std::vector<std::function<void()>> jobs;
-  add_writes(i, p, {}, jobs);
-  run_jobs(jobs);
-}
-
-void PatchRowsFile::add_writes(std::size_t i, const FacePatch& p, const SectionBegin& begin_row,
-                               std::vector<std::function<void()>>& jobs) const {
+void PatchRowsFile::write(std::size_t i, const FacePatch& p, const SectionBegin& begin_row) const {
   constexpr std::size_t kPerJob = std::size_t{4} << 20;
   ST_ASSERT(target_.face.at(i) == p.face);
+  std::vector<std::function<void()>> jobs;
   std::size_t array = 0;
   const auto rows = [&]<class T>(const std::vector<T>& values, const std::vector<std::int64_t>& offsets,
                                  std::int64_t first) {
@@ -147,9 +142,11 @@ void PatchRowsFile::add_writes(std::size_t i, const FacePatch& p, const SectionB
   rows(p.triangles, target_.triangle, begin_row.triangle);
   rows(p.uv_corner, target_.own_uv, begin_row.own_uv);
   rows(p.own_uv, target_.own_uv, begin_row.own_uv);
-  if (target_.begin.size() < PatchTarget::kArrays) return;
-  rows(p.inner_previous, target_.inner, begin_row.inner);
-  rows(p.triangle_previous, target_.triangle, begin_row.triangle);
+  if (target_.begin.size() == PatchTarget::kArrays) {
+    rows(p.inner_previous, target_.inner, begin_row.inner);
+    rows(p.triangle_previous, target_.triangle, begin_row.triangle);
+  }
+  run_jobs(jobs);
 }
 
 }  // namespace st

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -60,12 +59,9 @@ class PatchRowsFile {
  public:
   /// `target` outlives the object.
   explicit PatchRowsFile(const PatchTarget& target) : target_(target), file_(target.file, target.label) {}
-  /// Appends jobs that write rows of patch i of the target, in pieces of some megabytes that threads share. They need
-  /// both until they are done. Precondition: they are of that face, and within its size.
-  void add_writes(std::size_t i, const FacePatch& rows, const SectionBegin& begin,
-                  std::vector<std::function<void()>>& jobs) const;
-  /// All of the patch.
-  void write(std::size_t i, const FacePatch& patch) const;
+  /// Writes rows of patch i of the target, in pieces of some megabytes that threads share. Callable on several threads.
+  /// Precondition: they are of that face, and within its size.
+  void write(std::size_t i, const FacePatch& rows, const SectionBegin& begin = {}) const;
   void close() { file_.close(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/share.h"
@@ -481,25 +482,28 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kep
   constexpr std::size_t kMostMeasured = 1000;
   const FaceId a = kept[0].a.face, b = kept[0].b.face;
   const bool is_one_body = face_body_[a] == face_body_[b];
-  std::vector<Facet> of_a, of_b;
-  for (const FacetPair& p : kept) {
-    of_a.push_back(p.a);
-    of_b.push_back(p.b);
-  }
-  const std::vector<Corners> at_a = search.corners(of_a), at_b = search.corners(of_b);
-  const auto surface_a = model_.surface(a), surface_b = model_.surface(b);
   const double tolerance = meeting_distance(model_.tables(), a, b);
-  const auto measure = [&](std::size_t i) {
-    FacetPair& p = kept[i];
-    const auto gap = measure_gap(*surface_a, at_a[i].places, *surface_b, at_b[i].places, tolerance);
-    if (gap && gap->is_apart)
-      p.factor = gap->factor < kLeastFactor ? kHopeless : gap->factor;
-    else
-      p.factor = is_one_body ? kHalve : kMeets;
+  const auto factor_of = [&](const std::optional<WallGap>& gap) {
+    if (gap && gap->is_apart) return gap->factor < kLeastFactor ? kHopeless : gap->factor;
+    return is_one_body ? kHalve : kMeets;
   };
   const auto measure_every = [&](std::size_t step) {
-    for (std::size_t i = 0; i < kept.size(); i += step)
-      if (kept[i].factor == kUnknown) measure(i);
+    constexpr std::size_t kPerPiece = 2;  // each takes some tenths of a millisecond
+    std::vector<std::size_t> some;
+    std::vector<Facet> of_a, of_b;
+    for (std::size_t i = 0; i < kept.size(); i += step) {
+      if (kept[i].factor != kUnknown) continue;
+      some.push_back(i);
+      of_a.push_back(kept[i].a);
+      of_b.push_back(kept[i].b);
+    }
+    const std::vector<Corners> at_a = search.corners(of_a), at_b = search.corners(of_b);
+    parallel_for(some.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      const auto surface_a = model_.surface(a), surface_b = model_.surface(b);
+      for (std::size_t i = begin; i < end; ++i)
+        kept[some[i]].factor =
+            factor_of(measure_gap(*surface_a, at_a[i].places, *surface_b, at_b[i].places, tolerance));
+    });
   };
   if (!is_one_body) {
     measure_every(std::max<std::size_t>(1, kept.size() / kTried));

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/threads.h"
 #include "features/arc_table.h"
 #include "features/strip.h"
 #include "meshing/topology/vertex_sets.h"
@@ -44,11 +45,18 @@ class EdgeMerger {
   }
 
   std::vector<EdgeId> run() {
+    constexpr std::size_t kPerPiece = 256;
+    std::vector<char> is_short(t_.n_edges(), 0);
+    parallel_for(is_short.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      int hint = 0;
+      for (std::size_t e = begin; e < end; ++e)
+        is_short[e] = !t_.edge_is_degenerate[e] &&
+                      t_.edge_length[e] <
+                          limit_of(static_cast<EdgeId>(e), field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint));
+    });
     std::vector<EdgeId> candidates;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (!t_.edge_is_degenerate[e] &&
-          t_.edge_length[e] < limit_of(e, field_.size(t_.vertex_xyz[t_.edge_vertices[2 * e]], hint_)))
-        candidates.push_back(e);
+      if (is_short[e]) candidates.push_back(e);
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](EdgeId a, EdgeId b) { return t_.edge_length[a] < t_.edge_length[b]; });
     for (const EdgeId e : candidates)
