@@ -10,8 +10,9 @@ What is replayed, with one processor for each thread:
 - tasks go to whoever is free, in the order of the trace; rank 0 hands them out and meshes itself;
 - a message takes --latency, its bytes --bandwidth; rank 0 takes in one result after the other, as long as it took;
 - what a task asks of others is on another rank as often as chance has it;
-- a broadcast goes through a tree, a long one in shares, each of which goes around; all wait for what rank 0 does alone. Its threads share loops, but no piece of one.
-  So do threads that are idle when a task begins. Requested lengths, and rows of patches, are each rank's own.
+- a broadcast goes through a tree, a long one in shares, each of which goes around;
+- all wait for what rank 0 does alone. Its threads share loops, but no piece of one. So do threads that are idle when a
+  task begins. Requested lengths, and rows of patches, are each rank's own.
 --times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
 --validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one, also with
 tasks as much slower as they were there: two processors of a machine share caches and memory.
