@@ -104,12 +104,13 @@ void runs_twice(const Communicator& comm) {
 }
 
 void broadcasts(const Communicator& comm) {
-  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{50000000}}) {
+  const auto nth = [](std::size_t i) { return static_cast<std::byte>(i * 2654435761U >> 24); };
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, (std::size_t{1} << 20) + 5, std::size_t{50000000}}) {
     Bytes bytes;
-    if (comm.is_root()) bytes.assign(n, std::byte{7});
+    for (std::size_t i = 0; comm.is_root() && i < n; ++i) bytes.push_back(nth(i));
     comm.broadcast(bytes);
     CHECK(bytes.size() == n);
-    CHECK(std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{7}; }));
+    for (std::size_t i = 0; i < n; ++i) CHECK(bytes[i] == nth(i));
   }
 }
 

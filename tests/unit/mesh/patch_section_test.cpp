@@ -28,8 +28,8 @@ FacePatch whole_patch() {
   p.inner_xyz = {{1, 1, 0}, {2, 1, 0}};
   p.inner_uv = {{0.1, 0.1}, {0.2, 0.1}};
   p.inner_size = {0.5, 0.7};
-  p.triangles = {{{0, 1, 6}}, {{1, 7, 6}}, {{1, 2, 7}}, {{2, 3, 7}},
-                 {{3, 4, 7}}, {{4, 6, 7}}, {{4, 5, 6}}, {{5, 0, 6}}};
+  p.triangles = {{{4, 5, 6}}, {{5, 0, 6}}, {{0, 1, 6}}, {{2, 3, 7}},
+                 {{3, 4, 7}}, {{1, 7, 6}}, {{1, 2, 7}}, {{4, 6, 7}}};
   for (std::int32_t c = 0; c < 24; ++c)
     if (const NodeId n = p.triangles[c / 3].n[c % 3]; n < 6) {
       p.uv_corner.push_back(c);
@@ -38,43 +38,59 @@ FacePatch whole_patch() {
   return p;
 }
 
-/// Triangles [0, 3) with nodes 0, 1, 2 of the boundary and both inner nodes; then the rest, which has neither of these.
-std::vector<PatchSection> in_two(const FacePatch& whole) {
-  std::vector<PatchSection> two(2);
-  FacePatch& a = two[0].patch;
-  a = whole;
-  a.n_boundary = 3;
-  a.boundary_dim.resize(3);
-  a.boundary_entity.resize(3);
-  a.boundary_index.resize(3);
-  a.triangles = {{{0, 1, 3}}, {{1, 4, 3}}, {{1, 2, 4}}};
-  two[0].is_whole_boundary = false;
-  two[0].boundary_number = {0, 1, 2};
-  two[0].shared = {0, 1};
-  two[0].shared_key = {inner_key(0, 0), inner_key(0, 1)};
-  FacePatch& b = two[1].patch;
-  b = whole;
-  b.triangles.erase(b.triangles.begin(), b.triangles.begin() + 3);
-  two[1].n_foreign = 2;
-  two[1].shared = {0, 1};
-  two[1].shared_key = two[0].shared_key;
-  const std::vector<Vec2> all = corner_uvs(whole);
-  set_corner_uvs(std::span(all).first(9), a);
-  set_corner_uvs(std::span(all).subspan(9), b);
-  return two;
+/// Those about node 6, those about node 7, and those between, which have neither of these nodes.
+std::vector<PatchSection> in_three(const FacePatch& whole) {
+  const std::vector<Vec2> uv = corner_uvs(whole);
+  std::vector<PatchSection> sections(3);
+  const auto fill = [&](std::int32_t number, const std::vector<std::int32_t>& boundary, std::int32_t inner,
+                        const std::vector<Triangle>& triangles, std::size_t first) {
+    PatchSection& s = sections[number];
+    FacePatch& p = s.patch;
+    p.face = whole.face;
+    p.n_boundary = static_cast<std::int32_t>(boundary.size());
+    for (const std::int32_t b : boundary) {
+      p.boundary_dim.push_back(whole.boundary_dim[b]);
+      p.boundary_entity.push_back(whole.boundary_entity[b]);
+      p.boundary_index.push_back(whole.boundary_index[b]);
+    }
+    p.inner_xyz = {whole.inner_xyz[inner]};
+    p.inner_uv = {whole.inner_uv[inner]};
+    p.inner_size = {whole.inner_size[inner]};
+    p.triangles = triangles;
+    s.is_whole_boundary = false;
+    s.boundary_number = boundary;
+    s.shared = {0};
+    s.shared_key = {inner_key(number, 0)};
+    set_corner_uvs(std::span(uv).subspan(3 * first, 3 * triangles.size()), p);
+  };
+  fill(0, {0, 1, 4, 5}, 0, {{{2, 3, 4}}, {{3, 0, 4}}, {{0, 1, 4}}}, 0);
+  fill(1, {2, 3, 4}, 1, {{{0, 1, 3}}, {{1, 2, 3}}}, 3);
+  PatchSection& last = sections[2];
+  last.patch = whole;
+  last.patch.triangles.erase(last.patch.triangles.begin(), last.patch.triangles.begin() + 5);
+  last.n_foreign = 2;
+  last.shared = {0, 1};
+  last.shared_key = {inner_key(0, 0), inner_key(1, 0)};
+  set_corner_uvs(std::span(uv).subspan(15), last.patch);
+  return sections;
 }
 
 TEST(PatchSection, rows_of_all_are_the_patch) {
   const FacePatch whole = whole_patch();
-  std::vector<PatchSection> sections = in_two(whole);
-  EXPECT_EQ(sections[0].n_own(), 2);
-  EXPECT_EQ(sections[1].n_own(), 0);
-  const SectionBegin begins[] = {{}, {2, 3, static_cast<std::int64_t>(sections[0].patch.uv_corner.size())}};
+  std::vector<PatchSection> sections = in_three(whole);
+  std::vector<SectionBegin> begins(1);
+  for (const PatchSection& s : sections)
+    begins.push_back({begins.back().inner + s.n_own(),
+                      begins.back().triangle + static_cast<std::int64_t>(s.patch.triangles.size()),
+                      begins.back().own_uv + static_cast<std::int64_t>(s.patch.uv_corner.size())});
+  EXPECT_EQ(begins.back().inner, 2);
+  begins.pop_back();
   std::vector<SectionRows> rows;
-  for (std::size_t i = 0; i < 2; ++i) rows.push_back(rows_of(std::move(sections[i]), begins, i, 6));
+  for (std::size_t i = 0; i < 3; ++i) rows.push_back(rows_of(std::move(sections[i]), begins, i, 6));
   EXPECT_FALSE(rows[0].has_boundary);
   EXPECT_TRUE(rows[0].rows.boundary_dim.empty());
-  EXPECT_TRUE(rows[1].has_boundary);
+  EXPECT_TRUE(rows[2].has_boundary);
+  EXPECT_EQ(rows[2].begin.own_uv, begins[2].own_uv);
   EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole));
 }
 
@@ -99,22 +115,23 @@ TEST(PatchSection, keys_of_inner_nodes_differ_from_each_other_and_from_those_on_
 }
 
 TEST(PatchSection, parts_of_one_face_have_common_nodes_where_they_share_them_and_those_of_two_faces_do_not) {
-  const std::vector<PatchSection> two = in_two(whole_patch());
+  const std::vector<PatchSection> all = in_three(whole_patch());
+  const PatchSection &one = all[0], &other = all[2];
   const std::vector<Vec3> vertices = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
                                       {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0},
                                       {3, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 1, 0}};
   const EdgeMesh edges = EdgeMesh::of_edges(0);
-  const PatchBlocks a(edges, vertices, two[0].patch), b(edges, vertices, two[1].patch);
+  const PatchBlocks a(edges, vertices, one.patch), b(edges, vertices, other.patch);
   for (const bool is_of_one_face : {true, false}) {
-    const PatchPart of_a = part_of(edges, vertices, two[0], a, a.meeting(b), is_of_one_face),
-                    of_b = part_of(edges, vertices, two[1], b, b.meeting(a), is_of_one_face);
+    const PatchPart of_a = part_of(edges, vertices, one, a, a.meeting(b), is_of_one_face),
+                    of_b = part_of(edges, vertices, other, b, b.meeting(a), is_of_one_face);
     const TwoParts both = join_parts(of_a, of_b);
-    ASSERT_EQ(both.triangles.size(), 8u);
+    ASSERT_EQ(both.triangles.size(), 6u);
     std::map<std::array<double, 2>, std::set<NodeId>> at;
     for (const Triangle& t : both.triangles)
       for (const NodeId n : t.n) at[{both.points[n].x, both.points[n].y}].insert(n);
     EXPECT_EQ((at[{2, 0}].size()), 1u) << "on the boundary";
-    EXPECT_EQ((at[{2, 1}].size()), is_of_one_face ? 1u : 5u) << "inside";
+    EXPECT_EQ((at[{1, 1}].size()), is_of_one_face ? 1u : 5u) << "inside";
   }
 }
 

@@ -73,6 +73,20 @@ TEST(DirtyParts, are_a_leader_with_all_its_followers) {
   EXPECT_TRUE(dirty.edge[a] && dirty.edge[b] && dirty.edge[third]);
 }
 
+TEST(DirtyParts, are_edges_whose_lengths_a_refinement_reaches_beside_them) {
+  const ClosedStrip m;
+  const MeshTopology topology(m.model.tables());
+  const Vec3 last = *std::ranges::max_element(m.edges.node_xyz, {}, &Vec3::x);
+  for (const double beyond : {0.5, 1.5}) {  // lengths of 0.1 from the model, beyond the reach
+    const Vec3 x = last + Vec3{0.05 + 0.1 * beyond, 0, 0};
+    const DirtyParts dirty = find_dirty_parts(topology, m.edges, std::vector{Refinement{x, 0.01, 0.05}}, {});
+    bool is_near = false;
+    for (const Vec3& node : m.edges.node_xyz) is_near |= distance(node, x) < 0.05 + 0.1;
+    EXPECT_EQ(std::count(dirty.edge.begin(), dirty.edge.end(), 1) > 0, is_near);
+    EXPECT_EQ(is_near, beyond < 1);
+  }
+}
+
 TEST(DirtyParts, are_none_where_nothing_is_refined) {
   const ClosedStrip m;
   const DirtyParts dirty = find_dirty_parts(m.topology, m.edges, {}, {});

@@ -42,6 +42,26 @@ TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patc
   EXPECT_FALSE(store.put({std::move(empty)}, 0, 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
 }
 
+TEST(FacePlace, has_the_rows_of_its_sections_one_after_the_other) {
+  std::vector<PatchPlace> sections(4);
+  for (std::int32_t i = 0; i < 4; ++i) {
+    PatchPlace& p = sections[i];
+    p.rank = i == 1 ? kNone : i;
+    p.section = i;
+    if (p.is_there()) p.n_inner = 10 + i, p.n_triangles = 100 + i, p.n_own_uv = 1000 + i;
+  }
+  const FacePlace place(sections);
+  EXPECT_TRUE(place.is_there());
+  EXPECT_EQ(place.n_triangles(), 100 + 102 + 103);
+  const std::vector<SectionBegin> begins = place.begins();
+  ASSERT_EQ(begins.size(), 4u);
+  EXPECT_EQ(begins[3].inner, 10 + 12);
+  EXPECT_EQ(begins[3].triangle, 100 + 102);
+  EXPECT_EQ(begins[3].own_uv, 1000 + 1002);
+  EXPECT_FALSE(FacePlace().is_there());
+  EXPECT_FALSE(FacePlace(PatchPlace()).is_there());
+}
+
 TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
   const Meshed m("box", 8);
   const FacePatch& whole = m.result.patches[0];

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "base/error.h"
 #include "support/backward_executor.h"
 #include "support/meshed.h"
@@ -16,11 +18,13 @@ MeshPlan weighed_plan(const MeshTopology& topology, double length) {
   return plan;
 }
 
-MeshResult mesh(const Model& model, const SizeField& field, double length, double tile, const Executor& executor) {
+MeshResult mesh(const Model& model, const SizeField& field, double length, double tile, const Executor& executor,
+                PatchesGo patches = PatchesGo::kToRoot) {
   set_verbosity(Verbosity::kQuiet);
   const MeshTopology topology(model.tables());
   MeshOptions options;
   options.tile_triangles = tile;
+  options.patches = patches;
   return mesh_regions(model, topology, field, weighed_plan(topology, length), options, executor);
 }
 
@@ -35,6 +39,25 @@ TEST(TiledFaces, make_the_same_mesh_in_whatever_order_tiles_are_done) {
   for (std::size_t f = 0; f < a.patches.size(); ++f) {
     ASSERT_FALSE(a.patches[f].triangles.empty()) << f;
     EXPECT_EQ(packed(a.patches[f]), packed(b.patches[f])) << f;
+  }
+}
+
+TEST(TiledFaces, stay_in_sections_whose_rows_are_the_patch) {
+  const Model model = test::make_model("drilled_block");
+  const UniformField field(0.35);
+  const MeshResult whole = mesh(model, field, 0.35, 1000, test::one_rank);
+  MeshResult apart = mesh(model, field, 0.35, 1000, test::one_rank, PatchesGo::kNowhere);
+  EXPECT_TRUE(apart.patches.empty());
+  EXPECT_GT(apart.rows.size(), whole.patches.size() + 20);
+  std::map<FaceId, std::vector<SectionRows>> by_face;
+  for (SectionRows& rows : apart.rows) by_face[rows.rows.face].push_back(std::move(rows));
+  for (std::size_t f = 0; f < whole.patches.size(); ++f) {
+    std::vector<SectionRows>& rows = by_face[static_cast<FaceId>(f)];
+    EXPECT_EQ(apart.places[f].n_triangles(), static_cast<std::int64_t>(whole.patches[f].triangles.size()));
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      EXPECT_EQ(rows[i].begin.triangle,
+                rows[i - 1].begin.triangle + static_cast<std::int64_t>(rows[i - 1].rows.triangles.size()));
+    EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole.patches[f])) << f;
   }
 }
 
