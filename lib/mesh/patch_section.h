@@ -16,7 +16,7 @@ struct SectionBegin {
   std::int64_t inner = 0, triangle = 0, own_uv = 0;
 };
 
-/// Some triangles of a face, with the nodes of these. A whole patch is one section that has no links.
+/// Some triangles of a face, with the nodes of these. A whole patch is one section that shares no inner node.
 struct PatchSection {
   FacePatch patch;                                 ///< its inner nodes: first its own, then those that others own
   bool is_whole_boundary = true;                   ///< it has all nodes on the boundary of the face; else:

@@ -475,7 +475,7 @@ std::vector<CrossingSearch::FacetPairs> CrossingSearch::by_faces(const FacetPair
   return groups;
 }
 
-/// Pairs of two faces, at the rank of the first one's triangle. Where these are of two bodies, some places tell whether
+/// Pairs of two faces, at a rank that has one of them. Where these are of two bodies, some places tell whether
 /// the bodies meet everywhere.
 CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kept, const Search& search) const {
   constexpr std::size_t kTried = 16;  // of two bodies: none apart, and they meet

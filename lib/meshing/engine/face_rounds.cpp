@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <utility>
 
 #include "base/current_work.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -218,30 +220,48 @@ void FaceRounds::report(PatchesGo patches) {
   hand_over(patches);
 }
 
+/// Local: a patch that is all here, which is not kept any more.
+FacePatch FaceRounds::take_whole(FaceId f) {
+  const std::vector<SectionBegin> begins = places_[f].begins();
+  std::vector<SectionRows> rows;
+  for (std::size_t s = 0; s < begins.size(); ++s)
+    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(f, places_[f], s, begins));
+  return join_rows(std::move(rows));
+}
+
 /// Collective. The patches go into the result.
 void FaceRounds::hand_over(PatchesGo patches) {
   if (patches == PatchesGo::kToRoot) {
-    std::vector<FaceId> all(tables_.n_faces());
-    std::iota(all.begin(), all.end(), 0);
-    Patches whole = bring(all);
+    std::vector<FaceId> elsewhere;
+    for (FaceId f = 0; f < tables_.n_faces(); ++f)
+      if (std::ranges::any_of(places_[f].sections, [](const PatchPlace& p) { return p.rank > 0; }))
+        elsewhere.push_back(f);
+    Patches remote = bring(elsewhere);
     result_.patches.resize(tables_.n_faces());
     for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+      if (const auto it = remote.find(f); it != remote.end())
+        result_.patches[f] = std::move(it->second);
+      else if (executor_.is_root())
+        result_.patches[f] = take_whole(f);
       result_.patches[f].face = f;
-      if (const auto it = whole.find(f); it != whole.end()) result_.patches[f] = std::move(it->second);
     }
     return;
   }
   struct OwnSection {
     FaceId face;
     std::size_t number;
+    std::shared_ptr<const std::vector<SectionBegin>> begins;
   };
   std::vector<OwnSection> own;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
-      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s});
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    const auto begins = std::make_shared<const std::vector<SectionBegin>>(places_[f].begins());
+    for (std::size_t s = 0; s < begins->size(); ++s)
+      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s, begins});
+  }
   result_.rows.resize(own.size());
   parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
-    result_.rows[i] = store_.take(own[i].face, places_[own[i].face], own[i].number);
+    const auto& [f, number, begins] = own[i];
+    result_.rows[i] = store_.take(f, places_[f], number, *begins);
   });
   result_.places = places_;
 }
@@ -322,6 +342,7 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   mesh_faces(whole, tiled, progress);
   executor_.begin_phase("seams");
   std::vector<FaceId> failed = mesh_seams(tiled);
+  tiled.drop_sections();
   share(executor_, failed);
   TiledRegions none(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (!failed.empty()) mesh_faces(failed, none, progress);
@@ -440,7 +461,8 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
       });
 }
 
-/// Tasks: the faces that were cut. Returns those of which a tile failed, or whose tiles do not fit, on rank 0.
+/// Tasks: groups of tiles, then the faces that were cut. Returns those of which a tile failed, or whose tiles do not
+/// fit, on rank 0.
 std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
   std::vector<FaceId> failed;
   const std::vector<FaceId> cut = tiled.cut_regions();
@@ -567,6 +589,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
 
 /// Local, on rank 0.
 void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
+  require_countable(static_cast<std::uint64_t>(place.n_triangles()), "triangles of a face", kMaxTriangles);
   FaceOutcome& o = outcomes_[f];
   n_meshed_ += static_cast<std::uint64_t>(place.n_triangles());
   places_[f] = std::move(place);

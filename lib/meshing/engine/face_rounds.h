@@ -27,7 +27,7 @@ class FaceRounds : public MeshRounds {
              const MeshOptions& options, const Executor& executor, MeshResult& result);
 
   /// Collective, once after run(): folds, failures and patches into the result. The patches of a rank are those that it
-  /// has made; `gathers`: rank 0 has all.
+  /// has made, or rank 0 has all.
   void report(PatchesGo patches);
 
  private:
@@ -104,6 +104,7 @@ class FaceRounds : public MeshRounds {
   void part_touching();
   using Patches = std::map<FaceId, FacePatch>;
   using BadTriangles = std::map<FaceId, std::vector<std::size_t>>;
+  FacePatch take_whole(FaceId f);
   void hand_over(PatchesGo patches);
   Patches bring(const std::vector<FaceId>& faces) const;
   std::vector<FaceId> suspects() const;

@@ -190,6 +190,7 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
                [&](std::int32_t i) { return !tiled.is_cut(i); });
   fill_holes(rims, whole, expected, tiled, fills);
   failed = join_tiles_of(rims, expected, tiled, fills);
+  tiled.drop_sections();
   share(executor_, failed);
   if (!failed.empty()) fill_holes(rims, failed, expected, none, fills);
   failed.clear();
@@ -274,7 +275,9 @@ std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& 
       [&](std::int32_t task) {
         return packed(
             fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-              return tiled.join(cut[task], boundary, tiled.seams(surface, cut[task], boundary, executor_), executor_);
+              SeamMesh seams = tiled.seams(surface, cut[task], boundary, executor_);
+              if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
+              return tiled.join(cut[task], boundary, std::move(seams), executor_);
             }));
       },
       [&](std::int32_t task, Bytes&& result) { unpack(result, fills[cut[task]]); });

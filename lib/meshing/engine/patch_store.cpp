@@ -54,13 +54,14 @@ std::shared_ptr<const StoredPatch> PatchStore::get(FaceId face, const PatchPlace
   return patches_.at({face, place.version, place.section});
 }
 
-SectionRows PatchStore::take(FaceId face, const FacePlace& place, std::size_t number) {
+SectionRows PatchStore::take(FaceId face, const FacePlace& place, std::size_t number,
+                             std::span<const SectionBegin> begins) {
   std::unique_lock lock(mutex_);
   const PatchPlace& own = place.sections[number];
   auto node = patches_.extract({face, own.version, own.section});
   lock.unlock();
   ST_ASSERT(!node.empty());
-  return rows_of(std::move(node.mapped()->section), place.begins(), number, place.sections.back().n_boundary);
+  return rows_of(std::move(node.mapped()->section), begins, number, place.sections.back().n_boundary);
 }
 
 void PatchStore::keep_only(const std::vector<PlacedPatch>& live) {
@@ -88,6 +89,8 @@ std::vector<FacePatch> PatchStore::bring(std::vector<PlacedFace> wanted) const {
   std::iota(tasks.order.begin(), tasks.order.end(), 0);
   tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].face}; };
   std::vector<std::vector<SectionRows>> rows(wanted.size());  // of sections by number
+  std::vector<std::vector<SectionBegin>> begins;
+  for (const PlacedFace& w : wanted) begins.push_back(w.place.begins());
   for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].place.sections.size());
   executor_.run_named_tasks(
       tasks,
@@ -95,7 +98,7 @@ std::vector<FacePatch> PatchStore::bring(std::vector<PlacedFace> wanted) const {
         const auto& [face, place] = wanted[sections[task].face];
         const std::size_t number = sections[task].number;
         PatchSection copy = get(face, place.sections[number])->section;
-        return packed(rows_of(std::move(copy), place.begins(), number, place.sections.back().n_boundary));
+        return packed(rows_of(std::move(copy), begins[sections[task].face], number, place.sections.back().n_boundary));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, rows[sections[task].face][sections[task].number]); });
   std::vector<FacePatch> patches;

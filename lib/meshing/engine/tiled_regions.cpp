@@ -93,7 +93,7 @@ void TiledRegions::mesh_groups(const Executor& executor, const std::string& made
     work.push_back(static_cast<double>(cuts_.at(sections_[s].region).nodes.size()));
   const auto label = [&](std::int32_t task) {
     const Section& s = sections_[n_tiles_ + task];
-    return TaskLabel{"seams", regions_.face(s.region), s.index};
+    return TaskLabel{"group", regions_.face(s.region), task};  // a face may have several regions
   };
   executor.run_named_tasks(
       {heaviest_first(work),
@@ -114,12 +114,12 @@ void TiledRegions::mesh_groups(const Executor& executor, const std::string& made
 void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
   const auto [region, index] = sections_[section];
   const FaceId f = regions_.face(region);
-  const CurrentWork at_face("face", f + 1, limit_);
   const TileCut& cut = cuts_.at(region);
   const TileGroups& groups = groups_.at(region);
   SplitMesh& split = meshes_.at(region)[index];
   const std::int32_t group = index - groups.n_tiles();
   std::vector<SeamBand> bands = gather<SeamBand>(region, groups.members(group), executor);
+  const CurrentWork at_face("face", f + 1, limit_);
   try {
     const auto surface = model_.surface(f);
     const SurfaceMaker make_surface = [&] { return model_.surface(f); };
@@ -145,8 +145,9 @@ struct SectionRequest {
 template <class Part>
 Part TiledRegions::take_part(const Section& section) {
   SplitMesh& mesh = meshes_.at(section.region)[section.index];
+  SeamBand band = std::exchange(mesh.band, {});
   if constexpr (std::is_same_v<Part, SeamBand>)
-    return std::exchange(mesh.band, {});
+    return band;
   else
     return std::exchange(mesh, {});
 }

@@ -40,9 +40,9 @@ struct Regions {
   std::function<std::vector<BoundaryPlace>(const FaceBoundary& boundary)> places;
 };
 
-/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams or
-/// joins. All tasks are pure functions of the boundary and the sizes. Tiles, and groups of them, are the sections of a
-/// region (see SeamMesh): each stays on the rank that makes it.
+/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams,
+/// and joins where a region is wanted as a whole. All tasks are pure functions of the boundary and the sizes. Tiles,
+/// and groups of them, are the sections of a region (see SeamMesh): each stays on the rank that makes it.
 class TiledRegions {
  public:
   /// All references outlive the object. `limit`: of a tile.
@@ -102,6 +102,8 @@ class TiledRegions {
   Bytes answer(const Bytes& request);
   /// Local, on its rank: what is left of it without the band.
   SplitMesh take(std::int32_t section);
+  /// Local: nothing is wanted of them any more.
+  void drop_sections() { meshes_.clear(); }
 
  private:
   template <class Part>

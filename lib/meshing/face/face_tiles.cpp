@@ -15,7 +15,7 @@
 namespace st {
 namespace {
 
-constexpr double kCoarsePerTile = 24;  // triangles of the coarse mesh for each tile
+constexpr double kCoarsePerTile = 24;  // triangles of the coarse mesh for each tile, at least
 constexpr int kCoarseRounds = 2;       // of the enhancer: cuts should be straight and meet at wide angles
 constexpr int kSamplesPerNode = 4;     // of a cut, to space its nodes
 constexpr int kMaxSamples = 1 << 14;
@@ -415,6 +415,17 @@ std::vector<std::int32_t> shared_nodes(const std::vector<Tile>& tiles, std::int3
   return shared;
 }
 
+/// Of the boundary nodes' ids among all of these, ascending.
+std::vector<std::int32_t> numbers_of(const FaceBoundary& boundary) {
+  std::vector<std::int32_t> ids, numbers;
+  for (const FaceNode& n : boundary.nodes) ids.push_back(n.id);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  for (const FaceNode& n : boundary.nodes)
+    numbers.push_back(static_cast<std::int32_t>(std::lower_bound(ids.begin(), ids.end(), n.id) - ids.begin()));
+  return numbers;
+}
+
 }  // namespace
 
 BoundaryPlace place_on_edge(std::int32_t id, const BoundaryNumbering& numbering) {
@@ -434,6 +445,7 @@ TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const
   TileCut cut = TileCutter(surface, make_surface, boundary, places, field, tile_triangles).run();
   cut.n_boundary = static_cast<std::int32_t>(boundary.nodes.size());
   cut.shared = shared_nodes(cut.tiles, cut.n_boundary);
+  cut.number = numbers_of(boundary);
   return cut;
 }
 

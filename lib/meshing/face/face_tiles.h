@@ -40,12 +40,14 @@ struct TileCut {
   std::int32_t n_boundary = 0;       ///< nodes on the boundary of the face
   std::vector<std::int32_t> shared;  ///< of these, ascending: those that several tiles have
 
-  static auto fields(auto& x) { return std::tie(x.nodes, x.tiles, x.n_boundary, x.shared); }
+  std::vector<std::int32_t> number;  ///< [n_boundary] of their ids among these, ascending, once each
+
+  static auto fields(auto& x) { return std::tie(x.nodes, x.tiles, x.n_boundary, x.shared, x.number); }
 };
 
 /// Cuts a face along edges of a coarse mesh of itself into tiles of about `tile_triangles` triangles (Chen, Zhao, Zheng
 /// et al., Proc. 22nd International Meshing Roundtable, 2013, cut a background mesh likewise). `places`: of the
-/// boundary's nodes. `make_surface`: see improve_seams(). Local, pure. Cost: the coarse mesh, some ten triangles per
+/// boundary's nodes. `make_surface`: see improve_seams(). Local, pure. Cost: the coarse mesh, 24 to 96 triangles per
 /// tile.
 TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
                  std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles);

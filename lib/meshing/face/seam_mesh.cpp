@@ -51,7 +51,7 @@ class SectionSplitter {
  private:
   static constexpr std::uint8_t kInRest = 1, kInBand = 2;
 
-  /// Steps from a cut node; nodes that the face's boundary shares with other tiles are a step away at most.
+  /// Steps from a cut node; boundary nodes that several tiles have are a step away at most.
   void find_layers() {
     layer_.assign(n_boundary_ + mesh_.inner.size(), kSeamLayers + 1);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
@@ -114,18 +114,13 @@ class SectionSplitter {
   }
 
   void number_boundary() {
-    std::vector<std::int32_t> ids;  // of the whole boundary
-    for (const FaceNode& n : boundary_.nodes) ids.push_back(n.id);
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     boundary_in_rest_.assign(n_boundary_, kNone);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
       if (!(uses_[i] & kInRest)) continue;
       boundary_in_rest_[i] = size_of(split_.boundary);
       split_.boundary.push_back(boundary_.nodes[places_[i]]);
       split_.number.push_back(places_[i]);
-      const auto own = std::lower_bound(ids.begin(), ids.end(), split_.boundary.back().id);
-      split_.boundary_number.push_back(static_cast<std::int32_t>(own - ids.begin()));
+      split_.boundary_number.push_back(cut_.number[places_[i]]);
     }
     std::vector<std::int32_t>& numbers = split_.boundary_number;
     std::sort(numbers.begin(), numbers.end());

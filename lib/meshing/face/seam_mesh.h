@@ -21,8 +21,8 @@ struct SectionNode {
   std::int32_t section, number;
 };
 
-/// Triangles within some layers of the cuts. Their corners, and those of a SeamMesh: boundary node i of the face as i,
-/// cut node j as n_boundary + j, inner node k as n_boundary + n_cut + k.
+/// Triangles within some layers of the cuts. The corners here and of a SeamMesh: boundary node i of the face as i, cut
+/// node j as n_boundary + j, inner node k as n_boundary + n_cut + k.
 struct SeamBand {
   std::vector<FaceNode> nodes;     ///< inner nodes of these triangles
   std::vector<SectionNode> owner;  ///< of the last ones, which stay in sections

@@ -137,10 +137,10 @@ class SeamPiece {
 };
 
 /// The triangles about all cuts of a face: piece by piece, then where pieces meet.
-class SeamBand {
+class SeamEnhancer {
  public:
-  SeamBand(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
-           const SizeField& field, const FaceMeshOptions& options, FaceMesh& mesh)
+  SeamEnhancer(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+               const SizeField& field, const FaceMeshOptions& options, FaceMesh& mesh)
       : surface_(surface),
         make_surface_(make_surface),
         boundary_(boundary),
@@ -349,7 +349,7 @@ class SeamBand {
 void improve_seams(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
                    const SizeField& field, const FaceMeshOptions& options, std::span<const std::int32_t> piece_of_cut,
                    FaceMesh& mesh) {
-  SeamBand(surface, make_surface, boundary, field, options, mesh).run(piece_of_cut);
+  SeamEnhancer(surface, make_surface, boundary, field, options, mesh).run(piece_of_cut);
 }
 
 }  // namespace st
