@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/executor.h"
@@ -23,7 +26,13 @@ class BackwardExecutor : public SerialExecutor {
   }
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t)>& compute,
                        const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
-    for (const std::int32_t task : tasks.order) ++n_of[tasks.label(task).kind];
+    std::set<std::tuple<std::string, std::int32_t, std::int32_t>> names;
+    for (const std::int32_t task : tasks.order) {
+      const TaskLabel label = tasks.label(task);
+      ++n_of[label.kind];
+      if (!tasks.made_from.empty() && !names.emplace(label.kind, label.id, label.part).second)
+        throw std::logic_error(std::string("two tasks of one name: ") + label.kind);
+    }
     SerialExecutor::run_named_tasks(tasks, compute, collect);
   }
   mutable std::size_t n_tasks = 0;

@@ -152,6 +152,34 @@ TEST_P(RefilledSolid, done_again_as_a_whole_is_what_st_mesh_makes) {
 INSTANTIATE_TEST_SUITE_P(, RefilledSolid, testing::ValuesIn(test::kSolids),
                          [](const auto& info) { return std::string(info.param); });
 
+/// Fine at two places of the side z = 20 of the box 60 x 40 x 20.
+class TwoSpots : public test::LinearField {
+ public:
+  using SizeField::size;
+  TwoSpots(double length, double slope, double elsewhere)
+      : LinearField({15, 20, 20}, length, slope), other_({45, 20, 20}, length, slope), elsewhere_(elsewhere) {}
+  double size(Vec3 x, int& hint) const override {
+    return std::min({LinearField::size(x, hint), other_.size(x, hint), elsewhere_});
+  }
+
+ private:
+  test::LinearField other_;
+  double elsewhere_;
+};
+
+TEST(HolesInTiles, of_one_face_have_groups_of_different_names) {
+  const ShapeMesh solid("box", 0.008);
+  const TwoSpots fine(0.03 * solid.field.min_size(), 0.04, solid.field.min_size());
+  Marked marked(solid, fine);
+  MeshOptions tiles;
+  tiles.tile_triangles = 500;
+  const test::BackwardExecutor named;
+  const MeshResult r = marked.fill(HoleOutput::kMesh, tiles, named);
+  EXPECT_TRUE(r.failures.empty());
+  EXPECT_EQ(named.n_of["hole join"], 2u) << "triangles: " << r.mesh.n_triangles();
+  EXPECT_GE(named.n_of["group"], 4u);
+}
+
 /// Inside the side z = 20 of the box 60 x 40 x 20.
 bool is_on_top(Vec3 x) { return x.z > 19.999 && x.x > 0.01 && x.x < 59.99 && x.y > 0.01 && x.y < 39.99; }
 
