@@ -11,7 +11,6 @@ import argparse
 import csv
 import heapq
 import re
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -19,16 +18,11 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
+from table_common import run
+
 SLOPE = 0.2
 LARGER = 0.85  # a size below this share of what grows along the surface is not explained
 INTO = -0.3    # cosine between outer normal and way
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
 
 
 class Surface:

@@ -9,18 +9,12 @@ import argparse
 import csv
 import json
 import random
-import subprocess
 import tempfile
 from pathlib import Path
 
+from table_common import run
+
 N_POINTS = 10000
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
 
 
 def random_points(obj):

@@ -5,7 +5,6 @@ usage: scripts/edge_table.py BIN_DIR MODEL... [--presets euler rans]     run wit
 """
 import argparse
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -13,12 +12,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
+from table_common import run
 
 
 def segments_on(mesh, edges):

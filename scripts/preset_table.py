@@ -10,7 +10,6 @@ is the mean length of the segments at the nearest node. Cells across a base foll
 """
 import argparse
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -18,12 +17,7 @@ import numpy
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
+from table_common import run
 
 
 class Mesh:

@@ -5,16 +5,10 @@ usage: scripts/stretch_table.py BIN_DIR MODEL... [--max-aspect 16]
 """
 import argparse
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
+from table_common import run
 
 
 def checked(bin_dir, geometry, folder, aspect):

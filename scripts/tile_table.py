@@ -8,19 +8,13 @@ or more. q is 4 sqrt(3) area / (sum of squared sides); the totals are over all f
 """
 import argparse
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in (0, 5):
-        raise SystemExit(f"{command[0]}: {done.stderr}")
-    return done.stdout.splitlines()[-1] if done.stdout else ""
+from table_common import run
 
 
 def faces_of(path):

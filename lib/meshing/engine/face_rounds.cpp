@@ -467,7 +467,8 @@ std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
   std::vector<FaceId> failed;
   const std::vector<FaceId> cut = tiled.cut_regions();
   if (cut.empty()) return failed;
-  tiled.mesh_groups(executor_, made_from());
+  const std::string digest = made_from();
+  tiled.mesh_groups(executor_, digest);
   std::vector<double> work;
   for (const FaceId f : cut) work.push_back(weight(f));
   std::map<FaceId, FaceReport> parted;
@@ -476,7 +477,7 @@ std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
        [&](std::int32_t task) {
          return TaskLabel{"seams", cut[task], tiled.n_sections_of(cut[task])};
        },
-       made_from(),
+       digest,
        {},
        [&](std::int32_t task, const Bytes& result) { return record_whole(cut[task], result); },
        [&](std::int32_t, Bytes&& whole) { return restore_whole(std::move(whole)); },

@@ -260,18 +260,13 @@ std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& 
   const std::vector<std::int32_t> cut = tiled.cut_regions();
   std::vector<std::int32_t> failed;
   if (cut.empty()) return failed;
-  tiled.mesh_groups(executor_, made_from(rims));
+  const std::string digest = made_from(rims);
+  tiled.mesh_groups(executor_, digest);
   std::vector<double> work;
   for (const std::int32_t i : cut) work.push_back(expected[i]);
   const auto label = [&](std::int32_t task) { return TaskLabel{"hole join", rims[cut[task]].face, cut[task]}; };
   executor_.run_named_tasks(
-      {heaviest_first(work),
-       label,
-       made_from(rims),
-       {},
-       {},
-       {},
-       [&](const Bytes& request) { return tiled.answer(request); }},
+      {heaviest_first(work), label, digest, {}, {}, {}, [&](const Bytes& request) { return tiled.answer(request); }},
       [&](std::int32_t task) {
         return packed(
             fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {

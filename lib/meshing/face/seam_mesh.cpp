@@ -343,17 +343,9 @@ TileGroups::TileGroups(const TileCut& cut) : n_tiles_(size_of(cut.tiles)), n_gro
     std::fill(group.begin() + first_tile(g), group.begin() + first_tile(g + 1), g);
   group_of_.assign(cut.nodes.size(), kNone);
   if (n_groups_ == 0) return;
-  std::vector<char> is_between(cut.nodes.size(), 0);
-  for (std::int32_t t = 0; t < n_tiles_; ++t)
-    for (const auto& segment : cut.tiles[t].segments)
-      for (const std::int32_t n : segment) {
-        if (n < cut.n_boundary) continue;
-        std::int32_t& own = group_of_[n - cut.n_boundary];
-        if (own != kNone && own != group[t]) is_between[n - cut.n_boundary] = 1;
-        own = group[t];
-      }
-  for (std::size_t i = 0; i < group_of_.size(); ++i)
-    if (is_between[i]) group_of_[i] = kNone;
+  const std::vector<std::array<std::int32_t, 2>> tiles = tiles_of_cuts(cut);
+  for (std::size_t i = 0; i < tiles.size(); ++i)  // all tiles between the first and the last are of their group
+    if (const auto [first, last] = tiles[i]; first != kNone && group[first] == group[last]) group_of_[i] = group[first];
 }
 
 std::int32_t TileGroups::first_tile(std::int32_t group) const {
