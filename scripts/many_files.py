@@ -1,14 +1,28 @@
 #!/usr/bin/env python3
-"""The whole chain on many CAD files with defaults: a line per file, then counts of verdicts.
+"""The whole chain on many CAD files with defaults: what is wrong, and nobody says so?
 
-Lines are added to TABLE as the files are done, and files that it has already are passed over: a stopped run goes on.
-A line has the file, the exit codes of the stages, closed or open by the import, seconds, and what went wrong.
+A line of TABLE per file has the exit codes of the stages, the verdict of st-check, that of an independent judge, and
+how far area, volume and the worst face of the mesh are off those that OpenCASCADE finds in the file as it reads it
+(tests/support/cad_measure.cpp). Silent is a file that ends with code 0 and "passes" although area or volume are off by
+more than 1 % and the verdict does not say so, a face by more than 3 % that st-check does not count as below the sizes,
+or the judge finds folds or crossings inside a part. Files that TABLE has already are passed over: a stopped run goes
+on.
 
-usage: find FOLDER -name '*.st*p' | scripts/many_files.py BIN_DIR TABLE [--seconds 120]
---seconds: of each stage.
+Exit code: 1 when a file is silent.
+
+usage: find FOLDER -name '*.st*p' | scripts/many_files.py BIN_DIR TABLE [--seconds 60] [--jobs 2] [--raster OPTIONS]
+           [--measure PROGRAM] [--judge PROGRAM]
+--seconds: of each stage, the measure and the judge. --raster: options of st-raster. --measure: cad_measure of the
+tests, found beside BIN_DIR otherwise. --judge: gets the mesh, and --open for an open model; prints a line of JSON with
+"folds" and "self_intersections".
 """
 import argparse
 import collections
+import concurrent.futures
+import json
+import os
+import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,54 +31,182 @@ from pathlib import Path
 
 STAGES = (
     ("import", "st-import {model} -o {at}/g.hdf"),
-    ("raster", "st-raster {at}/g.hdf -o {at}/r.hdf"),
+    ("raster", "st-raster {at}/g.hdf -o {at}/r.hdf {raster}"),
     ("prolong", "st-prolong {at}/r.hdf -o {at}/s.hdf"),
     ("mesh", "st-mesh {at}/g.hdf {at}/s.hdf -o {at}/p.hdf"),
     ("merge", "st-merge {at}/p.hdf -o {at}/m.hdf"),
-    ("check", "st-check {at}/m.hdf --geometry {at}/g.hdf"),
+    ("check", "st-check {at}/m.hdf --geometry {at}/g.hdf --sizing {at}/s.hdf --json"),
 )
+COLUMNS = ("file", "codes", "shape", "verdict", "judge", "triangles", "area %", "volume %", "face %", "faces off",
+           "below sizes", "seconds", "silent", "words")
+WHOLE_LIMIT, FACE_LIMIT = 1, 3  # per cent
 
 
-def run_chain(bin_dir, model, seconds):
-    """Exit codes of the stages up to one that leaves nothing, closed or open, and the last words of those that fail."""
-    codes, shape, words = [], "", []
-    with tempfile.TemporaryDirectory() as at:
+def last_json(text):
+    """The last line as an object; empty when it is none."""
+    try:
+        return json.loads(text.strip().splitlines()[-1])
+    except (IndexError, ValueError):
+        return {}
+
+
+class Chain:
+    """Runs the tools on one file; what is found goes to `row`."""
+
+    def __init__(self, options, model, folder):
+        self.options, self.at = options, Path(folder)
+        self.row = dict.fromkeys(COLUMNS, "")
+        self.row["file"] = model
+        self.words = []
+        self.said = {}  # what the verdict says of area and volume, per cent
+
+    def run(self, command):
+        """Exit code ("late" after the limit), stdout, stderr. All that the command started ends with it."""
+        process = subprocess.Popen([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   stdin=subprocess.DEVNULL, text=True, errors="replace", start_new_session=True)
+        try:
+            out, err = process.communicate(timeout=self.options.seconds)
+            return process.returncode, out, err
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            return "late", "", f"{Path(command[0]).name}: no end in {self.options.seconds:g} s"
+
+    def run_stages(self):
+        """Whether there is a mesh."""
+        codes = []
         for name, line in STAGES:
-            command = [w.format(model=model, at=at) for w in line.split()]
-            try:
-                done = subprocess.run([bin_dir / command[0], *command[1:]], capture_output=True, text=True,
-                                      errors="replace", timeout=seconds, check=False)
-            except subprocess.TimeoutExpired:
-                return codes + ["late"], shape, words + [f"{command[0]}: no end in {seconds} s"]
-            codes.append(str(done.returncode))
+            words = [w.format(at=self.at, model=self.row["file"]) for w in line.replace("{raster}", "").split()]
+            if name == "raster":
+                words += shlex.split(self.options.raster)
+            code, out, err = self.run([self.options.bin_dir / words[0], *words[1:]])
+            codes.append(str(code))
+            self.row["codes"] = " ".join(codes)
             if name == "import":
-                shape = "closed" if ", closed," in done.stdout else "open" if done.returncode == 0 else ""
-            if done.returncode:
-                words.append((done.stdout if name == "check" else done.stderr).strip().splitlines()[-1:])
-            if done.returncode not in (0, 5):
+                self.row["shape"] = "closed" if ", closed," in out else "open" if code == 0 else ""
+            if name == "check":
+                self.read_verdict(out)
+            if code and name != "check":
+                self.words += err.strip().splitlines()[-1:]
+            if code not in (0, 5):
                 break
-    return codes, shape, [w[0] for w in words if w]
+        return (self.at / "m.hdf").exists()
+
+    def read_verdict(self, out):
+        found = last_json(out)
+        if not found:
+            return
+        self.row["triangles"] = found["triangles"]
+        self.row["verdict"] = "passes" if found["passes"] else "fails: " + " ".join(found["failed"])
+        self.row["below sizes"] = found["checks"].get("below-sizes", {}).get("count", 0)
+        for key, column in (("area_difference", "area %"), ("volume_difference", "volume %")):
+            if abs(found.get(key) or 0) > WHOLE_LIMIT / 100:
+                self.said[column] = 100 * found[key]
+                self.words.append(f"said: {column} {self.said[column]:.2f}")
+
+    def measure(self):
+        code, out, err = self.run([self.options.measure, self.row["file"], self.at / "m.hdf"])
+        found = last_json(out)
+        if code or not found:
+            self.words.append(f"not measured: {err.strip() or code}")
+            return
+        for key, column in (("area_error", "area %"), ("volume_error", "volume %"), ("face_error", "face %")):
+            if key in found:
+                self.row[column] = f"{100 * found[key]:.2f}"
+        self.row["faces off"] = found["wrong_faces"]
+        notes = [f"{found[k]} {k.replace('_', ' ')}" for k in ("unsure_faces", "unpaired_faces", "duplicates")
+                 if found[k]]
+        if found["wrong_faces"]:
+            notes.insert(0, f"worst face {found['worst_face']} of area {found['worst_area']:.3g}")
+        self.words += notes
+
+    def ask_judge(self):
+        if not self.options.judge:
+            return
+        is_open = self.row["shape"] == "open"
+        code, out, _ = self.run([self.options.judge, self.at / "m.hdf", *(["--open"] if is_open else [])])
+        found = last_json(out)
+        if not found:
+            self.row["judge"] = "late" if code == "late" else "no answer"
+            return
+        kinds = ("self_intersections", "folds", "degenerate", "nonmanifold_edges", "misoriented_edges",
+                 "duplicate_nodes")
+        bad = [f"{found[k]} {k.replace('_', ' ')}" for k in kinds if found.get(k)]
+        if found.get("boundary_edges") and not is_open:
+            bad.append(f"{found['boundary_edges']} boundary edges")
+        self.row["judge"] = ", ".join(bad) or "sound"
+
+    def silent(self):
+        """What is wrong although all tools say that it is right."""
+        if self.row["verdict"] != "passes" or set(self.row["codes"].split()) != {"0"}:
+            return ""
+        reasons = [column for column in ("area %", "volume %") if self.row[column]
+                   and abs(float(self.row[column]) - self.said.get(column, 0)) > WHOLE_LIMIT]
+        if self.row["faces off"] and int(self.row["faces off"]) > int(self.row["below sizes"] or 0):
+            reasons.append("face %")
+        reasons += [w for w in ("self intersections", "folds") if w in self.row["judge"]]
+        return ", ".join(reasons)
+
+
+def examine(options, model):
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        chain = Chain(options, model, folder)
+        if chain.run_stages():
+            chain.measure()
+            chain.ask_judge()
+    chain.row["seconds"] = f"{time.monotonic() - start:.1f}"
+    chain.row["silent"] = chain.silent()
+    chain.row["words"] = " | ".join(chain.words).replace("\t", " ")
+    return chain.row
+
+
+def read_table(path):
+    if not path.exists():
+        return []
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return [dict(zip(COLUMNS, line.split("\t"))) for line in lines[1:] if line.count("\t") == len(COLUMNS) - 1]
+
+
+def print_summary(rows):
+    kinds = collections.Counter((r["codes"], r["shape"], r["verdict"].split(":")[0],
+                                 "judge: " + ("sound" if r["judge"] == "sound" else "not" if r["judge"] else "-"))
+                                for r in rows)
+    for kind, n in kinds.most_common():
+        print(f"{n:6} {'  '.join(kind)}")
+    silent = [r for r in rows if r["silent"]]
+    print(f"{len(rows)} files, {len(silent)} silent")
+    for r in silent:
+        print(f"  {r['file']}: {r['silent']}; area {r['area %']} %, volume {r['volume %'] or '-'} %, "
+              f"worst face {r['face %']} % ({r['faces off']} off), judge {r['judge'] or '-'}; {r['words']}")
 
 
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("bin_dir", type=lambda path: Path(path).resolve())
     parser.add_argument("table", type=Path)
-    parser.add_argument("--seconds", type=float, default=120)
+    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--raster", default="")
+    parser.add_argument("--measure", type=Path)
+    parser.add_argument("--judge", type=Path)
     options = parser.parse_args()
-    lines = options.table.read_text(encoding="utf-8").splitlines() if options.table.exists() else []
-    done = {line.split("\t")[0] for line in lines}
-    with options.table.open("a", encoding="utf-8") as table:
-        for model in (line.rstrip("\n") for line in sys.stdin):
-            if model in done:
-                continue
-            start = time.monotonic()
-            codes, shape, words = run_chain(options.bin_dir, model, options.seconds)
-            taken = f"{time.monotonic() - start:.1f}"
-            lines.append("\t".join([model, " ".join(codes), shape, taken, " | ".join(words)]))
-            print(lines[-1], file=table, flush=True)
-    for (codes, shape), n in collections.Counter(tuple(line.split("\t")[1:3]) for line in lines).most_common():
-        print(f"{n:6} {shape:6} {codes}")
+    options.measure = options.measure or options.bin_dir.parent / "tests" / "support" / "cad_measure"
+    if not options.measure.exists():
+        sys.exit(f"many_files.py: error: {options.measure} is not there; build cad_measure, or give --measure")
+    rows = read_table(options.table)
+    done = {r["file"] for r in rows}
+    models = [m for m in dict.fromkeys(line.rstrip("\n") for line in sys.stdin) if m and m not in done]
+    is_new = not options.table.exists()
+    with options.table.open("a", encoding="utf-8") as table, \
+            concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        if is_new:
+            print("\t".join(COLUMNS), file=table)
+        for future in concurrent.futures.as_completed([pool.submit(examine, options, m) for m in models]):
+            rows.append({k: str(v) for k, v in future.result().items()})
+            print("\t".join(rows[-1][c] for c in COLUMNS), file=table, flush=True)
+    print_summary(rows)
+    sys.exit(any(r["silent"] for r in rows))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,377 @@
+// Compares a mesh with its CAD file as OpenCASCADE reads it, without a line of the project: cad_measure CAD MESH.hdf
+//
+// Prints one JSON object. Areas and volume of the CAD are those of BRepGProp on the shape as read, faces that are there
+// twice counted once. Faces of mesh and CAD are paired by area and centroid; where a pair differs, OpenCASCADE's own
+// triangulation of the face is asked, too. Exit 0: compared; 1: a file cannot be read, or holds nothing.
+#include <hdf5.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_PrinterOStream.hxx>
+#include <Poly_Triangulation.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+struct Patch {
+  double area = 0;  // of a solid: its volume
+  gp_XYZ centroid{0, 0, 0};
+  TopoDS_Face face;  // of the CAD; none of a mesh
+};
+
+struct Measured {
+  std::vector<Patch> faces;
+  double area = 0, diagonal = 0;  // diagonal: of the CAD, about
+  std::optional<double> volume;   // of what is closed
+  std::size_t n_duplicates = 0;   // faces left out
+};
+
+// --- the CAD ---
+
+TopoDS_Shape read_cad(const std::string& path) {
+  std::string lower = path;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (lower.ends_with(".brep")) {
+    TopoDS_Shape shape;
+    BRep_Builder builder;
+    if (!BRepTools::Read(shape, path.c_str(), builder)) throw std::runtime_error("cannot read " + path);
+    return shape;
+  }
+  STEPControl_Reader step;
+  IGESControl_Reader iges;
+  const bool is_iges = lower.ends_with(".igs") || lower.ends_with(".iges");
+  XSControl_Reader& reader = is_iges ? static_cast<XSControl_Reader&>(iges) : step;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw std::runtime_error("cannot read " + path);
+  reader.TransferRoots();
+  return reader.OneShape();
+}
+
+Patch measure_face(const TopoDS_Face& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  return {std::fabs(properties.Mass()), properties.CentreOfMass().XYZ(), face};
+}
+
+bool are_same(const Patch& a, const Patch& b, double diagonal) {
+  constexpr double kSame = 1e-6;
+  return std::fabs(a.area - b.area) <= kSame * a.area && (a.centroid - b.centroid).Modulus() <= kSame * diagonal;
+}
+
+/// Of patches that are the same the first. Sorted by area: only neighbours are compared.
+std::vector<Patch> without_duplicates(std::vector<Patch> all, double diagonal) {
+  std::stable_sort(all.begin(), all.end(), [](const Patch& a, const Patch& b) { return a.area < b.area; });
+  std::vector<Patch> kept;
+  for (const Patch& p : all) {
+    bool is_new = true;
+    for (std::size_t k = kept.size(); is_new && k-- > 0 && kept[k].area >= p.area * (1 - 1e-6);)
+      is_new = !are_same(kept[k], p, diagonal);
+    if (is_new) kept.push_back(p);
+  }
+  return kept;
+}
+
+double diagonal_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
+/// No two solids share a face.
+bool are_apart(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape solids;
+  TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids);
+  for (int i = 1; i <= solids.Extent(); ++i)
+    if (solids(i).Extent() > 1) return false;
+  return true;
+}
+
+/// Adaptive: the integral without an error bound is off by a per cent on lofted wings.
+Patch measure_volume(const TopoDS_Shape& shape) {
+  constexpr double kError = 1e-4;  // relative
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, kError);
+  return {std::fabs(properties.Mass()), properties.CentreOfMass().XYZ(), {}};
+}
+
+std::optional<double> solid_volume(const TopoDS_Shape& shape, double diagonal) {
+  std::vector<Patch> solids;
+  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) {
+    solids.push_back(measure_volume(it.Current()));
+    for (TopExp_Explorer shell(it.Current(), TopAbs_SHELL); shell.More(); shell.Next())
+      if (!BRep_Tool::IsClosed(shell.Current())) return std::nullopt;
+  }
+  if (solids.empty() || !are_apart(shape)) return std::nullopt;
+  double volume = 0;
+  for (const Patch& s : without_duplicates(std::move(solids), diagonal)) volume += s.area;
+  return volume;
+}
+
+/// Loose faces are sewn first: a shell without free edges has a volume.
+std::optional<double> sewn_volume(const TopoDS_Shape& shape, double diagonal) {
+  constexpr double kGap = 1e-5;  // of the diagonal
+  BRepBuilderAPI_Sewing sewing(kGap * diagonal);
+  sewing.Add(BRepBuilderAPI_Copy(shape).Shape());
+  sewing.Perform();
+  if (sewing.NbFreeEdges() > 0 || sewing.NbMultipleEdges() > 0) return std::nullopt;
+  double volume = 0;
+  int n_shells = 0;
+  for (TopExp_Explorer it(sewing.SewedShape(), TopAbs_SHELL); it.More(); it.Next(), ++n_shells) {
+    TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(it.Current())).Solid();
+    volume += measure_volume(solid).area;
+  }
+  return n_shells == 1 ? std::optional(volume) : std::nullopt;  // of several one may be the void of another
+}
+
+Measured measure_cad(const TopoDS_Shape& shape) {
+  constexpr int kMostSewn = 2000;  // faces
+  Measured cad;
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  if (faces.IsEmpty()) throw std::runtime_error("no face in the CAD file");
+  cad.diagonal = diagonal_of(shape);
+  bool is_loose = false;
+  for (int i = 1; i <= faces.Extent(); ++i) cad.faces.push_back(measure_face(TopoDS::Face(faces(i))));
+  cad.faces = without_duplicates(std::move(cad.faces), cad.diagonal);
+  cad.n_duplicates = static_cast<std::size_t>(faces.Extent()) - cad.faces.size();
+  for (const Patch& p : cad.faces) cad.area += p.area;
+  TopTools_IndexedDataMapOfShapeListOfShape solids;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids);
+  for (int i = 1; i <= solids.Extent(); ++i) is_loose = is_loose || solids(i).IsEmpty();
+  if (!is_loose) cad.volume = solid_volume(shape, cad.diagonal);
+  if (is_loose && faces.Extent() <= kMostSewn) cad.volume = sewn_volume(shape, cad.diagonal);
+  return cad;
+}
+
+/// Area of OpenCASCADE's own fine triangulation; 0: it has none.
+double triangulated_area(const TopoDS_Face& face, double area) {
+  constexpr double kSagitta = 3e-4;  // of the root of the area
+  const TopoDS_Shape copy = BRepBuilderAPI_Copy(face, false).Shape();
+  BRepTools::Clean(copy);
+  BRepMesh_IncrementalMesh(copy, kSagitta * std::sqrt(area), false, 0.1);
+  TopLoc_Location place;
+  const auto mesh = BRep_Tool::Triangulation(TopoDS::Face(copy), place);
+  if (mesh.IsNull()) return 0;
+  double sum = 0;
+  for (int t = 1; t <= mesh->NbTriangles(); ++t) {
+    int a, b, c;
+    mesh->Triangle(t).Get(a, b, c);
+    const gp_Vec ab(mesh->Node(a), mesh->Node(b)), ac(mesh->Node(a), mesh->Node(c));
+    sum += 0.5 * ab.Crossed(ac).Magnitude();
+  }
+  return sum * std::pow(place.Transformation().ScaleFactor(), 2);
+}
+
+// --- the mesh ---
+
+template <class T>
+std::vector<T> read_column(hid_t file, const char* name, hid_t type) {
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+  if (set < 0) throw std::runtime_error(std::string("no ") + name + " in the mesh");
+  const hid_t space = H5Dget_space(set);
+  std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Sclose(space);
+  H5Dclose(set);
+  return values;
+}
+
+struct Triangles {
+  std::vector<double> x;           // [3 n_nodes]
+  std::vector<std::int64_t> node;  // [3 n]
+  std::vector<std::int64_t> face;  // [n]
+  gp_XYZ at(std::size_t corner) const {
+    const auto n = 3 * static_cast<std::size_t>(node[corner]);
+    return {x[n], x[n + 1], x[n + 2]};
+  }
+};
+
+Triangles read_mesh(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) throw std::runtime_error("cannot read " + path);
+  Triangles mesh;
+  mesh.x = read_column<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE);
+  const auto nodes = read_column<std::int64_t>(file, "/VTKHDF/Connectivity", H5T_NATIVE_INT64);
+  const auto offsets = read_column<std::int64_t>(file, "/VTKHDF/Offsets", H5T_NATIVE_INT64);
+  const auto types = read_column<unsigned char>(file, "/VTKHDF/Types", H5T_NATIVE_UCHAR);
+  const auto faces = read_column<std::int64_t>(file, "/VTKHDF/CellData/face", H5T_NATIVE_INT64);
+  constexpr unsigned char kTriangle = 5;
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    if (types[i] != kTriangle) continue;
+    for (int k = 0; k < 3; ++k) mesh.node.push_back(nodes[static_cast<std::size_t>(offsets[i]) + k]);
+    mesh.face.push_back(faces[i]);
+  }
+  H5Fclose(file);
+  return mesh;
+}
+
+/// Each side is used once in each direction.
+bool is_closed(const Triangles& mesh) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> sides, turned;
+  for (std::size_t c = 0; c < mesh.node.size(); ++c) {
+    const std::size_t next = c % 3 == 2 ? c - 2 : c + 1;
+    sides.emplace_back(mesh.node[c], mesh.node[next]);
+    turned.emplace_back(mesh.node[next], mesh.node[c]);
+  }
+  std::sort(sides.begin(), sides.end());
+  std::sort(turned.begin(), turned.end());
+  return sides == turned && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+}
+
+Measured measure_mesh(const Triangles& mesh) {
+  Measured result;
+  std::map<std::int64_t, Patch> faces;
+  double volume = 0;
+  const gp_XYZ origin = mesh.node.empty() ? gp_XYZ() : mesh.at(0);
+  for (std::size_t t = 0; t < mesh.face.size(); ++t) {
+    const gp_XYZ a = mesh.at(3 * t), b = mesh.at(3 * t + 1), c = mesh.at(3 * t + 2);
+    const double area = 0.5 * (b - a).Crossed(c - a).Modulus();
+    Patch& patch = faces[mesh.face[t]];
+    patch.area += area;
+    patch.centroid += area / 3 * (a + b + c);
+    result.area += area;
+    volume += (a - origin).Dot((b - origin).Crossed(c - origin)) / 6;
+  }
+  for (auto& [id, patch] : faces) {
+    if (patch.area > 0) patch.centroid /= patch.area;
+    result.faces.push_back(patch);
+  }
+  if (is_closed(mesh)) result.volume = std::fabs(volume);
+  return result;
+}
+
+// --- both ---
+
+/// One unit of the CAD as read (STEP and IGES: mm), in units of the mesh: the known ratio nearest to that of the areas'
+/// roots.
+double unit_ratio(const Measured& cad, const Measured& mesh) {
+  double best = 1;
+  const double ratio = std::sqrt(mesh.area / cad.area);
+  for (const double unit_in_mm : {1.0, 10.0, 1000.0, 25.4, 304.8, 914.4, 1e6, 1e-3, 0.0254, 1609344.0})
+    if (std::fabs(std::log(ratio * unit_in_mm)) < std::fabs(std::log(ratio / best))) best = 1 / unit_in_mm;
+  return best;
+}
+
+double unlikeness(const Patch& cad, const Patch& mesh) {
+  return (cad.centroid - mesh.centroid).Modulus() + std::fabs(std::sqrt(cad.area) - std::sqrt(mesh.area));
+}
+
+std::size_t nearest(const Patch& patch, const std::vector<Patch>& others) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    const double u = unlikeness(patch, others[k]);
+    if (u < least) least = u, best = k;
+  }
+  return best;
+}
+
+struct FaceErrors {
+  double worst = 0;            // relative difference of area
+  std::size_t worst_face = 0;  // of the mesh, in the order of its ids
+  double worst_area = 0;
+  std::size_t n_wrong = 0, n_unsure = 0, n_unpaired = 0;
+};
+
+/// Pairs that are nearest to each other. `cad` in the unit of the mesh, its shapes in that of the file.
+FaceErrors compare_faces(const std::vector<Patch>& cad, const std::vector<Patch>& mesh, double scale) {
+  constexpr double kWrong = 0.03;
+  FaceErrors errors;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const Patch& of_cad = cad[nearest(mesh[i], cad)];
+    if (nearest(of_cad, mesh) != i || unlikeness(of_cad, mesh[i]) > std::sqrt(of_cad.area)) {
+      ++errors.n_unpaired;
+      continue;
+    }
+    double error = std::fabs(mesh[i].area / of_cad.area - 1);
+    if (error > kWrong) {  // is it BRepGProp that is wrong?
+      const double second = triangulated_area(of_cad.face, of_cad.area / (scale * scale)) * scale * scale;
+      const double other = second > 0 ? std::fabs(mesh[i].area / second - 1) : error;
+      if (other <= kWrong) ++errors.n_unsure;
+      error = std::min(error, other);
+    }
+    if (error > kWrong) ++errors.n_wrong;
+    if (error > errors.worst) errors.worst = error, errors.worst_face = i, errors.worst_area = of_cad.area;
+  }
+  return errors;
+}
+
+void print_comparison(Measured cad, const Measured& mesh) {
+  constexpr double kNoArea = 1e-12;  // of the whole
+  const double scale = unit_ratio(cad, mesh);
+  cad.area *= scale * scale;
+  if (cad.volume) *cad.volume *= scale * scale * scale;
+  std::vector<Patch> faces;
+  for (Patch& p : cad.faces) {
+    p.area *= scale * scale, p.centroid *= scale;
+    if (p.area > kNoArea * cad.area) faces.push_back(p);
+  }
+  const FaceErrors errors = compare_faces(faces, mesh.faces, scale);
+  std::printf("{\"faces\":%zu,\"duplicates\":%zu,\"mesh_faces\":%zu,\"scale\":%.9g,", faces.size(), cad.n_duplicates,
+              mesh.faces.size(), scale);
+  std::printf("\"area\":%.9g,\"mesh_area\":%.9g,\"area_error\":%.6g,", cad.area, mesh.area, mesh.area / cad.area - 1);
+  if (cad.volume && mesh.volume && *cad.volume > 0)
+    std::printf("\"volume\":%.9g,\"mesh_volume\":%.9g,\"volume_error\":%.6g,", *cad.volume, *mesh.volume,
+                *mesh.volume / *cad.volume - 1);
+  std::printf("\"face_error\":%.6g,\"worst_face\":%zu,\"worst_area\":%.6g,", errors.worst, errors.worst_face + 1,
+              errors.worst_area);
+  std::printf("\"wrong_faces\":%zu,\"unsure_faces\":%zu,\"unpaired_faces\":%zu}\n", errors.n_wrong, errors.n_unsure,
+              errors.n_unpaired);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: cad_measure CAD MESH.hdf\n");
+    return 2;
+  }
+  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
+  try {
+    const Measured mesh = measure_mesh(read_mesh(argv[2]));
+    if (mesh.faces.empty()) throw std::runtime_error("no triangle in the mesh");
+    print_comparison(measure_cad(read_cad(argv[1])), mesh);
+  } catch (const Standard_Failure& e) {
+    std::fprintf(stderr, "cad_measure: error: %s\n", e.GetMessageString());
+    return 1;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "cad_measure: error: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
