@@ -29,6 +29,7 @@ constexpr double kWorstAngleLoss = 0.8;  // at 180 degrees
 constexpr double kSwapBelow = 0.9;       // pairs of triangles that are both better are left alone
 constexpr double kRelaxLeast = 0.55;     // no triangle worse than this is made for the sake of the valence
 
+template <bool kStretched>
 class Enhancer {
  public:
   explicit Enhancer(FaceWork& work) : w_(work), m_(work.mesh) {}
@@ -67,6 +68,9 @@ class Enhancer {
     changed_[t] = clock_;
   }
 
+  double edge_length(std::int32_t a, std::int32_t b) const {
+    return std::sqrt(w_.template edge_length2<kStretched>(a, b));
+  }
   bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
 
   /// 4 sqrt(3) A / sum l^2 in space, less where the normal is far off the surface's, negative where it is turned
@@ -74,10 +78,11 @@ class Enhancer {
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
     const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
     const Vec3 n = cross(ab, ac);
-    const double sum = length2(ab, a, b, c) + length2(ac, a, b, c) + length2(bc, a, b, c);
+    const double sum = mean_length2<kStretched>(ab, a, b, c) + mean_length2<kStretched>(ac, a, b, c) +
+                       mean_length2<kStretched>(bc, a, b, c);
     if (!(sum > 0)) return 0;
     double area = norm(n), q = 3.4641016151377544 * area / sum;
-    if (w_.field->is_stretched()) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
+    if constexpr (kStretched) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
     const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
     if (least >= kSteepCosine * area) return q;
     const Vec3 mean = a.normal + b.normal + c.normal;
@@ -135,7 +140,7 @@ class Enhancer {
     const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
     if ((nc.id != kNone && nc.id == nd.id) || are_one_pole(nc, nd) || !m_.can_swap(q.t, k)) return false;
     const double chord = side_length(nc, nd);
-    return w_.edge_length(q.c, q.d) <= chord || w_.edge_length(q.a, q.b) > side_length(m_.nodes[q.a], m_.nodes[q.b]);
+    return edge_length(q.c, q.d) <= chord || edge_length(q.a, q.b) > side_length(m_.nodes[q.a], m_.nodes[q.b]);
   }
 
   void swap(const Quad& q, int k) {
@@ -354,7 +359,7 @@ class Enhancer {
       if (k == c || k == (c + 1) % n || k == (c + n - 1) % n) continue;
       const MeshNode& a = m_.nodes[around_[k]];
       if (a.id != kNone && a.id == target.id) return -2;
-      if (w_.edge_length(around_[c], around_[k]) > kLongEdge * 0.5 * (a.h + target.h)) return -2;
+      if (edge_length(around_[c], around_[k]) > kLongEdge * 0.5 * (a.h + target.h)) return -2;
     }
     return worst;
   }
@@ -374,6 +379,8 @@ class Enhancer {
 
 }  // namespace
 
-void enhance(FaceWork& work, int rounds) { Enhancer(work).run(rounds); }
+void enhance(FaceWork& work, int rounds) {
+  work.field->is_stretched() ? Enhancer<true>(work).run(rounds) : Enhancer<false>(work).run(rounds);
+}
 
 }  // namespace st

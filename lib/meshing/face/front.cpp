@@ -38,6 +38,7 @@ constexpr double kSingular = 0.02;   // of its mean: a derivative shorter than t
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
 
+template <bool kStretched>
 class Front {
  public:
   explicit Front(FaceWork& work)
@@ -48,7 +49,7 @@ class Front {
 
   void run() {
     start();
-    if (w_.field->is_stretched()) lay_rows();
+    if constexpr (kStretched) lay_rows();
     ring_narrow_parts();
     advance();
     split_large();
@@ -59,9 +60,15 @@ class Front {
     std::int32_t t, a, b;
   };
 
-  bool is_finished(const PlaneTriangle& t) const {
+  double edge_length2(std::int32_t a, std::int32_t b) const { return w_.template edge_length2<kStretched>(a, b); }
+  template <typename... Squares>
+  double circumradius2(const PlaneTriangle& t, Squares... of_edges) const {
+    return w_.template circumradius2<kStretched>(t, of_edges...);
+  }
+
+  bool is_finished(const PlaneTriangle& t, double radius2) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
-    const double radius2 = w_.circumradius2(t), finished = finished_radius(t) * h;
+    const double finished = finished_radius(t) * h;
     if (!(radius2 < finished * finished)) return false;
     const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
     const double least = kTurningFloor * kFinishedRadius * request;
@@ -70,6 +77,7 @@ class Front {
 
   /// Larger where sizes are stretched: rows make right-angled triangles.
   double finished_radius(const PlaneTriangle& t) const {
+    if constexpr (!kStretched) return kFinishedRadius;
     double squeeze2 = 0;
     for (const std::int32_t v : t.v) squeeze2 += norm2(m_.nodes[v].squeeze) / 3;
     return kFinishedRadius + (kRowRadius - kFinishedRadius) * std::clamp(4 * squeeze2 - 2, 0.0, 1.0);
@@ -79,7 +87,8 @@ class Front {
 
   void start() {
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
-      if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside) t.state = is_finished(t) ? kFinished : kUnfinished;
+      if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside)
+        t.state = is_finished(t, circumradius2(t)) ? kFinished : kUnfinished;
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
       if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
   }
@@ -319,7 +328,7 @@ class Front {
     m_.added_node();
     m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
     fan_ = m_.new_triangles();
-    for (std::int32_t t : fan_) m_.triangles[t].state = is_finished(m_.triangles[t]) ? kFinished : kUnfinished;
+    finish_fan();
     for (std::int32_t t : fan_) {
       const PlaneTriangle& f = m_.triangles[t];
       if (f.state == kUnfinished) {
@@ -329,6 +338,20 @@ class Front {
       }
     }
     return true;
+  }
+
+  /// Sets the states of the triangles about the last node. Each has it as its third corner, and begins on the rim where
+  /// the one before ends: the edges to the node are measured once.
+  void finish_fan() {
+    const std::int32_t node = static_cast<std::int32_t>(m_.nodes.size()) - 1;
+    const double first2 = edge_length2(m_.triangles[fan_.front()].v[0], node);
+    double from2 = first2;
+    for (std::size_t i = 0; i < fan_.size(); ++i) {
+      PlaneTriangle& t = m_.triangles[fan_[i]];
+      const double to2 = i + 1 == fan_.size() ? first2 : edge_length2(t.v[1], node);
+      t.state = is_finished(t, circumradius2(t, edge_length2(t.v[0], t.v[1]), to2, from2)) ? kFinished : kUnfinished;
+      from2 = to2;
+    }
   }
 
   static bool is_near(const MeshNode& p, const MeshNode& node, const Metric& metric, double r) {
@@ -369,7 +392,7 @@ class Front {
         const PlaneTriangle t = m_.triangles[i];
         if (t.state != kUnfinished && t.state != kRetired) continue;
         const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3, too_large = kTooLarge * h;
-        if (w_.circumradius2(t) < too_large * too_large) continue;
+        if (circumradius2(t) < too_large * too_large) continue;
         changed |= split(static_cast<std::int32_t>(i), t, h);
       }
       advance();
@@ -381,7 +404,7 @@ class Front {
     int longest = 0;
     double length = 0;
     for (int k = 0; k < 3; ++k)
-      if (const double l = w_.edge_length(t.v[k], t.v[kNext[k]]); l > length) {
+      if (const double l = std::sqrt(edge_length2(t.v[k], t.v[kNext[k]])); l > length) {
         length = l;
         longest = k;
       }
@@ -476,24 +499,6 @@ void FaceWork::evaluate(MeshNode& n) const {
   n.normal = normalized(cross(n.du, n.dv));
 }
 
-double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
-  const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
-  const double chord2 = length2(b.x - a.x, a, b);
-  const Vec2 e = 0.5 * (b.p - a.p);
-  const double along2 = length2(e.x * (a.du + b.du) + e.y * (a.dv + b.dv), a, b);
-  return along2 > 4 * chord2 && !are_one_pole(a, b) ? along2 : chord2;
-}
-
-double FaceWork::circumradius2(const PlaneTriangle& t) const {
-  const double a2 = edge_length2(t.v[0], t.v[1]), b2 = edge_length2(t.v[1], t.v[2]), c2 = edge_length2(t.v[2], t.v[0]);
-  const double longest2 = std::max({a2, b2, c2});
-  const MeshNode &a = mesh.nodes[t.v[0]], &b = mesh.nodes[t.v[1]], &c = mesh.nodes[t.v[2]];
-  const double area4_2 = 4 * norm2(cross(b.x - a.x, c.x - a.x)) * area_share2(a, b, c);  // (4 A)^2
-  if (area4_2 <= 1e-24 * longest2 * longest2)
-    return longest2;  // a sliver, or no triangle in space (at a pole): as large as its longest side
-  return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);
-}
-
-void advance_front(FaceWork& work) { Front(work).run(); }
+void advance_front(FaceWork& work) { work.field->is_stretched() ? Front<true>(work).run() : Front<false>(work).run(); }
 
 }  // namespace st

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/shape/surface.h"
+#include "meshing/face/stretch.h"
 #include "meshing/face/triangulation.h"
 #include "sizing/size_field.h"
 
@@ -31,13 +32,41 @@ struct FaceWork {
   void ask_sizes(MeshNode& n);
   /// Fills uv, x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
-  /// Square of the circumradius of triangle t in space; large where it does not resolve the surface (seam twins,
-  /// sheets).
-  double circumradius2(const PlaneTriangle& t) const;
-  /// Length of an edge, and its square: in space, or along the surface where that is much longer.
-  double edge_length(std::int32_t a, std::int32_t b) const { return std::sqrt(edge_length2(a, b)); }
+  /// Square of the length of an edge: in space, or along the surface where that is much longer. As all that is measured
+  /// for each triangle it is compiled twice: where no sizes are stretched, the terms for that cost nothing.
+  template <bool kStretched>
   double edge_length2(std::int32_t a, std::int32_t b) const;
+  /// Square of the circumradius of triangle t in space, from the squares of its edges v0-v1, v1-v2, v2-v0; large where
+  /// it does not resolve the surface (seam twins, sheets).
+  template <bool kStretched>
+  double circumradius2(const PlaneTriangle& t, double a2, double b2, double c2) const;
+  template <bool kStretched>
+  double circumradius2(const PlaneTriangle& t) const {
+    return circumradius2<kStretched>(t, edge_length2<kStretched>(t.v[0], t.v[1]),
+                                     edge_length2<kStretched>(t.v[1], t.v[2]),
+                                     edge_length2<kStretched>(t.v[2], t.v[0]));
+  }
 };
+
+template <bool kStretched>
+double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
+  const MeshNode &a = mesh.nodes[ia], &b = mesh.nodes[ib];
+  const double chord2 = mean_length2<kStretched>(b.x - a.x, a, b);
+  const Vec2 e = 0.5 * (b.p - a.p);
+  const double along2 = mean_length2<kStretched>(e.x * (a.du + b.du) + e.y * (a.dv + b.dv), a, b);
+  return along2 > 4 * chord2 && !are_one_pole(a, b) ? along2 : chord2;
+}
+
+template <bool kStretched>
+double FaceWork::circumradius2(const PlaneTriangle& t, double a2, double b2, double c2) const {
+  const double longest2 = std::max({a2, b2, c2});
+  const MeshNode &a = mesh.nodes[t.v[0]], &b = mesh.nodes[t.v[1]], &c = mesh.nodes[t.v[2]];
+  double area4_2 = 4 * norm2(cross(b.x - a.x, c.x - a.x));  // (4 A)^2
+  if constexpr (kStretched) area4_2 *= area_share2(a, b, c);
+  if (area4_2 <= 1e-24 * longest2 * longest2)
+    return longest2;  // a sliver, or no triangle in space (at a pole): as large as its longest side
+  return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);
+}
 
 /// Lengths of steps in the plane at a node, or from one to another.
 Metric metric_of(const MeshNode& n);

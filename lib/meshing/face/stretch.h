@@ -23,6 +23,12 @@ inline double length2(Vec3 d, const MeshNode& a, const MeshNode& b, const MeshNo
   const double sa = dot(a.squeeze, d), sb = dot(b.squeeze, d), sc = dot(c.squeeze, d);
   return norm2(d) - (sa * sa + sb * sb + sc * sc) / 3;
 }
+/// The same where it is known at compile time whether any sizes are stretched.
+template <bool kStretched, typename... Nodes>
+double mean_length2(Vec3 d, const Nodes&... nodes) {
+  if constexpr (kStretched) return length2(d, nodes...);
+  return norm2(d);
+}
 inline double side_length(const MeshNode& a, const MeshNode& b) { return std::sqrt(length2(b.x - a.x, a, b)); }
 
 /// Square of the area of a triangle in the mean metric over that in space.

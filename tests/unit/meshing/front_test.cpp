@@ -51,7 +51,7 @@ TEST_P(FrontOnFace, ends_with_every_triangle_small_enough_or_given_up) {
     ++n_inside;
     n_finished += t.state == kFinished;
     EXPECT_TRUE(t.state == kFinished || t.state == kRetired || has_pole);
-    EXPECT_LT(p.work.circumradius2(t), 1.5 * 1.5 * c.length * c.length);
+    EXPECT_LT(p.work.circumradius2<false>(t), 1.5 * 1.5 * c.length * c.length);
   }
   EXPECT_GT(n_finished, 17 * n_inside / 20);
 }
@@ -225,8 +225,8 @@ TEST(FaceWork, measures_the_circumradius_in_space) {
   const FaceBoundary b = polygons({{{0, 0}, {3, 0}, {3, 4}, {0, 4}}}, 1);
   const Prepared p(kPlane, b, field);
   const PlaneTriangle right{{0, 1, 2}, {kNone, kNone, kNone}};
-  EXPECT_NEAR(p.work.circumradius2(right), 2.5 * 2.5, 1e-12);
-  EXPECT_NEAR(p.work.edge_length(0, 2), 5, 1e-12);
+  EXPECT_NEAR(p.work.circumradius2<false>(right), 2.5 * 2.5, 1e-12);
+  EXPECT_NEAR(std::sqrt(p.work.edge_length2<false>(0, 2)), 5, 1e-12);
 }
 
 TEST(FaceWork, takes_a_triangle_without_area_to_be_as_large_as_its_longest_side) {
@@ -234,7 +234,7 @@ TEST(FaceWork, takes_a_triangle_without_area_to_be_as_large_as_its_longest_side)
   const FaceBoundary b = polygons({{{0, 0}, {4, 0}, {4, 4}, {2, 0.5}}}, 1);
   Prepared p(kPlane, b, field);
   p.work.mesh.nodes[3].x = {2, 0, 0};
-  EXPECT_NEAR(p.work.circumradius2({{0, 1, 3}, {kNone, kNone, kNone}}), 16, 1e-12);
+  EXPECT_NEAR(p.work.circumradius2<false>({{0, 1, 3}, {kNone, kNone, kNone}}), 16, 1e-12);
 }
 
 TEST(FaceWork, measures_between_seam_twins_along_the_surface) {
@@ -247,7 +247,8 @@ TEST(FaceWork, measures_between_seam_twins_along_the_surface) {
     for (std::int32_t c = a + 1; c < m.n_boundary; ++c)
       if (m.nodes[a].id == m.nodes[c].id) {
         ++n_twins;
-        EXPECT_GT(p.work.edge_length(a, c), field.min_size()) << "around the tube, not through the air";
+        EXPECT_GT(std::sqrt(p.work.edge_length2<false>(a, c)), field.min_size())
+            << "around the tube, not through the air";
       }
   EXPECT_GT(n_twins, 2);
 }
