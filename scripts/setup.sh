@@ -19,6 +19,7 @@ check_packages=(
   libcgal-dev  # the independent judge of meshes, tests only
   python3-meshio tetgen gmsh libcgns-dev cgns-convert python3-h5py  # foreign readers of exports, tests only
   iproute2 util-linux  # two hosts made of namespaces: tests/mpi/two_hosts_test.sh
+  valgrind  # instructions: bench/budget.py
   xvfb xauth   # pictures without a screen: scripts/render_images.sh
   chromium  # the page of st-report in a browser: tests/cli/report_test.py
 )
