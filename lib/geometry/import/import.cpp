@@ -9,11 +9,13 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "base/progress.h"
+#include "geometry/import/bare_surfaces.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
 #include "geometry/import/crossing_faces.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
+#include "geometry/import/empty_faces.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/import.h"
 #include "geometry/import/loop_repair.h"
@@ -257,6 +259,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
   progress.step("sewing and repairing", 0.4);
+  occt::remove_empty_faces(model, result.findings, path);
+  occt::divide_bare_surfaces(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);

@@ -21,7 +21,9 @@
 
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/edge_places.h"
 #include "geometry/import/import.h"
+#include "geometry/import/rooms.h"
 
 namespace st::occt {
 namespace {
@@ -50,10 +52,16 @@ bool keeps_faces(const Sewn& sewn, int n_faces) {
   return true;
 }
 
+enum class FacesAtEdge { kTwo, kAny };
+enum class ShortEdges { kStay, kArePoints };
+
 /// Sews what `before` has; nothing when OpenCASCADE fails.
-std::optional<Sewn> sew(const Sewn& before, const std::vector<TopoDS_Shape>& parts, double tolerance) {
+std::optional<Sewn> sew(const Sewn& before, const std::vector<TopoDS_Shape>& parts, double tolerance,
+                        FacesAtEdge how = FacesAtEdge::kTwo, ShortEdges short_edges = ShortEdges::kStay) {
   try {
     BRepBuilderAPI_Sewing sewing(tolerance);
+    sewing.SetNonManifoldMode(how == FacesAtEdge::kAny);
+    if (short_edges == ShortEdges::kArePoints) sewing.SetMinTolerance(tolerance);
     for (const TopoDS_Shape& part : parts) sewing.Add(part);
     sewing.Perform();
     Sewn after = before;
@@ -250,24 +258,78 @@ std::vector<double> tolerances_to_try(double diagonal, double base, std::optiona
   return list;
 }
 
+/// Whether an edge that one face has is within `tolerance` of a point.
+bool has_short_free_edge(const TopoDS_Shape& shape, double tolerance) {
+  TopTools_IndexedMapOfShape edges;
+  const std::vector<int> uses = edge_uses(shape, edges);
+  for (int i = 0; i < edges.Extent(); ++i) {
+    double t0 = 0, t1 = 0;
+    if (uses[i] != 1 || BRep_Tool::Degenerated(TopoDS::Edge(edges(i + 1)))) continue;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges(i + 1)), t0, t1);
+    if (curve.IsNull()) continue;
+    const gp_Pnt first = curve->Value(t0), middle = curve->Value(0.5 * (t0 + t1)), last = curve->Value(t1);
+    if (std::max({first.Distance(middle), middle.Distance(last), first.Distance(last)}) <= tolerance) return true;
+  }
+  return false;
+}
+
 /// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
-/// none helps. After sew_groups() one that leaves as many will do: it makes shells.
+/// none helps. After sew_groups() one that leaves as many will do: it makes shells. Short edges become points where
+/// that closes the model.
 std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const std::vector<double>& tolerances) {
   const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
   std::optional<Sewn> best;
-  for (const double tolerance : tolerances) {
+  const auto is_closed_by = [&](std::optional<Sewn> sewn, double tolerance) {
     const double reasonable = kToleranceGrowth * std::max(tolerance, start.edge_tolerance);
-    for (const bool by_component : {false, true}) {
-      std::optional<Sewn> sewn =
-          by_component ? sew_by_component(model, start, tolerance) : sew(start, {start.shape}, tolerance);
-      if (!sewn || !keeps_faces(*sewn, model.faces.Extent())) continue;
+    if (sewn && keeps_faces(*sewn, model.faces.Extent())) {
       sewn->n_free = count_free_edges(sewn->shape);
       sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
       if (sewn->n_free <= n_allowed && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
-      if (best && best->n_free == 0 && best->edge_tolerance <= reasonable) return best;
     }
+    return best && best->n_free == 0 && best->edge_tolerance <= reasonable;
+  };
+  for (const double tolerance : tolerances) {
+    if (is_closed_by(sew(start, {start.shape}, tolerance), tolerance)) return best;
+    if (is_closed_by(sew_by_component(model, start, tolerance), tolerance)) return best;
+  }
+  for (const double tolerance : tolerances) {
+    if (!has_short_free_edge(best ? best->shape : start.shape, tolerance)) continue;
+    const std::optional<Sewn> before = best;
+    if (is_closed_by(sew(start, {start.shape}, tolerance, FacesAtEdge::kTwo, ShortEdges::kArePoints), tolerance))
+      return best;
+    best = before;
   }
   return best;
+}
+
+/// `now` (made of `start`) with free edges joined to edges that two faces have already. Pieces without such edges stay
+/// as they are: bodies that touch each other keep their own. Nothing where no free edge goes.
+std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& start, const Sewn& now, double tolerance) {
+  const std::vector<TopoDS_Shape> pieces = pieces_of(now.shape);
+  const std::vector<char> is_sewn = have_edges_at_one_place(pieces, tolerance);
+  TopTools_IndexedMapOfShape others;
+  std::vector<TopoDS_Shape> parts, all;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (is_sewn[p]) continue;
+    all.push_back(pieces[p]);
+    for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) TopExp::MapShapes(pieces[p], kind, others);
+  }
+  const int n_faces = model.faces.Extent();
+  for (int i = 0; i < n_faces; ++i)
+    if (!others.Contains(now.images[i])) parts.push_back(start.images[i]);
+  if (parts.empty()) return std::nullopt;
+  std::optional<Sewn> sewn = sew(start, parts, tolerance, FacesAtEdge::kAny);
+  if (!sewn) return std::nullopt;
+  for (std::size_t i = 0; i < now.images.size(); ++i)
+    if (others.Contains(now.images[i])) sewn->images[i] = now.images[i];
+  all.push_back(sewn->shape);
+  sewn->shape = compound_of(pieces_of(compound_of(all)));
+  if (!keeps_faces(*sewn, n_faces)) return std::nullopt;
+  sewn->n_free = count_free_edges(sewn->shape);
+  sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+  const double reasonable = kToleranceGrowth * std::max(tolerance, now.edge_tolerance);
+  if (sewn->n_free >= now.n_free || sewn->edge_tolerance > reasonable) return std::nullopt;
+  return sewn;
 }
 
 }  // namespace
@@ -288,10 +350,16 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
     model.attributes[f].is_sewn_by_group = limits.of_face[f] > 0;
   if (is_group_sewn)
     findings.push_back(sewn_finding(FindingKind::kSewnByGroup, original, start, start.group_tolerance));
-  const std::optional<Sewn> best = sew_all(model, start, tolerances_to_try(diagonal, base, limits.largest));
+  const std::vector<double> tolerances = tolerances_to_try(diagonal, base, limits.largest);
+  const std::optional<Sewn> best = sew_all(model, start, tolerances);
   if (best && best->n_free < start.n_free)
     findings.push_back(sewn_finding(FindingKind::kSewn, start, *best, best->tolerance));
-  if (best || is_group_sewn) adopt(model, original, best.value_or(start), findings);
+  const Sewn& now = best ? *best : start;
+  const double tolerance = best ? best->tolerance : tolerances.front();
+  const std::optional<Sewn> third = now.n_free > 0 ? sew_third_faces(model, start, now, tolerance) : std::nullopt;
+  if (third) findings.push_back(sewn_finding(FindingKind::kThirdFace, now, *third, tolerance));
+  if (third || best || is_group_sewn) adopt(model, original, third ? *third : now, findings);
+  if (third) divide_into_rooms(model, findings);
 }
 
 }  // namespace st::occt

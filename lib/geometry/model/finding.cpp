@@ -63,6 +63,11 @@ constexpr Wording kWordings[] = {
     {"face shrinks to a point", "face shrinks to a point and goes on turned over"},
     {"repair taken back", "repair taken back: {}"},
     {"edge away from its faces, made again from them", "edge away from its faces, made again from them"},
+    {"surface divided at its kinks", "surface divided at its kinks: {} faces"},
+    {"face without area, left out", "face without area, left out"},
+    {"sewn where three faces or more meet", "sewn where three faces or more meet: {}"},
+    {"sheet", "sheet: the same room, or none, is on both sides"},
+    {"wall between two rooms", "wall between two rooms"},
     {"other", "{}"},
 };
 static_assert(std::size(kWordings) == static_cast<std::size_t>(FindingKind::kOther) + 1);

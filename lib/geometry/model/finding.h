@@ -54,6 +54,11 @@ enum class FindingKind : std::uint8_t {
   kPinchedFace,            ///< a face that shrinks to a point and goes on turned over
   kUndoneRepair,           ///< a repair that made things worse was taken back
   kSpaceCurve,             ///< a space curve away from its faces, made again
+  kDividedSurface,         ///< a whole spline surface, divided at kinks
+  kEmptyFace,              ///< shrunk to a point or a line, removed
+  kThirdFace,              ///< free edges joined to edges that two faces have already
+  kSheet,                  ///< a face with the same room, or none, on both sides
+  kSharedWall,             ///< a face between two rooms
   kOther                   ///< written by another version
 };
 

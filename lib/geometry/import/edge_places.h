@@ -1,0 +1,16 @@
+// Which pieces of a model have edges at one place.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <vector>
+
+namespace st::occt {
+
+/// Solids, shells and faces that are in no other one of these, in the order of the shape.
+std::vector<TopoDS_Shape> pieces_of(const TopoDS_Shape& shape);
+
+/// [pieces] whether a free edge of the piece runs along an edge of any piece, another edge of its own included, or one
+/// of another piece runs along an edge of it: within `tolerance` at a third of the free edge.
+std::vector<char> have_edges_at_one_place(const std::vector<TopoDS_Shape>& pieces, double tolerance);
+
+}  // namespace st::occt

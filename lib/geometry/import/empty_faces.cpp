@@ -1,0 +1,142 @@
+#include "geometry/import/empty_faces.h"
+
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "geometry/brep/face_domain.h"
+#include "geometry/brep/shape_queries.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kPoint = 1e-7;    // of the model's diagonal: the whole face
+constexpr double kNoWidth = 1e-6;  // of the face's own diagonal: its mean width
+constexpr double kNoLoop = 1e-9;   // of the larger range of (u,v), squared
+constexpr int kMostCells = 64;     // along u and v
+
+/// Corners of the cells of one line across the surface.
+std::vector<Vec3> line_of(const FaceDomain& d, double v, int n_u) {
+  std::vector<Vec3> line;
+  for (int i = 0; i <= n_u; ++i)
+    line.push_back(d.surface->point({d.bounds.u_min + (d.bounds.u_max - d.bounds.u_min) * i / n_u, v}));
+  return line;
+}
+
+/// Area of the surface within the bounds, by cells.
+double sampled_area(const FaceDomain& d) {
+  const int n_u = std::min(d.n_u, kMostCells), n_v = std::min(d.n_v, kMostCells);
+  double area = 0;
+  std::vector<Vec3> before = line_of(d, d.bounds.v_min, n_u);
+  for (int j = 1; j <= n_v; ++j) {
+    const std::vector<Vec3> line = line_of(d, d.bounds.v_min + (d.bounds.v_max - d.bounds.v_min) * j / n_v, n_u);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      area += 0.5 * (norm(cross(line[i] - before[i], before[i + 1] - before[i])) +
+                     norm(cross(line[i] - line[i + 1], before[i + 1] - line[i + 1])));
+    before = line;
+  }
+  return area;
+}
+
+/// What the loops of a face say of it.
+struct Outline {
+  std::vector<Vec3> points;
+  Box3 box;
+  double length = 0;
+  Vec3 vector_area;  ///< no surface with this outline has less
+};
+
+Outline outline_of(const FaceDomain& d) {
+  Outline result;
+  for (const LoopUv& loop : d.loops) {
+    std::vector<Vec3> x;
+    for (const Vec2 uv : loop.polygon()) x.push_back(d.surface->point(uv));
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const Vec3 next = x[(k + 1) % x.size()];
+      result.box.add(x[k]);
+      result.length += distance(x[k], next);
+      result.vector_area += 0.5 * cross(x[k] - x[0], next - x[0]);
+    }
+    result.points.insert(result.points.end(), x.begin(), x.end());
+  }
+  return result;
+}
+
+/// Whether the loops enclose nothing in (u,v): they may be wrong, and later be repaired.
+bool encloses_nothing(const FaceDomain& d) {
+  const double range = std::max(d.bounds.u_max - d.bounds.u_min, d.bounds.v_max - d.bounds.v_min);
+  return d.loops.empty() || std::fabs(d.loops[0].area) <= kNoLoop * range * range;
+}
+
+/// Whether all points are within `width` of the line through the first and the one farthest from it.
+bool is_straight(const std::vector<Vec3>& points, double width) {
+  const Vec3 first = points.front();
+  const Vec3 last = *std::max_element(points.begin(), points.end(),
+                                      [&](Vec3 a, Vec3 b) { return distance(first, a) < distance(first, b); });
+  return std::all_of(points.begin(), points.end(),
+                     [&](Vec3 p) { return norm(cross(p - first, normalized(last - first))) <= width; });
+}
+
+/// Faces of solids and closed shells; two faces alone close without a room between them when they are lines.
+TopTools_MapOfShape bounding_faces(const TopoDS_Shape& shape) {
+  TopTools_MapOfShape faces;
+  const auto add = [&](const TopoDS_Shape& body) {
+    for (TopExp_Explorer f(body, TopAbs_FACE); f.More(); f.Next()) faces.Add(f.Current());
+  };
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) add(solid.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    if (shell.Current().NbChildren() > 2 && count_free_edges(shell.Current()) == 0) add(shell.Current());
+  return faces;
+}
+
+}  // namespace
+
+std::optional<Box3> empty_box(const TopoDS_Face& face, double diagonal) {
+  try {
+    const FaceDomain d = make_domain(face);
+    const Outline outline = outline_of(d);
+    if (outline.box.is_empty()) return std::nullopt;
+    const double width = kNoWidth * outline.box.diagonal(), least = 0.5 * outline.length * width;
+    if (norm(outline.vector_area) > least && outline.box.diagonal() > kPoint * diagonal) return std::nullopt;
+    if (rough_box(face).diagonal() <= kPoint * diagonal) return outline.box;
+    const bool is_line =
+        d.surface->is_planar() ? is_straight(outline.points, width) : !encloses_nothing(d) && sampled_area(d) <= least;
+    return is_line ? std::optional(outline.box) : std::nullopt;
+  } catch (const Standard_Failure&) {
+    return std::nullopt;
+  }
+}
+
+void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findings, const std::string& path) {
+  if (model.faces.Extent() == 1 &&
+      surface_type(BRep_Tool::Surface(TopoDS::Face(model.faces(1)))) == SurfaceType::kPlane)
+    return;  // nothing to be sewn to
+  const TopTools_MapOfShape bounding = bounding_faces(model.shape);
+  const double diagonal = rough_box(model.shape).diagonal();
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  int n_removed = 0;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    if (bounding.Contains(model.faces(i))) continue;
+    const std::optional<Box3> box = empty_box(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)), diagonal);
+    if (!box) continue;
+    ++n_removed;
+    reshape->Remove(model.faces(i));
+    const FaceAttributes& a = model.attributes[i - 1];
+    const std::string& name = a.name.empty() ? a.part : a.name;
+    const std::string number = "face " + std::to_string(i) + " of the file";
+    findings.push_back({FindingKind::kEmptyFace, name.empty() ? number : number + " \"" + name + "\"", box->center(),
+                        box->diagonal(), true});
+  }
+  if (n_removed == 0) return;
+  if (!model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); }))
+    throw Error(ExitCode::kGeometry, path + ": no face of the file has an area; export the surfaces again");
+}
+
+}  // namespace st::occt
