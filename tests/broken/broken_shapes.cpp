@@ -407,6 +407,11 @@ void add_bodies(Factories& all) {
        [] {
          return compound({looped_sheet(-1.5, 0), looped_sheet(0, 1.5)});
        }},
+      {"folded_flap",
+       [] {
+         return compound({polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 2, 0}, {0, 2, 0}}),
+                          polygon_face({{0, 0, 0}, {1, 1, 0}, {9, 1, 0}, {10, 0, 0}})});
+       }},
       {"far_circle", far_circle},
       {"wing_in_body", wing_in_body},
       {"spot",

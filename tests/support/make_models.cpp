@@ -266,7 +266,7 @@ void write_all(const fs::path& dir) {
   for (const char* shape : {"crossed_loop", "fan", "thin_pipe"})
     st::test::write_brep(shape, dir / (std::string(shape) + ".brep"));
   for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
-                            "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle"})
+                            "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap"})
     st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());

@@ -21,14 +21,16 @@
 namespace st::occt {
 namespace {
 
-constexpr double kSamePlace = 1e-6;  // of the diagonal: the tolerance of places
-constexpr double kDeep = 10;         // times the tolerance: what counts as a crossing
-constexpr int kStations = 32;        // along an edge, every eighth of them first
-constexpr double kSideBySide = 0.7;  // cosine of the angle between walls that may come close
-constexpr double kLeastSine = 0.02;  // of the angle of faces that pass through each other
-constexpr int kMarch = 28;           // steps away from it,
-constexpr double kReach = 0.95;      // of the range of u and v,
-constexpr double kFirstStep = 2e-4;  // the first of them
+constexpr double kSamePlace = 1e-6;    // of the diagonal: the tolerance of places
+constexpr double kDeep = 10;           // times the tolerance: what counts as a crossing
+constexpr int kStations = 32;          // along an edge, every eighth of them first
+constexpr double kSideBySide = 0.7;    // cosine of the angle between walls that may come close
+constexpr double kLeastSine = 0.02;    // of the angle of faces that pass through each other
+constexpr double kFoldedBack = 0.996;  // cosine of the angle between faces that may lie on each other: 5 degrees
+constexpr double kOn = 3;              // tolerances: how far apart faces are that do
+constexpr int kMarch = 28;             // steps away from it,
+constexpr double kReach = 0.95;        // of the range of u and v,
+constexpr double kFirstStep = 2e-4;    // the first of them
 
 bool is_formula(SurfaceType type) { return type < SurfaceType::kBezier || type == SurfaceType::kExtrusion; }
 
@@ -54,7 +56,9 @@ class CrossingFaces {
     for (EdgeId e = 0; e < t_.n_edges(); ++e) {
       if (t_.edge_is_degenerate[e] || offsets[e + 1] - offsets[e] != 2) continue;
       const FaceId f = faces[offsets[e]], g = faces[offsets[e] + 1];
-      if (f == g || (is_formula(t_.face_type[f]) && is_formula(t_.face_type[g]))) continue;
+      if (f == g || known_.contains(std::minmax(f, g))) continue;
+      if (turn_back(e, f, g)) look_for_overlap(e, f, g);
+      if (is_formula(t_.face_type[f]) && is_formula(t_.face_type[g])) continue;
       if (!known_.contains(std::minmax(f, g))) look_beside(e, f, g);
     }
     return found_;
@@ -64,6 +68,10 @@ class CrossingFaces {
   struct Domain {
     FaceDomain face;
     LoopPolygons loops;
+  };
+  struct Place {
+    Vec3 xyz;
+    double size;  // distance from the common edge
   };
 
   const Domain& domain(FaceId f) {
@@ -110,6 +118,66 @@ class CrossingFaces {
     }
   }
 
+  /// Into the face, square to the edge, at a share of the edge; zero where there is no trimming curve.
+  Vec3 inward(FaceId f, EdgeId e, double station) const {
+    const TopoDS_Face face = TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD));
+    double t0, t1;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges_(e + 1)), face, t0, t1);
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    if (curve.IsNull() || surface.IsNull()) return {};
+    gp_Pnt2d p;
+    gp_Vec2d along;
+    curve->D1(t0 + station * (t1 - t0), p, along);
+    gp_Pnt x;
+    gp_Vec du, dv;
+    surface->D1(p.X(), p.Y(), x, du, dv);
+    const gp_Vec tangent = along.X() * du + along.Y() * dv, left = du.Crossed(dv).Crossed(tangent);
+    double sign = 1;
+    for (const CoedgeId c : t_.coedges(f))
+      if (t_.coedge_edge[c] == e) sign = t_.coedge_is_reversed[c] ? -1 : 1;
+    return sign * normalized(Vec3{left.X(), left.Y(), left.Z()});
+  }
+
+  /// Both faces go the same way from most of the edge.
+  bool turn_back(EdgeId e, FaceId f, FaceId g) const {
+    int n = 0;
+    for (const double station : {0.25, 0.5, 0.75}) n += dot(inward(f, e, station), inward(g, e, station)) > kFoldedBack;
+    return n >= 2;
+  }
+
+  void look_for_overlap(EdgeId e, FaceId f, FaceId g) {
+    for (const auto& [a, b] : {std::pair{f, g}, std::pair{g, f}}) {
+      int n_on = 0;
+      FaceCrossing found{std::min(f, g), std::max(f, g), false, {}, 0, true};
+      for (int k = 2; k < kStations; k += 4) {
+        const auto place = place_on(section(a, e, static_cast<double>(k) / kStations), a, b);
+        if (!place) continue;
+        ++n_on;
+        if (place->size > found.size) found.size = place->size, found.xyz = place->xyz;
+      }
+      if (n_on < kStations / 8) continue;
+      known_.insert({found.first, found.second});
+      found_.push_back(found);
+      return;
+    }
+  }
+
+  /// Half the way across the one face, where that is on the other one and clearly away from the edge.
+  std::optional<Place> place_on(const Section& way, FaceId a, FaceId b) {
+    std::size_t n = 0;  // steps inside
+    while (n < way.uv.size() && (n == 0 || domain(a).loops.contains(way.uv[n]))) ++n;
+    if (n < 3) return std::nullopt;
+    const double across = distance(way.x[0], way.x[n - 1]), tolerance = tolerance_of(a) / kDeep;
+    std::size_t middle = 1;
+    while (middle + 1 < n && distance(way.x[0], way.x[middle]) < 0.5 * across) ++middle;
+    const Vec3 x = way.x[middle];
+    const double depth = distance(way.x[0], x), near = std::max(tolerance, tolerance_of(b) / kDeep);
+    if (depth < kDeep * near) return std::nullopt;
+    const auto foot = closest_point(*domain(b).face.surface, x);
+    if (foot.distance > kOn * near || !domain(b).loops.contains(foot.uv)) return std::nullopt;
+    return Place{x, depth};
+  }
+
   static bool run_side_by_side(const Section& a, const Section& b) {
     for (std::size_t i = 1; i < std::min(a.x.size(), b.x.size()); ++i)
       if (dot(normalized(a.x[i] - a.x[i - 1]), normalized(b.x[i] - b.x[i - 1])) > kSideBySide) return true;
@@ -148,11 +216,6 @@ class CrossingFaces {
     }
     return s;
   }
-
-  struct Place {
-    Vec3 xyz;
-    double size;
-  };
 
   /// Where two sections cross, confirmed on the surfaces.
   std::optional<Place> crossing_of(const Section& a, FaceId f, const Section& b, FaceId g) {

@@ -208,7 +208,8 @@ void say_which_faces_cross(const ImportedShape& model, const ModelTables& t, std
                           t.face_label(c.first), c.xyz, c.size, false});
     else
       findings.push_back({FindingKind::kCrossingFaces, t.face_label(c.first), c.xyz, c.size, false,
-                          t.face_label(c.first) + " and " + t.face_label(c.second)});
+                          t.face_label(c.first) + " and " + t.face_label(c.second) +
+                              (c.is_overlap ? ", which lie on each other" : "")});
   }
 }
 

@@ -33,6 +33,20 @@ TEST(CrossingFaces, are_found_where_a_face_crosses_itself) {
   expect_on_axis(found[0].xyz);
 }
 
+TEST(CrossingFaces, that_lie_on_each_other_beside_their_common_edge_are_found) {
+  const auto found = findings_of(import_broken("folded_flap"),
+                                 "faces cross beside their common edge: face 1 and face 2, which lie on each other");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].xyz.z, 0, 1e-6);
+  EXPECT_GT(found[0].size, 0.4) << "in the middle of the flap";
+  EXPECT_LT(found[0].size, 1);
+}
+
+TEST(CrossingFaces, are_none_where_faces_go_on_or_turn_a_corner) {
+  EXPECT_TRUE(findings_of(import_broken("offset_boxes"), "faces cross").empty());
+  EXPECT_TRUE(findings_of(import_broken("pinched_block"), "faces cross").empty());
+}
+
 TEST(CrossingFaces, are_none_where_a_sheet_ends_before_it_comes_to_itself) {
   const ImportResult r = import_broken("open_loop");
   EXPECT_TRUE(findings_of(r, "face").empty());
