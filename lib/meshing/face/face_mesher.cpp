@@ -19,6 +19,7 @@ constexpr double kSmallStep = 2e-3;  // of the range of (u,v): far less than the
 constexpr int kAreaProbe = 10;       // grid of the expected number of nodes
 constexpr double kMaxNodesOfFace = kMaxTriangles / 2.0;  // two triangles to a node
 constexpr double kRunaway = 30;                          // times the expected number of nodes
+constexpr double kPerBoundary = 0.25;  // nodes inside by those of the boundary, squared: four times what a square has
 
 /// Work on one face: the named steps of meshing.
 class FaceMesher {
@@ -75,7 +76,7 @@ class FaceMesher {
     for (std::size_t i = 0; i < boundary_.nodes.size(); ++i) {
       const FaceNode& b = boundary_.nodes[i];
       MeshNode n{b};
-      n.p = {b.uv.x * work_.scale.x, b.uv.y * work_.scale.y};
+      n.p = work_.plane.to_plane(b.uv);
       work_.evaluate(n);
       n.normal = work_.reliable_normal(n);
       n.x = b.x;
@@ -101,8 +102,9 @@ class FaceMesher {
   }
 
   bool is_small_step(Vec2 d) const {
-    return std::abs(d.x) < kSmallStep * work_.scale.x * (surface_.u_max() - surface_.u_min()) &&
-           std::abs(d.y) < kSmallStep * work_.scale.y * (surface_.v_max() - surface_.v_min());
+    const Vec2 scale = work_.plane.scale();
+    return std::abs(d.x) < kSmallStep * scale.x * (surface_.u_max() - surface_.u_min()) &&
+           std::abs(d.y) < kSmallStep * scale.y * (surface_.v_max() - surface_.v_min());
   }
 
   void add_segments() {
@@ -131,7 +133,8 @@ class FaceMesher {
         n += norm(cross(s.du, s.dv)) * du * dv / (h * h);
       }
     const double boundary = static_cast<double>(boundary_.nodes.size());
-    return static_cast<std::size_t>(std::min(kMaxNodesOfFace, kRunaway * (n + boundary * boundary) + 10000));
+    return static_cast<std::size_t>(
+        std::min(kMaxNodesOfFace, kRunaway * n + kPerBoundary * boundary * boundary + 10000));
   }
 
   void collect(FaceMesh& result) const {

@@ -33,7 +33,6 @@ constexpr double kRowRadius = 0.9;  // circumradius over requested length where 
 constexpr double kRowMiss = 0.003;  // of its length, by which a point of a row may miss its place
 constexpr double kRowAspect = 1.5;  // length along over across: less makes no rows
 
-constexpr int kProbe = 6;            // grid of the scale of the plane
 constexpr double kSingular = 0.02;   // of its mean: a derivative shorter than this makes no reliable normal
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
@@ -468,21 +467,13 @@ void FaceWork::ask_sizes(MeshNode& n) {
 
 void FaceWork::set_surface(const Surface& s) {
   surface = &s;
-  double su = 0, sv = 0;
-  const double du = (s.u_max() - s.u_min()) / kProbe, dv = (s.v_max() - s.v_min()) / kProbe;
-  for (int i = 0; i < kProbe; ++i)
-    for (int j = 0; j < kProbe; ++j) {
-      const SurfacePoint p = s.evaluate({s.u_min() + (i + 0.5) * du, s.v_min() + (j + 0.5) * dv});
-      su += norm(p.du);
-      sv += norm(p.dv);
-    }
-  const double n = kProbe * kProbe;
-  scale = {su > 0 && std::isfinite(su) ? su / n : 1.0, sv > 0 && std::isfinite(sv) ? sv / n : 1.0};
+  plane = PlaneMap(s);
 }
 
 Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
   if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
   const Vec2 middle{0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())};
+  const Vec2 scale = plane.scale();
   MeshNode inside = n;
   inside.p = n.p + 0.01 * Vec2{(middle.x - n.uv.x) * scale.x, (middle.y - n.uv.y) * scale.y};
   evaluate(inside);
@@ -491,11 +482,12 @@ Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
 
 void FaceWork::evaluate(MeshNode& n) const {
   throw_if_late();
-  n.uv = {n.p.x / scale.x, n.p.y / scale.y};
+  n.uv = plane.to_uv(n.p);
   const SurfacePoint s = surface->evaluate(n.uv);
+  const Vec2 factors = plane.factors(n.uv);
   n.x = s.x;
-  n.du = s.du / scale.x;
-  n.dv = s.dv / scale.y;
+  n.du = s.du / factors.x;
+  n.dv = s.dv / factors.y;
   n.normal = normalized(cross(n.du, n.dv));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/shape/surface.h"
+#include "meshing/face/plane_map.h"
 #include "meshing/face/stretch.h"
 #include "meshing/face/triangulation.h"
 #include "sizing/size_field.h"
@@ -19,12 +20,12 @@ struct FaceWork {
   const Surface* surface = nullptr;
   const SizeField* field = nullptr;
   std::vector<std::pair<std::int32_t, std::int32_t>> segments;  ///< of the loops, plane nodes
-  Vec2 scale{1, 1};                                             ///< plane = scale * (u,v)
+  PlaneMap plane;                                               ///< of (u,v)
   double max_turning = 1.0;   ///< radians between the normals of two nodes of a side, where L_min would allow more
   std::size_t max_nodes = 0;  ///< more is a runaway: the front stops
   int hint = 0;
 
-  /// Sets the surface and the scale: mean lengths of the derivatives.
+  /// Sets the surface and the plane.
   void set_surface(const Surface& s);
   /// Of an evaluated node: the normal a little inside where the parametrisation is singular at the boundary.
   Vec3 reliable_normal(const MeshNode& n) const;

@@ -20,7 +20,8 @@ struct Prepared {
     work.max_nodes = 1'000'000;
     const SurfacePoint middle =
         surface.evaluate({0.5 * (surface.u_min() + surface.u_max()), 0.5 * (surface.v_min() + surface.v_max())});
-    work.scale = {norm(middle.du), norm(middle.dv)};
+    work.plane.u = PlaneAxis(norm(middle.du));
+    work.plane.v = PlaneAxis(norm(middle.dv));
     std::vector<std::int32_t> of;
     for (std::size_t i = 0; i < b.nodes.size(); ++i) of.push_back(add(b.nodes[i], static_cast<std::int32_t>(i)));
     std::vector<std::pair<std::int32_t, std::int32_t>> segments;
@@ -33,7 +34,7 @@ struct Prepared {
   std::int32_t insert(Vec2 uv) {
     Triangulation& m = work.mesh;
     MeshNode n;
-    n.p = {uv.x * work.scale.x, uv.y * work.scale.y};
+    n.p = work.plane.to_plane(uv);
     work.evaluate(n);
     n.h = n.request = work.field->size(n.x);
     std::int32_t at = kNone;
@@ -111,7 +112,7 @@ struct Prepared {
   /// One plane node for all that have an id and a place in common.
   std::int32_t add(const FaceNode& b, std::int32_t index) {
     MeshNode n{b};
-    n.p = {b.uv.x * work.scale.x, b.uv.y * work.scale.y};
+    n.p = work.plane.to_plane(b.uv);
     for (std::size_t i = 0; i < work.mesh.nodes.size(); ++i)
       if (work.mesh.nodes[i].id == b.id && norm(work.mesh.nodes[i].p - n.p) < 1e-6 * b.h)
         return static_cast<std::int32_t>(i);
