@@ -4,8 +4,9 @@
 #include <map>
 #include <tuple>
 
+#include "base/log.h"
 #include "base/threads.h"
-#include "mesh/crossing.h"
+#include "mesh/pair_search.h"
 
 namespace st {
 
@@ -225,7 +226,8 @@ CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
   CrossingReport r;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
-  for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles)) {
+  bool was_ended = false;
+  for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended)) {
     const bool is_between = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
     const bool is_contact = is_between && !(cad.is_one_body && cad.is_one_body(p));
     const bool is_own = !is_contact && cad.touches_itself && cad.touches_itself(p);
@@ -236,6 +238,10 @@ CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
                     : p.n_shared ? r.overlapping_neighbours
                                  : r.crossings;
     kind.add({centroid(mesh, p.a), mesh.triangle_face[p.a], mesh.triangle_face[p.b]});
+  }
+  if (was_ended) {
+    log_warning("too many triangles lie in others: the search for crossings was ended, there are more");
+    r.crossings.add({});
   }
   return r;
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <utility>
 
 #include "base/assert.h"
 #include "base/predicates.h"
 #include "base/threads.h"
 #include "mesh/float_box.h"
+#include "mesh/pair_search.h"
 
 namespace st {
 namespace {
@@ -163,7 +163,8 @@ std::uint64_t spread(std::uint64_t x) {
 /// Triangles in Morton order of their centres under a balanced binary tree of boxes.
 class BoxTree {
  public:
-  BoxTree(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  /// Both outlive the tree.
+  BoxTree(std::span<const Vec3> points, std::span<const Triangle> triangles) : points_(points), triangles_(triangles) {
     sort_along_curve(points, triangles);
     boxes_.resize(order_.size());
     parallel_for(order_.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -181,10 +182,9 @@ class BoxTree {
     if (!nodes_.empty()) split({0, kNone}, list);
     return list;
   }
-  /// Calls visit(triangle, triangle) once for every pair of a search whose boxes meet.
-  template <class Visit>
-  void for_each_pair(Search search, const Visit& visit) const {
-    search.b == kNone ? within(search.a, visit) : between(search.a, search.b, visit);
+  /// Tests every pair of a search whose boxes meet once.
+  void test(Search search, PairSearch& found) const {
+    search.b == kNone ? within(search.a, found) : between(search.a, search.b, found);
   }
 
  private:
@@ -254,40 +254,42 @@ class BoxTree {
       split(is_first ? Search{half, b} : Search{a, half}, list);
   }
 
-  template <class Visit>
-  void within(std::int32_t n, const Visit& visit) const {
+  void test_leaf(std::int32_t i, std::int32_t begin, std::int32_t end, PairSearch& found) const {
+    found.count(end - begin);
+    for (std::int32_t j = begin; j < end; ++j)
+      if (boxes_[i].meets(boxes_[j])) found.test(points_, triangles_, order_[i], order_[j]);
+  }
+
+  void within(std::int32_t n, PairSearch& found) const {
     const Node& node = nodes_[n];
     if (node.right != kNone) {
-      within(n + 1, visit);
-      within(node.right, visit);
-      between(n + 1, node.right, visit);
+      within(n + 1, found);
+      within(node.right, found);
+      between(n + 1, node.right, found);
       return;
     }
-    for (std::int32_t i = node.begin; i < node.end; ++i)
-      for (std::int32_t j = i + 1; j < node.end; ++j)
-        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    for (std::int32_t i = node.begin; i < node.end; ++i) test_leaf(i, i + 1, node.end, found);
   }
 
-  template <class Visit>
-  void between(std::int32_t a, std::int32_t b, const Visit& visit) const {
+  void between(std::int32_t a, std::int32_t b, PairSearch& found) const {
     const Node &na = nodes_[a], &nb = nodes_[b];
-    if (!na.box.meets(nb.box)) return;
+    found.count(1);
+    if (!na.box.meets(nb.box) || found.is_over()) return;
     const bool leaf_a = na.right == kNone, leaf_b = nb.right == kNone;
     if (leaf_a && leaf_b) {
-      for (std::int32_t i = na.begin; i < na.end; ++i) {
-        if (!boxes_[i].meets(nb.box)) continue;
-        for (std::int32_t j = nb.begin; j < nb.end; ++j)
-          if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
-      }
+      for (std::int32_t i = na.begin; i < na.end; ++i)
+        if (boxes_[i].meets(nb.box)) test_leaf(i, nb.begin, nb.end, found);
     } else if (leaf_b || (!leaf_a && na.box.extent() >= nb.box.extent())) {
-      between(a + 1, b, visit);
-      between(na.right, b, visit);
+      between(a + 1, b, found);
+      between(na.right, b, found);
     } else {
-      between(a, b + 1, visit);
-      between(a, nb.right, visit);
+      between(a, b + 1, found);
+      between(a, nb.right, found);
     }
   }
 
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
   std::vector<TriangleId> order_;
   std::vector<FloatBox> boxes_;  ///< of order_[i]
   std::vector<Node> nodes_;      ///< depth first
@@ -321,23 +323,16 @@ bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Tria
 }
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-  std::vector<TrianglePair> pairs;
-  std::mutex mutex;
+  bool was_ended = false;
+  return find_crossing_triangles(points, triangles, was_ended);
+}
+
+std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                                  bool& was_ended) {
   const BoxTree tree(points, triangles);
   const std::vector<BoxTree::Search> searches = tree.searches();
-  parallel_for(searches.size(), 1, [&](std::size_t i, std::size_t) {
-    std::vector<TrianglePair> found;
-    tree.for_each_pair(searches[i], [&](TriangleId s, TriangleId t) {
-      const TriangleId a = std::min(s, t), b = std::max(s, t);
-      int n_shared = 0;
-      if (triangles_cross(points, triangles[a], triangles[b], n_shared)) found.push_back({a, b, n_shared});
-    });
-    const std::lock_guard lock(mutex);
-    pairs.insert(pairs.end(), found.begin(), found.end());
-  });
-  std::sort(pairs.begin(), pairs.end(),
-            [](const TrianglePair& x, const TrianglePair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
-  return pairs;
+  return find_bounded(searches.size(), most_comparisons(triangles.size()), was_ended,
+                      [&](std::size_t i, PairSearch& found) { tree.test(searches[i], found); });
 }
 
 }  // namespace st

@@ -12,6 +12,7 @@
 #include "base/assert.h"
 #include "base/threads.h"
 #include "mesh/float_box.h"
+#include "mesh/pair_search.h"
 #include "mesh/patch_blocks.h"
 
 namespace st {
@@ -68,8 +69,6 @@ struct TreeNode {
 /// Several threads may test at once. Who first needs the children of a node makes them, alone; leaves never change.
 class Forest {
  public:
-  using Pairs = std::vector<TrianglePair>;
-
   /// Trees of some faces, by `is_wanted` [n_faces].
   Forest(const PatchTriangles& mesh, const std::vector<char>& is_wanted)
       : mesh_(mesh),
@@ -106,8 +105,8 @@ class Forest {
     }
     return small;
   }
-  void test(const Job& job, Pairs& pairs) {
-    job.a == job.b ? test_within(job.a, pairs) : test_between(job.a, job.b, pairs);
+  void test(const Job& job, PairSearch& found) {
+    job.a == job.b ? test_within(job.a, found) : test_between(job.a, job.b, found);
   }
 
  private:
@@ -132,26 +131,27 @@ class Forest {
     return {split(job.b), job.a};
   }
 
-  void test_within(std::int32_t n, Pairs& pairs) {
+  void test_within(std::int32_t n, PairSearch& found) {
     if (nodes_[n].near != 0 || nodes_[n].size() < 2) return;
     const std::int32_t left = split(n);
     if (left == kNone) {
-      for (std::int32_t i = nodes_[n].begin; i < nodes_[n].end; ++i) test_item(i, i + 1, nodes_[n].end, pairs);
+      for (std::int32_t i = nodes_[n].begin; i < nodes_[n].end; ++i) test_item(i, i + 1, nodes_[n].end, found);
       return;
     }
-    test_within(left, pairs);
-    test_within(left + 1, pairs);
-    test_between(left, left + 1, pairs);
+    test_within(left, found);
+    test_within(left + 1, found);
+    test_between(left, left + 1, found);
   }
-  void test_between(std::int32_t a, std::int32_t b, Pairs& pairs) {
-    if (!nodes_[a].box.meets(nodes_[b].box)) return;
+  void test_between(std::int32_t a, std::int32_t b, PairSearch& found) {
+    found.count(1);
+    if (!nodes_[a].box.meets(nodes_[b].box) || found.is_over()) return;
     if (const auto [left, other] = split_larger({a, b}); left != kNone) {
-      test_between(left, other, pairs);
-      test_between(left + 1, other, pairs);
+      test_between(left, other, found);
+      test_between(left + 1, other, found);
       return;
     }
     for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
-      if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end, pairs);
+      if (items_[i].box.meets(nodes_[b].box)) test_item(i, nodes_[b].begin, nodes_[b].end, found);
   }
 
   static constexpr std::int32_t kLeafSize = 12;
@@ -239,14 +239,10 @@ class Forest {
   }
 
   /// Compares item i with the items [begin, end).
-  void test_item(std::int32_t i, std::int32_t begin, std::int32_t end, Pairs& pairs) const {
-    for (std::int32_t j = begin; j < end; ++j) {
-      if (!items_[i].box.meets(items_[j].box)) continue;
-      const auto [a, b] = std::minmax(items_[i].id, items_[j].id);
-      int n_shared = 0;
-      if (triangles_cross(mesh_.points, mesh_.triangles[a], mesh_.triangles[b], n_shared))
-        pairs.push_back({a, b, n_shared});
-    }
+  void test_item(std::int32_t i, std::int32_t begin, std::int32_t end, PairSearch& found) const {
+    found.count(end - begin);
+    for (std::int32_t j = begin; j < end; ++j)
+      if (items_[i].box.meets(items_[j].box)) found.test(mesh_.points, mesh_.triangles, items_[i].id, items_[j].id);
   }
 
   const PatchTriangles& mesh_;
@@ -269,24 +265,27 @@ std::vector<Box3> boxes_of_faces(const PatchTriangles& mesh) {
 
 /// The pairs that these tests find, sorted. `is_wanted` [n_faces]: the faces of the jobs.
 std::vector<TrianglePair> find_pairs(const PatchTriangles& mesh, const std::vector<char>& is_wanted,
-                                     std::vector<Forest::Job> jobs) {
+                                     std::vector<Forest::Job> jobs, bool& was_ended) {
   Forest forest(mesh, is_wanted);
   jobs = forest.split_jobs(std::move(jobs));
   constexpr std::size_t kJobsPerPiece = 4;
-  std::vector<Forest::Pairs> found(jobs.size() / kJobsPerPiece + 1);
-  parallel_for(jobs.size(), kJobsPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) forest.test(jobs[i], found[begin / kJobsPerPiece]);
-  });
-  Forest::Pairs all;
-  for (const Forest::Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
-  std::sort(all.begin(), all.end(),
-            [](const TrianglePair& x, const TrianglePair& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
-  return all;
+  const std::size_t n_pieces = (jobs.size() + kJobsPerPiece - 1) / kJobsPerPiece;
+  return find_bounded(n_pieces, most_comparisons(mesh.triangles.size()), was_ended,
+                      [&](std::size_t piece, PairSearch& found) {
+                        const std::size_t begin = piece * kJobsPerPiece;
+                        for (std::size_t i = begin; i < std::min(begin + kJobsPerPiece, jobs.size()); ++i)
+                          forest.test(jobs[i], found);
+                      });
 }
 
 }  // namespace
 
 std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
+  bool was_ended = false;
+  return find_crossing_patches(mesh, was_ended);
+}
+
+std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh, bool& was_ended) {
   ST_ASSERT(mesh.face_begin.size() == mesh.face_body.size() + 1 && mesh.face_begin.front() == 0);
   ST_ASSERT(std::is_sorted(mesh.face_begin.begin(), mesh.face_begin.end()));
   ST_ASSERT(static_cast<std::size_t>(mesh.face_begin.back()) == mesh.triangles.size());
@@ -303,15 +302,16 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh) {
     if (is_dirty(f)) add(f, f);
   for (const auto& [f, g] : meeting_pairs(boxes_of_faces(mesh)))
     if ((is_dirty(f) || is_dirty(g)) && mesh.face_body[f] == mesh.face_body[g]) add(f, g);
-  return find_pairs(mesh, is_wanted, std::move(jobs));
+  return find_pairs(mesh, is_wanted, std::move(jobs), was_ended);
 }
 
 std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                 std::int32_t n_first) {
+                                                 std::int32_t n_first, bool& was_ended) {
   const std::int32_t begin[] = {0, n_first, static_cast<std::int32_t>(triangles.size())}, body[] = {0, 0};
   ST_ASSERT(0 <= n_first && n_first <= begin[2]);
+  was_ended = false;
   if (n_first == 0 || n_first == begin[2]) return {};
-  return find_pairs({points, triangles, begin, body}, {1, 1}, {{0, 1}});
+  return find_pairs({points, triangles, begin, body}, {1, 1}, {{0, 1}}, was_ended);
 }
 
 }  // namespace st

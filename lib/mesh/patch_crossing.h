@@ -37,11 +37,13 @@ struct PatchTriangles {
 /// cone, walls that cross for want of resolution face apart; and st-check makes the full test.
 ///
 /// Linear in the triangles of smooth faces, as find_crossing_triangles elsewhere: trees are built only as deep as they
-/// are descended.
+/// are descended. Where triangles lie in each other without end the search is ended (most_comparisons()): then
+/// `was_ended` is set, and these are not all pairs.
+std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh, bool& was_ended);
 std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh);
 
 /// Likewise the pairs of two faces alone: triangles [0, n_first) are of one, the others of the other.
 std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                 std::int32_t n_first);
+                                                 std::int32_t n_first, bool& was_ended);
 
 }  // namespace st

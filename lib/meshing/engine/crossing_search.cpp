@@ -1,10 +1,13 @@
 #include "meshing/engine/crossing_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/log.h"
 #include "base/share.h"
 #include "base/threads.h"
 #include "geometry/shape/wall_gap.h"
@@ -132,8 +135,10 @@ struct CrossingSearch::Search {
     const std::vector<Vec3> xyz = node_places(numbering.edges, numbering.tables.vertex_xyz, p);
     const std::int32_t begin[] = {0, static_cast<std::int32_t>(p.triangles.size())}, body[] = {0};
     Found found;
-    for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}))
+    bool was_ended = false;
+    for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}, was_ended))
       add(facet(s, pair.a), facet(s, pair.b), pair.n_shared, found.pairs);
+    if (was_ended) found.ended.push_back({p.face, p.face});
     found.chords = find_chords(segments, p, sections[s].place.begin.triangle);
     return found;
   }
@@ -182,8 +187,16 @@ struct CrossingSearch::Search {
     const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
     const TwoParts both = join_parts(a, b);
     const auto n_first = static_cast<std::int32_t>(a.triangle.size());
-    for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first))
+    bool was_ended = false;
+    for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first, was_ended))
       add(facet(job.a, a.triangle[pair.a]), facet(job.b, b.triangle[pair.b - n_first]), pair.n_shared, found.pairs);
+    if (was_ended) found.ended.push_back({sections[job.a].face, sections[job.b].face});
+    return found;
+  }
+  Found find(const Job& job) const {
+    Found found = job.a == job.b ? within(job.a) : between(job);
+    if (!found.ended.empty())
+      for (FacetPair& p : found.pairs) p.factor = kHopeless;
     return found;
   }
 
@@ -309,16 +322,18 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
   for (std::size_t f = 0; f < chords_.size(); ++f)
     if (face_is_fresh_[f]) chords_[f].clear();
   FacetPairs fresh;
+  std::set<std::array<FaceId, 2>> ended;
   executor_.run_named_tasks(
       tasks,
       [&](std::int32_t task) {
         Found all;
         for (const std::size_t i : batches[task].jobs) {
-          Found found = jobs[i].a == jobs[i].b ? search.within(jobs[i].a) : search.between(jobs[i]);
+          Found found = search.find(jobs[i]);
           measure_whole_faces(jobs[i], search, found);
           all.pairs.insert(all.pairs.end(), found.pairs.begin(), found.pairs.end());
           all.chords.insert(all.chords.end(), found.chords.begin(), found.chords.end());
           all.touching.insert(all.touching.end(), found.touching.begin(), found.touching.end());
+          all.ended.insert(all.ended.end(), found.ended.begin(), found.ended.end());
         }
         return packed(all);
       },
@@ -328,7 +343,9 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
         fresh.insert(fresh.end(), found.pairs.begin(), found.pairs.end());
         for (const Chord& c : found.chords) chords_[c.facet.face].push_back(c);
         for (const auto& [a, b] : found.touching) touching_.insert({a, b});
+        ended.insert(found.ended.begin(), found.ended.end());
       });
+  say_ended(ended);
   if (executor_.is_root()) {
     std::vector<Chord> chords;
     for (const std::vector<Chord>& some : chords_) chords.insert(chords.end(), some.begin(), some.end());
@@ -343,6 +360,16 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
   std::vector<RefinementPoint> refined = places_to_refine(search);
   ++n_runs_;
   return refined;
+}
+
+/// Local, on rank 0.
+void CrossingSearch::say_ended(const std::set<std::array<FaceId, 2>>& faces) const {
+  const ModelTables& t = model_.tables();
+  for (const auto& [a, b] : faces)
+    log_warning(
+        fmt::format("{}{}: too many of its triangles lie in others; the search for crossings was ended and "
+                    "nothing is refined there (look at the face in the CAD system)",
+                    t.face_label(a), a == b ? "" : " and " + t.face_label(b)));
 }
 
 /// Collective. Corners of these triangles (rank 0's choice) on rank 0.

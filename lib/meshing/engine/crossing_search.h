@@ -102,14 +102,16 @@ class CrossingSearch {
     FacetPairs pairs;
     std::vector<Chord> chords;
     std::vector<std::array<FaceId, 2>> touching;  // faces of two bodies that meet
+    std::vector<std::array<FaceId, 2>> ended;     // a face with itself, or two: not all pairs were compared
 
-    static auto fields(auto& f) { return std::tie(f.pairs, f.chords, f.touching); }
+    static auto fields(auto& f) { return std::tie(f.pairs, f.chords, f.touching, f.ended); }
   };
   struct Search;  // one run on one rank
 
   static constexpr double kHalve = 0, kHopeless = -1, kUnknown = -2, kMeets = -3;
 
   bool may_be_apart(FaceId a, FaceId b) const;
+  void say_ended(const std::set<std::array<FaceId, 2>>& faces) const;
   std::vector<Job> jobs_of(const std::vector<PlacedPatch>& sections) const;
   struct Corners {  // of a triangle
     WallTriangle places;

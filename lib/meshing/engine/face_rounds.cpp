@@ -33,9 +33,13 @@ namespace {
 constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
-constexpr double kLight = 0.25;     // of a tile: such faces take less time than cutting a heavy one
-constexpr int kFewPairs = 50;       // of crossing triangles: else faces that cross each other stay as they are
-constexpr double kWorthIt = 0.9;    // of the bad triangles before: as many or less are left by a refill that stays
+constexpr double kLight = 0.25;    // of a tile: such faces take less time than cutting a heavy one
+constexpr int kFewPairs = 50;      // of crossing triangles: else faces that cross each other stay as they are
+constexpr double kWorthIt = 0.9;   // of the bad triangles before: as many or less are left by a refill that stays
+constexpr int kMostTakenBack = 4;  // times: bad places move
+constexpr int kMostRefills = 10;   // each leaves a tenth less at least
+constexpr std::int64_t kPerFailure = 1000;    // folds and crossings: as bad as a face that fails
+constexpr std::size_t kMostBadPlaces = 2000;  // that are looked at
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
 constexpr int kSamples = 32;        // of a curve, for its box
 constexpr double kMargin = 0.05;    // of the box's diagonal: the curve may leave the box of its samples
@@ -146,10 +150,94 @@ FaceRounds::BadTriangles FaceRounds::bad_triangles(const Patches& patches) const
   return bad;
 }
 
+/// Local, on rank 0. Failures, folds and crossings.
+std::int64_t FaceRounds::n_bad() const {
+  std::int64_t n = crossings_.n_pairs();
+  for (const FaceOutcome& o : outcomes_) n += o.n_folds + (o.cause == FailureCause::kNone ? 0 : kPerFailure);
+  return n;
+}
+
+/// Collective. Where faces fail, fold or cross; on rank 0.
+std::vector<Vec3> FaceRounds::bad_places() const {
+  std::vector<Vec3> places;
+  for (const FaceOutcome& o : outcomes_)
+    for (const auto* some : {&o.fold_places, &o.failed_places})
+      for (const RefinementPoint& p : *some) places.push_back(p.x);
+  for (const auto& [f, patch] : bring(crossings_.crossing_faces(true))) {
+    const std::vector<Vec3> xyz = nodes_of(patch);
+    for (const std::size_t t : crossings_.crossing_in(f, true)) {
+      const NodeId* n = patch.triangles[t].n;
+      places.push_back((xyz[n[0]] + xyz[n[1]] + xyz[n[2]]) / 3);
+    }
+  }
+  const std::size_t step = places.size() / kMostBadPlaces + 1;
+  for (std::size_t i = 1; i * step < places.size(); ++i) places[i] = places[i * step];
+  places.resize((places.size() + step - 1) / step);
+  return places;
+}
+
+/// Collective. Takes out those about places that are bad after all rounds, and returns them.
+std::vector<Refinement> FaceRounds::drop_useless_refinements() {
+  std::vector<Refinement> useless, kept;
+  const std::vector<Vec3> bad = bad_places();
+  for (const Refinement& r : refinements_.all()) {
+    const bool is_useless = std::ranges::any_of(bad, [&](Vec3 x) { return distance(r.x, x) < r.reach; });
+    (is_useless ? useless : kept).push_back(r);
+  }
+  share(executor_, useless, kept);
+  refinements_.assign(std::move(kept));
+  return useless;
+}
+
+/// Collective. What the refinements reached that are no more is meshed once more.
+void FaceRounds::mesh_without(const std::vector<Refinement>& useless) {
+  if (executor_.is_root()) find_dirty(useless);
+  share(executor_, dirty_edges_, dirty_faces_);
+  log_info(fmt::format("refining at {} places did not help: {} edges, {} faces again without it", useless.size(),
+                       dirty_edges_.size(), dirty_faces_.size()));
+  mesh_edges();
+  mesh_regions();
+  close_holes();
+  crossings_.run(*numbering_, places_);
+}
+
+/// Collective. Smaller lengths about places that are bad all the same are no use, and go. The mesh stays as it is where
+/// more were bad without them.
+void FaceRounds::take_back_refinements() {
+  for (int i = 0; i < kMostTakenBack && take_back_once(); ++i) {
+  }
+}
+
+/// Collective. Whether there may be more.
+bool FaceRounds::take_back_once() {
+  std::int64_t n_before = n_bad();
+  share(executor_, n_before);
+  if (n_before == 0 || refinements_.all().empty()) return false;
+  const std::vector<Refinement> all = refinements_.all(), useless = drop_useless_refinements();
+  if (useless.empty()) return false;
+  const EdgeMesh edges = result_.edges;
+  const std::vector<FacePlace> places = places_;
+  const std::vector<FaceOutcome> outcomes = outcomes_;
+  mesh_without(useless);
+  char is_worse = n_bad() > n_before;
+  share(executor_, is_worse);
+  if (!is_worse) return true;
+  refinements_.assign(all);
+  result_.edges = edges;
+  numbering_.emplace(topology_, result_.edges);
+  if (executor_.is_root()) {
+    places_ = places;
+    outcomes_ = outcomes;
+    for (const FaceId f : dirty_faces_) crossings_.renew(f);
+  }
+  crossings_.run(*numbering_, places_);
+  return false;
+}
+
 /// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
 /// rather than through themselves.
 void FaceRounds::refill_bad() {
-  while (refill_once()) {
+  for (int i = 0; i < kMostRefills && refill_once(); ++i) {
   }
 }
 
@@ -205,6 +293,7 @@ void FaceRounds::part_touching() {
 }
 
 void FaceRounds::report(PatchesGo patches) {
+  take_back_refinements();
   refill_bad();
   part_touching();
   share(executor_, places_);
@@ -313,8 +402,10 @@ EdgeMesh FaceRounds::make_edge(EdgeId e) const {
 /// The nodes of a strip's other edge follow those of the kept one.
 EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const {
   const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
+  const bool is_ring = tables_.edge_vertices[2 * strip.kept] == tables_.edge_vertices[2 * strip.kept + 1];
+  const double exact = is_ring ? cad_tolerance(tables_, strip.face) : 0;
   EdgeMesh nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
-                                {options_.merge_below, tolerance});
+                                {options_.merge_below, tolerance, exact});
   end_at_vertices(strip.closed, nodes);
   return nodes;
 }
@@ -598,7 +689,9 @@ void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
   o.error = std::move(report.error);
   o.failed = std::move(report.failed);
   o.is_closed = false;
+  o.n_folds = report.n_folds;
   o.fold_places = report.n_folds ? report.wanted : std::vector<RefinementPoint>();
+  o.failed_places = report.cause == FailureCause::kNone ? std::vector<RefinementPoint>() : report.wanted;
   o.cause_xyz = report.wanted.empty() ? tables_.face_box[f].center() : report.wanted[0].x;
   crossings_.renew(f);
   wanted_[f] = std::move(report.wanted);
@@ -667,7 +760,7 @@ std::vector<RefinementPoint> FaceRounds::find_crossings() {
 }
 
 void FaceRounds::choose_again(std::size_t first_refinement) {
-  if (executor_.is_root()) find_dirty(first_refinement);
+  if (executor_.is_root()) find_dirty(std::span(refinements_.all()).subspan(first_refinement));
   share(executor_, dirty_edges_, dirty_faces_);
   log_info("refining at " + std::to_string(refinements_.all().size() - first_refinement) + " places: " +
            std::to_string(dirty_edges_.size()) + " edges, " + std::to_string(dirty_faces_.size()) + " faces again");
@@ -695,13 +788,12 @@ void FaceRounds::drop_replaced() {
   store_.keep_only(live);
 }
 
-/// Edges and faces of the plan that refinements from this one on reach.
-void FaceRounds::find_dirty(std::size_t first_refinement) {
+/// Edges and faces of the plan that these reach.
+void FaceRounds::find_dirty(std::span<const Refinement> refinements) {
   std::vector<std::pair<EdgeId, EdgeId>> followers;
   for (const FacingEdges& f : facing_)
     for (const FacingEdges::Leader& l : f.leaders) followers.push_back({f.edge, l.edge});
-  const DirtyParts dirty_parts =
-      find_dirty_parts(topology_, result_.edges, std::span(refinements_.all()).subspan(first_refinement), followers);
+  const DirtyParts dirty_parts = find_dirty_parts(topology_, result_.edges, refinements, followers);
   const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {
     std::vector<std::int32_t> dirty;
     std::copy_if(plan.begin(), plan.end(), std::back_inserter(dirty), [&](std::int32_t i) { return is_dirty[i]; });

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -36,6 +37,8 @@ class FaceRounds : public MeshRounds {
     std::string error;  // what was thrown, for kError
     Vec3 cause_xyz;
     std::vector<RefinementPoint> fold_places;
+    std::vector<RefinementPoint> failed_places;
+    int n_folds = 0;
     FailedFace failed;       // where it failed
     bool is_closed = false;  // it failed, and its loops were closed; then:
     bool is_near = false;    // the triangles are near the surface
@@ -112,7 +115,13 @@ class FaceRounds : public MeshRounds {
   std::vector<Vec3> nodes_of(const FacePatch& patch) const;
   void remember_whole();
   void drop_replaced();
-  void find_dirty(std::size_t first_refinement);
+  void find_dirty(std::span<const Refinement> refinements);
+  void take_back_refinements();
+  bool take_back_once();
+  std::vector<Refinement> drop_useless_refinements();
+  std::vector<Vec3> bad_places() const;
+  std::int64_t n_bad() const;
+  void mesh_without(const std::vector<Refinement>& useless);
 
   const Model& model_;
   const MeshTopology& topology_;

@@ -51,6 +51,7 @@ class BoundaryMaker {
     for (std::int32_t i = 0; i < n; ++i)
       is_closed[t_.coedge_is_reversed[coedges[0]] ? n - 1 - i : i] = numbering_.is_closed(strip, i);
     if (std::count(is_closed.begin(), is_closed.end(), 1) == 0) return false;
+    if (other == coedges.end()) return true;  // a ring of two loops, which is closed all around
     for (std::int32_t first = 0, last; first < n; first = last + 1) {
       last = first;
       if (is_closed[first]) continue;

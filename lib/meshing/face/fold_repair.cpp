@@ -18,6 +18,8 @@ namespace {
 constexpr double kLeastCosine = 0;                // between a normal and the way from the axis
 constexpr std::array kCoarser = {1.0, 2.0, 4.0};  // times the requested lengths: fewer nodes may fold less
 constexpr std::array kRings = {4, 3, 2, 1};       // about the folded triangles: as many as one plane allows
+constexpr std::size_t kMostNodes = 2000;          // of a place: the cost is quadratic
+constexpr int kMostPlaces = 200;                  // that are tried: damaged surfaces fold all over
 constexpr int kSteps = 40;                        // of Newton's method
 constexpr double kFound = 1e-9;                   // of the extent of the place: distance from the foot looked for
 
@@ -237,7 +239,8 @@ class FoldRepair {
 
   /// Appends the new triangles, and their nodes to all nodes. False: nothing better was found, nothing has changed.
   bool mesh_again(const TrianglePlace& place, std::vector<Triangle>& added) {
-    if (place.loop.empty()) return false;
+    if (place.loop.empty() || place.triangles.size() > 2 * kMostNodes || n_tried_ == kMostPlaces) return false;
+    ++n_tried_;
     std::vector<NodeId> nodes;
     for (const std::size_t t : place.triangles) nodes.insert(nodes.end(), triangles_[t].n, triangles_[t].n + 3);
     std::sort(nodes.begin(), nodes.end());
@@ -292,6 +295,7 @@ class FoldRepair {
   const std::size_t first_inner_;
   std::vector<Triangle> triangles_;
   std::vector<Vec3> normal_;
+  int n_tried_ = 0;  // places
 };
 
 }  // namespace

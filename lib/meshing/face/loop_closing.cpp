@@ -20,9 +20,7 @@ constexpr double kImpossible = 1e200;  // cost of a triangle with one node twice
 constexpr double kLong = 1.4;          // times the request: sides that are split
 constexpr int kPasses = 40;            // of splitting, swapping and smoothing
 constexpr std::size_t kMostInner = 200'000;
-constexpr std::size_t kFewInner = 1000;  // nodes inside in any case; else a quarter of the boundary's nodes, squared:
-                                         // four times what a square has
-constexpr double kNear = 0.1;            // of the longest side of a triangle: its distance from the surface
+constexpr double kNear = 0.1;     // of the longest side of a triangle: its distance from the surface
 constexpr double kSteep = 2;      // over the cosine of 60 degrees to the surface a triangle is as good as its shape
 constexpr double kBetter = 1e-6;  // least gain in quality of a swap or a move
 
@@ -103,6 +101,7 @@ class LoopClosing {
     std::vector<Polygon> loops = find_loops(boundary);
     if (loops.empty() || !triangulate(joined(std::move(loops)))) return false;
     split_repeated();
+    most_inner_ = splits ? expected_inner() : 0;
     for (int pass = 0; splits && pass < kPasses; ++pass) {
       const bool has_split = split_long();
       for (int sweep = 0; sweep < 4 && swap_sides(); ++sweep) {
@@ -295,8 +294,19 @@ class LoopClosing {
     }
   }
 
+  /// Twice what the areas of the triangles and the lengths there explain, and as many as on the boundary.
+  std::size_t expected_inner() {
+    double n = static_cast<double>(first_inner_);
+    for (const Triangle& t : triangles_) {
+      const Vec3 a = nodes_[t.n[0]].x, b = nodes_[t.n[1]].x, c = nodes_[t.n[2]].x;
+      const double h = std::max(1e-300, field_.size((a + b + c) / 3, hint_));
+      n += 2 * norm(cross(b - a, c - a)) / (std::sqrt(3.0) * h * h);  // two triangles to a node
+    }
+    return static_cast<std::size_t>(std::min(static_cast<double>(kMostInner), n));
+  }
+
   bool split_long() {
-    if (nodes_.size() - first_inner_ > std::min(kMostInner, kFewInner + first_inner_ * first_inner_ / 4)) return false;
+    if (nodes_.size() - first_inner_ > most_inner_) return false;
     return split([&](NodeId a, NodeId b) {
       const double ratio =
           distance(nodes_[a].x, nodes_[b].x) / std::max(1e-300, field_.size(0.5 * (nodes_[a].x + nodes_[b].x), hint_));
@@ -438,6 +448,7 @@ class LoopClosing {
   const std::size_t first_inner_;
   std::set<IdPair> fixed_;  // segments of the loops
   std::vector<Triangle> triangles_;
+  std::size_t most_inner_ = 0;  // nodes
   int hint_ = 0;
 };
 

@@ -17,9 +17,10 @@ namespace {
 
 constexpr std::array kRings = {1, 2, 3};
 constexpr std::size_t kMostNodes = 150;  // of a loop; the cost is cubic
-constexpr double kFlat = 0.5;            // cosine between neighbours' normals: flatter ones are as good
-constexpr double kNoArea = 1e-9;         // over the squared perimeter: twice the area of a triangle that has none
-constexpr double kShape = 1e-2;          // share of the squared perimeter in a triangle's area: few slivers
+constexpr int kMostTried = 300;   // places: a damaged surface has too many, and each takes a look at all triangles
+constexpr double kFlat = 0.5;     // cosine between neighbours' normals: flatter ones are as good
+constexpr double kNoArea = 1e-9;  // over the squared perimeter: twice the area of a triangle that has none
+constexpr double kShape = 1e-2;   // share of the squared perimeter in a triangle's area: few slivers
 
 using Side = std::pair<NodeId, NodeId>;
 
@@ -195,15 +196,16 @@ std::vector<std::size_t> find_flawed(std::span<const Vec3> xyz, const FacePatch&
 int refill(std::span<const Vec3> xyz, std::span<const std::size_t> bad, FacePatch& patch) {
   std::set<std::array<NodeId, 3>> left;  // bad triangles, by their nodes
   for (const std::size_t t : bad) left.insert(std::to_array(patch.triangles[t].n));
-  int n_filled = 0;
+  int n_filled = 0, n_tried = 0;
   for (const int rings : kRings) {
-    for (bool has_filled = true; has_filled && !left.empty();) {
+    for (bool has_filled = true; has_filled && !left.empty() && n_tried < kMostTried;) {
       has_filled = false;
       std::vector<std::size_t> seeds;
       for (std::size_t t = 0; t < patch.triangles.size(); ++t)
         if (left.contains(std::to_array(patch.triangles[t].n))) seeds.push_back(t);
       for (const TrianglePlace& place :
            places_about(patch.triangles, static_cast<std::int64_t>(xyz.size()), seeds, rings)) {
+        if (n_tried++ == kMostTried) break;
         const std::vector<Triangle> added = fill(xyz, patch.triangles, place);
         if (added.empty()) continue;
         for (const std::size_t t : place.triangles) left.erase(std::to_array(patch.triangles[t].n));

@@ -23,6 +23,10 @@ double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y :
 /// Of the cone whose top is cut off at the radius.
 double at_centre(const Refinement& r) { return r.length - kRefinementSlope * r.radius; }
 
+double length_at(const Refinement& r, Vec3 x) {
+  return std::max(r.length, at_centre(r) + kRefinementSlope * distance(x, r.x));
+}
+
 }  // namespace
 
 double box_distance(const Box3& box, Vec3 p) {
@@ -34,9 +38,9 @@ double box_distance(const Box3& box, Vec3 p) {
 bool Refinements::add(const RefinementPoint& place, double floor) {
   int hint = 0;
   const LocalSize local = field_.local(place.x, hint);
-  Box3 at;
-  at.add(place.x);
-  const double request = local.along, present = RefinedField(field_, near(at)).local(place.x, hint).along;
+  const double request = local.along;
+  double present = request;
+  for (const Refinement& r : all_) present = std::min(present, length_at(r, place.x));
   const double length = std::max(place.length, floor * local.length);
   if (length > kWorthwhile * present) return false;
   all_.push_back({place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius});
@@ -85,9 +89,7 @@ void RefinedField::visit(std::int32_t index, Vec3 xyz, double& length) const {
     visit(node.right, xyz, length);
     return;
   }
-  for (std::int32_t i = node.first; i < node.last; ++i)
-    length = std::min(
-        length, std::max(places_[i].length, at_centre(places_[i]) + kRefinementSlope * distance(xyz, places_[i].x)));
+  for (std::int32_t i = node.first; i < node.last; ++i) length = std::min(length, length_at(places_[i], xyz));
 }
 
 double RefinedField::size(Vec3 xyz, int& hint) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/log.h"
 #include "mesh/patch_crossing.h"
 
 namespace st {
@@ -121,10 +122,13 @@ std::vector<TrianglePair> find_new_crossings(const SurfaceMesh& m, std::span<con
   const std::vector<char> is_dirty = faces_with_new(m, begin);
   const NearTriangles near = find_near(m, begin);
   std::vector<TrianglePair> found;
-  for (TrianglePair p : find_crossing_patches({m.node_xyz, near.triangles, near.face_begin, face_body, is_dirty})) {
+  bool was_ended = false;
+  for (TrianglePair p :
+       find_crossing_patches({m.node_xyz, near.triangles, near.face_begin, face_body, is_dirty}, was_ended)) {
     p.a = near.id[p.a], p.b = near.id[p.b];
     if (p.n_shared != 1 && (m.triangle_previous[p.a] == kNone || m.triangle_previous[p.b] == kNone)) found.push_back(p);
   }
+  if (was_ended) log_warning("too many triangles lie in others; the search for crossings was ended, st-check has more");
   return found;
 }
 

@@ -33,6 +33,10 @@ MeshTopology::MeshTopology(const ModelTables& tables, MergedFeatures merged)
     sets.unite(tables_.edge_vertices[2 * e], tables_.edge_vertices[2 * e + 1]);
     tables_.edge_is_degenerate[e] = 1;
   }
+  const auto is_ring = [&](EdgeId e) { return tables_.edge_vertices[2 * e] == tables_.edge_vertices[2 * e + 1]; };
+  for (std::size_t s = 0; s < merged_.strip_face.size(); ++s)
+    if (is_ring(merged_.strip_kept[s]) && is_ring(merged_.strip_closed[s]))
+      sets.unite(tables_.edge_vertices[2 * merged_.strip_kept[s]], tables_.edge_vertices[2 * merged_.strip_closed[s]]);
   for (VertexId& v : tables_.edge_vertices) v = sets.root(v);
   const std::size_t n_strips = merged_.strip_face.size();
   if (n_strips == 0) return;

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/threads.h"
 #include "features/arc_table.h"
 #include "features/strip.h"
+#include "geometry/model/cad_tolerance.h"
 #include "meshing/topology/vertex_sets.h"
 
 namespace st {
@@ -242,10 +244,78 @@ std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
   return strips;
 }
 
+/// A face between two closed edges, with or without a seam.
+struct Ring {
+  Strip strip;
+  EdgeId seam = kNone;
+};
+
+std::optional<Ring> ring_of(const ModelTables& t, FaceId f, const std::vector<int>& uses) {
+  Ring ring;
+  std::vector<EdgeId> closed;
+  for (const EdgeId e : t.edges_of(f)) {
+    if (t.edge_is_degenerate[e]) return std::nullopt;
+    if (t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1])
+      closed.push_back(e);
+    else if (ring.seam == kNone || ring.seam == e)
+      ring.seam = e;
+    else
+      return std::nullopt;
+  }
+  if (closed.size() != 2 || closed[0] == closed[1] || uses[closed[0]] != 2 || uses[closed[1]] != 2 ||
+      (ring.seam == kNone ? t.edges_of(f).size() != 2 : t.edges_of(f).size() != 4 || uses[ring.seam] != 2))
+    return std::nullopt;
+  std::sort(closed.begin(), closed.end());
+  ring.strip.face = f;
+  std::copy(closed.begin(), closed.end(), ring.strip.edges);
+  ring.strip.length = t.edge_length[closed[0]];
+  return ring;
+}
+
+/// All around, from points at equal shares of the lengths, which start at vertices that face each other.
+bool is_narrow(const Model& model, const SizeField& field, const MergeLimit& limit, Ring& ring) {
+  constexpr int kStations = 256;
+  constexpr double kClearly = 0.8;  // between the stations it may be wider
+  const ModelTables& t = model.tables();
+  const double length = std::min(t.edge_length[ring.strip.edges[0]], t.edge_length[ring.strip.edges[1]]);
+  int hint = 0;
+  if (t.face_area[ring.strip.face] > length * limit.at(field.size(t.face_box[ring.strip.face].hi, hint)) &&
+      t.face_area[ring.strip.face] > length * limit.at(field.size(t.face_box[ring.strip.face].lo, hint)))
+    return false;  // cheap, and enough for most
+  const auto kept = model.curve(ring.strip.edges[0]), closed = model.curve(ring.strip.edges[1]);
+  const ArcTable a(*kept), b(*closed);
+  const auto across = [&](double share, bool is_opposed) {
+    return closed->point(b.parameter_at(is_opposed ? 1 - share : share));
+  };
+  const Vec3 quarter = kept->point(a.parameter_at(0.25));
+  ring.strip.is_opposed = distance(quarter, across(0.25, true)) < distance(quarter, across(0.25, false));
+  for (int i = 0; i < kStations; ++i) {
+    const double share = static_cast<double>(i) / kStations;
+    const Vec3 x = kept->point(a.parameter_at(share));
+    if (distance(x, across(share, ring.strip.is_opposed)) > kClearly * limit.at(field.size(x, hint))) return false;
+  }
+  return true;
+}
+
+/// By face.
+std::vector<Ring> narrow_rings(const Model& model, const SizeField& field, const std::vector<MergeLimit>& face_limit) {
+  const ModelTables& t = model.tables();
+  std::vector<int> uses(t.n_edges(), 0);
+  for (const EdgeId e : t.coedge_edge) ++uses[e];
+  std::vector<Ring> rings;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    MergeLimit limit = face_limit[f];
+    limit.exact = cad_tolerance(t, f);
+    if (auto ring = ring_of(t, f, uses); ring && is_narrow(model, field, limit, *ring)) rings.push_back(*ring);
+  }
+  return rings;
+}
+
 }  // namespace
 
 double MergeLimit::at(double size) const {
-  return tolerance > 0 ? std::min(tolerance, kLargestMerge * size) : below * size;
+  const double limit = tolerance > 0 ? std::min(tolerance, kLargestMerge * size) : below * size;
+  return std::max(limit, std::min(exact, kLargestMerge * size));
 }
 
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
@@ -255,14 +325,20 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   const std::vector<MergeLimit> face_limit = face_limits(t, below);
   merged.edge = EdgeMerger(model, field, face_limit, below).run();
   StripMerger merger(t, merged.edge);
-  const std::vector<Strip> strips = narrow_strips(model, field, face_limit);
+  std::vector<Strip> strips = narrow_strips(model, field, face_limit);
+  const std::vector<Ring> rings = narrow_rings(model, field, face_limit);
+  for (const Ring& ring : rings) strips.push_back(ring.strip);
+  std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });
   for (const Strip& strip : strips) {
     if (!merger.may_close(strip, strips)) continue;
+    for (const Ring& ring : rings)
+      if (ring.strip.face == strip.face && ring.seam != kNone) merged.edge.push_back(ring.seam);
     merged.strip_face.push_back(strip.face);
     merged.strip_kept.push_back(strip.edges[0]);
     merged.strip_closed.push_back(strip.edges[1]);
     merged.strip_is_opposed.push_back(strip.is_opposed);
   }
+  std::sort(merged.edge.begin(), merged.edge.end());
   return merged;
 }
 

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "base/predicates.h"
+#include "base/threads.h"
+#include "mesh/pair_search.h"
 #include "unit/mesh/shapes.h"
 
 namespace st {
@@ -145,6 +147,31 @@ TEST(Crossing, of_two_cubes_that_penetrate_is_found) {
   const auto pairs = find_crossing_triangles(m.node_xyz, m.triangles);
   ASSERT_FALSE(pairs.empty());
   for (const TrianglePair& p : pairs) EXPECT_TRUE(p.a < 192 && p.b >= 192 && p.n_shared == 0);
+}
+
+TEST(Crossing, ends_where_triangles_lie_in_each_other_without_end_and_says_so) {
+  constexpr int kCopies = 3000;  // of one triangle, turned a little: every two cross
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < kCopies; ++i) {
+    const double angle = 6.0 * i / kCopies;
+    for (int k = 0; k < 3; ++k)
+      points.push_back({std::cos(angle + 2.1 * k), std::sin(angle + 2.1 * k), 1e-3 * std::sin(7 * angle + k)});
+    triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
+  }
+  std::vector<std::vector<TrianglePair>> found;
+  for (const int n_threads : {1, 4}) {
+    set_thread_count(n_threads);
+    bool was_ended = false;
+    found.push_back(find_crossing_triangles(points, triangles, was_ended));
+    EXPECT_TRUE(was_ended);
+  }
+  set_thread_count(1);
+  EXPECT_GT(found[0].size(), 100'000u);
+  EXPECT_LT(found[0].size(), 2'000'000u);
+  ASSERT_EQ(found[0].size(), found[1].size());
+  for (std::size_t i = 0; i < found[0].size(); ++i)
+    ASSERT_TRUE(found[0][i].a == found[1][i].a && found[0][i].b == found[1][i].b);
 }
 
 }  // namespace

@@ -107,7 +107,8 @@ TEST_F(TwoSquares, cross_in_the_triangles_that_the_whole_mesh_has) {
   const TwoParts both = join_parts(of_a, of_b);
   const auto n_first = static_cast<std::int32_t>(of_a.triangle.size());
   std::set<std::pair<std::int32_t, std::int32_t>> found, expected;
-  for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first))
+  bool was_ended = false;
+  for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first, was_ended))
     if (pair.n_shared != 1) found.insert({of_a.triangle[pair.a], of_b.triangle[pair.b - n_first]});
   std::vector<Vec3> points = node_places(edges, {}, flat);
   std::vector<Triangle> triangles = flat.triangles;

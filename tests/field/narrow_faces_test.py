@@ -1,0 +1,48 @@
+"""Faces narrower than the CAD is exact, and faces that lie on each other: merged or named, and never refined without
+end."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, make_chain, must  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+
+
+class NarrowFaces(ToolTest):
+    def expected(self, folder):
+        """Triangles by the sizes alone."""
+        return must("st-prolong", folder / "raster.hdf", "-o", folder / "again.hdf", "--json").json()["expected_triangles"]
+
+    def check(self, folder):
+        return Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                   folder / "sizing.hdf")
+
+    def test_rings_whose_edges_cross_within_their_tolerance_are_merged(self):
+        for name in ("narrow_ring", "narrow_band"):
+            with self.subTest(name):
+                folder = make_chain(HERE / f"{name}.brep", self.folder / name)
+                check = self.check(folder)
+                self.assertEqual(check.code, OK, check)
+                mesh = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "again.hdf",
+                            "--json").json()
+                self.assertEqual(mesh["rounds"], 1)
+                self.assertEqual(len(mesh["merged"]["strips"]), 1)
+                self.assertLess(mesh["triangles"], 1.2 * self.expected(folder))
+
+    def test_a_face_folded_back_onto_its_neighbour_is_named_and_not_refined_without_end(self):
+        model = MODELS / "folded_flap.brep"
+        imported = must("st-import", model, "-o", self.folder / "geometry.hdf")
+        self.assertIn("face 1 and face 2, which lie on each other", imported.err)
+        folder = make_chain(model, self.folder / "flap")
+        check = self.check(folder)
+        self.assertEqual(check.code, INCOMPLETE, check)
+        self.assertIn("crossing", check.out)
+        mesh = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "again.hdf",
+                    "--json").json()
+        self.assertLess(mesh["triangles"], 4 * self.expected(folder))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
