@@ -7,9 +7,11 @@
 namespace st {
 namespace {
 
-constexpr int kApproaches = 8;    // projections from one surface to the other and back
-constexpr double kMeeting = 0.5;  // of the first distance: surfaces that come as close as this are taken to meet
-constexpr double kLeeway = 0.5;   // of the gap: what both chords may take of it
+constexpr int kApproaches = 8;      // projections from one surface to the other and back
+constexpr int kLeaps = 3;           // to where the tilt of the surfaces says that they touch
+constexpr double kTouching = 0.05;  // of the first distance: surfaces that leaps bring as close as this touch
+constexpr double kMeeting = 0.5;    // of the first distance: surfaces that come as close as this are taken to meet
+constexpr double kLeeway = 0.5;     // of the gap: what both chords may take of it
 constexpr double kMostFactor = 0.7;
 
 using Weights = std::array<double, 3>;
@@ -71,6 +73,37 @@ double sag(const Surface& surface, const WallTriangle& t) {
   return most;
 }
 
+/// The way from `on_a` to where surfaces that touch as a ball and a plane do meet: their gap falls with the distance
+/// squared, their tilt with the distance. Zero where they are not tilted.
+Vec3 way_to_contact(Vec3 on_a, Vec3 on_b, Vec3 normal_b) {
+  const Vec3 across = normalized(on_b - on_a), n = dot(normal_b, across) < 0 ? -normal_b : normal_b;
+  const Vec3 tilt = n - dot(n, across) * across;
+  return norm2(tilt) > 0 ? 2 * distance(on_a, on_b) * dot(n, across) / norm2(tilt) * tilt : Vec3{};
+}
+
+/// A place on both surfaces, nearly: feet of each other.
+struct Feet {
+  Vec2 uv_a, uv_b;
+  Vec3 on_a, on_b;
+};
+
+/// Projections come closer only slowly where surfaces touch: leaps there. Whether the gap closes on the way, within
+/// `reach` of the place.
+bool touch(const Surface& a, const Surface& b, Feet feet, Vec3 place, double reach, double closed) {
+  for (int k = 0; k < kLeaps; ++k) {
+    const Vec3 way = way_to_contact(feet.on_a, feet.on_b, surface_normal(b, feet.uv_b));
+    if (way == Vec3{} || !(norm(way) <= reach)) return false;
+    const auto foot_a = project_near(a, feet.on_a + way, feet.uv_a);
+    if (!foot_a) return false;
+    feet.on_a = a.point(feet.uv_a = *foot_a);
+    const auto foot_b = project_near(b, feet.on_a, feet.uv_b);
+    if (!foot_b || distance(feet.on_a, place) > reach) return false;
+    feet.on_b = b.point(feet.uv_b = *foot_b);
+    if (distance(feet.on_a, feet.on_b) <= closed) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<WallGap> measure_gap(const Surface& a, const WallTriangle& of_a, const Surface& b,
@@ -78,12 +111,12 @@ std::optional<WallGap> measure_gap(const Surface& a, const WallTriangle& of_a, c
   const Vec3 place = crossing_place(of_a.x, of_b.x);
   const double reach = std::max(longest_side(of_a.x), longest_side(of_b.x));
   Vec2 uv_a = mean(of_a.uv, weights_of(of_a.x, place)), uv_b = mean(of_b.uv, weights_of(of_b.x, place));
-  Vec3 on_a = a.point(uv_a);
+  Vec3 on_a = a.point(uv_a), on_b;
   double first = 0, gap = 0;
   for (int k = 0; k < kApproaches; ++k) {
     const auto foot_b = project_near(b, on_a, uv_b);
     if (!foot_b) return std::nullopt;
-    const Vec3 on_b = b.point(uv_b = *foot_b);
+    on_b = b.point(uv_b = *foot_b);
     const auto foot_a = project_near(a, on_b, uv_a);
     if (!foot_a) return std::nullopt;
     on_a = a.point(uv_a = *foot_a);
@@ -92,6 +125,7 @@ std::optional<WallGap> measure_gap(const Surface& a, const WallTriangle& of_a, c
     if (gap <= tolerance || gap < kMeeting * first) return WallGap{};
     if (distance(on_a, place) > reach) break;
   }
+  if (touch(a, b, {uv_a, uv_b, on_a, on_b}, place, reach, std::max(tolerance, kTouching * first))) return WallGap{};
   const double chords = sag(a, of_a) + sag(b, of_b);
   const double factor = chords > 0 ? std::sqrt(kLeeway * first / chords) : 1.0;
   return WallGap{true, std::min(kMostFactor, factor)};

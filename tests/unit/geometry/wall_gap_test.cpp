@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/shape/analytic.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -59,6 +60,20 @@ TEST(WallGap, says_that_walls_closer_than_the_tolerance_meet) {
   const auto gap = measure_gap(outer.surface(), a, inner.surface(), inner.triangle(foot->x, foot->y, 0.2), 0.02);
   ASSERT_TRUE(gap);
   EXPECT_FALSE(gap->is_apart);
+}
+
+TEST(WallGap, says_that_a_ball_and_the_plane_under_it_meet_away_from_the_place_where_they_touch) {
+  const AxialSurface ball(SurfaceType::kSphere, {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, 10, 0, -1, 1, -1, 1);
+  for (const double clearance : {0.0, 0.1}) {
+    const PlaneSurface plane({{0, 0, 10 + clearance}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, -9, 9, -9, 9);
+    for (const double away : {0.5, 1.0, 2.0}) {
+      const WallTriangle a = triangle_on(ball, {0.1 * away, -0.2}, {0.1 * away + 0.3, 0}, {0.1 * away, 0.2});
+      const WallTriangle b = triangle_on(plane, {away, -1}, {away + 2, 0}, {away, 1});
+      const auto gap = measure_gap(ball, a, plane, b, kMeetingTolerance);
+      ASSERT_TRUE(gap);
+      EXPECT_EQ(gap->is_apart, clearance > 0) << away;
+    }
+  }
 }
 
 TEST(WallGap, says_that_walls_that_cross_meet) {
