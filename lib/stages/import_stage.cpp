@@ -97,7 +97,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
 nlohmann::json list_wing_edges(const ImportResult& r) {
   const Model model(r.tables, r.brep);
   const ModelTables& t = model.tables();
-  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(t), find_strips(model));
+  const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(model), find_strips(model));
   nlohmann::json list = nlohmann::json::array();
   for (const WingEdge& w : edges)
     list.push_back({{"edge", w.edge + 1},
@@ -122,15 +122,16 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
 
 /// Repairs are never silent: their kinds and numbers, in the order of the first of each.
 std::string repairs_in_words(const ImportResult& r) {
-  std::vector<std::pair<FindingKind, int>> kinds;
+  std::vector<std::pair<std::string, int>> kinds;
   for (const ImportFinding& f : r.findings) {
     if (!f.is_repair) continue;
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == f.kind; });
-    known == kinds.end() ? kinds.emplace_back(f.kind, 1), void() : void(++known->second);
+    const std::string kind = f.kind == FindingKind::kOther ? f.what() : name_of(f.kind);
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
+    known == kinds.end() ? kinds.emplace_back(kind, 1), void() : void(++known->second);
   }
   std::string text;
   for (const auto& [kind, n] : kinds)
-    text += std::string(text.empty() ? "" : "; ") + name_of(kind) + (n > 1 ? fmt::format(" ({} times)", n) : "");
+    text += (text.empty() ? "" : "; ") + kind + (n > 1 ? fmt::format(" ({} times)", n) : "");
   return text;
 }
 

@@ -16,6 +16,7 @@
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
 #include "geometry/import/empty_faces.h"
+#include "geometry/import/face_orientation.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/import.h"
 #include "geometry/import/loop_repair.h"
@@ -266,6 +267,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
   occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
+  occt::orient_faces(model, result.findings);
   occt::open_slits(model, result.findings);
   occt::rebuild_space_curves(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);

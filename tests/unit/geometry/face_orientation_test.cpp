@@ -1,0 +1,77 @@
+#include "geometry/import/face_orientation.h"
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <algorithm>
+
+#include "geometry/import/import.h"
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+/// The faces of a shape in no shell, each a copy of its own or not, turned over where `is_turned(number)`.
+template <class IsTurned>
+ImportResult import_loose(const std::string& shape, const IsTurned& is_turned, bool is_copied = true) {
+  const TemporaryDirectory dir;
+  test::write_brep(shape, dir / "a.brep");
+  TopoDS_Shape whole;
+  BRep_Builder builder;
+  BRepTools::Read(whole, (dir / "a.brep").c_str(), builder);
+  TopoDS_Compound loose;
+  builder.MakeCompound(loose);
+  int n = 0;
+  for (TopExp_Explorer e(whole, TopAbs_FACE); e.More(); e.Next()) {
+    const TopoDS_Shape face = is_copied ? BRepBuilderAPI_Copy(e.Current()).Shape() : e.Current();
+    builder.Add(loose, is_turned(n++) ? face.Reversed() : face);
+  }
+  BRepTools::Write(loose, (dir / "b.brep").c_str());
+  return import_model(dir / "b.brep", {});
+}
+
+std::ptrdiff_t n_turned(const ImportResult& r) {
+  return std::ranges::count_if(r.findings,
+                               [](const ImportFinding& f) { return f.what().starts_with("faces of open surfaces"); });
+}
+
+TEST(FaceOrientation, of_an_open_wing_does_not_depend_on_that_of_its_faces_in_the_file) {
+  const ImportResult right = import_loose("wing_skin", [](int) { return true; });
+  const ImportResult inside_out = import_loose("wing_skin", [](int) { return false; });
+  const ImportResult mixed = import_loose("wing_skin", [](int i) { return i % 2 == 0; });
+  EXPECT_EQ(inside_out.tables.face_is_reversed, right.tables.face_is_reversed);
+  EXPECT_EQ(mixed.tables.face_is_reversed, right.tables.face_is_reversed);
+  EXPECT_EQ(n_turned(inside_out), 1);
+  EXPECT_EQ(n_turned(right), 0);
+}
+
+TEST(FaceOrientation, makes_a_solid_of_faces_that_share_their_edges_whichever_way_they_look) {
+  for (const char* shape : {"box", "sharp_wing", "drilled_block"}) {
+    const ImportResult solid = test::import_shape(shape);
+    const ImportResult r = import_loose(
+        shape, [](int i) { return i % 3 == 1; }, false);
+    EXPECT_TRUE(r.is_closed) << shape;
+    EXPECT_NEAR(r.volume, solid.volume, 1e-9 * solid.volume) << shape;
+  }
+}
+
+TEST(FaceOrientation, of_a_sheet_stays_as_it_is) {
+  for (const bool is_turned : {false, true}) {
+    const ImportResult r = import_loose("plate_with_hole", [&](int) { return is_turned; });
+    EXPECT_EQ(r.tables.face_is_reversed[0] != 0, is_turned);
+    EXPECT_EQ(n_turned(r), 0);
+  }
+}
+
+TEST(FaceOrientation, of_solids_is_left_to_repair_shells) {
+  const ImportResult r = test::import_shape("baffled_box");
+  EXPECT_EQ(n_turned(r), 0);
+}
+
+}  // namespace
+}  // namespace st
