@@ -13,7 +13,7 @@ namespace {
 class BodyFinder {
  public:
   BodyFinder(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings)
-      : t_(model.tables()), wings_(wings) {
+      : t_(model.tables()), own_box_(roles.own.face_box), wings_(wings) {
     const auto n = static_cast<std::size_t>(t_.n_faces());
     is_wing_.assign(n, 0);
     for (const LiftingSurface& wing : wings)
@@ -52,31 +52,33 @@ class BodyFinder {
   Bodies assemble() {
     Bodies bodies;
     bodies.of_face.assign(is_wall_.size(), kNone);
-    std::vector<Box3> box;
+    std::vector<Box3> box, own_box;
     for (FaceId f = 0; f < t_.n_faces(); ++f) {
       if (!is_wall_[f] || is_wing_[f]) continue;
       const FaceId first = root(f);
       if (first == f) {
         bodies.of_face[f] = static_cast<std::int32_t>(box.size());
         box.emplace_back();
+        own_box.emplace_back();
         bodies.body.emplace_back();
       }
       const std::int32_t own = bodies.of_face[f] = bodies.of_face[first];
       box[own].add(t_.face_box[f]);
+      own_box[own].add(own_box_[f]);
       bodies.body[own].is_wing_piece |= touches_wing_[f] != 0;
     }
-    for (std::size_t k = 0; k < box.size(); ++k) measure(box[k], bodies.body[k]);
+    for (std::size_t k = 0; k < box.size(); ++k) measure(own_box[k], box[k].center(), bodies.body[k]);
     return bodies;
   }
 
-  void measure(const Box3& box, Body& body) const {
+  void measure(const Box3& box, Vec3 center, Body& body) const {
     std::array<double, 3> extent = {box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z};
     std::sort(extent.begin(), extent.end());
     body.diagonal = box.diagonal();
     body.girth = 0.5 * kPi * (extent[0] + extent[1]);
     double nearest = -1;
     for (const LiftingSurface& wing : wings_) {
-      const NearestChord own = wing.nearest_chord(box.center());
+      const NearestChord own = wing.nearest_chord(center);
       if (nearest >= 0 && own.distance >= nearest) continue;
       nearest = own.distance;
       body.chord = own.chord;
@@ -84,6 +86,7 @@ class BodyFinder {
   }
 
   const ModelTables& t_;
+  std::span<const Box3> own_box_;  // [n_faces]
   std::span<const LiftingSurface> wings_;
   std::vector<std::uint8_t> is_wing_, is_wall_, touches_wing_;  // [n_faces]
   std::vector<FaceId> parent_;                                  // [n_faces] of a forest

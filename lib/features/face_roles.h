@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "features/own_axes.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -14,6 +15,7 @@ struct FaceRoles {
   std::vector<FaceId> guessed;  ///< faces taken as outer boundary by their extent, because no group is named far field
                                 ///< or symmetry
   double reference_diagonal = 0;  ///< of the box of all walls, model unit: what default lengths and per cents refer to
+  OwnAxes own;                    ///< along which extents are measured
 };
 
 /// Whether roles may be guessed where no name says anything.
@@ -24,6 +26,10 @@ enum class RoleGuess : unsigned char { kAllowed, kForbidden };
 /// belongs to a rest that fits into a box of 1/20 of the model's diagonal and lies in the box of the large ones, the
 /// large ones are the outer boundary. Those that share an edge with the body count as symmetry planes - they have to be
 /// planes, no two of them opposite - the others as far field. Larger bodies: find_flow_domain().
+/// Boxes lie along the model's own axes, but along those of space where the walls' box there has nearly the same
+/// diagonal: a model that was drawn along the axes of space is measured along them.
+FaceRoles face_roles(const Model& model, RoleGuess guess = RoleGuess::kAllowed);
+/// Likewise, along the axes of space.
 FaceRoles face_roles(const ModelTables& tables, RoleGuess guess = RoleGuess::kAllowed);
 
 /// Normals of faces point into the material: the model is the domain around walls, or its solids are turned inward.

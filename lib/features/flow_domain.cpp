@@ -34,8 +34,8 @@ struct Piece {
 
 class DomainSearch {
  public:
-  explicit DomainSearch(const ModelTables& t) : t_(t) {
-    for (const Box3& box : t.face_box) all_.add(box);
+  DomainSearch(const ModelTables& t, std::span<const Box3> face_box) : t_(t), box_(face_box) {
+    for (const Box3& box : box_) all_.add(box);
     t.edge_faces(offsets_, edge_faces_);
   }
 
@@ -53,7 +53,7 @@ class DomainSearch {
 
   bool is_in_side(FaceId f, int side) const {
     const auto axis = kAxes[side / 2];
-    const Box3& box = t_.face_box[f];
+    const Box3& box = box_[f];
     return box.hi.*axis - box.lo.*axis <= rounding() &&
            std::abs(at_side(box, side) - at_side(all_, side)) <= rounding();
   }
@@ -103,7 +103,7 @@ class DomainSearch {
       if (is_left_out[f]) continue;
       Piece& piece = by_root[root(f)];
       piece.faces.push_back(f);
-      piece.box.add(t_.face_box[f]);
+      piece.box.add(box_[f]);
     }
     std::vector<Piece> pieces;
     for (auto& [first, piece] : by_root) pieces.push_back(std::move(piece));
@@ -132,7 +132,7 @@ class DomainSearch {
   }
 
   bool is_flat(FaceId f) const {
-    const Vec3 extent = t_.face_box[f].hi - t_.face_box[f].lo;
+    const Vec3 extent = box_[f].hi - box_[f].lo;
     return t_.face_type[f] == SurfaceType::kPlane || std::min({extent.x, extent.y, extent.z}) <= kFlat * norm(extent);
   }
 
@@ -149,6 +149,7 @@ class DomainSearch {
   }
 
   const ModelTables& t_;
+  std::span<const Box3> box_;  // [n_faces]
   Box3 all_;
   std::vector<std::int32_t> offsets_;
   std::vector<FaceId> edge_faces_;
@@ -156,9 +157,9 @@ class DomainSearch {
 
 }  // namespace
 
-std::vector<FaceId> find_flow_domain(const ModelTables& tables) {
+std::vector<FaceId> find_flow_domain(const ModelTables& tables, std::span<const Box3> face_box) {
   if (tables.n_faces() < 2) return {};
-  return DomainSearch(tables).find();
+  return DomainSearch(tables, face_box).find();
 }
 
 }  // namespace st

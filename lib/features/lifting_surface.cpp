@@ -28,8 +28,6 @@ constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: w
 constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
 constexpr double kNearNose = 0.05;      // of the chord: between nose and leading edge at most
 
-constexpr std::array<Vec3, 3> kAxes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-
 /// Trailing edges that hang together at vertices or across their base.
 std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::span<const WingEdge> edges) {
   std::vector<WingEdge> trailing;
@@ -109,8 +107,8 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
 
 class SurfaceMeasurer {
  public:
-  SurfaceMeasurer(const Model& model, const ProfileCutter& cutter, double reach)
-      : model_(model), cutter_(cutter), reach_(reach) {}
+  SurfaceMeasurer(const Model& model, const std::array<Vec3, 3>& axes, const ProfileCutter& cutter, double reach)
+      : model_(model), axes_(axes), cutter_(cutter), reach_(reach) {}
 
   /// What profiles show; stations and faces may reach into other bodies yet.
   std::optional<SurfaceDraft> find(const std::vector<WingEdge>& chain) const {
@@ -182,7 +180,7 @@ class SurfaceMeasurer {
     const std::size_t step = std::max<std::size_t>(1, places.size() / kTried);
     for (std::size_t i = step / 2; i < places.size(); i += step) {
       if (profile_at(places[i], nullptr)) return true;
-      for (const Vec3& axis : kAxes)
+      for (const Vec3& axis : axes_)
         if (profile_at(places[i], &axis)) return true;
     }
     return false;
@@ -196,12 +194,12 @@ class SurfaceMeasurer {
     return way;
   }
 
-  /// Cut square to the axis of space that shows most; square to the edge only where that shows clearly more.
+  /// Cut square to the axis of the model that shows most; square to the edge only where that shows clearly more.
   std::vector<std::optional<Profile>> best_profiles(const std::vector<EdgePlace>& places,
                                                     const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     double longest = -1;
-    for (const Vec3* axis : {kAxes.data(), kAxes.data() + 1, kAxes.data() + 2, static_cast<const Vec3*>(nullptr)}) {
+    for (const Vec3* axis : {axes_.data(), axes_.data() + 1, axes_.data() + 2, static_cast<const Vec3*>(nullptr)}) {
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
       const double way = measured_way(places, own);
@@ -337,6 +335,7 @@ class SurfaceMeasurer {
   }
 
   const Model& model_;
+  const std::array<Vec3, 3>& axes_;
   const ProfileCutter& cutter_;
   const double reach_;
 };
@@ -425,7 +424,7 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
     if (mirror != kNone && !whole.contains(mirror))
       whole.emplace(mirror, with_image(model, facets, mirror, kOnPlane * roles.reference_diagonal));
     const ProfileCutter cutter(mirror == kNone ? facets : whole.at(mirror));
-    const SurfaceMeasurer measurer(model, cutter, 2 * deflection);
+    const SurfaceMeasurer measurer(model, roles.own.axis, cutter, 2 * deflection);
     std::optional<SurfaceDraft> draft = measurer.find(chain);
     if (!draft) continue;
     if (is_concave.empty()) is_concave = find_concave_edges(model, roles);

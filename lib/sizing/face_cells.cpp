@@ -59,7 +59,7 @@ CellArea make_cell(std::int32_t leaf, double area, Vec3 center, Vec3 normal) {
 }
 
 /// Sums parts of the same leaf, in the order in which they came, and scales the total to `face_area`.
-std::vector<CellArea> unite(std::vector<FacePart> parts, double face_area) {
+std::vector<CellArea> unite(std::vector<FacePart> parts, double face_area, Vec3 origin) {
   std::stable_sort(parts.begin(), parts.end(), [](const FacePart& a, const FacePart& b) { return a.leaf < b.leaf; });
   double total = 0;
   for (const FacePart& p : parts) total += p.area;
@@ -74,7 +74,7 @@ std::vector<CellArea> unite(std::vector<FacePart> parts, double face_area) {
       moment += parts[i].area * parts[i].center;
       normal += (dot(normal, parts[i].normal) < 0 ? -1.0 : 1.0) * parts[i].normal;
     }
-    if (area > 0) cells.push_back(make_cell(leaf, scale * area, moment / area, normal));
+    if (area > 0) cells.push_back(make_cell(leaf, scale * area, moment / area - origin, normal));
   }
   return cells;
 }
@@ -84,10 +84,10 @@ class PlanePoints {
  public:
   static constexpr int kLargest = 48;  // points per axis
   /// `n` points per axis.
-  const std::vector<Vec3>& make(const CellPlane& plane, Vec3 middle, double edge, int n) {
+  const std::vector<Vec3>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n) {
     points_.clear();
-    const Vec3 c{plane.center[0], plane.center[1], plane.center[2]},
-        m{plane.normal[0], plane.normal[1], plane.normal[2]};
+    const Vec3 c = origin + Vec3{plane.center[0], plane.center[1], plane.center[2]},
+               m{plane.normal[0], plane.normal[1], plane.normal[2]};
     const double steepest = std::max({std::abs(m.x), std::abs(m.y), std::abs(m.z)});
     if (steepest > 0)
       for (int b = 0; b < n; ++b)
@@ -179,11 +179,11 @@ void FaceCells::append_face(std::span<const CellArea> cells) {
 }
 
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
-                                  double face_area) {
+                                  double face_area, Vec3 origin) {
   CellLocator locator(surface, octree);
   PatchWalk<PositionProbe, CellLocator> walk(loops, locator);
   walk.walk(surface.u_min(), surface.u_max(), surface.v_min(), surface.v_max(), surface.is_planar() ? 1 : 2);
-  return unite(locator.take(), face_area);
+  return unite(locator.take(), face_area, origin);
 }
 
 double SizedPart::length() const { return std::max(least, std::sqrt(area / weight.uniform)); }
@@ -200,8 +200,8 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
       const float* n = faces.plane[i].normal;
       const Vec3 normal{n[0], n[1], n[2]};
       const int n_points = points_per_axis(raster, leaf, field.data().octree);
-      const auto& on_plane =
-          points.make(faces.plane[i], raster.leaf_center(leaf), raster.cell_edge(raster.leaf_levels[leaf]), n_points);
+      const auto& on_plane = points.make(faces.plane[i], faces.origin, raster.leaf_center(leaf),
+                                         raster.cell_edge(raster.leaf_levels[leaf]), n_points);
       const double area = static_cast<double>(faces.area[i]) / static_cast<double>(on_plane.size());
       double uniform = 0, graded = 0;
       PartCollector parts(static_cast<FaceId>(f), area, visit);

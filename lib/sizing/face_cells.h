@@ -16,7 +16,7 @@ namespace st {
 struct CellArea {
   std::int32_t leaf = 0;
   float area = 0;               ///< model unit squared
-  float center[3] = {0, 0, 0};  ///< centre of the area, model unit
+  float center[3] = {0, 0, 0};  ///< centre of the area, model unit, from the origin of places
   float normal[3] = {0, 0, 0};  ///< unit normal, either sign; zero: unknown
 };
 
@@ -32,6 +32,7 @@ struct FaceCells {
   std::vector<std::int32_t> leaf;        ///< [offsets.back()]
   std::vector<float> area;               ///< model unit squared, > 0
   std::vector<CellPlane> plane;          ///< [offsets.back()]
+  Vec3 origin;                           ///< from which the centres of the planes count; see origin_of_places()
 
   std::int32_t n_faces() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
   void append_face(std::span<const CellArea> cells);
@@ -39,8 +40,9 @@ struct FaceCells {
 
 /// The cells in which a trimmed surface lies: it is halved in (u,v) until each patch is no larger than the cell at its
 /// centre. Areas are scaled to sum up to `face_area` (model unit squared; 0: unknown, not scaled). Ascending by leaf.
+/// Centres count from `origin`.
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
-                                  double face_area);
+                                  double face_area, Vec3 origin = {});
 
 /// How much meshing a face is, as a function of a scale of all lengths.
 struct FaceWeight {

@@ -12,8 +12,6 @@
 namespace st {
 namespace {
 
-Vec3 place_of(const LengthSample& s) { return {s.xyz[0], s.xyz[1], s.xyz[2]}; }
-
 /// Calls f(leaf, centre) for every leaf that comes within `reach` of x along each axis.
 template <class F>
 void visit_leaves(const OctreeView& octree, std::int32_t node, Vec3 middle, double half, Vec3 x, double reach,
@@ -113,7 +111,7 @@ class SamplesByLeaf {
     std::vector<std::int32_t> leaf_of;
     first_.assign(octree.leaf_keys.size() + 1, 0);
     for (const LengthSample& s : samples) {
-      leaf_of.push_back(octree.find_leaf(morton::encode(octree.grid_point(place_of(s)))));
+      leaf_of.push_back(octree.find_leaf(morton::encode(octree.grid_point(s.xyz))));
       ++first_[static_cast<std::size_t>(leaf_of.back()) + 1];
     }
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -128,7 +126,7 @@ class SamplesByLeaf {
     const Vec3 center = octree_.leaf_center(leaf);
     for (std::int32_t k = first_[leaf]; k < first_[leaf + 1]; ++k) {
       const LengthSample& s = samples_[by_leaf_[k]];
-      f(s, CellSample{place_of(s) - center, s.length, s.length});
+      f(s, CellSample{s.xyz - center, s.length, s.length});
     }
   }
 
@@ -147,7 +145,7 @@ class SiteVisitor {
       : octree_(octree), neighbours_(neighbours), blanking_(blanking), f_(f) {}
 
   void visit(const LengthSample& s) const {
-    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(place_of(s))));
+    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(s.xyz)));
     for_parts(s, leaf, [&](std::int32_t site) {
       f_(site, leaf_of(site));
       for_each_link(&blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { visit_near(other, s); });
@@ -173,7 +171,7 @@ class SiteVisitor {
   /// Where the leaf comes within one length along each axis.
   void visit_near(std::int32_t site, const LengthSample& s) const {
     const std::int32_t leaf = leaf_of(site);
-    const Vec3 d = place_of(s) - octree_.leaf_center(leaf);
+    const Vec3 d = s.xyz - octree_.leaf_center(leaf);
     const double reach = 0.5 * octree_.cell_edge(octree_.leaf_levels[leaf]) + s.length;
     if (std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= reach) f_(site, leaf);
   }
@@ -268,14 +266,27 @@ class SampleFit {
 
 }  // namespace
 
-std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes) {
+Vec3 origin_of_places(const Box3& model) {
+  constexpr double kFar = 16;  // largest sides of the box: there the steps are 1e-6 sides
+  if (model.is_empty()) return {};
+  const Vec3 side = model.hi - model.lo;
+  double farthest = 0;
+  for (const Vec3 x : {model.lo, model.hi})
+    farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  return farthest > kFar * std::max({side.x, side.y, side.z}) ? model.center() : Vec3{};
+}
+
+std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 origin) {
   std::vector<LengthSample> samples;
   samples.reserve(boxes.size());
-  const auto f = [](double x) { return static_cast<float>(x); };
-  for (const RasterBox& b : boxes)
-    samples.push_back({{f(b.center.x), f(b.center.y), f(b.center.z)}, b.length, b.cause, b.normal, b.stretch});
+  const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  for (const RasterBox& b : boxes) {
+    const Vec3 x = b.center - origin;
+    samples.push_back(
+        {origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch});
+  }
   const auto key = [](const LengthSample& s) {
-    return std::tuple(s.cause, s.xyz[0], s.xyz[1], s.xyz[2], s.length, s.stretch.along);
+    return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along);
   };
   std::sort(samples.begin(), samples.end(),
             [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
@@ -295,7 +306,7 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, RasterOct
   const OctreeView view = octree.shape.view();
   const double half = 0.5 * view.edge;
   for (const LengthSample& s : samples) {
-    const Vec3 x = place_of(s);
+    const Vec3 x = s.xyz;
     const auto seed = [&](std::int32_t leaf, Vec3 center) {
       lower(octree, leaf, s.length + slope * distance(x, center), s.cause);
     };
@@ -308,7 +319,7 @@ void seed_lengths(std::span<const LengthSample> samples, double slope, const Bla
   const OctreeView view = octree.shape.view();
   for (const LengthSample& s : samples) {
     const auto seed = [&](std::int32_t site, std::int32_t leaf) {
-      lower(octree, site, s.length + slope * distance(place_of(s), view.leaf_center(leaf)), s.cause);
+      lower(octree, site, s.length + slope * distance(s.xyz, view.leaf_center(leaf)), s.cause);
     };
     SiteVisitor(view, neighbours, blanking, seed).visit(s);
   }
@@ -324,7 +335,7 @@ void for_each_seed(const Neighbours& neighbours, std::span<const LengthSample> s
     if (blanking)
       SiteVisitor(octree, neighbours, *blanking, own).visit(s);
     else
-      visit_leaves(octree, octree.node_children.empty() ? ~0 : 0, octree.lo + Vec3{half, half, half}, half, place_of(s),
+      visit_leaves(octree, octree.node_children.empty() ? ~0 : 0, octree.lo + Vec3{half, half, half}, half, s.xyz,
                    s.length, own);
   }
 }

@@ -16,17 +16,20 @@ inline constexpr double kStoredByCellUpTo = 2;
 
 /// A raster box without its reach.
 struct LengthSample {
-  float xyz[3] = {0, 0, 0};  ///< model unit
-  float length = 0;          ///< model unit, > 0
+  Vec3 xyz;          ///< model unit; in single precision from where places count
+  float length = 0;  ///< model unit, > 0
   std::int32_t cause = kNone;
   SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
   SampleStretch stretch = {};
-
-  Vec3 place() const { return {xyz[0], xyz[1], xyz[2]}; }
 };
 
-/// The samples of the boxes in an order that does not depend on theirs.
-std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes);
+/// From where places that are kept in single precision count: the origin of space, or the middle of a model that is far
+/// from it, since the steps between such numbers grow with the distance.
+Vec3 origin_of_places(const Box3& model);
+
+/// The samples of the boxes, their places rounded to single precision from `origin`, in an order that does not depend
+/// on theirs.
+std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 origin = {});
 
 /// Calls f(site, sample) for all sites that a sample asks something of: the cells that come within one length of it,
 /// and with `blanking` (may be null) its own cell, on the side of the surface that it lies on, and those to which a

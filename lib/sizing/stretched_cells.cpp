@@ -69,7 +69,7 @@ class StretchProlongation {
     std::vector<std::int32_t> origin(stored_length.size(), n_all);
     for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
-      const auto length = static_cast<float>(s.length + options_.slope * distance(s.place(), centre_[site]));
+      const auto length = static_cast<float>(s.length + options_.slope * distance(s.xyz, centre_[site]));
       if (length == stored_length[site]) origin[site] = std::min(origin[site], sample);
     });
     for_each_request([&](std::int32_t site, std::int32_t r) {
@@ -92,7 +92,7 @@ class StretchProlongation {
     std::vector<float> known(along_.size(), std::numeric_limits<float>::infinity());
     for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
-      const double rise = options_.slope * distance(s.place(), centre_[site]);
+      const double rise = options_.slope * distance(s.xyz, centre_[site]);
       known[site] = std::min(known[site], static_cast<float>(s.length + rise));
       limit(site, s.length, s.stretch, rise);
     });

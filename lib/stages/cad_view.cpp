@@ -120,7 +120,7 @@ std::vector<Vec3> line_to_see(const Curve& curve) {
 }
 
 std::vector<WingEdge> wing_edges_to_see(const Model& model) {
-  return find_wing_edges(model, face_roles(model.tables()), find_strips(model));
+  return find_wing_edges(model, face_roles(model), find_strips(model));
 }
 
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings) {

@@ -43,7 +43,8 @@ RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> ow
   return unpack_octree(std::move(shape), packed);
 }
 
-std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, const Communicator& comm) {
+std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, Vec3 origin,
+                                         const Communicator& comm) {
   Packer packer;
   packer.add(own_boxes);
   std::vector<RasterBox> all;
@@ -52,7 +53,7 @@ std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes
     Unpacker(bytes).get(boxes);
     all.insert(all.end(), boxes.begin(), boxes.end());
   }
-  return sorted_samples(all);
+  return sorted_samples(all, origin);
 }
 
 }  // namespace st

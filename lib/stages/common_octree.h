@@ -18,6 +18,7 @@ RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> ow
                                  const Communicator& comm);
 
 /// Collective. The samples of all ranks with their places, on rank 0; see sorted_samples.
-std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, const Communicator& comm);
+std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, Vec3 origin,
+                                         const Communicator& comm);
 
 }  // namespace st

@@ -452,6 +452,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
                        double seconds, const Communicator& comm, std::size_t& n_failures) {
   const ModelTables& t = model.tables();
+  const Vec3 origin = origin_of_places(t.box());
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
   Progress progress("locating faces", t.n_faces());
   std::int32_t n_done = 0;
@@ -463,7 +464,7 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
         std::string failure;
         try {
           cells = locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits), shape.view(),
-                              t.face_area[f]);
+                              t.face_area[f], origin);
         } catch (const LateWork& e) {
           failure = fmt::format("{}: its cells were not found, {}", t.face_label(f), e.what());
         } catch (const std::bad_alloc&) {
@@ -483,6 +484,7 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
         progress.update(++n_done);
       });
   FaceCells faces;
+  faces.origin = origin;
   for (const std::vector<CellArea>& cells : by_face) faces.append_face(cells);
   return faces;
 }
@@ -493,22 +495,6 @@ void warn_of_depth(const DepthLimit& depth) {
       "{} samples with lengths down to {:.4g} need smaller cells than those of the octree's deepest level {}, {:.4g}; "
       "their lengths apply in cells of that size; mesh in a smaller domain, or use larger lengths",
       depth.n_samples, depth.smallest_length, kMaxLevel, depth.smallest_cell));
-}
-
-/// Places of samples are kept in single precision.
-void warn_of_distance(const Box3& box, std::span<const float> lengths) {
-  constexpr double kTolerated = 0.05;  // of a length
-  if (lengths.empty()) return;
-  const double length = *std::min_element(lengths.begin(), lengths.end());
-  double farthest = 0;
-  for (const Vec3 x : {box.lo, box.hi}) farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-  const double step = farthest * std::numeric_limits<float>::epsilon();
-  if (step <= kTolerated * length) return;
-  const Vec3 middle = box.center();
-  log_warning(fmt::format(
-      "the model reaches {:.3g} from the origin, where places are kept to {:.2g}, but lengths go down to {:.3g}: sizes "
-      "may be too coarse; move it first (st-edit --transform 'translate {:.6g} {:.6g} {:.6g}'), and the mesh back",
-      farthest, step, length, -middle.x, -middle.y, -middle.z));
 }
 
 nlohmann::json depth_json(const DepthLimit& depth) {
@@ -664,10 +650,10 @@ class RasterRun {
       : o_(o),
         comm_(comm),
         geometry_(read_geometry(o.geometry)),
-        roles_(face_roles(geometry_.tables, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed)),
-        wall_(resolve_limits(o, geometry_.tables, roles_.reference_diagonal)),
-        rules_(option_rules(o)),  // those of the file come later, and win
         model_(stored_model(geometry_, o.geometry)),
+        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed)),
+        wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
+        rules_(option_rules(o)),  // those of the file come later, and win
         strips_(find_strips(model_)) {
     if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
     const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
@@ -690,7 +676,6 @@ class RasterRun {
     times_.gather(comm_);
     if (!comm_.is_root()) return {};
     warn_of_depth(counts_.depth);
-    warn_of_distance(model_.tables().box(), artifact_.octree.stored_length);
     write();
     times_.end("writing");
     return report();
@@ -720,7 +705,7 @@ class RasterRun {
     const Box3 box = model_.tables().box();
     artifact_.octree = build_common_octree(box, boxes, budget_.max_cells, comm_);
     counts_.depth = gather_depth_limit(find_depth_limit(box, boxes), comm_);
-    if (o_.cell_per_length > kStoredByCellUpTo) artifact_.samples = gather_samples(boxes, comm_);
+    if (o_.cell_per_length > kStoredByCellUpTo) artifact_.samples = gather_samples(boxes, origin_of_places(box), comm_);
     times_.end("octree");
   }
 
@@ -743,11 +728,11 @@ class RasterRun {
   const Communicator& comm_;
   PhaseTimes times_;
   GeometryArtifact geometry_;  // without the model
+  const Model model_;
   const FaceRoles roles_;
   const SamplingLimits wall_;
   std::vector<SizeRule> rules_;
   std::string sizes_hash_;
-  const Model model_;
   const std::vector<Strip> strips_;
   Wings wings_;  // rank 0 only
   ModelLimits limits_;

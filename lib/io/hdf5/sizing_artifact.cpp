@@ -33,13 +33,14 @@ struct Element<CellColour> : Elements<ElementType::kUint8> {};
 
 namespace {
 
-constexpr int kOpenSizingVersion = 2;     // of a sizing without a surface in it
-constexpr int kUnmovedSizingVersion = 3;  // of one whose octree lies where it was made
-constexpr int kPlainRasterVersion = 2;    // of a raster without samples
-constexpr int kSampledRasterVersion = 3;  // of a complete raster with samples
-constexpr int kPartialRasterVersion = 4;  // of an incomplete one; from here on not_sampled is written
-constexpr int kSurfaceRasterVersion = 5;  // of one with a coarse surface, the same length in all directions
-constexpr int kPlainSizingVersion = 4;    // of a sizing with the same length in all directions
+constexpr int kOpenSizingVersion = 2;       // of a sizing without a surface in it
+constexpr int kUnmovedSizingVersion = 3;    // of one whose octree lies where it was made
+constexpr int kPlainRasterVersion = 2;      // of a raster without samples
+constexpr int kSampledRasterVersion = 3;    // of a complete raster with samples
+constexpr int kPartialRasterVersion = 4;    // of an incomplete one; from here on not_sampled is written
+constexpr int kSurfaceRasterVersion = 5;    // of one with a coarse surface, the same length in all directions
+constexpr int kStretchedRasterVersion = 6;  // of one near the origin
+constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length in all directions
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -51,6 +52,7 @@ constexpr const char* kStoredLength = "/st/octree/stored_length";
 constexpr const char* kStoredCause = "/st/octree/stored_cause";
 constexpr const char* kSamplePoint = "/st/sample/point";
 constexpr const char* kSampleLength = "/st/sample/length";
+constexpr const char* kPlaceOrigin = "/st/place_origin";
 constexpr const char* kSampleCause = "/st/sample/cause";
 constexpr const char* kSampleNormal = "/st/sample/normal";
 constexpr const char* kSampleDirection = "/st/sample/direction";
@@ -158,13 +160,14 @@ OctreeShape read_shape(const Hdf5Reader& file) {
   return shape;
 }
 
-void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, bool is_stretched) {
+void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, Vec3 origin, bool is_stretched) {
   std::vector<float> points, lengths, along;
   std::vector<std::int32_t> causes;
   std::vector<SmallNormal> normals, directions;
   for (const LengthSample& s : samples) {
     normals.push_back(s.normal);
-    points.insert(points.end(), s.xyz, s.xyz + 3);
+    const Vec3 x = s.xyz - origin;
+    for (const double c : {x.x, x.y, x.z}) points.push_back(static_cast<float>(c));
     lengths.push_back(s.length);
     causes.push_back(s.cause);
     directions.push_back(s.stretch.direction);
@@ -179,7 +182,7 @@ void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, b
   file.write<float>(kSampleAlong, along);
 }
 
-std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
+std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
   const std::vector<float> lengths = file.read<float>(kSampleLength), points = file.read<float>(kSamplePoint, 3);
   const std::vector<std::int32_t> causes = file.read_rows<std::int32_t>(kSampleCause, lengths.size());
   if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
@@ -196,7 +199,7 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
     require_lengths(file, kSampleAlong, along);
   }
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    samples.push_back({{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
+    samples.push_back({origin + Vec3{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
                        lengths[i],
                        causes[i],
                        normals[i],
@@ -218,8 +221,17 @@ BlankSurface read_surface(const Hdf5Reader& file) {
   return surface;
 }
 
+/// Written where it is not that of space.
+Vec3 read_place_origin(const Hdf5Reader& file) {
+  if (!file.has(kPlaceOrigin)) return {};
+  const std::vector<double> x = file.read_rows<double>(kPlaceOrigin, 3);
+  require_finite(file, kPlaceOrigin, x);
+  return {x[0], x[1], x[2]};
+}
+
 FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves) {
-  FaceCells faces{file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}};
+  FaceCells faces{
+      file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}, read_place_origin(file)};
   faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
   faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
   require_offsets(file, kFaceOffset, faces.offsets, faces.leaf.size());
@@ -371,14 +383,17 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   header.schema_version = raster.samples.empty() ? kPlainRasterVersion : kSampledRasterVersion;
   if (raster.n_not_sampled > 0) header.schema_version = kPartialRasterVersion;
   if (!raster.surface.triangles.empty()) header.schema_version = kSurfaceRasterVersion;
-  if (raster.numbers.max_aspect > 1) header.schema_version = kRasterVersion;
+  if (raster.numbers.max_aspect > 1) header.schema_version = kStretchedRasterVersion;
+  if (raster.faces.origin != Vec3{}) header.schema_version = kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
   if (header.schema_version >= kPartialRasterVersion) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
-  if (!raster.samples.empty()) write_samples(file, raster.samples, raster.numbers.max_aspect > 1);
+  const Vec3 origin = raster.faces.origin;
+  if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
+  if (!raster.samples.empty()) write_samples(file, raster.samples, origin, raster.numbers.max_aspect > 1);
   if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
@@ -406,11 +421,11 @@ RasterArtifact read_raster(const std::string& path) {
   const std::size_t n = raster.octree.shape.leaf_keys.size();
   raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
   raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
-  if (file.has(kSamplePoint)) raster.samples = read_samples(file);
   if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
   require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length), "a length > 0",
                      [](float x) { return x > 0; });
   raster.faces = read_face_cells(file, n);
+  if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.faces.origin);
   raster.edge_name = file.read_strings(kEdgeName);
   raster.labels.face_name = file.read_strings(kFaceName);
   const std::size_t n_faces = raster.labels.face_name.size();

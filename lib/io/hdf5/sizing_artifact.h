@@ -17,7 +17,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 6, kSizingVersion = 5;
+inline constexpr int kRasterVersion = 7, kSizingVersion = 5;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -45,7 +45,8 @@ struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  std::vector<LengthSample> samples;   ///< all samples, where cell_per_length is larger than 2; else empty
+  std::vector<LengthSample> samples;   ///< all samples, where cell_per_length is larger than 2; else empty.
+                                       ///< Rounded from faces.origin
   BlankSurface surface;                ///< coarse triangles of a closed model; empty: not closed
   FaceCells faces;                     ///< where in the octree each face lies, with its area there
   std::vector<std::string> edge_name;  ///< [n_edges]; "": none

@@ -88,6 +88,7 @@ RasterArtifact sample_raster() {
   r.faces.leaf.resize(7);
   r.faces.area.resize(7, 1);
   r.faces.plane.resize(7);
+  r.faces.origin = {1, 2, 3};
   r.edge_name.resize(5);
   r.labels = sample_labels(3);
   r.labels.face_name.resize(3);

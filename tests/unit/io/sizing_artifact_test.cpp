@@ -53,6 +53,19 @@ TEST_F(SizingArtifacts, a_raster_of_which_parts_are_missing_says_so_and_older_pr
   EXPECT_EQ(read_raster(file("b.hdf")).header.schema_version, 4);
 }
 
+TEST_F(SizingArtifacts, places_of_a_raster_far_from_the_origin_count_from_its_middle) {
+  RasterArtifact raster = sample_raster();
+  raster.faces.origin = {1e6, -2e6, 3e6};
+  for (LengthSample& s : raster.samples) s.xyz += raster.faces.origin;
+  write_raster(file("a.hdf"), raster);
+  const RasterArtifact read = read_raster(file("a.hdf"));
+  EXPECT_EQ(read.header.schema_version, 7);
+  EXPECT_EQ(read.faces.origin, raster.faces.origin);
+  for (std::size_t i = 0; i < raster.samples.size(); ++i)
+    EXPECT_LT(distance(read.samples[i].xyz, raster.samples[i].xyz), 1e-7) << i;
+  EXPECT_EQ(write_raster(file("b.hdf"), read), read.header.content_hash);
+}
+
 TEST_F(SizingArtifacts, raster_is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = write_raster(file("a.hdf"), sample_raster());
   EXPECT_EQ(write_raster(file("b.hdf"), read_raster(file("a.hdf"))), hash);
@@ -197,7 +210,7 @@ TEST_F(SizingArtifacts, a_raster_whose_links_or_numbers_are_wrong_is_refused) {
       {"cell_leaf", [&](auto& r) { r.faces.leaf[0] = n_leaves; }},
       {"cell_area", [&](auto& r) { r.faces.area[0] = nan; }},
       {"cell_plane", [&](auto& r) { r.faces.plane[1].normal[0] = nan; }},
-      {"sample/point", [&](auto& r) { r.samples[1].xyz[0] = nan; }},
+      {"sample/point", [&](auto& r) { r.samples[1].xyz.x = nan; }},
       {"sample/length", [](auto& r) { r.samples[1].length = -1; }},
       {"max_length", [](auto& r) { r.numbers.max_length = 0; }},
       {"far_length", [](auto& r) { r.numbers.far_length = 0; }},

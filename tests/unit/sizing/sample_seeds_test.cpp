@@ -20,6 +20,21 @@ struct Prolonged {
   ProlongedLengths lengths;
 };
 
+TEST(SampleSeeds, keep_their_places_however_far_from_the_origin) {
+  const Vec3 far{3e5, -2e5, 1e5};
+  std::vector<RasterBox> boxes, moved;
+  for (int i = 0; i < 100; ++i) {
+    boxes.push_back({{0.01 * i, std::sin(i), 0.3}, 0.02F, 0.01F, i});
+    moved.push_back(boxes.back());
+    moved.back().center += far;
+  }
+  const Box3 near_box{{0, -1, 0}, {1, 1, 1}}, far_box{near_box.lo + far, near_box.hi + far};
+  EXPECT_EQ(origin_of_places(near_box), Vec3{});
+  const std::vector<LengthSample> here = sorted_samples(boxes, origin_of_places(near_box)),
+                                  there = sorted_samples(moved, origin_of_places(far_box));
+  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_LT(distance(here[i].xyz + far, there[i].xyz), 1e-6) << i;
+}
+
 /// Samples about one length apart on a sphere of radius 0.4: `finest` at the top, growing by `growth` per distance from
 /// there.
 std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_per_length) {

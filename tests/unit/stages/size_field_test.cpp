@@ -39,7 +39,7 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
 
   std::int32_t leaf_at(const LengthSample& s) const {
     const OctreeView octree = sizing_.shape.view();
-    return octree.find_leaf(morton::encode(octree.grid_point({s.xyz[0], s.xyz[1], s.xyz[2]})));
+    return octree.find_leaf(morton::encode(octree.grid_point(s.xyz)));
   }
   double edge_at(int leaf) const { return sizing_.shape.view().cell_edge(sizing_.shape.leaf_levels[leaf]); }
   Vec3 random_point() {
@@ -108,7 +108,7 @@ TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
   const SizeField& field = *field_;
   ASSERT_EQ(raster.samples.empty(), GetParam().cell_per_length <= kStoredByCellUpTo);
   for (const LengthSample& s : raster.samples)
-    ASSERT_LE(field.size({s.xyz[0], s.xyz[1], s.xyz[2]}), s.length * 1.02);  // a plane tells the parts of a cell
+    ASSERT_LE(field.size(s.xyz), s.length * 1.02);  // a plane tells the parts of a cell
   if (!raster.samples.empty()) return;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
