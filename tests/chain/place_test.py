@@ -1,0 +1,70 @@
+"""The same shape moved, turned, scaled, mirrored, reordered, or given as loose faces, gets the same mesh but for its
+places: as many triangles, the same area and the same verdict. On files of the corpus (ST_CORPUS), at coarse sizes."""
+import json
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import OK, ToolTest, Run, make_chain  # noqa: E402
+
+CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
+VARY = os.environ["ST_VARY"]
+VARIANTS = ["moved", "turned", "tumbled", "scaled", "mirrored", "reordered", "loose", "reversed"]
+TURNED = {"turned", "tumbled"}
+MODELS = {  # and the largest length
+    "aero_onera_m6_sharpte.brep": "10%",
+    "aero_d150_wing.igs": "10%",
+    "aero_tigl_simplewing.brep": "8%",
+    "basic_refine_cone_cone.brep": "4%",
+    "basic_refine_sphere_cube.brep": "4%",
+    "mech_geouned_tank.stp": "5%",
+    "mech_netgen_screw.step": "5%",
+    "mech_occt_bottle.brep": "5%",
+}
+TOUCHING = {"mech_geouned_tank.stp"}  # solids: loose faces do not tell to which of them they belong
+MOST = 0.02  # difference in the number of triangles, relative
+MOST_TURNED = 0.05  # likewise: cells of the octree lie along the axes of space
+AREA = 2e-3  # likewise: chords run elsewhere
+SCALE = {"scaled": 1e-6}  # of areas
+
+
+class Place(ToolTest):
+    def report_of(self, model, variant, lmax):
+        """What st-check says of a variant, and its exit code."""
+        varied = self.folder / f"{variant}.brep"
+        subprocess.run([VARY, model, varied, variant], check=True, capture_output=True)
+        folder = make_chain(varied, self.folder / variant, raster_options=["--lmax", lmax])
+        check = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                    folder / "sizing.hdf", "--json")
+        return check.code, json.loads(check.out.splitlines()[-1])
+
+    def check(self, name, lmax):
+        code, same = self.report_of(CORPUS / name, "same", lmax)
+        self.assertEqual(code, OK, same)
+        for variant in VARIANTS[:-2] if name in TOUCHING else VARIANTS:
+            with self.subTest(variant):
+                code, report = self.report_of(CORPUS / name, variant, lmax)
+                self.assertEqual(code, OK, report)
+                most = MOST_TURNED if variant in TURNED else MOST
+                self.assertLessEqual(abs(report["triangles"] - same["triangles"]), most * same["triangles"],
+                                     f"{report['triangles']} triangles, {same['triangles']} of the shape as it is")
+                self.assertLess(abs(report["area"] / (SCALE.get(variant, 1) * same["area"]) - 1), AREA)
+                for key in ("closed", "components", "genus", "boundary_edges", "failed"):
+                    if key != "boundary_edges" or same["closed"]:
+                        self.assertEqual(report[key], same[key], key)
+
+
+def add_tests():
+    for name, lmax in MODELS.items():
+        setattr(Place, "test_" + name.split(".")[0], lambda self, name=name, lmax=lmax: self.check(name, lmax))
+
+
+if __name__ == "__main__":
+    if not CORPUS.is_dir():
+        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
+        sys.exit(77)
+    add_tests()
+    unittest.main(verbosity=2)
