@@ -33,6 +33,11 @@ if [ $status -eq 5 ]; then
     status=0
   else
     incomplete=${artifact%.hdf}.incomplete.hdf
+    if [ -s "$incomplete" ] && ! grep -aqF content_hash -- "$incomplete"; then
+      echo "workflow: error: $incomplete is not of make; move it away" >&2
+      rm -f "$artifact"
+      exit 6
+    fi
     [ ! -f "$artifact" ] || mv "$artifact" "$incomplete"
     echo "workflow: error: $incomplete is incomplete; inspect it, or continue with ALLOW_INCOMPLETE=1" >&2
   fi

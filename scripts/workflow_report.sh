@@ -6,6 +6,7 @@
 set -eu -o pipefail
 export LC_ALL=C  # printf and awk read 0.5 in every locale
 action=$1 results=$2
+own=$(dirname "$0")/workflow_own.sh
 
 check() {
   local out=$1 bin=$2 status=0 said=$results/check.tmp.$$
@@ -16,8 +17,10 @@ check() {
     rm -f "$said"
     exit $status
   fi
+  "$own" require "$results/check.txt"
   { echo $status; cat "$said"; } > "$results/check.txt"
   rm -f "$said"
+  "$own" note "$results/check.txt"
   touch "$results/log/fresh"
 }
 
@@ -38,6 +41,8 @@ write() {
   shift 2
   {
     echo "model   $(sed -n 2p "$out/model.ref")"
+    preset=$(sed -n 's/^preset: //p' "$out/preset.ref")
+    [ -z "$preset" ] || echo "preset  $preset (kept for the next make here; PRESET=none leaves it)"
     "$bin/st-info" "$results/mesh.hdf"
     sed 1d "$results/check.txt"
     echo "time per stage (of the run that made each artifact)"
@@ -46,8 +51,10 @@ write() {
     printf '  %s\n' "$results/mesh.hdf" "$@" "$out/geometry.hdf" "$out/raster.hdf" "$results/sizing.hdf"
     [ ! -f "$results/patches.hdf" ] || echo "  $results/patches.hdf"
     echo "options: edit $out/st-<stage>.toml and run $again again"
-  } > "$results/report.tmp.$$"
+  } | sed "${ST_WORKFLOW_SHOWN-}" > "$results/report.tmp.$$"
+  "$own" require "$results/report.txt"
   mv "$results/report.tmp.$$" "$results/report.txt"
+  "$own" note "$results/report.txt"
 }
 
 show() {

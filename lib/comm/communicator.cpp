@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/supervised_program.h"
 #include "base/threads.h"
+#include "comm/mpirun_needs.h"
 #include "comm/mpirun_report.h"
 #include "comm/task_farm.h"
 
@@ -76,6 +77,7 @@ Communicator::Communicator() : impl_(std::make_unique<Impl>()) {
   const int launched = launched_ranks();
   if (launched == 0) return;
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  choose_folder_of_messages(std::max(launched, 1));
   int provided = 0;
   require_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   impl_->is_initialised = true;
@@ -276,6 +278,7 @@ std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& argum
                 "--np: " + std::to_string(n) + " ranks are more than 16 per processor of this machine (" +
                     std::to_string(most_ranks()) + "); give fewer, or start them with mpirun yourself");
   if (n == 1 || launched_ranks() != 0) return std::nullopt;
+  require_needs_of_mpirun(n);
   set_launch_environment();
   char self[4096];
   const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);

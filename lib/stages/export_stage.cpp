@@ -17,6 +17,7 @@
 #include "io/export/export.h"
 #include "io/export/octree_export.h"
 #include "io/file/json_text.h"
+#include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
@@ -133,6 +134,16 @@ void export_sol_artifact(const ExportStageOptions& o) {
   export_sol(o.output, artifact.mesh, *field);
 }
 
+/// Throws Error(kUsage, kOutput) for a file that would be written besides the output and may not be.
+void require_more_outputs(const ExportStageOptions& o, const SurfaceMesh& mesh, const ExportOptions& options) {
+  const bool is_in_blocks = o.output.ends_with(".vtm");
+  if (!is_in_blocks && !o.split_groups) return require_derived_outputs(files_beside(o.output, options));
+  for (const GroupFile& file : group_files(is_in_blocks ? block_path(o.output) : o.output, mesh)) {
+    require_derived_outputs({file.path});
+    require_derived_outputs(files_beside(file.path, options));
+  }
+}
+
 /// The files of the groups, with --split-groups; else none is named.
 std::vector<std::string> export_mesh_artifact(const ExportStageOptions& o, ExportOptions options) {
   const bool is_sol = o.output.ends_with(".sol");
@@ -150,6 +161,7 @@ std::vector<std::string> export_mesh_artifact(const ExportStageOptions& o, Expor
   Progress progress("exporting", 1);
   progress.step("reading", 0);
   MeshArtifact artifact = read_mesh(o.artifact);
+  require_more_outputs(o, artifact.mesh, options);
   progress.step("measuring", 0.2);
   const QuadPairs elements = o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh);
   Additions added;

@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "io/export/export.h"
 #include "io/file/json_text.h"
+#include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "mesh/edge_segments.h"
@@ -113,6 +114,7 @@ void require_outputs(const MergeStageOptions& options) {
   for (const std::string& path : options.exports) {
     require_export_format(path, {});
     require_writable(path);
+    require_derived_outputs(files_beside(path, {}));
   }
 }
 

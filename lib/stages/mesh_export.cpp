@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -30,42 +31,53 @@ std::vector<TriangleValues> measured_values(const SurfaceMesh& mesh) {
   return {quality, ratio};
 }
 
+std::vector<GroupFile> group_files(const std::string& path, const SurfaceMesh& mesh) {
+  const std::vector<std::string> words = group_words(mesh);
+  std::vector<std::vector<TriangleId>> of_group = triangles_by_group(mesh);
+  std::vector<GroupFile> files;
+  for (std::size_t g = 0; g < of_group.size(); ++g)
+    if (!of_group[g].empty())
+      files.push_back({mesh.labels.group_name[g], path_of_group(path, words[g]), std::move(of_group[g])});
+  return files;
+}
+
+std::string block_path(const std::string& path) {
+  const std::filesystem::path target(path);
+  return (target.parent_path() / target.stem() / target.stem()).string() + ".vtu";
+}
+
 std::vector<GroupFile> export_groups(const std::string& path, const SurfaceMesh& mesh,
                                      std::span<const TriangleValues> values, const ExportOptions& options) {
-  const std::vector<std::string> words = group_words(mesh);
-  const std::vector<std::vector<TriangleId>> of_group = triangles_by_group(mesh);
-  std::vector<GroupFile> files;
-  for (std::size_t g = 0; g < of_group.size(); ++g) {
-    if (of_group[g].empty()) continue;
-    const SurfaceMesh part = mesh_of_triangles(mesh, of_group[g]);
+  std::vector<GroupFile> files = group_files(path, mesh);
+  for (const GroupFile& file : files) {
+    const SurfaceMesh part = mesh_of_triangles(mesh, file.triangles);
     const QuadPairs elements = options.has_quads ? pair_triangles(part) : all_triangles(part);
     std::vector<TriangleValues> of_part;
     for (const TriangleValues& v : values) {
       of_part.push_back({v.name, {}});
-      for (const TriangleId t : of_group[g]) of_part.back().of_triangle.push_back(v.of_triangle[t]);
+      for (const TriangleId t : file.triangles) of_part.back().of_triangle.push_back(v.of_triangle[t]);
     }
-    files.push_back({mesh.labels.group_name[g], path_of_group(path, words[g])});
-    export_mesh(files.back().path, {part, elements, {}, of_part}, options);
+    export_mesh(file.path, {part, elements, {}, of_part}, options);
   }
   return files;
 }
 
 void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleValues> values,
                    const ExportOptions& options) {
-  const std::filesystem::path target(path), folder = target.parent_path() / target.stem();
+  const std::string block = block_path(path);
+  const std::filesystem::path folder = std::filesystem::path(block).parent_path();
   std::error_code failure;
   const bool is_new = std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ExitCode::kOutput, fmt::format("{}: cannot be made ({})", folder.string(), failure.message()));
-  const std::string block = (folder / target.stem()).string() + ".vtu";
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
   int index = 0;
   try {
-    for (const auto& [group, file] : export_groups(block, mesh, values, options)) {
-      const std::filesystem::path name(file);
-      text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", index++, xml_escaped(group),
+    for (const GroupFile& file : export_groups(block, mesh, values, options)) {
+      const std::filesystem::path name(file.path);
+      text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", index++, xml_escaped(file.group),
                           xml_escaped((folder.filename() / name.filename()).string()));
     }
     write_text_file(path, text + "</vtkMultiBlockDataSet>\n</VTKFile>\n");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "io/export/export.h"
 
@@ -17,8 +18,14 @@ std::vector<TriangleValues> measured_values(const SurfaceMesh& mesh);
 /// A file of one group.
 struct GroupFile {
   std::string group, path;
+  std::vector<TriangleId> triangles;
 };
-/// Likewise one file for each group that has triangles, named after it.
+/// Those that export_groups() writes: of each group that has triangles.
+std::vector<GroupFile> group_files(const std::string& path, const SurfaceMesh& mesh);
+/// The name of the files of export_blocks(), before their groups: NAME/NAME.vtu.
+std::string block_path(const std::string& path);
+
+/// One file for each group that has triangles, named after it.
 std::vector<GroupFile> export_groups(const std::string& path, const SurfaceMesh& mesh,
                                      std::span<const TriangleValues> values, const ExportOptions& options);
 

@@ -136,9 +136,10 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   TaskTrace trace(comm, o.trace);
   keep_freed_memory();
   require_valid(o);
-  if (comm.is_root())
-    for (const std::string& path : o.trace.empty() ? std::vector{o.output} : std::vector{o.output, o.trace})
-      require_writable(path);
+  if (comm.is_root()) {
+    require_patches_outputs(o.output);
+    if (!o.trace.empty()) require_writable(o.trace);
+  }
   GeometryArtifact geometry = read_geometry(o.geometry);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;

@@ -10,6 +10,8 @@
 #include "base/share.h"
 #include "base/threads.h"
 #include "io/file/json_text.h"
+#include "io/file/output_files.h"
+#include "io/file/temporary_file.h"
 #include "io/hdf5/failure_artifact.h"
 #include "io/hdf5/patches_writer.h"
 
@@ -228,6 +230,11 @@ StageSummary summary_of(const std::string& path, const ModelTables& t, const Art
 }
 
 }  // namespace
+
+void require_patches_outputs(const std::string& path) {
+  require_writable(path);
+  require_derived_outputs({failures_path(path)});
+}
 
 StageSummary write_patches_result(const std::string& path, const ModelTables& t, const ArtifactHeader& geometry,
                                   ArtifactHeader header, const MeshTopology& topology, MeshResult result,

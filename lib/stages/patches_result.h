@@ -20,6 +20,9 @@ struct RunFacts {
   std::int64_t n_parts = 0, n_resumed = 0;  ///< faces and tiles, once per round; and those of an earlier run
 };
 
+/// What write_patches_result() is to write: throws Error(kOutput, kUsage) now where it may not. Local.
+void require_patches_outputs(const std::string& path);
+
 /// Collective where patches are on the ranks that made them, and each rank writes its own; else local, on rank 0.
 /// Completes `header` (tool, options and inputs are the caller's), writes the artifact, warns of every face without a
 /// patch. The summary is of rank 0.

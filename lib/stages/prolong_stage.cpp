@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "io/file/json_text.h"
+#include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
@@ -309,7 +310,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   require_valid(o);
   require_writable(o.output);
   const std::string coarse = family_member(o.output, "coarse"), fine = family_member(o.output, "fine");
-  if (o.family) require_writable(coarse), require_writable(fine);
+  if (o.family) require_derived_outputs({coarse, fine});
   if (!o.sample.empty()) require_writable(o.sample_output);
   ProlongedSizes sizes = read_and_prolong(o);
   SizingArtifact& sizing = sizes.sizing;

@@ -390,7 +390,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
   require_valid(o);
   keep_freed_memory();
-  if (comm.is_root() && !o.dry_run) require_writable(o.merged.empty() ? o.output : o.merged);
+  if (comm.is_root() && !o.dry_run) o.merged.empty() ? require_patches_outputs(o.output) : require_writable(o.merged);
   const RemeshInput in = read_input(o, comm);
   require_same_inputs(comm, {{o.mesh, in.old.header.content_hash},
                              {o.geometry, in.geometry.content_hash},

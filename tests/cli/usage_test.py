@@ -14,7 +14,7 @@ N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-m
             "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
 # Options of all tools, which the pages describe in words.
 COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json",
-          "--wall-limit"}
+          "--wall-limit", "--replace-own"}
 HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {

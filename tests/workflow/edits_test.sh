@@ -147,7 +147,8 @@ done << 'TABLE'
   :                                                        | EXPORT=ascii.stl+vtu    | export info
   :                                                        | PRESET=preview          | raster+
   :                                                        | PRESET=preview          | -
-  :                                                        |                         | raster+
+  :                                                        |                         | -
+  :                                                        | PRESET=none             | raster+
   :                                                        | BLANK=1                 | prolong mesh merge prolong+
   :                                                        | BLANK=1                 | -
   :                                                        |                         | prolong+

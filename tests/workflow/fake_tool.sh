@@ -28,12 +28,16 @@ if [ -z "$output" ]; then
   exit 0
 fi
 temporary=$(dirname "$output")/.$(basename "$output").tmp.$$.0
-{ echo "$tool${preset:+ $preset}"; cat "${inputs[@]}"; } > "$temporary"
+{ echo "$tool${preset:+ $preset}"; cat "${inputs[@]}"; echo content_hash; } > "$temporary"
 if [ "${FAKE_KILL:-}" = "$tool" ]; then
   echo $$ > "$FAKE_LOG.pid"
   exec sleep 60
 fi
 [ "${FAKE_FAIL:-}" != "$tool 3" ] || { rm "$temporary"; echo "$tool: error: told to" >&2; exit 3; }
 mv "$temporary" "$output"
+case $output in
+  *.hdf) ;;
+  *) (cd "$(dirname "$output")" && cksum "$(basename "$output")" >> .st-written) ;;
+esac
 [ "${FAKE_FAIL:-}" != "$tool 5" ] || [ -n "$allowed" ] || exit 5
 echo "$output: made"

@@ -26,6 +26,7 @@
 #include "common/wall_limit.h"
 #include "io/file/journal.h"
 #include "io/file/json_text.h"
+#include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
@@ -157,6 +158,8 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
       ->disable_flag_override();
   app_.add_flag_function(
           "--print-inputs", [](std::int64_t) {}, "print the names of all input files, one per line, and exit")
+      ->disable_flag_override();
+  app_.add_flag("--replace-own", replaces_own_, "replace a file under the name of an output only where ST wrote it")
       ->disable_flag_override();
   app_.add_option("--wall-limit", wall_limit_, "end with exit code 3 when the run takes longer")
       ->type_name("SECONDS")
@@ -291,7 +294,7 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   if (!preset_.empty()) apply_option_text(find_preset(preset_).options, "preset " + preset_, name_, app_);
   if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose cannot be used together; leave one out");
   set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
-  require_distinct_files();
+  set_rules();
   for (const std::string& path : input_files()) refuse_pipe(path);
   if (!lists_inputs) return std::nullopt;
   std::string lines;
@@ -307,39 +310,42 @@ std::vector<std::string> ToolMain::input_files() const {
   return files;
 }
 
-std::vector<std::string> ToolMain::output_paths() const {
+ToolMain::OutputPaths ToolMain::outputs_by_origin() const {
   const auto is_replaced = [](const CLI::Option* option) {
     const auto& others = option->get_excludes();
     return std::any_of(others.begin(), others.end(), [](const CLI::Option* other) { return other->count() > 0; });
   };
-  std::vector<std::string> outputs;
+  OutputPaths outputs;
   for (const CLI::Option* option : output_options_) {
-    auto paths = option->results();
+    const auto paths = option->results();
+    outputs.named.insert(outputs.named.end(), paths.begin(), paths.end());
     if (paths.empty() && !is_replaced(option) && !option->get_default_str().empty())
-      paths.push_back(option->get_default_str());
-    outputs.insert(outputs.end(), paths.begin(), paths.end());
+      outputs.defaults.push_back(option->get_default_str());
   }
   return outputs;
 }
 
-void ToolMain::require_distinct_files() const {
-  namespace fs = std::filesystem;
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code none;
-    return fs::equivalent(a, b, none) ||
-           fs::absolute(a, none).lexically_normal() == fs::absolute(b, none).lexically_normal();
+std::vector<std::string> ToolMain::output_paths() const {
+  auto [paths, defaults] = outputs_by_origin();
+  paths.insert(paths.end(), defaults.begin(), defaults.end());
+  return paths;
+}
+
+void ToolMain::set_rules() const {
+  OutputRules rules;
+  rules.inputs = input_files();
+  if (!options_file_.empty()) rules.inputs.push_back(options_file_);
+  OutputPaths outputs = outputs_by_origin();
+  rules.named = replaces_own_ ? std::vector<std::string>() : std::move(outputs.named);
+  rules.defaults = replaces_own_ ? output_paths() : std::move(outputs.defaults);
+  rules.is_artifact = [](const std::string& path) {
+    try {
+      return !read_header(path).schema.empty();
+    } catch (const Error&) {
+      return false;
+    }
   };
-  const std::vector<std::string> outputs = output_paths();
-  std::vector<std::string> inputs = input_files();
-  if (!options_file_.empty()) inputs.push_back(options_file_);
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j)
-      if (same(outputs[i], outputs[j]))
-        throw Error(ExitCode::kUsage, outputs[i] + ": given twice as an output; choose another name for one of them");
-    for (const std::string& path : inputs)
-      if (same(outputs[i], path))
-        throw Error(ExitCode::kUsage, outputs[i] + ": is an input and would be overwritten; choose another output");
-  }
+  set_output_rules(std::move(rules));
 }
 
 void ToolMain::watch_time(const std::function<void(ExitCode, const std::string&)>& report) const {

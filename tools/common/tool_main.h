@@ -90,15 +90,20 @@ class ToolMain {
   /// Command line, then option file. Returns the text of --help, --version or --print-... when asked for. Throws
   /// Error(kUsage).
   std::optional<std::string> parse(int argc, char** argv);
+  struct OutputPaths {
+    std::vector<std::string> named, defaults;
+  };
   /// What this run writes: what is given, else the defaults.
+  OutputPaths outputs_by_origin() const;
+  /// All of them.
   std::vector<std::string> output_paths() const;
   /// See run_under_mpirun; what a killed rank leaves half-written is removed.
   std::optional<int> start_ranks(const std::vector<std::string>& arguments) const;
   std::optional<int> start_ranks_once(const std::vector<std::string>& arguments) const;
   /// The files that options and arguments name as inputs.
   std::vector<std::string> input_files() const;
-  /// Throws Error(kUsage) when an output would overwrite an input or another output.
-  void require_distinct_files() const;
+  /// See set_output_rules.
+  void set_rules() const;
   /// Ends the run when --wall-limit is over; `report` is told so before.
   void watch_time(const std::function<void(ExitCode, const std::string&)>& report) const;
   /// Prints the summary to stdout. When stdout takes nothing: throws Error(kOutput) for a report and for JSON, which
@@ -119,7 +124,7 @@ class ToolMain {
   int n_ranks_ = 1;
   double wall_limit_ = 86'400;
   std::optional<int> n_threads_;
-  bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false;
+  bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false, replaces_own_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;
   std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage
 };

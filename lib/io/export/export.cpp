@@ -201,6 +201,11 @@ void require_export_format(const std::string& path, const ExportOptions& options
   if (options.has_parameters) require_room(path, format, kParameters, "coordinates", "--parametric");
 }
 
+std::vector<std::string> files_beside(const std::string& path, const ExportOptions& options) {
+  if (format_of(path, options).room & kMapbc) return {stem_of(path) + ".mapbc"};
+  return {};
+}
+
 std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& mesh, const ExportOptions& options) {
   ExportOptions wanted = options;
   wanted.has_quads |= !mesh.elements.quads.empty();
@@ -210,8 +215,8 @@ std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& 
   const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values};
   Output out(path);
   format.write(out, task);
-  if (format.room & kMapbc) {
-    Output boundaries(stem_of(path) + ".mapbc");
+  for (const std::string& beside : files_beside(path, wanted)) {
+    Output boundaries(beside);
     export_mapbc(boundaries, task);
     boundaries.commit();
   }

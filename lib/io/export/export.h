@@ -51,6 +51,9 @@ void require_export_format(const std::string& path, const ExportOptions& options
 std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
 std::vector<std::string> export_mesh(const std::string& path, const SurfaceMesh& mesh);
 
+/// What export_mesh() writes besides `path`: the list of boundaries of .ugrid. Throws as require_export_format().
+std::vector<std::string> files_beside(const std::string& path, const ExportOptions& options);
+
 /// The path of one group's file: "wing.ascii.stl" and "TAIL" give "wing_TAIL.ascii.stl".
 std::string path_of_group(const std::string& path, const std::string& word);
 

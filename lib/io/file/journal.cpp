@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -27,12 +29,12 @@ namespace st {
 
 /// What stands before the bytes of a record.
 struct Journal::RecordHead {
-  char magic[8] = {'S', 'T', '-', 'j', 'r', 'n', 'l', '1'};
+  char magic[8] = {'S', 'T', '-', 'j', 'r', 'n', 'l', '2'};
   std::int32_t kind = 0, signal = 0;
   std::int64_t face = kNone;
   std::uint64_t n_bytes = 0;
   WorkKey key{};     // kStart: of the run
-  WorkKey digest{};  // of the bytes
+  WorkKey digest{};  // see digest_of()
   std::uint64_t check = 0;
 
   /// FNV-1a of all before it: a signal handler can make it.
@@ -53,32 +55,53 @@ enum RecordKind : std::int32_t { kStart = 1, kBegun, kDone, kFailed, kCrashed, k
 
 static_assert(sizeof(RecordHead) == 104 && std::is_trivially_copyable_v<RecordHead>, "no gaps: they would be summed");
 
-RecordHead head_of(std::int32_t kind, const Work& work, const Bytes& bytes = {}) {
+/// Of what was finished: a result that stands at other work, or of another run, does not fit.
+WorkKey digest_of(const WorkKey& run, const WorkKey& key, std::int64_t face, const Bytes& bytes) {
+  Hasher hasher;
+  hasher.add(run.data(), run.size());
+  hasher.add(key.data(), key.size());
+  hasher.add(&face, sizeof face);
+  hasher.add(bytes.data(), bytes.size());
+  return work_key(hasher.hex());
+}
+
+RecordHead head_of(std::int32_t kind, const Work& work, const WorkKey& run = {}, const Bytes& bytes = {}) {
   RecordHead head;
   head.kind = kind;
   head.face = work.face;
   head.key = work.key;
   head.n_bytes = bytes.size();
-  if (!bytes.empty()) head.digest = work_key(hash_hex(bytes.data(), bytes.size()));
+  if (kind == kDone) head.digest = digest_of(run, work.key, work.face, bytes);
   head.check = head.sum();
   return head;
 }
 
 // What signal handlers need of the open journal. They may touch neither the heap nor a lock.
 constexpr std::size_t kNameLength = 4096;
+constexpr int kMostRuns = 999'999;  // of one journal, and ranks of a run: what has a higher number is not ours
 std::atomic<bool> g_is_open = false;
 std::atomic<int> g_file = -1;
 char g_folder[kNameLength], g_name[kNameLength];
 RecordHead g_start;
 
+/// What cannot be written leaves nothing. Async-signal-safe.
+void remove_file() noexcept {
+  unlink(g_name);
+  rmdir(g_folder);  // where no other process has a file
+}
+
 /// A new file with its first record, held as long as the process lives; -1 with errno. Async-signal-safe.
 int make_file() noexcept {
   mkdir(g_folder, 0777);
-  const int file = open(g_name, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) return -1;
+  const int file = open(g_name, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (file < 0) {
+    rmdir(g_folder);  // where it is empty
+    return -1;
+  }
   flock(file, LOCK_EX | LOCK_NB);
   if (write(file, &g_start, sizeof g_start) == static_cast<ssize_t>(sizeof g_start)) return file;
   close(file);
+  remove_file();
   return -1;
 }
 
@@ -135,9 +158,40 @@ void for_each_record(int file, const Visit& visit) {
   }
 }
 
+/// The number in all of `text`; -1 for any other text. At most kMostRuns.
+int number_in(std::string_view text) {
+  int number = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number <= kMostRuns ? number : -1;
+}
+
 /// RUN-RANK; 0 for any other name.
 int run_of(const std::string& name) {
-  return name.find_first_not_of("0123456789-") == std::string::npos ? std::atoi(name.c_str()) : 0;
+  const std::size_t dash = name.find('-');
+  if (dash == std::string::npos || number_in(std::string_view(name).substr(dash + 1)) < 0) return 0;
+  return std::max(0, number_in(std::string_view(name).substr(0, dash)));
+}
+
+/// A file of ours for reading, -1 for anything else: a pipe would never end, and nobody else may say what this run has
+/// done.
+int open_to_read(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat info {};
+  if (file < 0 || (fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid())) return file;
+  close(file);
+  errno = 0;
+  return -1;
+}
+
+/// Begins as a file of a journal does, as far as it goes.
+bool is_of_journal(const std::string& path) {
+  const int file = open_to_read(path);
+  if (file < 0) return false;
+  RecordHead head;
+  const RecordHead wanted;
+  const ssize_t n = pread(file, &head, sizeof head.magic, 0);
+  close(file);
+  return n >= 0 && std::memcmp(head.magic, wanted.magic, static_cast<std::size_t>(n)) == 0;
 }
 
 std::vector<std::string> files_of(const std::string& folder) {
@@ -161,11 +215,12 @@ WorkKey work_key(const std::string& digest) {
 
 std::string journal_folder(const std::string& output) { return output + ".journal"; }
 
-JournalReader::JournalReader(const std::string& folder, const WorkKey& run_key) {
+JournalReader::JournalReader(const std::string& folder, const WorkKey& run_key) : run_key_(run_key) {
   for (const std::string& name : files_of(folder)) {
     next_run_ = std::max(next_run_, run_of(name) + 1);
     read(folder + "/" + name, run_key);
   }
+  if (next_run_ > kMostRuns) next_run_ = 0;
   for (const auto& [key, n] : deaths_)  // also where it was finished since: by being left out
     if (n >= kMostDeaths && face_of_[key] != kNone) crashes_.try_emplace(face_of_[key], SIGKILL);
   for (auto it = deaths_.begin(); it != deaths_.end();) it = place_.contains(it->first) ? deaths_.erase(it) : ++it;
@@ -176,7 +231,7 @@ JournalReader::~JournalReader() {
 }
 
 void JournalReader::read(const std::string& path, const WorkKey& run_key) {
-  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  const int file = open_to_read(path);
   if (file < 0) {
     if (errno == EMFILE || errno == ENFILE)
       log_warning(path + " cannot be read (" + std::strerror(errno) + "); what it has kept is made again");
@@ -199,9 +254,10 @@ bool JournalReader::read_records(int file, const WorkKey& run_key) {
   std::map<WorkKey, FaceId> begun;
   bool is_explained = false;
   for_each_record(file, [&](const RecordHead& head, std::uint64_t at) {
+    if (head.face < kNone || head.face > std::numeric_limits<FaceId>::max()) return;
     const auto face = static_cast<FaceId>(head.face);
     if (head.kind == kBegun) begun[head.key] = face;
-    if (head.kind == kDone) place_[head.key] = {file, at, head.n_bytes, head.digest}, has_done = true;
+    if (head.kind == kDone) place_[head.key] = {file, head.face, at, head.n_bytes, head.digest}, has_done = true;
     if (head.kind == kDone || head.kind == kFailed) begun.erase(head.key);
     if (head.kind == kFailed) ++deaths_[head.key], face_of_[head.key] = face;
     if (head.kind == kCrashed) crashes_[face] = head.signal;
@@ -217,7 +273,7 @@ std::optional<Bytes> JournalReader::result(const WorkKey& key) const {
   if (it == place_.end()) return std::nullopt;
   Bytes bytes(it->second.size);
   if (!read_all(it->second.file, bytes.data(), bytes.size(), it->second.begin) ||
-      work_key(hash_hex(bytes.data(), bytes.size())) != it->second.digest)
+      digest_of(run_key_, key, it->second.face, bytes) != it->second.digest)
     return std::nullopt;
   return bytes;
 }
@@ -262,7 +318,7 @@ void Journal::write(const RecordHead& head, const Bytes& bytes) {
               "); an end of this run would lose what it has made");
   g_is_open = false;
   g_file = -1;
-  unlink(g_name);
+  remove_file();
   close(std::exchange(file_, -1));
 }
 
@@ -281,7 +337,7 @@ void Journal::finish(const Work& work, const std::function<Bytes()>& result) {
   }
   if (!is_written) return;
   const Bytes bytes = result();
-  const RecordHead head = head_of(kDone, work, bytes);
+  const RecordHead head = head_of(kDone, work, place_.run_key, bytes);
   const std::lock_guard lock(mutex_);
   std::erase_if(under_way_, [&](const Work& other) { return other.key == work.key; });
   write(head, bytes);
@@ -326,7 +382,7 @@ std::size_t count_deaths(const std::string& output) {
   std::size_t n = 0;
   const std::string folder = journal_folder(output);
   for (const std::string& name : files_of(folder)) {
-    const int file = open((folder + "/" + name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    const int file = open_to_read(folder + "/" + name);
     if (file < 0) continue;
     bool is_dead = true;
     for_each_record(file, [&](const RecordHead& head, std::uint64_t) { is_dead &= head.kind != kEnded; });
@@ -343,7 +399,7 @@ std::vector<FaceId> faces_under_way(const std::string& output, int rank) {
   for (const std::string& name : files_of(folder)) {  // by run
     if (!name.ends_with(end)) continue;
     if (file >= 0) close(file);
-    file = open((folder + "/" + name).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    file = open_to_read(folder + "/" + name);
   }
   std::map<WorkKey, FaceId> begun;
   for_each_record(file, [&](const RecordHead& head, std::uint64_t) {
@@ -358,7 +414,8 @@ std::vector<FaceId> faces_under_way(const std::string& output, int rank) {
 
 void remove_journal(const std::string& output) {
   const std::string folder = journal_folder(output);
-  for (const std::string& name : files_of(folder)) unlink((folder + "/" + name).c_str());
+  for (const std::string& name : files_of(folder))
+    if (is_of_journal(folder + "/" + name)) unlink((folder + "/" + name).c_str());
   rmdir(folder.c_str());
 }
 

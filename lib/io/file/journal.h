@@ -39,7 +39,8 @@ class JournalReader {
   static constexpr int kMostDeaths = 2;  ///< of processes, at the same work: it is not to be tried again
 
   /// Reads those files that belong to `run_key`; a torn end is passed over. Nothing is found where the folder does not
-  /// exist. Where another process still writes one of them nothing is, either, and is_in_use() says so. Local.
+  /// exist. Files that are no plain ones, or not of this user, are passed over. Where another process still writes one
+  /// of them nothing is, either, and is_in_use() says so. Local.
   JournalReader(const std::string& folder, const WorkKey& run_key);
   ~JournalReader();
   JournalReader(const JournalReader&) = delete;
@@ -47,7 +48,7 @@ class JournalReader {
 
   bool is_in_use() const { return is_in_use_; }
   bool is_empty() const { return place_.empty() && deaths_.empty() && crashes_.empty(); }
-  /// Higher than that of every run before, those that do not belong included; from 1.
+  /// Higher than that of every run before, those that do not belong included; from 1. 0: there is no higher one.
   int next_run() const { return next_run_; }
   std::size_t n_done() const { return place_.size(); }
   /// What it was finished with; nothing where it is not done, or where the bytes are not those that were written.
@@ -61,13 +62,15 @@ class JournalReader {
  private:
   struct Place {
     int file;
+    std::int64_t face;
     std::uint64_t begin, size;
-    WorkKey digest;  // of the bytes
+    WorkKey digest;  // of all that
   };
   void read(const std::string& path, const WorkKey& run_key);
   /// Whether it has finished work: then `file` has to stay open.
   bool read_records(int file, const WorkKey& run_key);
 
+  const WorkKey run_key_;
   std::vector<int> files_;  // descriptors of those with finished work
   std::map<WorkKey, Place> place_;
   std::map<WorkKey, int> deaths_;
@@ -130,7 +133,7 @@ std::size_t count_deaths(const std::string& output);
 /// The process may still live. Local.
 std::vector<FaceId> faces_under_way(const std::string& output, int rank);
 
-/// Removes the journal of this output, if there is one. Local.
+/// Removes the journal of this output, if there is one; what others have put there stays. Local.
 void remove_journal(const std::string& output);
 
 }  // namespace st

@@ -17,6 +17,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "io/file/output_files.h"
 
 namespace st {
 namespace {
@@ -131,7 +132,10 @@ void remove_temporaries() noexcept {
 
 void remove_left_temporaries(const std::string& path) { remove_stale(path, std::chrono::seconds(0)); }
 
-void require_writable(const std::string& path) {
+namespace {
+
+/// See require_writable(), whatever is there.
+void require_place(const std::string& path) {
   if (path.empty()) throw Error(ExitCode::kOutput, "empty output name; give a file name with -o");
   const std::string directory = directory_of(path);
   struct stat info {};
@@ -148,8 +152,15 @@ void require_writable(const std::string& path) {
   unlink(probe.c_str());
 }
 
+}  // namespace
+
+void require_writable(const std::string& path) {
+  require_place(path);
+  require_replaceable(path);
+}
+
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
-  require_writable(path);
+  require_place(path);
   remove_stale(path, kGrace);
   name_ = directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
   if (name_.size() >= kNameLength || base_of(path).size() > 220)
@@ -168,6 +179,7 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::commit() {
+  require_replaceable(path_);
   sync(name_, path_);
   if (rename(name_.c_str(), path_.c_str()) != 0)
     fail(path_, std::string("cannot be renamed into place (") + std::strerror(errno) + ")",
@@ -175,6 +187,7 @@ void TemporaryFile::commit() {
   g_slots[slot_].state.store(0);
   slot_ = -1;
   sync(directory_of(path_), path_);
+  note_written(path_);
 }
 
 }  // namespace st

@@ -10,7 +10,7 @@ namespace st {
 /// What a killed process (SIGKILL) left is removed by the next that writes `path`.
 class TemporaryFile {
  public:
-  /// Reserves a name. Throws Error(kOutput) when `path` cannot be written (see require_writable).
+  /// Reserves a name. Throws Error(kOutput) when `path` is no place for a file (see require_writable).
   explicit TemporaryFile(const std::string& path);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
@@ -20,7 +20,8 @@ class TemporaryFile {
   const std::string& name() const { return name_; }
   /// Where it will appear.
   const std::string& path() const { return path_; }
-  /// The file is closed and complete: syncs it, renames it to path(), syncs the directory. Throws Error(kOutput).
+  /// The file is closed and complete: syncs it, renames it to path(), syncs the directory. Throws Error(kOutput), and
+  /// as require_replaceable().
   void commit();
 
  private:
@@ -29,7 +30,7 @@ class TemporaryFile {
 };
 
 /// Throws Error(kOutput) now, before hours of work, when `path` cannot be written (directory missing, no permission, is
-/// a directory, a device, a pipe).
+/// a directory, a device, a pipe), and as require_replaceable() (output_files.h).
 void require_writable(const std::string& path);
 
 /// Removes the temporary files of this process; called by the signal handlers of the tools (async-signal-safe).

@@ -1,13 +1,17 @@
 #include "io/file/journal.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "base/hash.h"
+#include "unit/io/soft_limit.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st {
@@ -213,6 +217,56 @@ TEST_F(JournalTest, that_cannot_be_written_is_given_up) {
   journal.begin(work_at(3));
   journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
   EXPECT_TRUE(JournalReader(folder(), kRun).is_empty());
+}
+
+TEST_F(JournalTest, on_a_full_disk_leaves_no_folder) {
+  for (const rlim_t most : {10, 200}) {  // the head of the file does not fit, or the first result
+    const FullDisk full(most);
+    Journal journal(place());
+    journal.begin(work_at(3));
+    journal.finish(work_at(3), [&] { return bytes_of(1000, 1); });
+    EXPECT_FALSE(std::filesystem::exists(folder())) << most;
+  }
+}
+
+TEST_F(JournalTest, neither_waits_for_a_pipe_nor_touches_files_of_others) {
+  std::filesystem::create_directory(folder());
+  ASSERT_EQ(mkfifo(file(1).c_str(), 0600), 0);
+  write_bytes(file(2),
+              "not of a journal, and longer than the first record of one would be: as long as this, and longer");
+  std::filesystem::create_symlink("/dev/zero", file(3));
+  std::filesystem::create_directory(file(4));
+  for (const char* name : {"2147483647-0", "99999999999999999999-0", "1000000-0", "5-", "-5", "1-2-3", "0-0"})
+    write_bytes(folder() + "/" + name, "");
+  const JournalReader reader(folder(), kRun);
+  EXPECT_TRUE(reader.is_empty());
+  EXPECT_FALSE(reader.is_in_use());
+  EXPECT_EQ(reader.next_run(), 5);
+  EXPECT_EQ(count_deaths(output()), 1u) << "of what might be one";
+  EXPECT_TRUE(faces_under_way(output(), 0).empty());
+  remove_journal(output());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder()), {}), 11);
+}
+
+TEST_F(JournalTest, does_not_believe_a_result_that_was_pasted_from_elsewhere) {
+  {
+    Journal journal(place());
+    journal.finish(work_at(3), [&] { return bytes_of(10, 1); });
+  }
+  constexpr int kHead = 104, kSum = 96, kFace = 16, kKey = 32;  // bytes of the record's head
+  std::string bytes = read_bytes(file());
+  std::string pasted = bytes.substr(kHead, kHead + 10);
+  const WorkKey other = work_at(4).key;
+  std::copy(other.begin(), other.end(), pasted.begin() + kKey);
+  pasted[kFace] = 4;
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (int i = 0; i < kSum; ++i) sum = (sum ^ static_cast<unsigned char>(pasted[i])) * 0x100000001b3u;
+  std::memcpy(pasted.data() + kSum, &sum, sizeof sum);
+  write_bytes(file(), bytes.insert(kHead, pasted));
+  const JournalReader reader(folder(), kRun);
+  EXPECT_EQ(reader.n_done(), 2u);
+  EXPECT_TRUE(reader.result(work_at(3).key));
+  EXPECT_FALSE(reader.result(work_at(4).key));
 }
 
 TEST_F(JournalTest, is_removed_with_its_folder) {
