@@ -668,6 +668,12 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     mesh = make_mesh(*surface, boundary, field.get());
     repair_folds(*surface, boundary, field.get(), face_options(), mesh);
     if (mesh.cause == FailureCause::kNone) result.section.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
+    if (!has_numbers_only(result.section.patch)) {
+      result.section.patch = FacePatch();
+      result.section.patch.face = f;
+      throw Error(ExitCode::kGeometry,
+                  "a place or (u,v) of its mesh is no number; repair its surface in the CAD system");
+    }
   } catch (const Error& e) {
     mesh.cause = FailureCause::kError;
     report.error = e.what();
@@ -744,11 +750,13 @@ void FaceRounds::close_hole(FaceId f) {
   }
   const ClosedFace closed = close_loops(surface.get(), boundary, field.get(), kNearEnough * cad_tolerance(tables_, f));
   if (closed.mesh.cause != FailureCause::kNone) return;
+  FacePatch patch = make_patch(tables_, f, boundary, closed.mesh, *numbering_);
+  if (!has_numbers_only(patch)) return;
   FaceOutcome& o = outcomes_[f];
   o.is_closed = true;
   o.is_near = closed.is_near;
   o.deviation = closed.deviation;
-  put(f, make_patch(tables_, f, boundary, closed.mesh, *numbering_));
+  put(f, std::move(patch));
 }
 
 /// None where the mesh before was restored: refining does not help.

@@ -79,6 +79,16 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
   return patch;
 }
 
+bool has_numbers_only(const FacePatch& patch) {
+  // 0 times a number is 0, and 0 times anything else is none: one sum tells.
+  double sum = 0;
+  for (const Vec3& x : patch.inner_xyz) sum += 0 * x.x + 0 * x.y + 0 * x.z;
+  for (const Vec2& uv : patch.inner_uv) sum += 0 * uv.x + 0 * uv.y;
+  for (const Vec2& uv : patch.own_uv) sum += 0 * uv.x + 0 * uv.y;
+  for (const double h : patch.inner_size) sum += 0 * h;
+  return sum == 0;
+}
+
 PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, SplitMesh&& split,
                           const BoundaryNumbering& numbering) {
   FaceBoundary boundary;

@@ -17,6 +17,10 @@ namespace st {
 FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
                      const BoundaryNumbering& numbering);
 
+/// Whether no place, (u,v) or length of it is infinite or none at all: what a patch must be to be stored. (u,v) are
+/// none where the loops of a face are known in space alone.
+bool has_numbers_only(const FacePatch& patch);
+
 /// What is left of a tile or group likewise, as the section of this number.
 PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, SplitMesh&& split,
                           const BoundaryNumbering& numbering);
