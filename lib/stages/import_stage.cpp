@@ -163,6 +163,7 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
     if (f.kind == FindingKind::kCrossingFaces) names.push_back(f.detail);
     if (f.kind == FindingKind::kSelfCrossingFace) names.push_back(f.entity + " itself");
     if (f.kind == FindingKind::kPinchedFace) names.push_back(f.entity + " itself, in a point");
+    if (f.kind == FindingKind::kFoldedFace) names.push_back(f.entity + " itself, in a fold");
   }
   if (names.empty()) return;
   std::string text;
@@ -170,6 +171,20 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
   log_warning(fmt::format(
       "{}: the CAD crosses itself in {} {}: {}{}; triangles will cross there, so repair it in the CAD system", o.model,
       names.size(), names.size() == 1 ? "place" : "places", text, names.size() > kNamed ? " ..." : ""));
+}
+
+/// What is not as the CAD means it, and no later stage can mend.
+void say_faults(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace, FindingKind::kStrayHole, FindingKind::kFarCurve,
+                                     FindingKind::kMissingFile, FindingKind::kUndoneRepair};
+  constexpr std::size_t kNamed = 3;
+  for (const FindingKind kind : kFaults) {
+    std::size_t n = 0;
+    for (const ImportFinding& f : r.findings)
+      if (f.kind == kind && ++n <= kNamed)
+        log_warning(fmt::format("{}: {}{}{}", o.model, f.entity, f.entity.empty() ? "" : ": ", f.what()));
+    if (n > kNamed) log_warning(fmt::format("{}: {}: {} more", o.model, name_of(kind), n - kNamed));
+  }
 }
 
 /// The first findings as text, where they are asked for; the rest is counted.
@@ -187,6 +202,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
   say_bodies(o, r);
   say_crossing_faces(o, r);
+  say_faults(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {

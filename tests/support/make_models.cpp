@@ -52,6 +52,7 @@
 #include <vector>
 
 #include "broken/broken_shapes.h"
+#include "broken/damaged_shapes.h"
 #include "support/shapes.h"
 
 namespace {
@@ -268,6 +269,9 @@ void write_all(const fs::path& dir) {
   for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
                             "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap"})
     st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
+  for (const char* shape : {"rod_hole", "rod_hole_p1", "rod_hole_closed", "no_curve_ring", "no_curve_lost",
+                            "twisted_band", "bumped_seam", "folded_offset"})
+    st::test::write_damaged(shape, dir / (std::string(shape) + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());

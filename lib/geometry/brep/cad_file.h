@@ -33,7 +33,8 @@ struct CadFile {
   std::vector<CadPart> parts;
   std::optional<double> unit_in_mm;  ///< of the file; nullopt: none (BREP, FLITE)
   bool has_mixed_units = false;
-  double resolution_mm = 0;  ///< tolerance the file states, 0 when none
+  std::vector<std::string> missing_files;  ///< that hold parts of an assembly and are not there; ascending
+  double resolution_mm = 0;                ///< tolerance the file states, 0 when none
 };
 
 }  // namespace st::occt

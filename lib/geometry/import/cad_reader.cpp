@@ -16,6 +16,7 @@
 #include <Message_PrinterOStream.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_ExternFile.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <Standard_Failure.hxx>
@@ -49,6 +50,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/face_labels.h"
@@ -394,6 +396,16 @@ void name_faces_by_entity(const Handle(XSControl_WorkSession) & session, CadFile
         face.name = names[k - 1];
 }
 
+/// Files that the STEP file refers to and that could not be read.
+std::vector<std::string> missing_files(const STEPCAFControl_Reader& reader) {
+  std::set<std::string> names;
+  for (NCollection_DataMap<TCollection_AsciiString, Handle(STEPCAFControl_ExternFile)>::Iterator i(
+           reader.ExternFiles());
+       i.More(); i.Next())
+    if (i.Value()->GetLoadStatus() != IFSelect_RetDone) names.insert(valid_utf8(i.Key().ToCString()));
+  return {names.begin(), names.end()};
+}
+
 CadFile read_step(const std::string& path) {
   STEPCAFControl_Controller::Init();
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
@@ -410,6 +422,7 @@ CadFile read_step(const std::string& path) {
   step_units(reader.Reader().WS()->Model(), file);
   keep_names_beyond_ascii(reader.Reader().WS()->Model());
   if (!reader.Transfer(document)) fail(path, "no shape could be made of the STEP file; export the model again");
+  file.missing_files = missing_files(reader);
   file.parts = DocumentReader(document).parts();
   name_faces_by_entity(reader.Reader().WS(), file);
   XCAFApp_Application::GetApplication()->Close(document);

@@ -1,6 +1,8 @@
 #include "geometry/import/crossing_faces.h"
 
 #include <BRep_Tool.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
@@ -40,6 +42,40 @@ struct Section {
   std::vector<Vec3> x;
   std::vector<Vec2> uv;
 };
+
+struct Place {
+  Vec3 xyz;
+  double size;
+};
+
+Vec3 normal_of(const Handle(Geom_Surface) & surface, Vec2 uv) {
+  gp_Pnt p;
+  gp_Vec du, dv;
+  surface->D1(uv.x, uv.y, p, du, dv);
+  const gp_Vec n = du.Crossed(dv);
+  return {n.X(), n.Y(), n.Z()};
+}
+
+/// Where an offset surface runs against its basis: the offset is larger than the radius there. The middle and extent of
+/// what was found; nullopt for other surfaces.
+template <class IsInside>
+std::optional<Place> find_fold(const TopoDS_Face& face, const UvBounds& b, const IsInside& is_inside) {
+  constexpr int kLines = 64;  // in u and in v
+  Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface)) surface = trimmed->BasisSurface();
+  const auto offset = Handle(Geom_OffsetSurface)::DownCast(surface);
+  if (offset.IsNull()) return std::nullopt;
+  Box3 folded;
+  for (int i = 1; i < kLines; ++i)
+    for (int j = 1; j < kLines; ++j) try {
+        const Vec2 uv{b.u_min + (b.u_max - b.u_min) * i / kLines, b.v_min + (b.v_max - b.v_min) * j / kLines};
+        if (dot(normal_of(offset, uv), normal_of(offset->BasisSurface(), uv)) < 0 && is_inside(uv))
+          folded.add(vec(offset->Value(uv.x, uv.y)));
+      } catch (const Standard_Failure&) {  // no normal at a singular point
+      }
+  if (folded.is_empty()) return std::nullopt;
+  return Place{folded.center(), folded.diagonal()};
+}
 
 class CrossingFaces {
  public:
@@ -93,11 +129,13 @@ class CrossingFaces {
   void look_within(FaceId f) {
     const Domain& d = domain(f);
     const auto is_inside = [&](Vec2 uv) { return d.loops.contains(uv); };
-    if (const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), is_inside)) {
+    if (const auto fold = find_fold(TopoDS::Face(model_.faces(f + 1)), d.face.bounds, is_inside)) {
+      found_.push_back({f, f, false, true, fold->xyz, fold->size});
+    } else if (const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), is_inside)) {
       const double size = distance(d.face.surface->point(0.5 * (p->uv_a + p->uv_b)), p->x);
-      found_.push_back({f, f, false, p->x, size});
+      found_.push_back({f, f, false, false, p->x, size});
     } else if (const auto pinch = find_pinch(*d.face.surface, tolerance_of(f), is_inside)) {
-      found_.push_back({f, f, true, *pinch, 0});
+      found_.push_back({f, f, true, false, *pinch, 0});
     }
   }
 
@@ -112,7 +150,7 @@ class CrossingFaces {
       const double station = static_cast<double>(k) / kStations;
       if (const auto place = crossing_of(section(f, e, station), f, section(g, e, station), g)) {
         known_.insert(std::minmax(f, g));
-        found_.push_back({std::min(f, g), std::max(f, g), false, place->xyz, place->size});
+        found_.push_back({std::min(f, g), std::max(f, g), false, false, place->xyz, place->size});
         return;
       }
     }

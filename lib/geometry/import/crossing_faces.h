@@ -12,6 +12,7 @@ namespace st::occt {
 struct FaceCrossing {
   FaceId first = kNone, second = kNone;  ///< equal: the face passes through itself
   bool is_pinch = false;                 ///< it shrinks to a point, beyond which it is turned over
+  bool is_fold = false;                  ///< an offset beyond the radius of its basis: it goes back on itself there
   Vec3 xyz;                              ///< model unit
   double size = 0;          ///< distance from the common edge; of one face: how far it goes away in between
   bool is_overlap = false;  ///< beside the edge they lie on each other, within the CAD's tolerance

@@ -19,9 +19,11 @@
 #include "geometry/import/face_orientation.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/import.h"
+#include "geometry/import/kept_areas.h"
+#include "geometry/import/left_out_faces.h"
+#include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
 #include "geometry/import/pcurve_repair.h"
-#include "geometry/import/sewing.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
 #include "geometry/import/sound_geometry.h"
@@ -205,7 +207,9 @@ void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing
 void say_which_faces_cross(const ImportedShape& model, const ModelTables& t, std::vector<ImportFinding>& findings) {
   for (const occt::FaceCrossing& c : occt::find_crossing_faces(model, t)) {
     if (c.first == c.second)
-      findings.push_back({c.is_pinch ? FindingKind::kPinchedFace : FindingKind::kSelfCrossingFace,
+      findings.push_back({c.is_pinch  ? FindingKind::kPinchedFace
+                          : c.is_fold ? FindingKind::kFoldedFace
+                                      : FindingKind::kSelfCrossingFace,
                           t.face_label(c.first), c.xyz, c.size, false});
     else
       findings.push_back({FindingKind::kCrossingFaces, t.face_label(c.first), c.xyz, c.size, false,
@@ -258,25 +262,30 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const ModelUnit unit = choose_unit(file, options.unit);
   ImportResult result;
   result.format = file.format;
+  for (const std::string& name : file.missing_files)
+    result.findings.push_back({FindingKind::kMissingFile, "", {}, 0, false, name});
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
   progress.step("sewing and repairing", 0.4);
   occt::remove_empty_faces(model, result.findings, path);
+  occt::make_space_curves(model, result.findings);
   occt::divide_bare_surfaces(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
-  occt::sew_if_open(model, sewing_limits(file, unit, model, options), result.findings);
+  occt::sew_and_keep_areas(model, sewing_limits(file, unit, model, options), result.findings);
   occt::orient_faces(model, result.findings);
   occt::open_slits(model, result.findings);
   occt::rebuild_space_curves(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);
   occt::repair_loops(model, result.findings);
+  occt::move_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units) result.findings.push_back({FindingKind::kMixedUnits, "", {}, 0, false, unit.name});
   progress.step("topology and areas", 0.6);
   occt::ModelOfFile tables = occt::make_tables(model, path);
+  if (occt::leave_out_faces(model, tables.tables, result.findings, path)) tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   progress.step("bodies that touch or overlap", 0.65);
   relate_bodies(model, tables, options, result.findings, path);

@@ -27,7 +27,8 @@ namespace {
 constexpr int kFewSamples = 17, kManySamples = 1025;  // to look, to judge
 constexpr double kExcess = 2.0;                       // of the tolerance: readers leave distances just above it
 constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
-constexpr double kFar = 0.01;  // of the edge: a curve that moves by less leaves its face in shape
+constexpr double kWide = 1e-3;  // of the diagonal: what st-check accepts of nodes at most; more is no tolerance
+constexpr double kFar = 0.01;   // of the edge: a curve that moves by less leaves its face in shape
 
 /// A use of an edge by a face, with what is needed to compare its curves.
 struct Use {
@@ -141,7 +142,7 @@ bool keeps_shape(const Use& use, double area_before, double moved) {
   return std::abs(area_of(use.face) - area_before) <= kRoom * moved * chord_length(use) + kRounding * area_before;
 }
 
-void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string& name,
+void repair(const Use& use, const Handle(Geom2d_Curve) & old, double diagonal, const std::string& name,
             std::vector<ImportFinding>& findings) {
   const Gap before = largest_gap(use, old, kManySamples);
   const bool is_seam = BRep_Tool::IsClosed(use.edge, use.face);
@@ -165,24 +166,26 @@ void repair(const Use& use, const Handle(Geom2d_Curve) & old, const std::string&
   if (!is_seam) consider(projected(use));
   if (!is_seam && after.distance > BRep_Tool::Tolerance(use.edge))
     consider(resampled(use, old, 0.5 * BRep_Tool::Tolerance(use.edge)));
+  const double left = std::min(before.distance, after.distance);
+  const bool is_wide = left > kWide * diagonal && left > kFar * chord_length(use);
   if (!better.IsNull()) {
     set_pcurve(use, better);
     findings.push_back({FindingKind::kProjectedCurve, name, before.xyz, before.distance, true,
                         format_number(after.distance / before.distance)});
   } else {
-    findings.push_back({FindingKind::kRaisedTolerance, name, before.xyz, before.distance, true});
+    const auto kind = is_wide ? FindingKind::kFarCurve : FindingKind::kRaisedTolerance;
+    findings.push_back({kind, name, before.xyz, before.distance, !is_wide});
     if (is_undone)
       findings.push_back({FindingKind::kUndoneRepair, name, before.xyz, before.distance, false,
                           "the face would have another area with its trimming curve projected again"});
   }
-  const double left = std::min(before.distance, after.distance);
-  if (left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);
+  if (!is_wide && left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);
 }
 
 }  // namespace
 
 void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  const double harmless = kHarmless * rough_box(model.shape).diagonal();
+  const double diagonal = rough_box(model.shape).diagonal(), harmless = kHarmless * diagonal;
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
   for (int f = 1; f <= model.faces.Extent(); ++f) {
@@ -200,7 +203,7 @@ void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) 
       if (largest_gap(use, pcurve, kFewSamples).distance <=
           std::max(harmless, kExcess * BRep_Tool::Tolerance(use.edge)))
         continue;
-      repair(use, pcurve, entity(edges.FindIndex(use.edge), f), findings);
+      repair(use, pcurve, diagonal, entity(edges.FindIndex(use.edge), f), findings);
     }
   }
 }

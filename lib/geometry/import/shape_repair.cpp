@@ -165,7 +165,7 @@ void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
         if (!stored) BRepLib::BuildPCurveForEdgeOnPlane(edge, f);
       } else if (BRep_Tool::CurveOnSurface(edge, f, t0, t1, &stored).IsNull()) {
         ShapeFix_Edge().FixAddPCurve(edge, f, BRep_Tool::IsClosed(edge, f));
-        ++n_pcurves;
+        n_pcurves += !BRep_Tool::CurveOnSurface(edge, f, t0, t1).IsNull();
       }
     }
   }

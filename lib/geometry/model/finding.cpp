@@ -68,6 +68,13 @@ constexpr Wording kWordings[] = {
     {"sewn where three faces or more meet", "sewn where three faces or more meet: {}"},
     {"sheet", "sheet: the same room, or none, is on both sides"},
     {"wall between two rooms", "wall between two rooms"},
+    {"edge without a curve in space", "edge without a curve in space: {}"},
+    {"loop in another period of its surface, moved", "loop in another period of its surface, moved by {}"},
+    {"hole outside its face", "hole outside its face"},
+    {"face left out", "face left out: {}"},
+    {"face folds over itself", "face folds over itself"},
+    {"trimming curve off its edge by more than a tolerance", "trimming curve off its edge by more than a tolerance"},
+    {"parts in another file, which is missing", "parts in another file, which is missing: {}"},
     {"other", "{}"},
 };
 static_assert(std::size(kWordings) == static_cast<std::size_t>(FindingKind::kOther) + 1);

@@ -59,6 +59,13 @@ enum class FindingKind : std::uint8_t {
   kThirdFace,              ///< free edges joined to edges that two faces have already
   kSheet,                  ///< a face with the same room, or none, on both sides
   kSharedWall,             ///< a face between two rooms
+  kNoSpaceCurve,           ///< an edge without one
+  kMovedLoop,              ///< a loop in another period of its surface, moved to its face
+  kStrayHole,              ///< a hole outside its face
+  kLeftOutFace,            ///< a face that cannot be meshed at all, taken out of the model
+  kFoldedFace,             ///< a face that folds over itself
+  kFarCurve,               ///< a trimming curve off its edge by more than a tolerance, left as it is
+  kMissingFile,            ///< parts are in another file that is not there
   kOther                   ///< written by another version
 };
 

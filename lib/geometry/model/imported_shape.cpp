@@ -25,6 +25,18 @@ bool ImportedShape::replace(const TopoDS_Shape& changed,
   return true;
 }
 
+namespace {
+
+/// The first names, and how many more.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kNamed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > kNamed ? text + " and " + std::to_string(names.size() - kNamed) + " more" : text;
+}
+
+}  // namespace
+
 ImportedShape collect_parts(const CadFile& file, const std::string& path) {
   ImportedShape result;
   BRep_Builder builder;
@@ -34,6 +46,9 @@ ImportedShape collect_parts(const CadFile& file, const std::string& path) {
     if (!part.faces.empty()) builder.Add(compound, part.shape);
   result.shape = compound;
   TopExp::MapShapes(result.shape, TopAbs_FACE, result.faces);
+  if (result.faces.Extent() == 0 && !file.missing_files.empty())
+    throw Error(ExitCode::kGeometry, path + ": no face in the file; its parts are in files that are missing: " +
+                                         listed(file.missing_files) + "; put them beside it, or export it as one file");
   if (result.faces.Extent() == 0)
     throw Error(ExitCode::kGeometry, path + ": no face in the file (" + file.format +
                                          "); export surfaces or solids, not wireframe or a mesh");

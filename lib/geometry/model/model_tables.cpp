@@ -71,7 +71,7 @@ class TableWriter {
       TopExp::Vertices(e, v0, v1, false);
       double t0 = 0, t1 = 0;
       const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
-      const bool degenerate = BRep_Tool::Degenerated(e) || c.IsNull();
+      const bool degenerate = BRep_Tool::Degenerated(e);  // what has no curve is none: it fails where it is used
       if (c.IsNull()) BRep_Tool::Range(e, t0, t1);
       if (v0.IsNull() && v1.IsNull())
         throw Error(ExitCode::kGeometry,
@@ -86,7 +86,7 @@ class TableWriter {
       t.edge_is_degenerate.push_back(degenerate);
       edge_box_.emplace_back();
       t.edge_length.push_back(0);
-      if (degenerate) continue;
+      if (degenerate || c.IsNull()) continue;
       const std::unique_ptr<Curve> curve = make_curve(c, t0, t1);
       t.edge_length.back() = arc_length(*curve, t0, t1, 32);
       edge_box_.back() = sampled_box(*curve);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "broken/broken_shapes.h"
+#include "broken/damaged_shapes.h"
 #include "geometry/import/import.h"
 #include "geometry/model/model.h"
 #include "unit/io/temporary_directory.h"
@@ -16,6 +17,12 @@ namespace st::test {
 inline ImportResult import_broken(const std::string& shape, const ImportOptions& options = {}) {
   const TemporaryDirectory dir;
   write_broken(shape, dir / "model.brep");
+  return import_model(dir / "model.brep", options);
+}
+
+inline ImportResult import_damaged(const std::string& shape, const ImportOptions& options = {}) {
+  const TemporaryDirectory dir;
+  write_damaged(shape, dir / "model.brep");
   return import_model(dir / "model.brep", options);
 }
 

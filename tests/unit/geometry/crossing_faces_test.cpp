@@ -52,5 +52,12 @@ TEST(CrossingFaces, are_none_where_a_sheet_ends_before_it_comes_to_itself) {
   EXPECT_TRUE(findings_of(r, "face").empty());
 }
 
+TEST(CrossingFaces, names_an_offset_that_goes_back_on_itself) {
+  const auto found = findings_of(test::import_damaged("folded_offset"), "face folds over itself");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].xyz.x, 0, 1e-6);
+  EXPECT_GT(found[0].size, 20);
+}
+
 }  // namespace
 }  // namespace st

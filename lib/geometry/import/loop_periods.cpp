@@ -1,0 +1,248 @@
+#include "geometry/import/loop_periods.h"
+
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Wire.hxx>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/shape/loop_polygons.h"
+
+namespace st::occt {
+namespace {
+
+constexpr int kSides = 24;         // of each edge: enough to tell inside from outside
+constexpr double kBeyond = 0.01;   // of the surface's range: beyond it by less is rounding
+constexpr double kWinding = 0.5;   // of a period: a loop that ends further from its start goes around
+constexpr double kMaxPeriods = 8;  // to look for a hole
+
+/// A wire in (u,v), as the face has it.
+struct Loop {
+  TopoDS_Wire wire;
+  std::vector<LoopSide> sides;
+  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
+  Vec2 winding;     ///< from its start to its end: 0 when it is closed
+  double area = 0;  ///< signed
+};
+
+/// How a surface closes; a period of 0: not at all.
+struct Closing {
+  Vec2 lo, hi;  ///< its bounds
+  Vec2 period;
+  bool is_u_periodic = false, is_v_periodic = false;  ///< else it has no points beyond its bounds
+};
+
+Closing closing_of(const Handle(Geom_Surface) & surface) {
+  Closing c;
+  surface->Bounds(c.lo.x, c.hi.x, c.lo.y, c.hi.y);
+  c.is_u_periodic = surface->IsUPeriodic();
+  c.is_v_periodic = surface->IsVPeriodic();
+  c.period.x = c.is_u_periodic ? surface->UPeriod() : surface->IsUClosed() ? c.hi.x - c.lo.x : 0;
+  c.period.y = c.is_v_periodic ? surface->VPeriod() : surface->IsVClosed() ? c.hi.y - c.lo.y : 0;
+  return c;
+}
+
+void add_edge(Loop& loop, const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  double t0, t1;
+  const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  if (pcurve.IsNull()) return;
+  const bool is_reversed = edge.Orientation() == TopAbs_REVERSED;
+  Vec2 last;
+  for (int k = 0; k <= kSides; ++k) {
+    const double s = static_cast<double>(is_reversed ? kSides - k : k) / kSides;
+    const gp_Pnt2d p = pcurve->Value(t0 + (t1 - t0) * s);
+    const Vec2 uv{p.X(), p.Y()};
+    loop.lo = {std::min(loop.lo.x, uv.x), std::min(loop.lo.y, uv.y)};
+    loop.hi = {std::max(loop.hi.x, uv.x), std::max(loop.hi.y, uv.y)};
+    if (k > 0) {
+      loop.sides.push_back({last, uv});
+      loop.winding = loop.winding + (uv - last);
+    }
+    last = uv;
+  }
+}
+
+std::vector<Loop> loops_of(const TopoDS_Face& face) {
+  std::vector<Loop> loops;
+  for (TopoDS_Iterator w(face); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
+    Loop loop;
+    loop.wire = TopoDS::Wire(w.Value());
+    for (TopExp_Explorer e(loop.wire, TopAbs_EDGE); e.More(); e.Next())
+      if (!is_constraint(e.Current())) add_edge(loop, TopoDS::Edge(e.Current()), face);
+    if (loop.sides.empty()) continue;
+    const Vec2 origin = loop.sides[0].a;  // areas of loops far from (0, 0) are exact enough, too
+    for (const LoopSide& s : loop.sides) loop.area += 0.5 * cross(s.a - origin, s.b - origin);
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+/// Whether most of the loop is inside the polygons once it is moved.
+bool is_inside(const Loop& loop, Vec2 shift, const LoopPolygons& polygons) {
+  const auto n_inside = std::count_if(loop.sides.begin(), loop.sides.end(),
+                                      [&](const LoopSide& s) { return polygons.contains(s.a + shift); });
+  return 2 * n_inside > static_cast<std::ptrdiff_t>(loop.sides.size());
+}
+
+/// Numbers of periods that bring [lo, hi] onto [to_lo, to_hi], at least in part.
+std::pair<int, int> periods_onto(double lo, double hi, double to_lo, double to_hi, double period) {
+  if (period == 0) return {0, 0};
+  const double least = std::ceil((to_lo - hi) / period), most = std::floor((to_hi - lo) / period);
+  if (!(std::abs(least) < 1e9 && std::abs(most) < 1e9)) return {0, 0};
+  const double end = std::min(most, least + kMaxPeriods);
+  return {static_cast<int>(least), static_cast<int>(end)};
+}
+
+/// The shift that brings a hole inside the outer loops; nullopt: none does.
+std::optional<Vec2> shift_into(const Loop& hole, const Loop& outer, const LoopPolygons& polygons, const Closing& c) {
+  const auto [i0, i1] = periods_onto(hole.lo.x, hole.hi.x, outer.lo.x, outer.hi.x, c.period.x);
+  const auto [j0, j1] = periods_onto(hole.lo.y, hole.hi.y, outer.lo.y, outer.hi.y, c.period.y);
+  for (int i = i0; i <= i1; ++i)
+    for (int j = j0; j <= j1; ++j)
+      if (const Vec2 shift{i * c.period.x, j * c.period.y}; is_inside(hole, shift, polygons)) return shift;
+  return std::nullopt;
+}
+
+/// Both curves of a seam, or the one of another edge.
+void move_edge(const TopoDS_Edge& shape, const TopoDS_Face& face, const gp_Vec2d& shift) {
+  const TopoDS_Edge edge = TopoDS::Edge(shape.Oriented(TopAbs_FORWARD));
+  double t0, t1;
+  const auto moved = [&](const TopoDS_Shape& side) -> Handle(Geom2d_Curve) {
+    const Handle(Geom2d_Curve) old = BRep_Tool::CurveOnSurface(TopoDS::Edge(side), face, t0, t1);
+    return old.IsNull() ? old : Handle(Geom2d_Curve)::DownCast(old->Translated(shift));
+  };
+  const Handle(Geom2d_Curve) pcurve = moved(edge);
+  if (pcurve.IsNull()) return;
+  BRep_Builder builder;
+  if (BRep_Tool::IsClosed(edge, face))
+    builder.UpdateEdge(edge, pcurve, moved(edge.Reversed()), face, BRep_Tool::Tolerance(edge));
+  else
+    builder.UpdateEdge(edge, pcurve, face, BRep_Tool::Tolerance(edge));
+  builder.Range(edge, face, t0, t1);
+}
+
+void move_loop(Loop& loop, const TopoDS_Face& face, Vec2 shift) {
+  TopTools_MapOfShape seen;
+  for (TopExp_Explorer e(loop.wire, TopAbs_EDGE); e.More(); e.Next())
+    if (seen.Add(e.Current())) move_edge(TopoDS::Edge(e.Current()), face, {shift.x, shift.y});
+  for (LoopSide& s : loop.sides) s = {s.a + shift, s.b + shift};
+  loop.lo = loop.lo + shift;
+  loop.hi = loop.hi + shift;
+}
+
+/// "1 period in u, -2 in v".
+std::string words(Vec2 shift, Vec2 period) {
+  const auto count = [](double by, double of) { return of == 0 ? 0 : std::lround(by / of); };
+  const auto n_u = count(shift.x, period.x), n_v = count(shift.y, period.y);
+  std::string text;
+  if (n_u != 0) text = std::to_string(n_u) + " in u";
+  if (n_v != 0) text += (text.empty() ? "" : ", ") + std::to_string(n_v) + " in v";
+  return text;
+}
+
+/// A face and what it takes to name it.
+struct NamedFace {
+  TopoDS_Face face;  ///< forward
+  int number = 0;    ///< from 1
+};
+
+void say(FindingKind kind, const NamedFace& f, const Loop& loop, const std::string& detail,
+         std::vector<ImportFinding>& findings) {
+  const Box3 box = rough_box(loop.wire);
+  findings.push_back({kind, "face " + std::to_string(f.number), box.center(), box.diagonal(),
+                      kind == FindingKind::kMovedLoop, detail});
+}
+
+/// Brings all loops between the bounds of a surface that has no points beyond them.
+void move_face(const NamedFace& f, std::vector<Loop>& loops, const Loop& outer, const Closing& c,
+               std::vector<ImportFinding>& findings) {
+  const auto shift_of = [](double lo, double hi, double from, double to, double period) {
+    return period == 0 ? 0.0 : -period * std::floor((0.5 * (lo + hi) - from) / (to - from));
+  };
+  const Vec2 shift{c.is_u_periodic ? 0 : shift_of(outer.lo.x, outer.hi.x, c.lo.x, c.hi.x, c.period.x),
+                   c.is_v_periodic ? 0 : shift_of(outer.lo.y, outer.hi.y, c.lo.y, c.hi.y, c.period.y)};
+  if (shift.x == 0 && shift.y == 0) return;
+  say(FindingKind::kMovedLoop, f, outer, words(shift, c.period), findings);
+  for (Loop& loop : loops) move_loop(loop, f.face, shift);
+}
+
+void move_holes(const NamedFace& f, std::vector<Loop>& loops, std::size_t outer, const Closing& c,
+                std::vector<ImportFinding>& findings) {
+  std::vector<LoopSide> sides;
+  for (const Loop& loop : loops)
+    if (loop.area > 0) sides.insert(sides.end(), loop.sides.begin(), loop.sides.end());
+  const LoopPolygons polygons(std::move(sides));
+  for (Loop& loop : loops) {
+    if (loop.area >= 0 || is_inside(loop, {0, 0}, polygons)) continue;
+    const std::optional<Vec2> shift = shift_into(loop, loops[outer], polygons, c);
+    if (!shift) {
+      say(FindingKind::kStrayHole, f, loop, "", findings);
+      continue;
+    }
+    say(FindingKind::kMovedLoop, f, loop, words(*shift, c.period), findings);
+    move_loop(loop, f.face, *shift);
+  }
+}
+
+/// One point of each edge beyond the bounds of a surface that has none there, or several loops.
+bool is_to_be_looked_at(const TopoDS_Face& face, const Handle(Geom_Surface) & surface) {
+  int n_loops = 0;
+  for (TopoDS_Iterator w(face); w.More(); w.Next()) n_loops += w.Value().ShapeType() == TopAbs_WIRE;
+  if (n_loops > 1) return true;
+  double u0, u1, v0, v1;
+  surface->Bounds(u0, u1, v0, v1);
+  const double room_u = surface->IsUPeriodic() ? 1e300 : kBeyond * (u1 - u0);
+  const double room_v = surface->IsVPeriodic() ? 1e300 : kBeyond * (v1 - v0);
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    double t0, t1;
+    const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Current()), face, t0, t1);
+    if (pcurve.IsNull()) continue;
+    const gp_Pnt2d p = pcurve->Value(0.5 * (t0 + t1));
+    if (p.X() < u0 - room_u || p.X() > u1 + room_u || p.Y() < v0 - room_v || p.Y() > v1 + room_v) return true;
+  }
+  return false;
+}
+
+void move_loops_of(const NamedFace& f, std::vector<ImportFinding>& findings) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(f.face);
+  if (surface_type(surface) == SurfaceType::kPlane || !is_to_be_looked_at(f.face, surface)) return;
+  const Closing c = closing_of(surface);
+  if (c.period.x == 0 && c.period.y == 0) return;
+  std::vector<Loop> loops = loops_of(f.face);
+  if (loops.empty()) return;
+  for (const Loop& loop : loops)  // a band between loops that go around has no outer loop
+    if (std::abs(loop.winding.x) > kWinding * c.period.x && c.period.x > 0)
+      return;
+    else if (std::abs(loop.winding.y) > kWinding * c.period.y && c.period.y > 0)
+      return;
+  const auto outer = std::max_element(loops.begin(), loops.end(),
+                                      [](const Loop& a, const Loop& b) { return std::abs(a.area) < std::abs(b.area); });
+  if (outer->area <= 0) return;
+  move_face(f, loops, *outer, c, findings);
+  if (loops.size() > 1) move_holes(f, loops, static_cast<std::size_t>(outer - loops.begin()), c, findings);
+}
+
+}  // namespace
+
+void move_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  TopTools_MapOfShape seen;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Face face = TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));
+    if (seen.Add(face.Located({}))) move_loops_of({face, i}, findings);
+  }
+}
+
+}  // namespace st::occt

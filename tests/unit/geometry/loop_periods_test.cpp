@@ -1,0 +1,53 @@
+// Loops that lie in another period of their surface.
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+#include "unit/geometry/broken_import.h"
+
+namespace st {
+namespace {
+
+using test::findings_of;
+using test::import_damaged;
+
+constexpr const char* kMoved = "loop in another period of its surface, moved";
+
+TEST(LoopPeriods, holes_in_another_period_are_moved_to_their_face) {
+  const ImportResult sound = import_damaged("rod_hole");
+  EXPECT_TRUE(findings_of(sound, kMoved).empty());
+  for (const char* shape : {"rod_hole_p1", "rod_hole_m3", "rod_outer_off", "rod_hole_reversed", "rod_hole_spline",
+                            "rod_hole_closed", "rod_all_beyond"}) {
+    const ImportResult r = import_damaged(shape);
+    EXPECT_EQ(findings_of(r, kMoved).size(), 1u) << shape;
+    EXPECT_TRUE(r.is_closed) << shape;
+    EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area) << shape;
+    EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume) << shape;
+    EXPECT_LE(r.tables.face_uv_bounds[1] - r.tables.face_uv_bounds[0], 2 * kPi + 1e-6) << shape << ": one turn";
+  }
+}
+
+TEST(LoopPeriods, only_the_hole_that_is_off_is_moved) {
+  const ImportResult r = import_damaged("rod_holes_one_off");
+  ASSERT_EQ(findings_of(r, kMoved).size(), 1u);
+  EXPECT_EQ(findings_of(r, kMoved)[0].what(), "loop in another period of its surface, moved by -1 in u");
+}
+
+TEST(LoopPeriods, of_both_directions_are_found) {
+  const ImportResult sound = import_damaged("torus_hole"), r = import_damaged("torus_hole_off");
+  ASSERT_EQ(findings_of(r, kMoved).size(), 1u);
+  EXPECT_EQ(findings_of(r, kMoved)[0].what(), "loop in another period of its surface, moved by -1 in u, 1 in v");
+  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+}
+
+TEST(LoopPeriods, that_are_right_stay_as_they_are) {
+  for (const char* shape :
+       {"sphere", "cone", "torus", "drilled_cylinder", "mirrored_cylinder", "periodic_tube", "closed_tube",
+        "tube_window", "rational_torus", "plate_with_hole", "drilled_block", "sphere_octant"}) {
+    const ImportResult r = test::import_shape(shape);
+    EXPECT_TRUE(findings_of(r, kMoved).empty()) << shape;
+    EXPECT_TRUE(findings_of(r, "hole outside").empty()) << shape;
+  }
+}
+
+}  // namespace
+}  // namespace st
