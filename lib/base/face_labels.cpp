@@ -187,12 +187,13 @@ std::string say_other_kind(const std::string& pattern, const FaceLabels& labels)
   if (!find_members(pattern, labels.edge_groups).empty()) return " (it names a group of edges)";
   if (!find_members(pattern, labels.vertex_groups).empty()) return " (it names a group of vertices)";
   std::vector<std::string> names = labels.group_name;
-  for (const GroupTable& table : labels.tables)
-    names.insert(names.end(), table.group_name.begin(), table.group_name.end());
-  for (const std::vector<std::string>* parts : {&labels.part_name, &labels.part_path})
-    names.insert(names.end(), parts->begin(), parts->end());
+  const auto add = [&](const std::vector<std::string>& more) { names.insert(names.end(), more.begin(), more.end()); };
+  for (const GroupTable& table : labels.tables) add(table.group_name);
+  add(labels.part_name);
+  add(labels.part_path);
   for (const std::vector<EntityGroup>* groups : {&labels.edge_groups, &labels.vertex_groups})
     for (const EntityGroup& g : *groups) names.push_back(g.name);
+  for (const GroupTable& table : labels.tables) add(full_names(table));
   return did_you_mean(pattern, names);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/required_unit.h"
 
 namespace st {
 
@@ -76,11 +77,7 @@ double resolve_length(const LengthSpec& spec, const LengthReference& reference, 
     case LengthSpec::Kind::kAbsolute:
       break;
   }
-  if (!reference.unit_in_m)
-    throw Error(
-        ExitCode::kUsage,
-        option + ": '" + spec.text +
-            "' has a unit but the model has none; give the model's unit with st-import --unit, or a plain number");
+  require_unit(spec, reference.unit_in_m, option);
   return spec.value / *reference.unit_in_m;
 }
 

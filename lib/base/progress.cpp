@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/log.h"
 
@@ -14,6 +18,7 @@ namespace st {
 namespace {
 
 constexpr double kLogSeconds = 10, kLogShare = 0.1;
+constexpr const char* kSecondsVariable = "ST_PROGRESS_SECONDS";      // instead of kLogSeconds
 constexpr double kSecondsBeforeGuess = 1, kShareBeforeGuess = 0.02;  // earlier the time left is a guess
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr const char* kRelayVariable = "ST_PROGRESS";
@@ -58,7 +63,69 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Before the first line in a log, and between lines.
+double log_seconds() {
+  static const double seconds = [] {
+    const char* asked = std::getenv(kSecondsVariable);
+    const double value = asked ? std::strtod(asked, nullptr) : 0;
+    return value > 0 ? value : kLogSeconds;
+  }();
+  return seconds;
+}
+
+/// When the last line in a log was written, seconds since first_work().
+std::atomic<double> g_last_line = 0;
+
+void write_line(const std::string& text) {
+  g_last_line = seconds_since(first_work());
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
 }  // namespace
+
+/// A thread that lets the innermost piece of work speak while it says nothing itself: in steps that cannot tell how far
+/// they are. Starts with the first piece in a log; a forked process has its own.
+class Heartbeat {
+ public:
+  static Heartbeat& one() {
+    static auto& heartbeat = *new Heartbeat;  // never destroyed: the thread may look at it while the program ends
+    return heartbeat;
+  }
+  void add(Progress* work) {
+    const std::lock_guard lock(mutex_);
+    works_.push_back(work);
+    if (process_ != getpid()) start();
+    changed_.notify_one();
+  }
+  void remove(Progress* work) {
+    const std::lock_guard lock(mutex_);
+    std::erase(works_, work);
+  }
+
+ private:
+  /// The thread gets no signals: they are for those that work.
+  void start() {
+    process_ = getpid();
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    std::thread([this] { run(); }).detach();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  [[noreturn]] void run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [&] { return !works_.empty(); });
+      changed_.wait_for(lock, std::chrono::duration<double>(0.1 * log_seconds()));
+      if (!works_.empty() && seconds_since(first_work()) - g_last_line >= log_seconds()) works_.back()->beat();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Progress*> works_;
+  pid_t process_ = 0;  // that has the thread
+};
 
 std::string progress_text(const std::string& label, double done, double total, const std::string& unit,
                           double seconds) {
@@ -71,11 +138,15 @@ std::string progress_text(const std::string& label, double done, double total, c
 }
 
 bool LogPace::is_due(double seconds, double share) {
-  if (seconds < kLogSeconds) return false;
-  if (seconds - last_seconds_ < kLogSeconds && share - last_share_ < kLogShare) return false;
+  if (seconds < period_) return false;
+  if (seconds - last_seconds_ < period_ && share - last_share_ < kLogShare) return false;
+  note(seconds, share);
+  return true;
+}
+
+void LogPace::note(double seconds, double share) {
   last_seconds_ = seconds;
   last_share_ = share;
-  return true;
 }
 
 Progress::Progress(std::string label, double total, std::string unit)
@@ -83,12 +154,15 @@ Progress::Progress(std::string label, double total, std::string unit)
       unit_(std::move(unit)),
       total_(total),
       sink_(find_sink()),
+      pace_(log_seconds()),
       start_(std::chrono::steady_clock::now()),
       last_(start_) {
   first_work();
+  if (sink_ == ProgressSink::kLog) Heartbeat::one().add(this);
 }
 
 Progress::~Progress() {
+  if (sink_ == ProgressSink::kLog) Heartbeat::one().remove(this);
   hide_progress();
   log_info("  " + label_ + formatted(": %.2f s", seconds_since(start_)));
 }
@@ -112,14 +186,20 @@ void Progress::step(const std::string& name, double done) {
   show(done, true);
 }
 
+void Progress::beat() {
+  const std::lock_guard lock(mutex_);
+  const double so_far = seconds_since(start_), share = total_ > 0 ? done_ / total_ : 1;
+  pace_.note(so_far, share);
+  write_line(progress_text(label_ + step_, done_, total_, "", 0) + ", " + duration(so_far) + " so far");
+}
+
 void Progress::show(double done, bool is_new_step) {
   done_ = done;
   const double so_far = seconds_since(start_);
   const std::string text = progress_text(label_ + step_, done, total_, unit_, so_far);
   if (sink_ == ProgressSink::kLog) {
     const bool is_due = pace_.is_due(so_far, total_ > 0 ? done / total_ : 1);
-    if (is_due || (is_new_step && seconds_since(first_work()) >= kLogSeconds))
-      std::fprintf(stderr, "%s\n", text.c_str());
+    if (is_due || (is_new_step && seconds_since(first_work()) >= log_seconds())) write_line(text);
     return;
   }
   const auto now = std::chrono::steady_clock::now();

@@ -23,15 +23,22 @@ std::string progress_text(const std::string& label, double done, double total, c
 /// whichever comes first.
 class LogPace {
  public:
+  explicit LogPace(double period_seconds = 10) : period_(period_seconds) {}
   /// `seconds` since the beginning, `share` done, 0 to 1. True: write a line now.
   bool is_due(double seconds, double share);
+  /// A line was written now.
+  void note(double seconds, double share);
 
  private:
-  double last_seconds_ = 0, last_share_ = 0;
+  double period_, last_seconds_ = 0, last_share_ = 0;
 };
 
+class Heartbeat;
+
 /// One piece of work. Shows nothing when quiet; says how long it took when verbose. On MPI runs only the first rank's
-/// shows.
+/// shows. In a log a step that tells nothing itself gets a line every 10 s, from 10 s after the first piece of work on:
+/// "importing: sewing 40 %, 12 s so far". A thread writes it; see run_in_child() for processes that fork then.
+/// ST_PROGRESS_SECONDS in the environment replaces the 10 s everywhere.
 class Progress {
  public:
   /// `total` in units of `unit` (a plural, as in "triangles"; empty: shares alone are meaningful).
@@ -49,7 +56,10 @@ class Progress {
   void step(const std::string& name, double done);
 
  private:
+  friend class Heartbeat;
   void show(double done, bool is_new_step);
+  /// Says in a log what is being done.
+  void beat();
 
   std::string label_, step_, unit_;
   double total_, done_ = 0;

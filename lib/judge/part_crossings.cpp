@@ -1,23 +1,38 @@
 #include "judge/part_crossings.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
 namespace st {
 namespace {
 
+/// Pairs of faces of two parts whose boxes meet.
+struct NearParts {
+  std::vector<std::pair<FaceId, FaceId>> faces;
+  std::size_t n_compared = 0, n_found = 0;
+
+  bool is_done() const { return n_compared == faces.size() || n_found == kMaxCrossings; }
+};
+
+/// By the numbers of the parts.
+using AllNearParts = std::map<std::pair<std::int32_t, std::int32_t>, NearParts>;
+
 bool overlap(const Box3& a, const Box3& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
 }
 
-std::vector<std::pair<FaceId, FaceId>> near_pairs(const ModelTables& t, std::span<const std::int32_t> placement) {
-  std::vector<std::pair<FaceId, FaceId>> pairs;
+AllNearParts near_parts(const ModelTables& t, const FaceParts& parts) {
+  AllNearParts all;
   for (FaceId a = 0; a < t.n_faces(); ++a)
-    for (FaceId b = a + 1; b < t.n_faces(); ++b)
-      if (placement[a] != placement[b] && overlap(t.face_box[a], t.face_box[b])) pairs.emplace_back(a, b);
-  return pairs;
+    for (FaceId b = a + 1; b < t.n_faces(); ++b) {
+      if (parts.placement[a] == parts.placement[b] || !overlap(t.face_box[a], t.face_box[b])) continue;
+      const std::pair<std::int32_t, std::int32_t> numbers = std::minmax(parts.part[a], parts.part[b]);
+      if (!parts.left_out.contains(numbers)) all[numbers].faces.emplace_back(a, b);
+    }
+  return all;
 }
 
 std::optional<PartCrossing> crossing_of(const Model& model, FaceId a, FaceId b) {
@@ -32,15 +47,28 @@ std::optional<PartCrossing> crossing_of(const Model& model, FaceId a, FaceId b) 
 
 }  // namespace
 
-PartCrossings find_part_crossings(const Model& model, std::span<const std::int32_t> placement) {
+PartCrossings find_part_crossings(const Model& model, const FaceParts& parts) {
   PartCrossings result;
-  const std::vector<std::pair<FaceId, FaceId>> pairs = near_pairs(model.tables(), placement);
-  result.n_near = pairs.size();
-  for (const auto& [a, b] : pairs) {
-    if (result.n_compared == kMaxComparedPairs || result.found.size() == kMaxCrossings) break;
-    ++result.n_compared;
-    if (const auto crossing = crossing_of(model, a, b)) result.found.push_back(*crossing);
+  AllNearParts all = near_parts(model.tables(), parts);
+  std::size_t n_compared = 0;
+  for (bool goes_on = true; goes_on && n_compared < kMaxComparedPairs;) {
+    goes_on = false;
+    for (auto& [numbers, near] : all) {
+      if (near.is_done() || n_compared == kMaxComparedPairs) continue;
+      goes_on = true;
+      ++n_compared;
+      const auto [a, b] = near.faces[near.n_compared++];
+      if (const auto crossing = crossing_of(model, a, b)) {
+        result.found.push_back(*crossing);
+        ++near.n_found;
+      }
+    }
   }
+  for (const auto& [numbers, near] : all)
+    if (!near.is_done()) result.n_left += near.faces.size() - near.n_compared;
+  std::sort(result.found.begin(), result.found.end(), [](const PartCrossing& a, const PartCrossing& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
   return result;
 }
 

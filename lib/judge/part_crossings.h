@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "geometry/model/model.h"
@@ -16,16 +17,21 @@ struct PartCrossing {
 };
 
 struct PartCrossings {
-  std::vector<PartCrossing> found;  ///< by faces; the first kMaxCrossings
-  std::size_t n_near = 0;           ///< pairs of faces whose boxes meet
-  std::size_t n_compared = 0;       ///< of these
+  std::vector<PartCrossing> found;  ///< by faces; of two parts the first kMaxCrossings
+  std::size_t n_left = 0;           ///< pairs of faces whose boxes meet that were not compared, of other parts
 };
 
 inline constexpr std::size_t kMaxCrossings = 10, kMaxComparedPairs = 300;  // milliseconds to a second each
 
-/// Faces of different placement that pass through each other (not: touch, or end on each other). `placement`,
-/// [n_faces]: faces of equal numbers came and moved together. Pairs are compared in the order of their ids until one of
-/// the limits above.
-PartCrossings find_part_crossings(const Model& model, std::span<const std::int32_t> placement);
+/// Which faces belong together.
+struct FaceParts {
+  std::vector<std::int32_t> placement;  ///< [n_faces] equal for faces that came and moved together
+  std::vector<std::int32_t> part;       ///< [n_faces] equal for those of one body of one placement
+  std::set<std::pair<std::int32_t, std::int32_t>> left_out = {};  ///< of parts that are not compared, the smaller first
+};
+
+/// Faces of different placement that pass through each other (not: touch, or end on each other). Pairs of parts take
+/// turns, each in the order of its faces, so that each gets its share of kMaxComparedPairs.
+PartCrossings find_part_crossings(const Model& model, const FaceParts& parts);
 
 }  // namespace st

@@ -16,7 +16,11 @@ std::string text_of(const char* format, double value) {
 }
 
 std::string memory_text(double n_cells) {
-  return text_of("%.3g GB of memory per rank", 1e-9 * kRasterBytesPerCell * n_cells);
+  const double bytes = kRasterBytesPerCell * n_cells;
+  const char* format = bytes >= 1e9   ? "%.3g GB of memory per rank"
+                       : bytes >= 1e6 ? "%.3g MB of memory per rank"
+                                      : "%.3g kB of memory per rank";
+  return text_of(format, bytes / (bytes >= 1e9 ? 1e9 : bytes >= 1e6 ? 1e6 : 1e3));
 }
 
 double deepest_cell(const Box3& box) {
@@ -30,14 +34,15 @@ double deepest_cell(const Box3& box) {
 
 void require_cells(double n_cells, std::uint64_t max_cells) {
   if (n_cells > static_cast<double>(max_cells))
-    throw TooManyCells("the octree needs at least " + text_of("%.3g", n_cells) + " cells (" + memory_text(n_cells) +
-                       "), and at most " + std::to_string(max_cells) + " are allowed; " + kRemedy);
+    throw TooManyCells("the octree needs at least " + text_of(n_cells < 1e6 ? "%.0f" : "%.3g", std::ceil(n_cells)) +
+                       " cells (" + memory_text(n_cells) + "), and at most " + std::to_string(max_cells) +
+                       " are allowed; " + kRemedy);
 }
 
 void require_samples(std::uint64_t n_samples, std::uint64_t max_samples) {
   if (n_samples > max_samples)
     throw TooManyCells("sampling makes more than " + std::to_string(max_samples) +
-                       " samples, which take the memory of the cells that are allowed; " + kRemedy);
+                       " samples, which is what the cells that are allowed have room for; " + kRemedy);
 }
 
 double least_cells(const ModelTables& tables, const ModelLimits& limits) {

@@ -1,13 +1,11 @@
 #include "sizing/size_rules.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/text.h"
 
 namespace st {
 namespace {
@@ -20,48 +18,44 @@ std::string text_of(const Parts&... parts) {
   return text.str();
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
-  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
-
 [[noreturn]] void fail(const SizeRule& rule, const std::string& what) {
   throw Error(ExitCode::kUsage, text_of(rule.where, ": ", what, "; st-info geometry.hdf --groups lists names"));
 }
 
-/// A 1-based id as text; nullopt: a name.
-std::optional<std::int64_t> as_id(const std::string& text) {
-  std::int64_t id = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(id) : std::nullopt;
-}
+using Mask = std::vector<std::uint8_t>;
 
 /// What an item of a rule may name, besides numbers.
 struct Named {
   const char* key;
   const std::vector<std::string>& names;  ///< of each entity
   const std::vector<EntityGroup>& groups;
+
+  /// For "did you mean".
+  std::vector<std::string> all_names() const {
+    std::vector<std::string> all = names;
+    for (const EntityGroup& g : groups) all.push_back(g.name);
+    return all;
+  }
 };
 
-/// Ids of entities named by number or pattern.
-std::vector<std::int32_t> select(const SizeRule& rule, const std::vector<std::string>& wanted, const Named& all) {
-  const std::size_t n = all.names.size();
-  std::vector<std::int32_t> result;
+/// Entities that any item names, by number, range or pattern.
+Mask select(const SizeRule& rule, const std::vector<std::string>& wanted, const Named& all) {
+  const auto n = static_cast<std::int64_t>(all.names.size());
+  Mask chosen(all.names.size(), 0);
   for (const std::string& item : wanted) {
-    const std::size_t n_before = result.size();
-    if (const auto id = as_id(item)) {
-      if (*id < 1 || *id > static_cast<std::int64_t>(n))
-        fail(rule, text_of(all.key, ": ", *id, " does not exist, there are ", n));
-      result.push_back(static_cast<std::int32_t>(*id - 1));
-    } else {
-      for (std::size_t i = 0; i < n; ++i)
-        if (!all.names[i].empty() && matches(item, all.names[i])) result.push_back(static_cast<std::int32_t>(i));
-      const std::vector<std::int32_t> members = find_members(item, all.groups);
-      result.insert(result.end(), members.begin(), members.end());
+    if (const auto range = as_range(item)) {
+      if (range->first < 1 || range->second > n || range->first > range->second)
+        fail(rule, text_of(all.key, ": ", item, " does not exist, there are ", n));
+      std::fill(chosen.begin() + (range->first - 1), chosen.begin() + range->second, 1);
+      continue;
     }
-    if (result.size() == n_before)
-      fail(rule, text_of(all.key, ": '", item, "' matches nothing", did_you_mean(item, all.names)));
+    bool is_used = false;
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (name_matches(item, all.names[i])) chosen[i] = is_used = true;
+    for (const std::int32_t member : find_members(item, all.groups)) chosen[member] = is_used = true;
+    if (!is_used) fail(rule, text_of(all.key, ": '", item, "' matches nothing", did_you_mean(item, all.all_names())));
   }
-  return result;
+  return chosen;
 }
 
 /// [n_faces] 1 where the face's group matches.
@@ -73,43 +67,83 @@ std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key,
   return is_in;
 }
 
-std::vector<EdgeId> edges_between(const SizeRule& rule, const ModelTables& t) {
+Mask edges_between(const SizeRule& rule, const ModelTables& t) {
   const auto a = faces_of_groups(rule, "between", rule.between[0], t),
              b = faces_of_groups(rule, "between", rule.between[1], t);
-  std::vector<EdgeId> result = st::edges_between(a, b, t);
-  if (result.empty())
+  const std::vector<EdgeId> edges = st::edges_between(a, b, t);
+  if (edges.empty())
     fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));
-  return result;
+  Mask chosen(t.n_edges(), 0);
+  for (const EdgeId e : edges) chosen[e] = 1;
+  return chosen;
 }
 
-/// What the groups of a name hold: faces, edges and vertices, of parts faces.
-void add_groups(const SizeRule& rule, const ModelTables& t, RuleTargets& targets) {
+/// What the groups of the names hold: faces, edges and vertices, of parts faces.
+struct GroupMembers {
+  Mask faces, edges, vertices;
+};
+
+GroupMembers members_of_groups(const SizeRule& rule, const ModelTables& t) {
+  GroupMembers all{Mask(t.n_faces(), 0), Mask(t.n_edges(), 0), Mask(t.n_vertices(), 0)};
   for (const std::string& pattern : rule.groups) {
     const std::vector<EdgeId> edges = find_members(pattern, t.labels.edge_groups);
     const std::vector<VertexId> vertices = find_members(pattern, t.labels.vertex_groups);
-    targets.edges.insert(targets.edges.end(), edges.begin(), edges.end());
-    targets.vertices.insert(targets.vertices.end(), vertices.begin(), vertices.end());
-    const std::vector<std::uint8_t> is_in = find_faces(pattern, t.labels);
+    for (const EdgeId e : edges) all.edges[e] = 1;
+    for (const VertexId v : vertices) all.vertices[v] = 1;
+    const Mask is_in = find_faces(pattern, t.labels);
     if (is_in.empty() && edges.empty() && vertices.empty())
       fail(rule, text_of("groups: no group or part matches '", pattern, "'", say_other_kind(pattern, t.labels)));
-    for (std::size_t f = 0; f < is_in.size(); ++f)
-      if (is_in[f]) targets.faces.push_back(static_cast<FaceId>(f));
+    for (std::size_t f = 0; f < is_in.size(); ++f) all.faces[f] |= is_in[f];
   }
+  return all;
 }
 
-std::vector<EdgeId> detected_edges(const SizeRule& rule, std::span<const WingEdge> wing_edges) {
-  std::vector<EdgeId> result;
+Mask detected_edges(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
+  Mask chosen(t.n_edges(), 0);
+  bool is_any = false;
   for (const WingEdge& w : wing_edges)
-    if (std::find(rule.detected.begin(), rule.detected.end(), w.kind) != rule.detected.end()) result.push_back(w.edge);
-  if (result.empty())
+    if (std::find(rule.detected.begin(), rule.detected.end(), w.kind) != rule.detected.end())
+      chosen[w.edge] = is_any = true;
+  if (!is_any)
     fail(rule,
          text_of("no ", name_of(rule.detected.front()), " found; st-import --check lists what is, or name the edges"));
-  return result;
+  return chosen;
 }
 
-void sort_unique(std::vector<std::int32_t>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+void keep(const Mask& wanted, Mask& chosen) {
+  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] && wanted[i];
+}
+
+void add_edges_of(const Mask& faces, const ModelTables& t, Mask& edges) {
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (faces[f])
+      for (const EdgeId e : t.edges_of(f)) edges[e] = 1;
+}
+
+std::vector<std::int32_t> ids_of(const Mask& chosen) {
+  std::vector<std::int32_t> ids;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (chosen[i]) ids.push_back(static_cast<std::int32_t>(i));
+  return ids;
+}
+
+/// Edges that meet every key, where one of them is of edges: keys of faces stand for the edges of these.
+Mask edges_of_all_keys(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
+  Mask chosen(t.n_edges(), 1);
+  if (!rule.edges.empty()) keep(select(rule, rule.edges, {"edges", t.edge_name, t.labels.edge_groups}), chosen);
+  if (!rule.between.empty()) keep(edges_between(rule, t), chosen);
+  if (!rule.detected.empty()) keep(detected_edges(rule, t, wing_edges), chosen);
+  if (!rule.faces.empty()) {
+    Mask of_faces(t.n_edges(), 0);
+    add_edges_of(select(rule, rule.faces, {"faces", t.labels.face_name, {}}), t, of_faces);
+    keep(of_faces, chosen);
+  }
+  if (!rule.groups.empty()) {
+    GroupMembers members = members_of_groups(rule, t);
+    add_edges_of(members.faces, t, members.edges);
+    keep(members.edges, chosen);
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -125,20 +159,20 @@ bool add_detected(const std::string& word, SizeRule& rule) {
 
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
   RuleTargets targets;
-  targets.faces = select(rule, rule.faces, {"faces", t.labels.face_name, {}});
-  targets.edges = select(rule, rule.edges, {"edges", t.edge_name, t.labels.edge_groups});
-  add_groups(rule, t, targets);
-  if (!rule.between.empty()) {
-    const std::vector<EdgeId> between = edges_between(rule, t);
-    targets.edges.insert(targets.edges.end(), between.begin(), between.end());
+  if (!rule.has_selection()) return targets;
+  if (rule.selects_edges()) {
+    targets.edges = ids_of(edges_of_all_keys(rule, t, wing_edges));
+  } else if (rule.faces.empty()) {
+    const GroupMembers members = members_of_groups(rule, t);
+    targets = {ids_of(members.faces), ids_of(members.edges), ids_of(members.vertices)};
+  } else {
+    Mask faces = select(rule, rule.faces, {"faces", t.labels.face_name, {}});
+    if (!rule.groups.empty()) keep(members_of_groups(rule, t).faces, faces);
+    targets.faces = ids_of(faces);
   }
-  if (!rule.detected.empty()) {
-    const std::vector<EdgeId> detected = detected_edges(rule, wing_edges);
-    targets.edges.insert(targets.edges.end(), detected.begin(), detected.end());
-  }
-  sort_unique(targets.faces);
-  sort_unique(targets.edges);
-  sort_unique(targets.vertices);
+  if (targets.faces.empty() && targets.edges.empty() && targets.vertices.empty())
+    fail(rule,
+         rule.selects_edges() ? "no edge meets all keys of its selection" : "no face meets all keys of its selection");
   return targets;
 }
 

@@ -13,12 +13,14 @@
 
 namespace st {
 
-/// One rule. A rule without selection speaks of the whole model; one with several selections of all that any of them
-/// meets.
+/// One rule. A rule without selection speaks of the whole model. What it selects meets every kind of selection that is
+/// given, of each kind any item, as with GroupRule. With edges, between or detected these are edges: faces and groups
+/// of faces then stand for the edges of their faces.
 struct SizeRule {
   std::string where;                ///< for messages: "sizes.toml:12"
   std::vector<std::string> groups;  ///< glob patterns on names of groups of faces, edges or vertices, and of parts
-  std::vector<std::string> faces, edges;  ///< 1-based ids, or glob patterns on names; of edges also of their groups
+  std::vector<std::string> faces, edges;  ///< 1-based ids "17", ranges "17-20", or glob patterns on names; of edges
+                                          ///< also of their groups
   std::vector<std::string> between;  ///< two glob patterns: the edges between a face of a group of the first and one of
                                      ///< the second
   std::vector<WingEdgeKind> detected;  ///< edges that detection gives these kinds
@@ -31,9 +33,8 @@ struct SizeRule {
   std::optional<int> gap_cells, wall_cells, edge_cells;
   std::optional<double> max_aspect;  ///< edges that are named are stretched along themselves
 
-  bool has_selection() const {
-    return !(groups.empty() && faces.empty() && edges.empty() && between.empty() && detected.empty());
-  }
+  bool has_selection() const { return !groups.empty() || !faces.empty() || selects_edges(); }
+  bool selects_edges() const { return !edges.empty() || !between.empty() || !detected.empty(); }
 };
 
 /// Adds the kinds of edges that "trailing" or "leading" mean to the rule; false: another word.
@@ -42,7 +43,7 @@ bool add_detected(const std::string& word, SizeRule& rule);
 /// What a rule selects; ids ascending.
 struct RuleTargets {
   std::vector<FaceId> faces;
-  std::vector<EdgeId> edges;  ///< named as edges, not as edges of faces
+  std::vector<EdgeId> edges;  ///< selected as edges, not as edges of faces
   std::vector<VertexId> vertices;
 };
 

@@ -249,6 +249,51 @@ class TetSource final : public SizeSource {
 
 int n_spacings(SourceKind kind) { return kind == SourceKind::kLine ? 2 : kind == SourceKind::kTriangle ? 3 : 1; }
 
+bool simplify(SourceSpec& source) {
+  constexpr double kFlat = 1e-12;  // of the largest coordinate, of the longest side
+  const int n = n_spacings(source.kind);
+  if (n == 1) return false;
+  const auto& p = source.point;
+  double extent = 0, longest = 0;
+  int from = 0, to = 0;  // the two points farthest apart
+  for (int i = 0; i < n; ++i) {
+    extent = std::max({extent, std::abs(p[i].x), std::abs(p[i].y), std::abs(p[i].z)});
+    for (int k = 0; k < i; ++k)
+      if (const double d = distance(p[i], p[k]); d > longest) longest = d, from = k, to = i;
+  }
+  if (longest <= kFlat * extent) {
+    for (int k = 1; k < n; ++k)
+      if (source.spacing[k].length < source.spacing[0].length) source.spacing[0] = source.spacing[k];
+    source.kind = SourceKind::kPoint;
+    return true;
+  }
+  if (n == 2 || norm(cross(p[1] - p[0], p[2] - p[0])) > kFlat * longest * longest) return false;
+  source.point = {p[from], p[to], {}};
+  source.spacing = {source.spacing[from], source.spacing[to], {}};
+  source.kind = SourceKind::kLine;
+  return true;
+}
+
+Box3 core_box(const SourceSpec& source) {
+  Box3 box;
+  const auto add = [&](Vec3 x, double radius) {
+    box.add(x - Vec3{radius, radius, radius});
+    box.add(x + Vec3{radius, radius, radius});
+  };
+  if (source.kind == SourceKind::kBox) {
+    for (int corner = 0; corner < 8; ++corner) {
+      Vec3 x = source.point[0];
+      for (int k = 0; k < 3; ++k) x = x + (corner >> k & 1 ? 1.0 : -1.0) * source.half_axis[k];
+      add(x, source.spacing[0].radius);
+    }
+    return box;
+  }
+  const int n = source.kind == SourceKind::kCylinder ? 2 : n_spacings(source.kind);
+  for (int k = 0; k < n; ++k)
+    add(source.point[k], source.extent + source.spacing[n_spacings(source.kind) == 1 ? 0 : k].radius);
+  return box;
+}
+
 void transform(const Similarity& motion, SourceSpec& source) {
   for (Vec3& p : source.point) p = motion(p);
   for (Vec3& a : source.half_axis) a = motion.scale * motion.rotated(a);

@@ -60,6 +60,13 @@ struct SourceSpec {
 /// Points of a line or triangle, 1 for the rest.
 int n_spacings(SourceKind kind);
 
+/// A line whose ends are one point becomes a point, a triangle whose corners lie on a line a line (or a point), with
+/// the spacings of those ends; of several spacings at one place the one of the smallest length. False: it is neither.
+bool simplify(SourceSpec& source);
+
+/// A box around where the length is constant: points and volumes with their radii.
+Box3 core_box(const SourceSpec& source);
+
 /// Positions and directions are moved; lengths, radii and extents are scaled.
 void transform(const Similarity& motion, SourceSpec& source);
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -24,6 +26,10 @@ BlankSide parse_side(const std::string& side, const SurfaceMesh& mesh) {
         "farfield")
       return BlankSide::kOutside;
   return BlankSide::kInside;
+}
+
+bool holds(const Box3& box, Vec3 x) {
+  return x.x >= box.lo.x && x.y >= box.lo.y && x.z >= box.lo.z && x.x <= box.hi.x && x.y <= box.hi.y && x.z <= box.hi.z;
 }
 
 std::string places(const Defects& defects) {
@@ -87,6 +93,29 @@ BlankInput read_blank(const std::string& path, const std::string& side) {
   require_closed(path, input.mesh);
   input.side = parse_side(side, input.mesh);
   return input;
+}
+
+double share_near(std::span<const Vec3> points, const OctreeView& octree, std::span<const std::int32_t> leaves) {
+  std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(octree.n_leaves()), 0);
+  for (const std::int32_t leaf : leaves) is_wanted[leaf] = 1;
+  const Box3 root = [&] {
+    Box3 box;
+    box.add(octree.lo);
+    box.add(octree.lo + octree.edge * Vec3{1, 1, 1});
+    return box;
+  }();
+  const auto leaf_at = [&](Vec3 x) { return octree.find_leaf(morton::encode(octree.grid_point(x))); };
+  const auto is_near = [&](Vec3 x) {
+    if (!holds(root, x)) return false;
+    const double step = 0.1 * octree.cell_edge(octree.leaf_levels[leaf_at(x)]);
+    for (const double dx : {0.0, -step, step})
+      for (const double dy : {0.0, -step, step})
+        for (const double dz : {0.0, -step, step})
+          if (is_wanted[leaf_at(x + Vec3{dx, dy, dz})]) return true;
+    return false;
+  };
+  const auto n_near = std::count_if(points.begin(), points.end(), is_near);
+  return points.empty() ? 0 : static_cast<double>(n_near) / static_cast<double>(points.size());
 }
 
 void transform(const Similarity& motion, SurfaceMesh& mesh) {

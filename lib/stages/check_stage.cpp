@@ -14,6 +14,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/required_unit.h"
 #include "base/threads.h"
 #include "geometry/model/cad_tolerance.h"
 #include "io/file/text_file.h"
@@ -23,6 +24,7 @@
 #include "judge/cad_contacts.h"
 #include "judge/walls_apart.h"
 #include "stages/check_report.h"
+#include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
 #include "stages/stored_model.h"
 
@@ -524,6 +526,9 @@ StageSummary run_check(const CheckStageOptions& options) {
   const Timer timer;
   Progress progress("checking", 1);
   progress.step("reading", 0);
+  require_fitting({{options.mesh, "mesh"}, {options.geometry, "geometry"}, {options.sizing, "sizing"}});
+  if (const std::string& bound = options.thresholds.max_deviation; !bound.empty())
+    require_unit(parse_length(bound, "--max-deviation"), read_header(options.geometry).unit_in_m, "--max-deviation");
   std::unique_ptr<CadSide> cad;
   const MeshArtifact artifact = read_checked_mesh(options, cad);
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);

@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/log.h"
+#include "base/near_face_name.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "io/file/json_text.h"
@@ -40,11 +42,9 @@ void select_item(const std::string& item, const ModelTables& t, const std::strin
   }
   const std::vector<std::uint8_t> named = faces_named(item, t);
   if (named.empty()) {
-    std::string meant = say_other_kind(item, t.labels);
-    if (meant.empty()) meant = did_you_mean(item, t.labels.face_name);
     throw Error(ExitCode::kUsage,
                 fmt::format("{} '{}': no group, part or face has this name{}; st-info --groups lists them", option,
-                            item, meant));
+                            item, say_other_name(item, t.labels)));
   }
   for (std::size_t f = 0; f < named.size(); ++f) chosen[f] |= named[f];
 }
@@ -177,6 +177,30 @@ void label_input(const std::string& name, ModelTables& t) {
   table->group_role.push_back("wall");
   table->group_attributes.push_back("{}");
   std::replace(table->face_group.begin(), table->face_group.end(), kNone, group);
+}
+
+void require_join_names(const std::vector<std::string>& join, const std::vector<GeometryArtifact>& inputs) {
+  for (const std::string& item : join) {
+    std::vector<std::string> all;
+    int n_inputs = 0;
+    for (const GeometryArtifact& input : inputs) {
+      bool has_it = false;
+      for (const std::string& table : table_names(input.tables.labels))
+        for (const auto& [name, kind] : groups_of(table, input.tables)) {
+          all.push_back(name);
+          has_it = has_it || name_matches(item, name);
+        }
+      n_inputs += has_it;
+    }
+    const bool is_pattern = item.find_first_of("*?[") != std::string::npos;
+    if (n_inputs == 0 && !is_pattern)
+      throw Error(ExitCode::kUsage, fmt::format("--join '{}': no group of the inputs has this name{}; st-info --groups "
+                                                "lists them",
+                                                item, did_you_mean(item, all)));
+    if (n_inputs < 2)
+      log_warning(fmt::format("--join '{}': {} input has such a group; nothing is joined", item,
+                              n_inputs == 0 ? "no" : "only one"));
+  }
 }
 
 void keep_names_apart(const ModelTables& first, const std::string& name, const std::vector<std::string>& join,

@@ -31,6 +31,10 @@ inline constexpr const char* kInputTable = "input";
 /// Puts all faces that are in no group of the table `input` into one of this name.
 void label_input(const std::string& name, ModelTables& tables);
 
+/// Names of --join that a group of no input has are refused: throws Error(kUsage) with the nearest name. Patterns that
+/// match none, and what only one input has, are warned of.
+void require_join_names(const std::vector<std::string>& join, const std::vector<GeometryArtifact>& inputs);
+
 /// Before `second` is appended to `first`: groups and paths of parts that `first` has, too, get `name` and '/' in
 /// front, but for groups whose names `join` matches. Throws Error(kMismatch) for such a group of other entities or with
 /// another role in `first`.

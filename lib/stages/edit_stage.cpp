@@ -8,11 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/log.h"
+#include "base/progress.h"
 #include "base/similarity.h"
 #include "geometry/import/import.h"
+#include "geometry/model/bodies.h"
 #include "geometry/model/edit_model.h"
 #include "geometry/model/model_state.h"
 #include "geometry/model/unused_labels.h"
@@ -20,6 +23,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "judge/part_crossings.h"
+#include "judge/same_place.h"
 #include "stages/edit_names.h"
 #include "stages/edit_provenance.h"
 #include "stages/edit_trace.h"
@@ -58,7 +62,9 @@ struct EditResult {
   EdgeUses uses;
   bool is_closed = false;
   PartCrossings crossings;
-  std::vector<std::string> faults;  ///< in words
+  SamePlaces same;
+  std::vector<std::string> faults;    ///< in words; errors with --require-valid
+  std::vector<std::string> warnings;  ///< likewise, but no errors
 };
 
 std::vector<FaceId> all_faces(std::int32_t n) {
@@ -93,6 +99,7 @@ Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
   for (const std::string& path : o.geometries) artifacts.push_back(read_geometry(path));
   inputs.names = input_names(o.as, o.geometries, artifacts);
   const std::vector<std::string> join = split_names(o.join);
+  require_join_names(join, artifacts);
   EditTrace trace;
   std::optional<Model> all;
   std::vector<std::vector<int>> placement;
@@ -201,12 +208,68 @@ std::vector<std::int32_t> placement_numbers(const std::vector<std::vector<int>>&
   return numbers;
 }
 
-std::string describe(const ModelTables& t, const PartCrossings& crossings) {
-  const PartCrossing& c = crossings.found.front();
-  return fmt::format(
-      "parts cross: {} passes through {} at ({:.6g}, {:.6g}, {:.6g}){}", t.face_label(c.first), t.face_label(c.second),
-      c.xyz.x, c.xyz.y, c.xyz.z,
-      crossings.found.size() > 1 ? fmt::format(", and {} more pairs of faces", crossings.found.size() - 1) : "");
+/// [n_faces] equal for faces of one body that came and moved together.
+std::vector<std::int32_t> parts_of(const Edited& e) {
+  std::map<std::pair<std::vector<int>, std::int32_t>, std::int32_t> number;
+  const std::vector<std::int32_t> body = bodies_of(e.tables());
+  std::vector<std::int32_t> parts;
+  for (std::size_t f = 0; f < body.size(); ++f)
+    parts.push_back(
+        number.emplace(std::pair(e.placement[f], body[f]), static_cast<std::int32_t>(number.size())).first->second);
+  return parts;
+}
+
+/// A face with the input that it is of: "face 17 of engine".
+std::string label_of(const Edited& e, const EditInputs& inputs, FaceId f) {
+  const std::string label = e.tables().face_label(f);
+  return inputs.names.size() > 1 ? fmt::format("{} of {}", label, inputs.names[e.placement[f].front()]) : label;
+}
+
+/// Pairs in words, the first kPairsNamed.
+std::string list_of(const std::vector<std::string>& pairs) {
+  constexpr std::size_t kPairsNamed = 20;
+  const std::size_t n = std::min(pairs.size(), kPairsNamed);
+  return fmt::format("{}{}", fmt::join(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(n), "; "),
+                     pairs.size() > n ? fmt::format("; and {} more pairs", pairs.size() - n) : "");
+}
+
+/// All pairs of parts that cross, with a place each.
+std::string describe_crossings(const Edited& e, const EditInputs& inputs, const PartCrossings& crossings) {
+  std::vector<std::string> pairs;
+  std::set<std::pair<std::int32_t, std::int32_t>> known;
+  const std::vector<std::int32_t> part = parts_of(e);
+  for (const PartCrossing& c : crossings.found)
+    if (known.insert(std::minmax(part[c.first], part[c.second])).second)
+      pairs.push_back(fmt::format("{} passes through {} at ({:.6g}, {:.6g}, {:.6g})", label_of(e, inputs, c.first),
+                                  label_of(e, inputs, c.second), c.xyz.x, c.xyz.y, c.xyz.z));
+  const std::size_t n_more = crossings.found.size() - pairs.size();
+  return fmt::format("parts cross: {}{}", list_of(pairs),
+                     n_more > 0 ? fmt::format("; and {} more pairs of faces", n_more) : "");
+}
+
+/// Bodies that are there twice; of faces that are only those of no such body.
+void describe_same_places(const Edited& e, const EditInputs& inputs, EditResult& r) {
+  std::vector<std::string> bodies, faces;
+  std::set<std::pair<std::int32_t, std::int32_t>> known;
+  const std::vector<std::int32_t> part = parts_of(e);
+  for (const auto& [a, b] : r.same.bodies) {
+    known.insert(std::minmax(part[a], part[b]));
+    bodies.push_back(
+        fmt::format("that of {} is at the place of that of {}", label_of(e, inputs, b), label_of(e, inputs, a)));
+  }
+  for (const auto& [a, b] : r.same.faces)
+    if (!known.contains(std::minmax(part[a], part[b])))
+      faces.push_back(fmt::format("{} and {}", label_of(e, inputs, a), label_of(e, inputs, b)));
+  if (!bodies.empty())
+    r.faults.push_back(
+        fmt::format("bodies that are there twice: {}; their meshes would lie on each other: leave one out "
+                    "(--remove), or move it (--transform)",
+                    list_of(bodies)));
+  if (!faces.empty())
+    r.warnings.push_back(
+        fmt::format("faces lie on each other and would be meshed twice: {}; leave one of each out "
+                    "(--remove) where the parts are to be one",
+                    list_of(faces)));
 }
 
 EditResult judge(const Edited& e, const EditInputs& inputs) {
@@ -225,8 +288,12 @@ EditResult judge(const Edited& e, const EditInputs& inputs) {
     r.tables.volume = enclosed_volume(e.model);
   if (!r.is_closed && inputs.are_closed)
     r.faults.push_back(fmt::format("open where it was closed: {} free edges", r.uses.n_free));
-  r.crossings = find_part_crossings(e.model, placement_numbers(e.placement));
-  if (!r.crossings.found.empty()) r.faults.push_back(describe(r.tables, r.crossings));
+  FaceParts parts{placement_numbers(e.placement), parts_of(e)};
+  r.same = find_same_places(e.model, parts.placement);
+  for (const auto& [a, b] : r.same.bodies) parts.left_out.insert(std::minmax(parts.part[a], parts.part[b]));
+  describe_same_places(e, inputs, r);
+  r.crossings = find_part_crossings(e.model, parts);
+  if (!r.crossings.found.empty()) r.faults.push_back(describe_crossings(e, inputs, r.crossings));
   return r;
 }
 
@@ -237,12 +304,13 @@ void say(const EditStageOptions& o, const EditResult& r) {
                                                  o.output, r.uses.n_free));
   if (o.require_valid && !r.faults.empty())
     throw Error(ExitCode::kGeometry, fmt::format("{}: {}; nothing written", o.output, fmt::join(r.faults, "; ")));
-  for (const std::string& fault : r.faults) log_warning(fmt::format("{}: {}", o.output, fault));
+  for (const std::vector<std::string>* all : {&r.faults, &r.warnings})
+    for (const std::string& text : *all) log_warning(fmt::format("{}: {}", o.output, text));
   const PartCrossings& c = r.crossings;
-  if (c.n_compared < c.n_near && c.found.size() < kMaxCrossings)
-    log_warning(fmt::format(
-        "{}: {} of {} pairs of close faces were not examined for crossings; st-check finds crossings in the mesh",
-        o.output, c.n_near - c.n_compared, c.n_near));
+  if (c.n_left > 0)
+    log_warning(
+        fmt::format("{}: {} pairs of close faces were not examined for crossings; st-check finds crossings in the mesh",
+                    o.output, c.n_left));
 }
 
 std::vector<ImportFinding> findings_of(const Edited& e, const EditInputs& inputs, const EditResult& r) {
@@ -251,6 +319,11 @@ std::vector<ImportFinding> findings_of(const Edited& e, const EditInputs& inputs
   for (const PartCrossing& c : r.crossings.found)
     for (const FaceId f : {c.first, c.second})
       findings.push_back({FindingKind::kCrossingPart, r.tables.face_label(f), c.xyz, c.size, false});
+  for (const auto& [a, b] : r.same.faces) {
+    const Box3& box = r.tables.face_box[b];
+    findings.push_back({FindingKind::kOther, r.tables.face_label(b), box.center(), box.diagonal(), false,
+                        fmt::format("face at the place of one of another part: {}", r.tables.face_label(a))});
+  }
   return findings;
 }
 
@@ -279,6 +352,12 @@ nlohmann::ordered_json inputs_json(const EditInputs& inputs, const EditTrace& tr
                     {"hash", inputs.files[i].hash},
                     {"faces", std::count_if(trace.faces.begin(), trace.faces.end(), is_of)}});
   }
+  return list;
+}
+
+nlohmann::ordered_json pairs_json(const std::vector<std::pair<FaceId, FaceId>>& pairs) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [a, b] : pairs) list.push_back({a + 1, b + 1});
   return list;
 }
 
@@ -314,7 +393,9 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
       {"free_edges", r.uses.n_free},
       {"nonmanifold_edges", r.uses.n_nonmanifold},
       {"crossings", crossings_json(r)},
-      {"pairs_not_compared", r.crossings.n_near - r.crossings.n_compared},
+      {"same_bodies", pairs_json(r.same.bodies)},
+      {"same_faces", pairs_json(r.same.faces)},
+      {"pairs_not_compared", r.crossings.n_left},
       {"area", area},
       {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
   s.json = json_text(json);
@@ -327,14 +408,19 @@ StageSummary run_edit(const EditStageOptions& o) {
   const Timer timer;
   parse_transforms(o);  // before hours of reading
   require_writable(o.output);
+  Progress progress("st-edit", 1);
+  progress.step("reading", 0);
   EditInputs inputs;
   Edited edited = put_together(o, inputs);
   const std::vector<FaceId> kept = faces_to_keep(o, edited.tables());
   const std::vector<Move> moves = resolve_moves(o, edited.tables(), kept);
+  progress.step("moving", 0.4);
   take_out(kept, edited);
   for (std::size_t k = 0; k < moves.size(); ++k) apply(moves[k], static_cast<int>(k), edited);
+  progress.step("comparing parts", 0.6);
   const EditResult result = judge(edited, inputs);
   say(o, result);
+  progress.step("writing", 0.9);
   const std::string hash = write(o, inputs, edited, result);
   StageSummary summary = summarize(o, inputs, edited, result);
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary.json);

@@ -135,24 +135,31 @@ std::string repairs_in_words(const ImportResult& r) {
   return text;
 }
 
+/// All pairs of parts that cross, by name.
+void say_crossing_parts(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr std::size_t kPairs = 100;
+  std::vector<std::string> crossing;
+  for (const ImportFinding& f : r.findings)
+    if (f.kind == FindingKind::kOverlap)
+      crossing.push_back(fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", f.detail, f.xyz.x, f.xyz.y, f.xyz.z));
+  const char* remedy = o.unite ? "repair them in the CAD system" : "--unite makes them one body";
+  if (crossing.size() == 1)
+    return log_warning(fmt::format("{}: two parts cross: {}; {}", o.model, crossing[0], remedy));
+  if (!crossing.empty()) log_warning(fmt::format("{}: {} pairs of parts cross; {}:", o.model, crossing.size(), remedy));
+  for (std::size_t k = 0; k < std::min(crossing.size(), kPairs); ++k) log_report("  " + crossing[k]);
+  if (crossing.size() > kPairs) log_report(fmt::format("  ... and {} more: see --json", crossing.size() - kPairs));
+}
+
 /// Parts that cross, and what could not be joined or united.
 void say_bodies(const ImportStageOptions& o, const ImportResult& r) {
-  constexpr std::size_t kPairs = 3;
-  std::vector<std::string> crossing;
+  say_crossing_parts(o, r);
   for (const ImportFinding& f : r.findings) {
-    if (f.kind == FindingKind::kOverlap) crossing.push_back(f.detail);
     if (f.kind == FindingKind::kNotUnited)
       log_warning(fmt::format("{}: {} stay apart, they could not be united: {}", o.model, f.entity, f.detail));
     if (f.kind == FindingKind::kTouchingApart) log_warning(fmt::format("{}: {}", o.model, f.what()));
     if (f.kind == FindingKind::kTouching)
       log_warning(fmt::format("{}: {}; --join gives them common faces, --unite makes them one", o.model, f.what()));
   }
-  if (crossing.empty()) return;
-  std::string pairs;
-  for (std::size_t k = 0; k < std::min(crossing.size(), kPairs); ++k) pairs += (k > 0 ? ", " : "") + crossing[k];
-  log_warning(fmt::format("{}: {} pairs of parts cross: {}{}; {}", o.model, crossing.size(), pairs,
-                          crossing.size() > kPairs ? " ..." : "",
-                          o.unite ? "repair them in the CAD system" : "--unite makes them one body"));
 }
 
 /// Faces that cross each other or themselves: no size makes their mesh valid there.
@@ -187,6 +194,35 @@ void say_faults(const ImportStageOptions& o, const ImportResult& r) {
   }
 }
 
+/// The largest extent of what is neither far field nor symmetry plane, m.
+double extent_in_metres(const ModelTables& t) {
+  Box3 box;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (!is_outer_role(t.labels.group_role[t.labels.face_group[f]])) box.add(t.face_box[f]);
+  if (box.is_empty()) return 0;
+  const Vec3 size = box.hi - box.lo;
+  return *t.unit_in_m * std::max({size.x, size.y, size.z});
+}
+
+/// A wrong unit is seen by the size that results.
+void say_unit(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr double kShortestModel = 1e-4;  // m
+  constexpr double kLongestModel = 500;    // m
+  if (!r.tables.unit_in_m) return;
+  const double size = extent_in_metres(r.tables);
+  const std::string source =
+      r.has_assumed_unit
+          ? fmt::format("the file names no unit, so --unit takes its numbers as {0}: the model is {1:.4g} m long",
+                        r.tables.unit, size)
+          : fmt::format("by the unit that the file names the model is {:.4g} m long", size);
+  if (size > 0 && (size < kShortestModel || size > kLongestModel))
+    log_warning(fmt::format("{}: {}; {}", o.model, source,
+                            r.has_assumed_unit ? "give the unit in which the file was written"
+                                               : "if that is wrong, export it again in the right unit"));
+  else if (r.has_assumed_unit)
+    log_report(fmt::format("  {}", source));
+}
+
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
@@ -200,6 +236,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   if (r.n_repairs > 0)
     log_warning(
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
+  say_unit(o, r);
   say_bodies(o, r);
   say_crossing_faces(o, r);
   say_faults(o, r);

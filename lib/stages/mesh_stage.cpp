@@ -13,6 +13,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/threads.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -21,6 +22,7 @@
 #include "meshing/engine/mesh_regions.h"
 #include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
+#include "stages/fitting_files.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
 #include "stages/same_inputs.h"
@@ -140,7 +142,11 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
     require_patches_outputs(o.output);
     if (!o.trace.empty()) require_writable(o.trace);
   }
+  Progress progress("st-mesh", 1);
+  progress.step("reading", 0);
+  require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
   GeometryArtifact geometry = read_geometry(o.geometry);
+  std::vector<FaceId> faces = select_faces(o, geometry.tables);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
   run_jobs(
@@ -149,15 +155,16 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const Model& model = *stored;
   require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizing, sizing.header.content_hash}});
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  std::vector<FaceId> faces = select_faces(o, model.tables());
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing,
                          most_triangles_in(memory_of_all_hosts(comm)));
   EarlierPart earlier = read_earlier_part(o, geometry.header);
   require_same_inputs(comm, {{o.edges, earlier.content_hash}});
+  progress.step("small features", 0.05);
   const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, trace)
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
   const ArtifactHeader header = output_header(o, geometry.header, sizing.header);
+  progress.step("meshing", 0.1);
   Resumption resumption(trace, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
@@ -166,6 +173,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
                                    resumption);
   resumption.end();
   trace.begin_phase("write");
+  progress.step("writing", 0.9);
   StageSummary summary =
       write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
                            {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()}, trace);

@@ -122,15 +122,30 @@ struct Barrier {
   std::vector<InputRef> file;     ///< of --blank
 };
 
-/// Of a mesh in metres about a model in millimetres no cell would be blanked, and nothing else would say so.
-void warn_of_unit(const std::string& path, const SurfaceMesh& mesh, double model_diagonal) {
-  constexpr double kFactor = 100;
+double extent_of(const SurfaceMesh& mesh) {
   Box3 box;
   for (const Vec3 x : mesh.node_xyz) box.add(x);
-  const double ratio = box.diagonal() / model_diagonal;
-  if (ratio < 1 / kFactor || ratio > kFactor)
-    log_warning(fmt::format("--blank {}: its extent is {:.3g} times that of the walls; is it in the model's unit?",
-                            path, ratio));
+  return box.diagonal();
+}
+
+/// Of a mesh in another unit, of another model, or of this one at another place, other cells would be blanked than
+/// those inside, or none. `mesh` is in the octree's frame.
+void warn_of_place(const std::string& path, const SurfaceMesh& mesh, const RasterArtifact& raster) {
+  constexpr double kSmaller = 5;          // factor: mm and cm; one part of a model may be as small
+  constexpr double kLarger = 100;         // factor: a far field may be as large
+  constexpr double kOtherSize = 2.5;      // factor; the mesh may be of one part alone
+  constexpr double kLeastShare = 0.25;    // of its nodes, near the faces
+  constexpr double kLeastOfOther = 0.75;  // likewise where its size is another
+  const double ratio = extent_of(mesh) / raster.numbers.diagonal;
+  if (ratio < 1 / kSmaller || ratio > kLarger)
+    return log_warning(fmt::format(
+        "--blank {}: its extent is {:.3g} times that of the walls; is it in the model's unit?", path, ratio));
+  const double share = share_near(mesh.node_xyz, raster.octree.shape.view(), raster.faces.leaf);
+  if (share < (ratio < 1 / kOtherSize || ratio > kOtherSize ? kLeastOfOther : kLeastShare))
+    log_warning(
+        fmt::format("--blank {}: only {:.0f} % of its nodes are near the model's faces; is it a mesh of this "
+                    "model, in its place and unit?",
+                    path, 100 * share));
 }
 
 Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const Similarity& to_octree) {
@@ -140,8 +155,8 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
     return {std::move(raster.surface), along, {}};
   }
   BlankInput blank = read_blank(o.blank, o.blank_side);
-  warn_of_unit(o.blank, blank.mesh, raster.numbers.diagonal);
   if (to_octree != Similarity()) transform(to_octree, blank.mesh);
+  warn_of_place(o.blank, blank.mesh, raster);
   return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side}, 0, {blank.file}};
 }
 
@@ -217,6 +232,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   SourceInput input = read_sources(
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
       {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m}, raster.numbers.max_aspect > 1);
+  warn_of_places(input, raster.octree.shape.view(), raster.numbers.far_length);
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;

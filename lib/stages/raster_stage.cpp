@@ -18,6 +18,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/required_unit.h"
 #include "base/share.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
@@ -90,6 +91,19 @@ std::vector<SizeRule> option_rules(const RasterStageOptions& o) {
   return rules;
 }
 
+/// Rules of options, then those of the file, which win. What can be known before anything is sampled is refused now:
+/// lengths with a unit in a model without one, names that nothing has, a smallest length above the largest.
+std::vector<SizeRule> all_rules(const RasterStageOptions& o, const SizeRuleFile& sizes, const ModelTables& t) {
+  std::vector<SizeRule> rules = option_rules(o);
+  rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
+  for (const SizeRule& rule : rules) {
+    for (const auto& [length, key] : {std::pair(rule.lmin, "lmin"), {rule.lmax, "lmax"}, {rule.chord, "chord"}})
+      if (length) require_unit(*length, t.unit_in_m, rule.where + ": " + key);
+    if (rule.detected.empty()) find_targets(rule, t);
+  }
+  return rules;
+}
+
 /// nullopt: "none".
 std::optional<LengthSpec> edge_size(const RasterStageOptions& o) {
   return o.edge_size == "none" ? std::nullopt : std::optional(parse_length(o.edge_size, "--edge-size"));
@@ -125,6 +139,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
     if (text.empty() || wing_length(text, option)) return otherwise;
     return resolve_length(parse_length(text, option), {diagonal, t.unit_in_m}, option);
   };
+  if (const std::optional<LengthSpec> size = edge_size(o)) require_unit(*size, t.unit_in_m, "--edge-size");
   limits.max_length = resolved(o.lmax, "--lmax", kDefaultMaxLength * diagonal);
   limits.min_length = resolved(o.lmin, "--lmin", kDefaultMinLength * limits.max_length);
   limits.alpha = radians(o.alpha_deg);
@@ -163,6 +178,38 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
         fmt::format("--lmin {} is larger than --edge-size {} on {} of {} lifting surfaces: {:.4g} instead of {:.4g} "
                     "where it matters most; give a smaller --lmin, or leave it out",
                     o.lmin, o.edge_size, n_raised, surfaces.size(), most.floor, most.asked));
+}
+
+/// Where what noses and trailing edges ask for is below the lmin of a rule.
+void warn_of_rule_floors(const std::vector<SizeRule>& rules, const ModelTables& t, std::span<const WingEdge> wing_edges,
+                         const ModelLimits& limits, std::span<const RasterBox> boxes) {
+  constexpr double kRounding = 0.999;
+  std::vector<std::uint8_t> face_has_floor(t.n_faces(), 0), edge_has_floor(t.n_edges(), 0);
+  for (const SizeRule& rule : rules) {
+    if (!rule.lmin) continue;
+    const RuleTargets targets = find_targets(rule, t, wing_edges);
+    for (const EdgeId e : targets.edges) edge_has_floor[e] = 1;
+    for (FaceId f = 0; f < t.n_faces(); ++f) {
+      if (rule.has_selection() && !std::binary_search(targets.faces.begin(), targets.faces.end(), f)) continue;
+      face_has_floor[f] = 1;
+      for (const EdgeId e : t.edges_of(f)) edge_has_floor[e] = 1;
+    }
+  }
+  std::size_t n_below = 0;
+  double least = 0;
+  for (const RasterBox& box : boxes) {
+    const auto id = static_cast<std::size_t>(cause_id(box.cause));
+    const bool is_edge = cause_kind(box.cause) == CauseKind::kEdge;
+    if (!(is_edge ? edge_has_floor : face_has_floor)[id]) continue;
+    const std::optional<SamplingLimits>& own = is_edge ? limits.edge[id] : limits.face[id];
+    if (!own || box.length >= kRounding * own->min_length) continue;
+    least = n_below++ == 0 ? box.length : std::min<double>(least, box.length);
+  }
+  if (n_below > 0)
+    log_warning(
+        fmt::format("{} samples of noses and trailing edges are below the lmin of rules, down to {:.4g}: "
+                    "--edge-size asks for them; give a larger --edge-size, or \"none\"",
+                    n_below, least));
 }
 
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
@@ -588,6 +635,7 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
   sample_wings(o, model, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);
+  warn_of_rule_floors(asked.rules, model.tables(), wings.edges, limits, wings.boxes);
   return limits;
 }
 
@@ -646,35 +694,38 @@ void share_limits(const Communicator& comm, ModelLimits& l) {
 /// The stage, step by step.
 class RasterRun {
  public:
-  RasterRun(const RasterStageOptions& o, const Communicator& comm)
+  RasterRun(const RasterStageOptions& o, const Communicator& comm, Progress& progress)
       : o_(o),
         comm_(comm),
+        progress_(progress),
         geometry_(read_geometry(o.geometry)),
+        sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
+        rules_(all_rules(o, sizes_, geometry_.tables)),
         model_(stored_model(geometry_, o.geometry)),
         roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
-        rules_(option_rules(o)),  // those of the file come later, and win
         strips_(find_strips(model_)) {
     if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
-    const SizeRuleFile sizes = o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes);
-    rules_.insert(rules_.end(), sizes.rules.begin(), sizes.rules.end());
-    sizes_hash_ = sizes.hash;
-    require_same_inputs(comm, {{o.geometry, geometry_.header.content_hash}, {o.sizes, sizes_hash_}});
+    require_same_inputs(comm, {{o.geometry, geometry_.header.content_hash}, {o.sizes, sizes_.hash}});
   }
 
   StageSummary run() {
+    progress_.step("lifting surfaces and limits", 0.1);
     set_limits();
     times_.end("opening");
+    progress_.step("samples", 0.2);
     sample();
     artifact_.faces =
         locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, comm_, counts_.n_failures);
     times_.end("faces");
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
+    progress_.step("surface", 0.7);
     if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, o_.time_limit, comm_);
     times_.end("surface");
     times_.gather(comm_);
     if (!comm_.is_root()) return {};
+    progress_.step("writing", 0.9);
     warn_of_depth(counts_.depth);
     write();
     times_.end("writing");
@@ -713,7 +764,7 @@ class RasterRun {
     artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
     artifact_.edge_name = model_.tables().edge_name;
     artifact_.labels = model_.tables().labels;
-    fill_header(o_, geometry_.header, wall_, sizes_hash_, artifact_.header);
+    fill_header(o_, geometry_.header, wall_, sizes_.hash, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
   }
 
@@ -726,13 +777,14 @@ class RasterRun {
 
   const RasterStageOptions& o_;
   const Communicator& comm_;
+  Progress& progress_;
   PhaseTimes times_;
   GeometryArtifact geometry_;  // without the model
+  const SizeRuleFile sizes_;
+  const std::vector<SizeRule> rules_;
   const Model model_;
   const FaceRoles roles_;
   const SamplingLimits wall_;
-  std::vector<SizeRule> rules_;
-  std::string sizes_hash_;
   const std::vector<Strip> strips_;
   Wings wings_;  // rank 0 only
   ModelLimits limits_;
@@ -748,7 +800,9 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
-  return RasterRun(o, comm).run();
+  Progress progress("st-raster", 1);
+  progress.step("reading", 0);
+  return RasterRun(o, comm, progress).run();
 }
 
 }  // namespace st

@@ -10,8 +10,11 @@
 #include <optional>
 
 #include "base/hash.h"
+#include "base/length.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "base/required_unit.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -27,6 +30,7 @@
 #include "meshing/hole/mesh_gaps.h"
 #include "sizing/node_field.h"
 #include "stages/expected_triangles.h"
+#include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
 #include "stages/orientation_warnings.h"
 #include "stages/patches_result.h"
@@ -134,6 +138,8 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     throw Error(ExitCode::kUsage,
                 fmt::format("--moved: {} is not a mesh artifact: only these know the geometry that moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
+  if (!o.tolerance.empty())
+    require_unit(parse_length(o.tolerance, "--tolerance"), geometry.header.unit_in_m, "--tolerance");
   MappedSizing sizing = map_sizing(o.sizing);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   std::optional<MappedSizing> made_for;
@@ -391,6 +397,10 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   require_valid(o);
   keep_freed_memory();
   if (comm.is_root() && !o.dry_run) o.merged.empty() ? require_patches_outputs(o.output) : require_writable(o.merged);
+  Progress progress("st-remesh", 1);
+  progress.step("reading", 0);
+  require_fitting(
+      {{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.moved ? "" : o.mesh, "mesh"}, {o.made_for, "sizing"}});
   const RemeshInput in = read_input(o, comm);
   require_same_inputs(comm, {{o.mesh, in.old.header.content_hash},
                              {o.geometry, in.geometry.content_hash},
@@ -406,16 +416,19 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   if (comm.is_root()) require_countable_sizes(o, in, mark, field);
   const std::optional<StageSummary> association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();
+  progress.step("looking for what no longer fits", 0.1);
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
   if (o.dry_run) return with_association(dry_run_summary(holes), association);
   const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
   Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in, files),
                         {o.journal_after, o.begins_new});
+  progress.step("meshing", 0.2);
   MeshOptions options;
   options.left_out = resumption.left_out();
   MeshResult result = mesh_regions(holes, field, output, options, resumption);
   resumption.end();
   if (!comm.is_root()) return {};
+  progress.step("writing", 0.9);
   StageSummary summary = write_result(o, in, holes, std::move(result),
                                       {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
   resumption.remove();

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/near_face_name.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -75,7 +76,7 @@ std::vector<std::uint8_t> find_named_faces(const std::string& name, const Raster
   if (std::find(is_in.begin(), is_in.end(), 1) == is_in.end())
     throw Error(ExitCode::kUsage, fmt::format("--why '{}': no group of faces, part or face has this name{}; "
                                               "st-info geometry.hdf --groups lists them",
-                                              name, say_other_kind(name, raster.labels)));
+                                              name, say_other_name(name, raster.labels)));
   return is_in;
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/near_face_name.h"
 #include "base/text.h"
 #include "stages/prolong_stage.h"
 
@@ -40,7 +41,7 @@ std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& ra
   if (is_in.empty())
     throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face, group of faces or part has this name{}; "
                                               "st-info geometry.hdf --groups lists them",
-                                              s.name, say_other_kind(s.name, raster.labels)));
+                                              s.name, say_other_name(s.name, raster.labels)));
   return is_in;
 }
 

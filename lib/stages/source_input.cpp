@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/nearest_name.h"
 #include "io/file/text_file.h"
 
 namespace st {
@@ -20,12 +21,19 @@ InputRef file_ref(const std::string& role, const std::string& path) {
   return {role, std::filesystem::path(path).filename().string(), hash_hex(text.data(), text.size())};
 }
 
+std::vector<std::string> names_of(const std::vector<SourceSpec>& sources) {
+  std::vector<std::string> names;
+  for (const SourceSpec& s : sources) names.push_back(s.name);
+  return names;
+}
+
 /// A named source takes the place of an earlier one of its name.
 void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::string& path) {
   for (const std::string& name : file.deleted) {
     const auto is_it = [&](const SourceSpec& s) { return s.name == name; };
     if (std::none_of(all.begin(), all.end(), is_it))
-      throw Error(ExitCode::kInput, fmt::format("{}: no source is named '{}'; nothing to delete", path, name));
+      throw Error(ExitCode::kUsage, fmt::format("{}: no source is named '{}'{}; nothing to delete", path, name,
+                                                did_you_mean(name, names_of(all))));
     std::erase_if(all, is_it);
   }
   const std::size_t n_before = all.size();
@@ -48,6 +56,7 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, bool is_str
                     "st-raster --max-aspect to keep the others",
                     n));
   transform(motion, mesh);
+  for (const Vec3 x : mesh.node_xyz) input.background.add(x);
   for (auto& tet : make_sources(mesh)) {
     input.sources.push_back({tet.get(), pack_cause(CauseKind::kOther, 0)});
     input.owned.push_back(std::move(tet));
@@ -55,7 +64,63 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, bool is_str
   input.n_tets += mesh.tets.size();
 }
 
+std::string label_of(const std::string& name, std::size_t number) {
+  return name.empty() ? fmt::format("source {}", number + 1) : fmt::format("source {} \"{}\"", number + 1, name);
+}
+
+void warn_of_extent(SourceSpec& spec, std::size_t number) {
+  const bool was_line = spec.kind == SourceKind::kLine;
+  if (simplify(spec))
+    log_warning(fmt::format("{}: a {}; it is taken as a {}", label_of(spec.name, number),
+                            was_line ? "line without length" : "triangle without area",
+                            spec.kind == SourceKind::kPoint ? "point" : "line"));
+}
+
+Vec3 clamped(Vec3 x, Vec3 lo, Vec3 hi) {
+  return {std::clamp(x.x, lo.x, hi.x), std::clamp(x.y, lo.y, hi.y), std::clamp(x.z, lo.z, hi.z)};
+}
+
+/// Between two boxes; 0 where they meet.
+double distance_between(const Box3& a, Vec3 lo, Vec3 hi) {
+  const auto gap = [](double a_lo, double a_hi, double b_lo, double b_hi) {
+    return std::max({0.0, b_lo - a_hi, a_lo - b_hi});
+  };
+  return norm(Vec3{gap(a.lo.x, a.hi.x, lo.x, hi.x), gap(a.lo.y, a.hi.y, lo.y, hi.y), gap(a.lo.z, a.hi.z, lo.z, hi.z)});
+}
+
+/// The least that a source outside asks for inside, near its core.
+double least_inside(const SizeSource& source, const Box3& core, Vec3 lo, Vec3 hi) {
+  double least = source.size(clamped(core.center(), lo, hi));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 x{corner & 1 ? core.hi.x : core.lo.x, corner & 2 ? core.hi.y : core.lo.y,
+                 corner & 4 ? core.hi.z : core.lo.z};
+    least = std::min(least, source.size(clamped(x, lo, hi)));
+  }
+  return least;
+}
+
 }  // namespace
+
+void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length) {
+  const Vec3 lo = octree.lo, hi = octree.lo + octree.edge * Vec3{1, 1, 1};
+  constexpr const char* kWhere = "outside the octree, which holds the model alone";
+  for (std::size_t s = 0; s < input.specs.size(); ++s) {
+    const Box3 core = core_box(input.specs[s]);
+    const double away = distance_between(core, lo, hi);
+    if (away == 0) continue;
+    const double least =
+        least_inside(*input.sources[input.sources.size() - input.specs.size() + s].source, core, lo, hi);
+    log_warning(fmt::format(
+        "{} lies {:.4g} {}: {}; is it in the model's unit and place (--transform)?", label_of(input.specs[s].name, s),
+        away, kWhere,
+        least < far_length ? fmt::format("only its growth reaches in, as {:.4g} or more", least) : "it has no effect"));
+  }
+  if (!input.background.is_empty() && distance_between(input.background, lo, hi) > 0)
+    log_warning(
+        fmt::format("the background mesh lies {:.4g} {}: it has no effect; is it in the model's unit and place "
+                    "(--transform)?",
+                    distance_between(input.background, lo, hi), kWhere));
+}
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
                          double slope, const ModelScale& scale, bool is_stretched) {
@@ -70,11 +135,13 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
   for (const std::string& path : files) take(read_source_file(path, scale), path, "sources");
   for (SourceSpec& spec : specs) {
     transform(motion, spec);
+    warn_of_extent(spec, input.names.size());
     input.owned.push_back(make_source(spec, slope));
     input.sources.push_back(
         {input.owned.back().get(), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(input.names.size()))});
     input.names.push_back(spec.name);
     input.max_aspect = std::max(input.max_aspect, spec.aspect);
+    input.specs.push_back(spec);
   }
   return input;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -103,6 +104,19 @@ CLI::Validator in_interval(const NumberOption& option) {
         return CLI::detail::lexical_cast(text, value) ? option.refusal(value) : "'" + text + "' is not a number";
       },
       option.interval);
+}
+
+/// 1e6 is a whole number, too: it is written out for options that take one.
+CLI::Validator whole_written_out() {
+  return CLI::Validator(
+      [](std::string& text) {
+        constexpr double kMostExact = 9e15;
+        double value = 0;
+        const bool is_whole = CLI::detail::lexical_cast(text, value) && value == std::floor(value);
+        if (is_whole && std::abs(value) < kMostExact) text = std::to_string(static_cast<std::int64_t>(value));
+        return std::string();
+      },
+      "");
 }
 
 CLI::Validator a_length(const std::string& flag) {
@@ -239,7 +253,7 @@ void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, 
 }
 
 void ToolMain::add_number(const NumberOption& option, CLI::Option* bound) {
-  file_options_.push_back(bound->type_name(option.unit)->check(in_interval(option)));
+  file_options_.push_back(bound->type_name(option.unit)->check(in_interval(option))->transform(whole_written_out()));
 }
 
 void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
@@ -287,6 +301,8 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
     const std::string argument = app_.remaining().front();
     throw Error(ExitCode::kUsage,
                 "unexpected argument '" + argument + "'" + near_option(argument, app_) + "; see " + name_ + " --help");
+  } catch (const CLI::ConversionError& e) {  // what is no number at all has been refused before
+    throw Error(ExitCode::kUsage, std::string("a whole number is needed: ").append(usage_message(e, name_)));
   } catch (const CLI::ParseError& e) {
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }

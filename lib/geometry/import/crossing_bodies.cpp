@@ -8,8 +8,12 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "geometry/brep/shape_queries.h"
 #include "geometry/model/bodies.h"
@@ -39,9 +43,32 @@ class CrossingSearch {
         if (face_of_edge_[e] == kNone) face_of_edge_[e] = f;
   }
 
-  std::vector<BodyCrossing> find() {
+  CrossingBodies find() {
     if (t_.n_solids < 2) return {};
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+    intersectors_.resize(t_.n_faces());
+    const std::vector<EdgeId> order = edges_by_place();
+    for (FaceId f = 0; f < t_.n_faces(); ++f) collect(f, order);
+    for (const int most : {kMostCrossingTests / 20, kMostCrossingTests / 4, kMostCrossingTests})
+      for (auto& [bodies, pair] : pairs_) search(pair, most);
+    return results();
+  }
+
+ private:
+  /// To be compared: an edge of one body, a face of the other.
+  struct Test {
+    FaceId face;
+    EdgeId edge;
+  };
+  struct Pair {
+    std::vector<Test> tests;
+    std::size_t n_done = 0;
+    std::int64_t cost = 0;  // of all that there would be
+    int cost_done = 0;
+    std::optional<BodyCrossing> found;
+  };
+
+  std::vector<EdgeId> edges_by_place() const {
     std::vector<EdgeId> order;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (!t_.edge_is_degenerate[e] && face_of_edge_[e] != kNone && t_.face_solid[face_of_edge_[e]] != kNone &&
@@ -49,29 +76,52 @@ class CrossingSearch {
         order.push_back(e);
     std::sort(order.begin(), order.end(),
               [&](EdgeId a, EdgeId b) { return box_[a].lo.x != box_[b].lo.x ? box_[a].lo.x < box_[b].lo.x : a < b; });
-    for (FaceId f = 0; f < t_.n_faces() && n_tests_ < kMostCrossingTests; ++f) search(f, order);
-    return found_;
+    return order;
   }
 
- private:
-  void search(FaceId f, const std::vector<EdgeId>& order) {
+  /// What one face is to be compared with, as far as a pair of bodies may cost.
+  void collect(FaceId f, const std::vector<EdgeId>& order) {
     if (t_.face_solid[f] == kNone) return;
     const std::set<VertexId> own = vertices_of(t_, f);
-    std::optional<IntCurvesFace_Intersector> intersector;
+    const int cost = cost_of(t_.face_type[f]);
     for (const EdgeId e : order) {
       if (box_[e].lo.x > t_.face_box[f].hi.x) break;
-      const FaceId other = face_of_edge_[e];
-      const std::pair<int, int> pair = std::minmax(t_.face_solid[f], t_.face_solid[other]);
-      if (pair.first == pair.second || !meet(box_[e], t_.face_box[f]) || known_.count(pair)) continue;
+      const std::pair<int, int> bodies = std::minmax(t_.face_solid[f], t_.face_solid[face_of_edge_[e]]);
+      if (bodies.first == bodies.second || !meet(box_[e], t_.face_box[f])) continue;
       if (own.count(t_.edge_vertices[2 * e]) || own.count(t_.edge_vertices[2 * e + 1])) continue;
-      n_tests_ += cost_of(t_.face_type[f]);
-      if (n_tests_ > kMostCrossingTests) return;
-      if (!intersector) intersector.emplace(TopoDS::Face(model_.faces(f + 1)), tolerance_);
-      if (const auto place = place_of(e, *intersector)) {
-        known_.insert(pair);
-        found_.push_back({other, f, *place});
-      }
+      Pair& pair = pairs_[bodies];
+      if (pair.cost <= kMostCrossingTests) pair.tests.push_back({f, e});
+      pair.cost += cost;
     }
+  }
+
+  /// Goes on with two bodies until they are known to cross, or have cost so much.
+  void search(Pair& pair, int most) {
+    while (!pair.found && pair.n_done < pair.tests.size() && pair.cost_done < most && cost_ < kMostCrossingTestsOfAll) {
+      const Test test = pair.tests[pair.n_done++];
+      const int cost = cost_of(t_.face_type[test.face]);
+      pair.cost_done += cost;
+      cost_ += cost;
+      auto& intersector = intersectors_[test.face];
+      if (!intersector)
+        intersector =
+            std::make_unique<IntCurvesFace_Intersector>(TopoDS::Face(model_.faces(test.face + 1)), tolerance_);
+      if (const auto place = place_of(test.edge, *intersector))
+        pair.found = BodyCrossing{face_of_edge_[test.edge], test.face, *place};
+    }
+  }
+
+  CrossingBodies results() const {
+    CrossingBodies result;
+    for (const auto& [bodies, pair] : pairs_) {
+      if (pair.found)
+        result.found.push_back(*pair.found);
+      else if (pair.cost_done < pair.cost)
+        ++result.n_not_compared;
+    }
+    std::stable_sort(result.found.begin(), result.found.end(),
+                     [](const BodyCrossing& a, const BodyCrossing& b) { return a.face < b.face; });
+    return result;
   }
 
   /// Where the edge goes through the face, away from its ends and from the face's loops.
@@ -108,15 +158,15 @@ class CrossingSearch {
   double tolerance_;
   std::vector<FaceId> face_of_edge_;
   TopTools_IndexedMapOfShape edges_;
-  std::set<std::pair<int, int>> known_;
-  std::vector<BodyCrossing> found_;
-  int n_tests_ = 0;
+  std::map<std::pair<int, int>, Pair> pairs_;                             ///< of bodies, the smaller number first
+  std::vector<std::unique_ptr<IntCurvesFace_Intersector>> intersectors_;  ///< [n_faces] null: not used yet
+  int cost_ = 0;
 };
 
 }  // namespace
 
-std::vector<BodyCrossing> find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
-                                               const FaceMeasures& measures) {
+CrossingBodies find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
+                                    const FaceMeasures& measures) {
   if (tables.n_faces() < 2) return {};
   return CrossingSearch(model, tables, measures).find();
 }

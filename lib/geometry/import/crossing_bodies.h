@@ -15,12 +15,19 @@ struct BodyCrossing {
   Vec3 xyz;                              ///< there, model unit
 };
 
-/// One place for each pair of bodies, at most, in the order of the faces. Bodies are solids. `measures` and `tables`
-/// are those of `model`. Edges and faces are compared where their boxes meet, until kMostCrossingTests are done: a
-/// plane counts 8, other surfaces of a formula 200, splines 400.
-std::vector<BodyCrossing> find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
-                                               const FaceMeasures& measures);
+struct CrossingBodies {
+  std::vector<BodyCrossing> found;  ///< one place for each pair of bodies, in the order of the faces
+  int n_not_compared = 0;           ///< pairs of bodies of which not all could be compared
+};
+
+/// All pairs of bodies that cross. Bodies are solids. `measures` and `tables` are those of `model`. Edges and faces are
+/// compared where their boxes meet, for each pair of bodies until kMostCrossingTests are done, and of all pairs until
+/// kMostCrossingTestsOfAll are: a plane counts 8, other surfaces of a formula 200, splines 400. All pairs get their
+/// first tests before any gets its last.
+CrossingBodies find_crossing_bodies(const ImportedShape& model, const ModelTables& tables,
+                                    const FaceMeasures& measures);
 
 inline constexpr int kMostCrossingTests = 20000;
+inline constexpr int kMostCrossingTestsOfAll = 100000;
 
 }  // namespace st::occt

@@ -27,10 +27,12 @@
 #include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
+#include <iterator>
 #include <map>
 #include <numeric>
 
 #include "base/error.h"
+#include "base/face_labels.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/import.h"
@@ -226,7 +228,8 @@ double area_of(const TopoDS_Shape& shape) {
   return std::fabs(area.Mass());
 }
 
-std::vector<PlaneLoop> loops_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
+/// Empty where an edge is in no closed loop.
+std::vector<PlaneLoop> closed_loops(const std::vector<TopoDS_Edge>& edges, const Cut& cut) {
   Handle(TopTools_HSequenceOfShape) sequence = new TopTools_HSequenceOfShape, wires;
   for (const TopoDS_Edge& e : edges) sequence->Append(e);
   ShapeAnalysis_FreeBounds::ConnectEdgesToWires(sequence, Precision::Confusion(), true, wires);
@@ -234,27 +237,30 @@ std::vector<PlaneLoop> loops_in_plane(const std::vector<TopoDS_Edge>& edges, con
   for (int i = 1; i <= wires->Length(); ++i) {
     for (const TopoDS_Wire& loop : simple_loops(TopoDS::Wire(wires->Value(i)))) {
       BRepBuilderAPI_MakeFace make(plane_of(cut), loop, true);
-      if (!BRep_Tool::IsClosed(loop) || !make.IsDone())
-        throw Error(ExitCode::kGeometry, path + ": the edges in the symmetry plane do not close; free edges at " +
-                                             places(edges) + "; close the model there in the CAD system");
+      if (!BRep_Tool::IsClosed(loop) || !make.IsDone()) return {};
       loops.push_back({loop, make.Face(), area_of(make.Face())});
     }
   }
   return loops;
 }
 
-/// A point of `inner` in the face of `outer`.
-bool contains(const PlaneLoop& outer, const PlaneLoop& inner) {
-  if (outer.area <= inner.area) return false;
-  const BRepAdaptor_Curve curve(TopoDS::Edge(TopExp_Explorer(inner.wire, TopAbs_EDGE).Current()));
-  const gp_Pnt p = curve.Value(0.45 * curve.FirstParameter() + 0.55 * curve.LastParameter());
-  BRepClass_FaceClassifier classifier(outer.face, p, Precision::Confusion());
+gp_Pnt point_of(const TopoDS_Wire& wire) {
+  const BRepAdaptor_Curve curve(TopoDS::Edge(TopExp_Explorer(wire, TopAbs_EDGE).Current()));
+  return curve.Value(0.45 * curve.FirstParameter() + 0.55 * curve.LastParameter());
+}
+
+bool is_in(const gp_Pnt& p, const TopoDS_Face& face) {
+  BRepClass_FaceClassifier classifier(face, p, Precision::Confusion());
   return classifier.State() == TopAbs_IN;
 }
 
+/// A point of `inner` in the face of `outer`.
+bool contains(const PlaneLoop& outer, const PlaneLoop& inner) {
+  return outer.area > inner.area && is_in(point_of(inner.wire), outer.face);
+}
+
 /// Every second region between nested loops: the outermost loop is the border of what is kept.
-Faces faces_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
-  std::vector<PlaneLoop> loops = loops_in_plane(edges, cut, path);
+Faces faces_between(std::vector<PlaneLoop>& loops, const Cut& cut) {
   for (PlaneLoop& loop : loops)
     for (std::size_t k = 0; k < loops.size(); ++k) {
       if (!contains(loops[k], loop)) continue;
@@ -271,6 +277,75 @@ Faces faces_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, cons
     BRepLib::SameParameter(faces.back(), Precision::Confusion(), true);
   }
   return faces;
+}
+
+Faces faces_in_plane(const std::vector<TopoDS_Edge>& edges, const Cut& cut, const std::string& path) {
+  std::vector<PlaneLoop> loops = closed_loops(edges, cut);
+  if (loops.empty())
+    throw Error(ExitCode::kGeometry, path + ": the edges in the symmetry plane do not close; free edges at " +
+                                         places(edges) + "; close the model there in the CAD system");
+  return faces_between(loops, cut);
+}
+
+/// A solid in the plane, or all that is in none.
+struct Section {
+  std::string name;
+  bool is_far_field = false;  ///< by the names of its faces or part: what lies in it is a hole
+  std::vector<PlaneLoop> loops = {};
+  Faces faces = {};
+};
+
+std::string name_of(const ImportedShape& model, const TopoDS_Face& face) {
+  const FaceAttributes& a = model.attributes[model.faces.FindIndex(face) - 1];
+  const bool has_path = a.part_index != kNone && !model.parts[a.part_index].path.empty();
+  return has_path ? model.parts[a.part_index].path : !a.part.empty() ? a.part : !a.name.empty() ? a.name : "unnamed";
+}
+
+bool is_far_field(const ImportedShape& model, const Faces& body) {
+  return std::any_of(body.begin(), body.end(), [&](const TopoDS_Face& f) {
+    const FaceAttributes& a = model.attributes[model.faces.FindIndex(f) - 1];
+    return role_of_name(a.name) == "farfield" || role_of_name(a.part) == "farfield";
+  });
+}
+
+/// The sections of the solids, each for itself: where one lies in another one's cavity, the loops of both together
+/// would tell nothing. Empty when the edges of one do not close by themselves.
+std::vector<Section> sections_of(const ImportedShape& model, const Faces& faces, const Cut& cut) {
+  TopTools_IndexedMapOfShape free, loose;
+  for (const TopoDS_Edge& e : free_edges(faces)) free.Add(e);
+  for (TopExp_Explorer f(model.shape, TopAbs_FACE, TopAbs_SOLID); f.More(); f.Next()) loose.Add(f.Current());
+  std::vector<TopTools_IndexedMapOfShape> owners{loose};
+  for (TopExp_Explorer s(model.shape, TopAbs_SOLID); s.More(); s.Next())
+    TopExp::MapShapes(s.Current(), TopAbs_FACE, owners.emplace_back());
+  std::vector<Section> sections;
+  for (const TopTools_IndexedMapOfShape& own : owners) {
+    Faces body;
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(body),
+                 [&](const TopoDS_Face& f) { return own.Contains(f); });
+    std::vector<TopoDS_Edge> edges = free_edges(body);
+    std::erase_if(edges, [&](const TopoDS_Edge& e) { return !free.Contains(e) || !is_in_plane(e, cut); });
+    if (edges.empty()) continue;
+    Section section{name_of(model, body[0]), is_far_field(model, body), closed_loops(edges, cut)};
+    if (section.loops.empty()) return {};
+    section.faces = faces_between(section.loops, cut);
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+/// A solid inside another one, or through it, has no section of its own: the plane would have faces on each other, or a
+/// hole where there is material.
+void require_apart(const std::vector<Section>& sections, const std::string& path) {
+  for (const Section& inner : sections)
+    for (const Section& outer : sections)
+      for (std::size_t k = 0; &inner != &outer && !outer.is_far_field && k < inner.loops.size(); ++k) {
+        const gp_Pnt p = point_of(inner.loops[k].wire);
+        if (std::any_of(outer.faces.begin(), outer.faces.end(), [&](const TopoDS_Face& f) { return is_in(p, f); }))
+          throw Error(ExitCode::kGeometry, path + ": in the symmetry plane the body \"" + inner.name +
+                                               "\" lies inside \"" + outer.name + "\", at (" + format_number(p.X()) +
+                                               ", " + format_number(p.Y()) + ", " + format_number(p.Z()) +
+                                               "); make them one with --unite, or leave one out");
+      }
 }
 
 // --- far field ---
@@ -394,6 +469,29 @@ bool is_inside(const TopoDS_Shape& body, const TopoDS_Solid& outer) {
   return is_any;
 }
 
+/// What is twice in the plane has no section: cut, it would be a part of the outer solid, or a hole in it.
+void require_none_inside(const ImportedShape& model, const Cut& cut, const std::string& path) {
+  std::vector<TopoDS_Solid> solids;
+  std::vector<Box3> boxes;
+  for (TopExp_Explorer e(model.shape, TopAbs_SOLID); e.More(); e.Next()) {
+    solids.push_back(TopoDS::Solid(e.Current()));
+    boxes.push_back(rough_box(e.Current()));
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      const bool is_at_plane = component(boxes[i].lo, cut.plane.axis) <= cut.plane.value + kInPlane * cut.diagonal &&
+                               component(boxes[i].hi, cut.plane.axis) >= cut.plane.value - kInPlane * cut.diagonal;
+      if (i == k || !is_at_plane || !is_within(boxes[i], boxes[k]) || !is_inside(solids[i], solids[k])) continue;
+      const auto name = [&](const TopoDS_Solid& solid) {
+        return name_of(model, TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current()));
+      };
+      throw Error(ExitCode::kGeometry, path + ": the solid \"" + name(solids[i]) + "\" lies inside the solid \"" +
+                                           name(solids[k]) +
+                                           "\", and the symmetry plane cuts both; make them one with "
+                                           "--unite, or leave one out");
+    }
+}
+
 /// Faces of solids that lie inside another one, in its cavities, too.
 TopTools_IndexedMapOfShape inner_bodies(const TopoDS_Shape& shape, std::vector<ImportFinding>& findings) {
   std::vector<TopoDS_Shape> solids;
@@ -463,6 +561,20 @@ void take(ImportedShape& model, const TopoDS_Shape& shape, const Faces& plane_fa
       if (const int i = model.faces.FindIndex(f); i > 0) model.attributes[i - 1].name = name;
 }
 
+/// `border`: the faces of the body, and of the far field where there is one.
+Faces symmetry_faces(const ImportedShape& model, const Faces& faces, const Faces& border, const Cut& cut,
+                     const std::string& path) {
+  const std::vector<Section> sections = sections_of(model, faces, cut);
+  require_apart(sections, path);
+  const bool has_far_field =
+      border.size() > faces.size() ||
+      std::any_of(sections.begin(), sections.end(), [](const Section& s) { return s.is_far_field; });
+  if (sections.empty() || has_far_field) return faces_in_plane(free_edges(border), cut, path);
+  Faces all;
+  for (const Section& section : sections) all.insert(all.end(), section.faces.begin(), section.faces.end());
+  return all;
+}
+
 }  // namespace
 
 void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, const std::optional<SymmetryPlane>& plane,
@@ -471,6 +583,7 @@ void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, co
   std::optional<Cut> cut;
   if (plane) {
     cut = Cut{*plane, diagonal};
+    if (!far) require_none_inside(model, *cut, path);
     keep_one_side(model, *cut, box, findings, path);
   }
   Faces faces = body_faces(model, cut, far.has_value(), findings);
@@ -478,7 +591,7 @@ void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, co
   const Faces outer = far ? far_faces(*far, box, cut, diagonal) : Faces{};
   Faces border = faces;
   border.insert(border.end(), outer.begin(), outer.end());
-  const Faces symmetry = cut ? faces_in_plane(free_edges(border), *cut, path) : Faces{};
+  const Faces symmetry = cut ? symmetry_faces(model, faces, border, *cut, path) : Faces{};
   faces.insert(faces.end(), symmetry.begin(), symmetry.end());
   faces.insert(faces.end(), outer.begin(), outer.end());
   const std::vector<TopoDS_Shape> shells = shells_of(faces);

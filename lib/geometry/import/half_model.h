@@ -33,7 +33,8 @@ FarField parse_farfield(const std::string& text);
 /// a far field the result is the fluid between the body and the outer faces named "farfield": one closed solid, normals
 /// out of the fluid. Faces of the body come first, in their order; faces in the plane are new. `box` of the model
 /// and its reference diagonal in the unit of the shape. Throws Error(kGeometry) with the places of free edges that are
-/// not in the plane, and for a model that does not reach the plane.
+/// not in the plane, for a model that does not reach the plane, and without a far field for a solid inside another
+/// one that the plane cuts, too.
 void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, const std::optional<SymmetryPlane>& plane,
                       const std::optional<FarField>& far, std::vector<ImportFinding>& findings,
                       const std::string& path);

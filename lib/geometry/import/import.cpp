@@ -8,7 +8,9 @@
 
 #include "base/error.h"
 #include "base/length.h"
+#include "base/log.h"
 #include "base/progress.h"
+#include "base/required_unit.h"
 #include "geometry/import/bare_surfaces.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
@@ -31,6 +33,7 @@
 #include "geometry/import/topology_report.h"
 #include "geometry/import/touching_bodies.h"
 #include "geometry/import/unite.h"
+#include "geometry/model/group_selection.h"
 #include "geometry/model/imported_shape.h"
 #include "geometry/model/model.h"
 #include "geometry/model/model_impl.h"
@@ -73,6 +76,13 @@ ModelUnit choose_unit(const CadFile& file, const std::string& asked) {
     unit.shape_units = *file.unit_in_mm;
   }
   return unit;
+}
+
+/// Options that cannot be used without a unit are known before the work is done.
+void require_units(const ImportOptions& options, const ModelUnit& unit) {
+  require_unit(parse_length(options.small, "--small"), unit.in_m, "--small");
+  if (!options.sew.empty()) require_unit(parse_length(options.sew, "--sew"), unit.in_m, "--sew");
+  for (const GroupRule& rule : options.groups) require_unit(rule, unit.in_m);
 }
 
 /// Shape and findings from the unit they were read in to the model unit.
@@ -244,12 +254,19 @@ void say_what_touches(const ImportedShape& model, const ModelTables& t, const st
 
 /// Bodies that overlap are united where asked, those that touch are joined; what touches itself always is.
 void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
-                   std::vector<ImportFinding>& findings, const std::string& path) {
+                   std::vector<ImportFinding>& findings, const std::string& path, Progress& progress) {
+  progress.step("uniting bodies", 0.65);
   if (options.unite) occt::unite_solids(model, tables, findings, path);
-  const std::vector<occt::BodyCrossing> crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
-  say_what_crosses(tables.tables, crossings, findings);
+  progress.step("bodies that cross", 0.67);
+  const occt::CrossingBodies crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
+  if (crossings.n_not_compared > 0)
+    log_info(
+        "  " + std::to_string(crossings.n_not_compared) +
+        " pairs of bodies that are near each other were not compared to the end; st-check finds crossings in the mesh");
+  say_what_crosses(tables.tables, crossings.found, findings);
   const auto join = options.join_touching ? occt::join_touching_solids : occt::join_self_touching_solids;
-  const std::set<int> left_out = crossing_solids(tables.tables, crossings);
+  const std::set<int> left_out = crossing_solids(tables.tables, crossings.found);
+  progress.step("bodies that touch", 0.68);
   join(model, tables, left_out, findings, path);
   if (!options.join_touching && !options.unite) say_what_touches(model, tables.tables, left_out, findings);
 }
@@ -260,21 +277,24 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   progress.step("reading", 0);
   const CadFile file = occt::read_cad(path);
   const ModelUnit unit = choose_unit(file, options.unit);
+  require_units(options, unit);
   ImportResult result;
   result.format = file.format;
   for (const std::string& name : file.missing_files)
     result.findings.push_back({FindingKind::kMissingFile, "", {}, 0, false, name});
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
-  progress.step("sewing and repairing", 0.4);
+  progress.step("looking for faces without area and duplicates", 0.4);
   occt::remove_empty_faces(model, result.findings, path);
   occt::make_space_curves(model, result.findings);
   occt::divide_bare_surfaces(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
+  progress.step("sewing", 0.42);
   occt::sew_and_keep_areas(model, sewing_limits(file, unit, model, options), result.findings);
   occt::orient_faces(model, result.findings);
+  progress.step("repairing edges and loops", 0.5);
   occt::open_slits(model, result.findings);
   occt::rebuild_space_curves(model, result.findings);
   occt::rebuild_lost_loops(model, result.findings);
@@ -287,14 +307,14 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::leave_out_faces(model, tables.tables, result.findings, path)) tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
-  progress.step("bodies that touch or overlap", 0.65);
-  relate_bodies(model, tables, options, result.findings, path);
+  relate_bodies(model, tables, options, result.findings, path, progress);
   progress.step("far field and symmetry", 0.7);
   add_flow_domain(model, tables, domain, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
+  result.has_assumed_unit = unit.in_m && !file.unit_in_mm;
   for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
     result.findings.push_back(
         {FindingKind::kEmptyGroup, "group \"" + group.name + "\"", {}, 0, false, member_of(group)});
@@ -303,6 +323,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");
   progress.step("looking for defects", 0.8);
   occt::report_topology(model, tables.measures, small, result);
+  progress.step("faces that cross", 0.9);
   say_which_faces_cross(model, result.tables, result.findings);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);

@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/progress.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
@@ -92,9 +93,12 @@ class Unions {
   }
 
   void unite(std::vector<ImportFinding>& findings) {
-    for (std::size_t k = 1; k < bodies_.size(); ++k)
+    Progress progress("uniting bodies", static_cast<double>(bodies_.size()));
+    for (std::size_t k = 1; k < bodies_.size(); ++k) {
+      progress.update(static_cast<double>(k));
       for (std::size_t i = 0; i < k; ++i)
         if (!bodies_[i].is_gone && meet(bodies_[i].box, bodies_[k].box, tolerance_)) unite_pair(i, k, findings);
+    }
   }
   int n_united() const {
     return static_cast<int>(std::count_if(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.is_gone; }));

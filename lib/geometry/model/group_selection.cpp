@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/required_unit.h"
 #include "base/text.h"
 #include "geometry/model/model.h"
 
@@ -27,6 +28,14 @@ void fail_group(const GroupRule& rule, const std::string& what) {
   const std::string group =
       "group \"" + rule.name + "\"" + (rule.table.empty() ? "" : " of table \"" + rule.table + "\"");
   throw Error(ExitCode::kUsage, rule.where + ": " + group + ": " + what);
+}
+
+void require_unit(const GroupRule& rule, const std::optional<double>& unit_in_m) {
+  if (rule.tolerance) require_unit(*rule.tolerance, unit_in_m, rule.where + ": tolerance");
+  for (const auto* box : {&rule.inside, &rule.touching})
+    for (std::size_t i = 0; *box && i < (*box)->size(); ++i)
+      if ((**box)[i].is_in_metres && !unit_in_m)
+        fail_group(rule, "the model has no unit; give plain numbers, or --unit");
 }
 
 void GroupSelection::keep(const std::function<bool(std::int32_t)>& is_wanted) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ namespace st {
 
 /// Throws Error(kUsage) that names the rule's place and group.
 [[noreturn]] void fail_group(const GroupRule& rule, const std::string& what);
+
+/// Throws Error(kUsage) naming rule and key for a length or coordinate with a unit of its own where the model has no
+/// unit: known before anything is looked for.
+void require_unit(const GroupRule& rule, const std::optional<double>& unit_in_m);
 
 /// Narrows all entities of a kind down to those that meet every selection of a rule. All throw Error(kUsage) by
 /// fail_group().

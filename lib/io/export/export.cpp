@@ -6,6 +6,7 @@
 #include <cstring>
 #include <set>
 
+#include "base/hash.h"
 #include "base/nearest_name.h"
 #include "io/export/export_formats.h"
 #include "io/hdf5/face_numbers.h"
@@ -99,6 +100,8 @@ const Format& chosen_format(const std::string& path, const ExportOptions& option
   const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
   std::vector<std::string> known;
   for (const Format& f : kFormats) known.emplace_back(f.suffix);
+  if (std::find(known.begin(), known.end(), name) != known.end())
+    throw Error(ExitCode::kUsage, path + ": is a suffix without a name; write mesh" + name);
   throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "'" + did_you_mean(suffix, known) +
                                     " for an export; use one of " + suffixes_with(0));
 }
@@ -229,8 +232,18 @@ std::vector<std::string> export_mesh(const std::string& path, const SurfaceMesh&
 }
 
 std::string path_of_group(const std::string& path, const std::string& word) {
-  const std::string stem = stem_of(path);
-  return stem + "_" + word + path.substr(stem.size());
+  constexpr std::size_t kMost = 200;  // bytes: file systems take 255, and temporary names are longer
+  const std::string stem = stem_of(path), suffix = path.substr(stem.size());
+  const std::size_t base = stem.size() - (stem.rfind('/') + 1);  // npos + 1 is 0
+  std::string kept = word;
+  if (base + 1 + word.size() + suffix.size() > kMost) {
+    const std::string digest = std::string("~").append(hash_hex(word.data(), word.size()));
+    const std::size_t taken = base + 1 + digest.size() + suffix.size();
+    std::size_t n = taken < kMost ? kMost - taken : 0;
+    while (n > 0 && (static_cast<unsigned char>(word[n]) & 0xC0) == 0x80) --n;  // no half of a letter
+    kept = word.substr(0, n) + digest;
+  }
+  return stem + "_" + kept + suffix;
 }
 
 }  // namespace st

@@ -40,9 +40,9 @@ class RuleReader : TomlEntry {
     if (key == "groups")
       rule_.groups = names(key, node);
     else if (key == "faces")
-      rule_.faces = names(key, node, "a number,");
+      rule_.faces = names(key, node, "a number, a range \"3-7\",");
     else if (key == "edges")
-      rule_.edges = names(key, node, "a number,");
+      rule_.edges = names(key, node, "a number, a range \"3-7\",");
     else if (key == "between")
       read_between(node);
     else if (key == "detected")

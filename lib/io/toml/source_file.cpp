@@ -262,7 +262,7 @@ class SourceTable {
       : path_(path), table_(table), scale_(scale) {}
 
   [[noreturn]] void fail(const std::string& what, const toml::node* node = nullptr) const {
-    throw Error(ExitCode::kInput, toml_place(path_, (node ? *node : table_).source()) + ": " + what);
+    throw Error(ExitCode::kUsage, toml_place(path_, (node ? *node : table_).source()) + ": " + what);
   }
   bool has(const char* key) const { return table_.contains(key); }
   std::string text(const char* key) const {
@@ -362,6 +362,10 @@ void read_shape(const SourceTable& table, SourceSpec& source) {
   if (n > 1) {
     const std::vector<Vec3> points = table.vectors("points", n);
     std::copy(points.begin(), points.end(), source.point.begin());
+    if (SourceSpec simpler = source; simplify(simpler))
+      table.fail(source.kind == SourceKind::kLine
+                     ? "line: its points are the same; move one, or write type = \"point\" and at"
+                     : "triangle: its points lie on one line; move one, or write type = \"line\" with two points");
   }
   const auto extent = [&] {
     if (!table.has("extent")) table.fail("source needs extent, the radius of the volume");
@@ -409,8 +413,12 @@ SourceSpec read_source(const SourceTable& table) {
   SourceSpec source;
   source.name = table.text("name");
   const auto kind = kKinds.find(table.text("type"));
-  if (kind == kKinds.end())
-    table.fail("type '" + table.text("type") + "': write point, line, triangle, box, cylinder, sphere or disc");
+  if (kind == kKinds.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, of] : kKinds) names.push_back(name);
+    table.fail("type '" + table.text("type") + "'" + did_you_mean(table.text("type"), names) +
+               ": write point, line, triangle, box, cylinder, sphere or disc");
+  }
   source.kind = kind->second;
   read_shape(table, source);
   if (!table.has("length")) table.fail("source needs a length");
@@ -432,11 +440,11 @@ std::string name_to_delete(const SourceTable& table) {
 }
 
 SourceFile read_toml(const std::string& path, const ModelScale& scale) {
-  const toml::table file = parse_toml(path, read_text(path), ExitCode::kInput);
+  const toml::table file = parse_toml(path, read_text(path), ExitCode::kUsage);
   SourceFile result;
-  const std::vector<const toml::table*> entries = toml_list(path, file, {"source", "st-prolong", ExitCode::kInput});
+  const std::vector<const toml::table*> entries = toml_list(path, file, {"source", "st-prolong", ExitCode::kUsage});
   if (entries.empty() && !file.empty())
-    throw Error(ExitCode::kInput, path + ": no table [[source]] in it; see docs/st-prolong.md");
+    throw Error(ExitCode::kUsage, path + ": no table [[source]] in it; see docs/st-prolong.md");
   for (const toml::table* entry : entries) {
     const SourceTable table(path, *entry, scale);
     table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent",

@@ -35,7 +35,8 @@ struct SourceFile {
 ///   direction = [1, 0, 0]      # default: along a line or the axis of a cylinder
 ///
 /// [[st-prolong.source]] counts, too; what else an option file may hold is passed over. Coordinates and plain numbers
-/// are in the model unit. Throws Error(kInput) with file and line.
+/// are in the model unit. A line or triangle without extent is refused in TOML; those of FLITE files stay as they are.
+/// Throws Error with file and line: kUsage for TOML, kInput for the others and for what cannot be read.
 SourceFile read_source_file(const std::string& path, const ModelScale& scale);
 
 /// Reads a background mesh: .bac/.ba3 (its sources, too), or .msh of version 2.2 in text form with tetrahedra and node

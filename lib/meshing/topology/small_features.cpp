@@ -298,14 +298,13 @@ bool is_narrow(const Model& model, const SizeField& field, const MergeLimit& lim
 }
 
 /// By face.
-std::vector<Ring> narrow_rings(const Model& model, const SizeField& field, const std::vector<MergeLimit>& face_limit) {
+std::vector<Ring> narrow_rings(const Model& model, const SizeField& field) {
   const ModelTables& t = model.tables();
   std::vector<int> uses(t.n_edges(), 0);
   for (const EdgeId e : t.coedge_edge) ++uses[e];
   std::vector<Ring> rings;
   for (FaceId f = 0; f < t.n_faces(); ++f) {
-    MergeLimit limit = face_limit[f];
-    limit.exact = cad_tolerance(t, f);
+    const MergeLimit limit{0, 0, cad_tolerance(t, f)};  // the end of a thin pipe stays, however large the sizes are
     if (auto ring = ring_of(t, f, uses); ring && is_narrow(model, field, limit, *ring)) rings.push_back(*ring);
   }
   return rings;
@@ -326,7 +325,7 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   merged.edge = EdgeMerger(model, field, face_limit, below).run();
   StripMerger merger(t, merged.edge);
   std::vector<Strip> strips = narrow_strips(model, field, face_limit);
-  const std::vector<Ring> rings = narrow_rings(model, field, face_limit);
+  const std::vector<Ring> rings = narrow_rings(model, field);
   for (const Ring& ring : rings) strips.push_back(ring.strip);
   std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });
   for (const Strip& strip : strips) {

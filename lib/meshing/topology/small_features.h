@@ -25,8 +25,8 @@ struct MergeLimit {
 /// and on the mean narrower than the length. On faces whose groups have a tolerance (face_tolerances) that is the
 /// limit; an edge between faces of different limits has the smaller. `below` 0: nothing is merged. An edge is not drawn
 /// together when a loop would be left with fewer than two edges, or several would move a vertex further than that.
-/// Rings, faces between two closed edges, are closed where they are narrower all around than the limit or than the CAD
-/// is exact. Deterministic, local.
+/// Rings, faces between two closed edges, are closed where they are narrower all around than the CAD is exact.
+/// Deterministic, local.
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
 
 /// Nodes on the other long edge of a strip for those on the kept one (`nodes`, of this curve alone): as many, at the

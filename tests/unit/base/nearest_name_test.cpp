@@ -17,5 +17,17 @@ TEST(NearestName, is_the_one_that_was_meant_or_none) {
   EXPECT_EQ(nearest_name("x", {}), "");
 }
 
+TEST(NearestName, takes_two_letters_that_are_swapped_as_one_change) {
+  EXPECT_EQ(nearest_name("wnig", std::vector<std::string>{"fan", "wing"}), "wing");
+  EXPECT_EQ(nearest_name("tpi", std::vector<std::string>{"hub", "tip"}), "tip");
+  EXPECT_EQ(nearest_name("itp", std::vector<std::string>{"hub", ""}), "");
+}
+
+TEST(NearestName, compares_a_pattern_with_beginnings) {
+  const std::vector<std::string> names = {"fuselage_front", "wing_upper", "wing_lower"};
+  EXPECT_EQ(nearest_name("wnig*", names), "wing_upper");
+  EXPECT_EQ(nearest_name("nacelle*", names), "");
+}
+
 }  // namespace
 }  // namespace st

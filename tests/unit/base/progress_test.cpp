@@ -1,7 +1,10 @@
 #include "base/progress.h"
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -87,6 +90,32 @@ TEST(Progress, lines_of_a_rank_are_redrawn_and_its_other_words_are_not) {
   EXPECT_EQ(relay("warning: w\n"), "");
   EXPECT_FALSE(relay_progress("warning: w\n"));
   EXPECT_FALSE(relay_progress(""));
+}
+
+/// In a process of its own: the environment is read once, and the clock of others has run.
+void be_fast() { setenv("ST_PROGRESS_SECONDS", "0.2", 1); }
+
+TEST(ProgressDeathTest, a_step_that_tells_nothing_gets_lines_all_the_same) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto work = [](const char* step) {
+    be_fast();
+    Progress progress("importing", 1);
+    progress.step(step, 0.4);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  };
+  EXPECT_EXIT((work("sewing"), _exit(0)), testing::ExitedWithCode(0), "importing: sewing 40 %, 0 s so far");
+  EXPECT_EXIT((set_verbosity(Verbosity::kQuiet), work("sewing"), _exit(0)), testing::ExitedWithCode(0), "^$");
+}
+
+TEST(ProgressDeathTest, the_innermost_work_speaks) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto work = [] {
+    be_fast();
+    Progress outer("importing", 1), inner("uniting bodies", 4);
+    inner.update(1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  };
+  EXPECT_EXIT((work(), _exit(0)), testing::ExitedWithCode(0), "uniting bodies 25 %, 0 s so far");
 }
 
 }  // namespace

@@ -1,6 +1,13 @@
 // Parts that cross are named at import.
 #include <gtest/gtest.h>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepTools.hxx>
+#include <gp_Ax1.hxx>
+#include <gp_Trsf.hxx>
 
+#include "geometry/brep/compound.h"
 #include "unit/geometry/broken_import.h"
 
 namespace st {
@@ -23,6 +30,26 @@ TEST(CrossingBodies, are_not_those_that_touch_or_are_apart) {
   for (const char* shape : {"touching_boxes", "offset_boxes", "pin_in_plate", "boxes_along_edge", "box_twice",
                             "box_in_box", "stacked_boxes", "nested_shells"})
     EXPECT_TRUE(findings_of(import_broken(shape), "parts cross").empty()) << shape;
+}
+
+/// A cube of splines about (x, 0, 0), turned about its diagonal.
+TopoDS_Shape spline_cube(double x, double edge, double angle) {
+  const gp_Pnt corner(x - 0.5 * edge, -0.5 * edge, -0.5 * edge);
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(x, 0, 0), gp_Dir(1, 1, 1)), angle);
+  return BRepBuilderAPI_Transform(
+             BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeBox(corner, edge, edge, edge).Shape()).Shape(), turn, true)
+      .Shape();
+}
+
+/// Two that lie inside each other take all comparisons that two bodies may have; those behind them get theirs.
+TEST(CrossingBodies, are_all_found_however_long_two_that_do_not_cross_take) {
+  const TemporaryDirectory dir;
+  const TopoDS_Shape all =
+      occt::compound_of({spline_cube(0, 40, 0.5), spline_cube(0, 20, 0.2), spline_cube(0, 10, 0.9),
+                         spline_cube(100, 10, 0.3), spline_cube(104, 10, 0.7), spline_cube(108, 10, 0.1)});
+  BRepTools::Write(all, (dir / "model.brep").c_str());
+  EXPECT_EQ(findings_of(import_model(dir / "model.brep", {}), "parts cross: ").size(), 3u);
 }
 
 TEST(CrossingBodies, are_none_once_united) {

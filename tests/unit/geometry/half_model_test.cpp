@@ -8,6 +8,7 @@
 #include "geometry/import/import.h"
 #include "geometry/model/model.h"
 #include "support/shapes.h"
+#include "unit/geometry/broken_import.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st {
@@ -137,6 +138,35 @@ TEST(HalfModel, wrong_values_are_usage_errors) {
     expect_error(ExitCode::kUsage, "--symmetry", "box", bad, "");
   for (const char* bad : {"box", "box:", "box:0.5", "ball:20", "sphere:1e9", "box:20x", ":3"})
     expect_error(ExitCode::kUsage, "--farfield", "box", "", bad);
+}
+
+ImportResult import_half(const std::string& shape, const std::string& symmetry, const std::string& farfield = "",
+                         bool unite = false) {
+  ImportOptions options;
+  options.symmetry = symmetry;
+  options.farfield = farfield;
+  options.unite = unite;
+  return test::import_broken(shape, options);
+}
+
+/// The plane would have a hole where there is material, or faces on each other.
+TEST(HalfModel, of_a_solid_inside_a_solid_is_refused_unless_they_are_united) {
+  EXPECT_ERROR(import_half("box_in_box", "y=0"), kGeometry, "lies inside");
+  const ImportResult united = import_half("box_in_box", "y=0", "", true);
+  EXPECT_NEAR(united.volume, 0.5 * 60 * 60 * 60, 1e-6 * 60 * 60 * 60);
+  EXPECT_NEAR(area_of_role(united.tables, "symmetry"), 60 * 60, 1e-6);
+}
+
+TEST(HalfModel, keeps_the_cavity_of_a_solid_open) {
+  const ImportResult half = import_half("housing", "y=0");
+  EXPECT_NEAR(area_of_role(half.tables, "symmetry"), 40 * 40 - 30 * 30, 1e-6);
+  EXPECT_NEAR(half.volume, 0.5 * (40 * 40 * 40 - 30 * 30 * 30), 1e-4);
+}
+
+TEST(HalfModel, of_solids_that_touch_closes_each_of_them) {
+  const ImportResult half = import_half("touching_boxes", "z=5");
+  EXPECT_TRUE(half.is_closed);
+  EXPECT_EQ(half.tables.n_solids, 2);
 }
 
 }  // namespace

@@ -130,6 +130,16 @@ TEST(Export, names_files_of_groups_before_the_whole_suffix) {
   EXPECT_EQ(path_of_group("a.b/wing.stl", "TAIL"), "a.b/wing_TAIL.stl");
   EXPECT_EQ(path_of_group("wing.ascii.stl", "T"), "wing_T.ascii.stl");
   EXPECT_EQ(path_of_group("a.b/wing", "T"), "a.b/wing_T");
+  const std::string long_name(300, 'x'), other = long_name + "y", umlauts = [] {
+    std::string text;
+    for (int i = 0; i < 150; ++i) text += "\u00e4";
+    return text;
+  }();
+  EXPECT_LE(path_of_group("a/wing.stl", long_name).size(), 202u);
+  EXPECT_NE(path_of_group("wing.stl", long_name), path_of_group("wing.stl", other));
+  EXPECT_TRUE(path_of_group("wing.stl", long_name).ends_with(".stl"));
+  for (const char* path : {"w.stl", "wi.stl"})
+    EXPECT_NE(path_of_group(path, umlauts).find("\u00e4~"), std::string::npos) << "no half of a letter";
 }
 
 TEST(Export, refuses_curved_elements_and_parameters_where_there_is_no_room) {

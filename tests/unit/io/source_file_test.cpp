@@ -25,7 +25,7 @@ class SourceFiles : public testing::Test {
       toml(text);
       ADD_FAILURE() << "no error for " << text;
     } catch (const Error& e) {
-      EXPECT_EQ(e.code(), ExitCode::kInput);
+      EXPECT_EQ(e.code(), ExitCode::kUsage);
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
       EXPECT_NE(std::string(e.what()).find("s.toml:"), std::string::npos) << e.what();
     }
@@ -94,6 +94,19 @@ length = 1
   EXPECT_EQ(f.sources[3].point[0], (Vec3{1, 2, 3}));
   EXPECT_EQ(norm(f.sources[3].half_axis[2]), 3);
   EXPECT_EQ(f.sources[4].extent, 0.5);
+}
+
+TEST_F(SourceFiles, toml_refuses_lines_and_triangles_without_extent) {
+  const std::string line = "[[source]]\ntype = \"line\"\nlength = 1\npoints = ",
+                    triangle = "[[source]]\ntype = \"triangle\"\nlength = 1\npoints = ";
+  expect_error(line + "[[1, 2, 3], [1, 2, 3]]", "line: its points are the same; move one, or write type = \"point\"");
+  expect_error(triangle + "[[0, 0, 0], [1, 1, 1], [3, 3, 3]]", "triangle: its points lie on one line");
+  expect_error(triangle + "[[1, 1, 1], [1, 1, 1], [1, 1, 1]]", "triangle: its points lie on one line");
+  EXPECT_NO_THROW(toml(line + "[[1, 2, 3], [1, 2, 3.001]]"));
+}
+
+TEST_F(SourceFiles, toml_guesses_a_kind_that_is_misspelt) {
+  expect_error("[[source]]\ntype = \"shpere\"\nlength = 1", "did you mean 'sphere'");
 }
 
 TEST_F(SourceFiles, toml_deletes_by_name) {
@@ -313,7 +326,7 @@ TEST_F(SourceFiles, sources_may_be_stretched) {
   EXPECT_EQ(cylinder.direction, (Vec3{0, 0, 1}));
   EXPECT_EQ(spec("type = \"point\"\nat = [0, 0, 0]").aspect, 1);
   const auto refused = [&](const std::string& text, const std::string& message) {
-    EXPECT_ERROR(spec("type = \"point\"\nat = [0, 0, 0]\n" + text), kInput, message);
+    EXPECT_ERROR(spec("type = \"point\"\nat = [0, 0, 0]\n" + text), kUsage, message);
   };
   refused("aspect = 4", "needs direction");
   refused("aspect = 4\ndirection = [0, 0, 0]", "needs direction");

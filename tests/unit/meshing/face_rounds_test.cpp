@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "features/strip.h"
@@ -63,16 +62,6 @@ TEST(FaceRounds, leave_no_fold_where_the_surface_is_folded) {
   const ShapeReport shape = check_shape(meshed.mesh, edges_of(meshed.mesh));
   EXPECT_EQ(shape.folds.count, 0);
   EXPECT_EQ(shape.zero_area.count, 0);
-}
-
-TEST(FaceRounds, take_back_what_refining_did_not_mend) {
-  const double length = 1;
-  const test::Meshed meshed("spindle_torus", length);
-  ASSERT_GT(meshed.result.n_crossing_pairs, 0) << "no size parts what crosses in the CAD";
-  ASSERT_GT(meshed.result.n_refinements, 0);
-  double expected = 0;
-  for (const double area : meshed.model.tables().face_area) expected += area / (std::sqrt(0.1875) * length * length);
-  EXPECT_LT(meshed.mesh.n_triangles(), 1.5 * expected);
 }
 
 /// Stretched along z; the length along grows a little with y.

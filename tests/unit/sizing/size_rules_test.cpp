@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "sizing/model_limits.h"
+#include "unit/io/temporary_directory.h"
 
 namespace st {
 namespace {
@@ -79,11 +80,11 @@ TEST(SizeRules, tell_curves_from_surfaces) {
   EXPECT_EQ(limits_of({rule}).edge[0]->max_length, 0.5);
 }
 
-TEST(SizeRules, select_faces_and_edges_by_number_and_name) {
-  SizeRule rule = rule_of({}, 0.2);
+TEST(SizeRules, select_faces_and_edges_by_number_range_and_name) {
+  SizeRule rule = rule_of({}, 0.2), of_edges = rule_of({}, 0.2);
   rule.faces = {"wing_*"};
-  rule.edges = {"3", "4"};
-  const ModelLimits limits = limits_of({rule});
+  of_edges.edges = {"3-4"};
+  const ModelLimits limits = limits_of({rule, of_edges});
   EXPECT_EQ(limits.face[0]->max_length, 0.2);
   EXPECT_EQ(limits.edge[2]->max_length, 0.2);
   EXPECT_FALSE(limits.edge[3]) << "degenerate, whatever is said of it";
@@ -182,6 +183,37 @@ TEST(SizeRules, say_of_between_that_it_takes_groups_of_faces) {
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("it names a group of edges"), std::string::npos) << e.what();
   }
+}
+
+TEST(SizeRules, of_several_keys_take_what_meets_all_of_them_and_of_a_list_what_meets_any) {
+  const ModelTables t = with_groups();
+  SizeRule rule = rule_of({}, 0.1);
+  rule.groups = {"WING", "BODY"};
+  EXPECT_EQ(find_targets(rule, t).faces, (std::vector<FaceId>{0, 1}));
+  rule.faces = {"2-4"};
+  EXPECT_EQ(find_targets(rule, t).faces, std::vector<FaceId>{1});
+  rule.edges = {"1", "2"};
+  const RuleTargets of_body = find_targets(rule, t);
+  EXPECT_EQ(of_body.edges, std::vector<EdgeId>{1}) << "faces stand for their edges";
+  EXPECT_TRUE(of_body.faces.empty());
+  rule.faces.clear();
+  rule.groups = {"te"};
+  EXPECT_EQ(find_targets(rule, t).edges, std::vector<EdgeId>{0}) << "a group of edges";
+  rule.between = {"WING", "BODY"};
+  EXPECT_NE(message_of(rule).find("no group or part matches 'te'"), std::string::npos) << message_of(rule);
+  EXPECT_ERROR(find_targets(rule, t), kUsage, "sizes.toml:3: no edge meets all keys of its selection");
+}
+
+TEST(SizeRules, take_the_detected_edges_of_a_group_alone) {
+  const ModelTables t = with_groups();
+  std::vector<WingEdge> found(2);
+  found[0].edge = 0, found[1].edge = 2;
+  for (WingEdge& w : found) w.kind = WingEdgeKind::kSharpTrailing;
+  SizeRule rule = rule_of({}, 0.1);
+  add_detected("trailing", rule);
+  EXPECT_EQ(find_targets(rule, t, found).edges, (std::vector<EdgeId>{0, 2}));
+  rule.groups = {"WING"};
+  EXPECT_EQ(find_targets(rule, t, found).edges, std::vector<EdgeId>{0});
 }
 
 }  // namespace

@@ -175,5 +175,39 @@ TEST(BackgroundMesh, is_linear_in_each_tetrahedron_and_silent_outside) {
   EXPECT_LT(range.hi - range.lo, 0.02);
 }
 
+TEST(Source, without_extent_becomes_what_it_is) {
+  SourceSpec line;
+  line.kind = SourceKind::kLine;
+  line.point = {{{5, 5, 5}, {5, 5, 5}, {}}};
+  line.spacing = {{{0.2, 1, 0}, {0.1, 2, 0}, {}}};
+  EXPECT_TRUE(simplify(line));
+  EXPECT_EQ(line.kind, SourceKind::kPoint);
+  EXPECT_EQ(line.spacing[0].length, 0.1);
+  EXPECT_FALSE(simplify(line));
+  SourceSpec triangle;
+  triangle.kind = SourceKind::kTriangle;
+  triangle.point = {{{1, 0, 0}, {0, 0, 0}, {3, 0, 0}}};
+  triangle.spacing = {{{0.3, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}};
+  EXPECT_TRUE(simplify(triangle));
+  EXPECT_EQ(triangle.kind, SourceKind::kLine);
+  EXPECT_EQ(norm(triangle.point[0] - triangle.point[1]), 3);
+  EXPECT_DOUBLE_EQ(triangle.spacing[0].length + triangle.spacing[1].length, 0.3);
+  for (SourceSpec sound : one_of_each_kind()) EXPECT_FALSE(simplify(sound));
+}
+
+TEST(Source, has_a_core_in_which_its_length_is_constant) {
+  for (const SourceSpec& s : one_of_each_kind()) {
+    const Box3 box = core_box(s);
+    ASSERT_FALSE(box.is_empty());
+    const Vec3 out = box.hi - box.lo;
+    for (const Vec3 x : {box.lo - 0.01 * out, box.hi + 0.01 * out}) {
+      const double least = std::min({s.spacing[0].length, s.spacing[1].length, s.spacing[2].length});
+      EXPECT_GT(size_at(s, x), least) << static_cast<int>(s.kind);
+    }
+    EXPECT_LE(box.lo.x, s.point[0].x);
+    EXPECT_GE(box.hi.x, s.point[0].x);
+  }
+}
+
 }  // namespace
 }  // namespace st

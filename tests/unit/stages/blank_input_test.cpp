@@ -63,5 +63,17 @@ TEST(BlankInput, refuses_inner_walls) {
   EXPECT_NE(message_of(dir / "a.stl").find("inner walls"), std::string::npos);
 }
 
+TEST(BlankInput, points_are_near_the_cells_that_are_named) {
+  const std::vector<RasterBox> boxes = {{{0.1, 0.1, 0.1}, 0.05f, 0.05f}};
+  const Box3 root{{0, 0, 0}, {1, 1, 1}};
+  const RasterOctree octree = build_octree(root, boxes);
+  const OctreeView view = octree.shape.view();
+  const std::int32_t leaf = view.find_leaf(morton::encode(view.grid_point({0.1, 0.1, 0.1})));
+  const std::vector<std::int32_t> leaves = {leaf};
+  EXPECT_EQ(share_near(std::vector<Vec3>{{0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}}, view, leaves), 0.5);
+  EXPECT_EQ(share_near(std::vector<Vec3>{{-7, 0.1, 0.1}}, view, leaves), 0) << "outside";
+  EXPECT_EQ(share_near({}, view, leaves), 0);
+}
+
 }  // namespace
 }  // namespace st
