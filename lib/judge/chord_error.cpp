@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -22,28 +23,55 @@ double distance_to_line(Vec3 p, Vec3 a, Vec3 b) {
   return length > 0 ? norm(cross(p - a, b - a)) / length : distance(p, a);
 }
 
-/// Area on the surface between a trimming curve and the straight lines in (u,v) through its points at the parameters t.
-double area_beside_chords(const Surface& surface, const Curve2d& pcurve, const std::vector<double>& t) {
-  double area = 0;
-  for (std::size_t i = 1; i < t.size(); ++i) {
-    const Vec2 from = pcurve.point(t[i - 1]), to = pcurve.point(t[i]), middle = pcurve.point(0.5 * (t[i - 1] + t[i]));
+/// How much of what a side of this length explains one of the requested length would: errors grow with its square.
+/// All, where no length is known.
+double asked_share(double length, double size) {
+  const double longest = kLongestSide * size;
+  return size > 0 && length > longest ? (longest / length) * (longest / length) : 1;
+}
+
+/// A node of an edge.
+struct EdgeNode {
+  double t = 0;     // parameter
+  double size = 0;  // requested length, 0: not known
+};
+
+struct AreaBeside {
+  double asked = 0, found = 0;  // see ChordError::area, found_area
+};
+
+/// Area on the surface between a trimming curve and the straight lines in (u,v) through its points at the nodes.
+AreaBeside area_beside_chords(const Surface& surface, const Curve2d& pcurve, const std::vector<EdgeNode>& nodes) {
+  AreaBeside area;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const double t0 = nodes[i - 1].t, t1 = nodes[i].t;
+    const Vec2 from = pcurve.point(t0), to = pcurve.point(t1), middle = pcurve.point(0.5 * (t0 + t1));
     const Vec3 a = surface.point(from), b = surface.point(to), m = surface.point(middle);
     const double chord = distance(a, b), sagitta = distance(m, surface.point(0.5 * (from + to)));
     const bool is_loop = chord < 1e-3 * sagitta;  // a closed edge of one segment: all that it encloses is missing
-    area += is_loop ? sagitta * sagitta : kArcSegment * sagitta * chord;
+    const double beside = is_loop ? sagitta * sagitta : kArcSegment * sagitta * chord;
+    area.found += beside;
+    area.asked += beside * asked_share(std::max(chord, 2 * sagitta), std::max(nodes[i - 1].size, nodes[i].size));
   }
   return area;
 }
 
-/// Parameters of each edge's nodes, from end to end.
-std::vector<std::vector<double>> edge_parameters(const ModelTables& tables, const SurfaceMesh& mesh) {
-  std::vector<std::vector<double>> t(tables.n_edges());
-  for (EdgeId e = 0; e < tables.n_edges(); ++e) t[e].push_back(tables.edge_range[2 * e]);
+/// Nodes of each edge, from end to end.
+std::vector<std::vector<EdgeNode>> edge_nodes(const ModelTables& tables, const SurfaceMesh& mesh) {
+  std::vector<double> vertex_size(tables.n_vertices(), 0);
+  std::vector<std::vector<EdgeNode>> nodes(tables.n_edges());
+  for (std::int64_t n = 0; n < mesh.n_nodes(); ++n)
+    if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex))
+      vertex_size[mesh.node_entity[n]] = mesh.node_size[n];
+  const auto add_end = [&](EdgeId e, int end) {
+    nodes[e].push_back({tables.edge_range[2 * e + end], vertex_size[tables.edge_vertices[2 * e + end]]});
+  };
+  for (EdgeId e = 0; e < tables.n_edges(); ++e) add_end(e, 0);
   for (std::int64_t n = 0; n < mesh.n_nodes(); ++n)
     if (mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kEdge))
-      t[mesh.node_entity[n]].push_back(mesh.node_t[n]);
-  for (EdgeId e = 0; e < tables.n_edges(); ++e) t[e].push_back(tables.edge_range[2 * e + 1]);
-  return t;
+      nodes[mesh.node_entity[n]].push_back({mesh.node_t[n], mesh.node_size[n]});
+  for (EdgeId e = 0; e < tables.n_edges(); ++e) add_end(e, 1);
+  return nodes;
 }
 
 /// Beside an edge drawn together to one node, what lies between it and the next nodes: no more than its length times
@@ -60,13 +88,16 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
   for (TriangleId i = 0; i < mesh.n_triangles(); ++i)
     for (const NodeId n : mesh.triangles[i].n)
       face_size[mesh.triangle_face[i]] = std::max(face_size[mesh.triangle_face[i]], mesh.node_size[n]);
-  const std::vector<std::vector<double>> t = edge_parameters(tables, mesh);
+  const std::vector<std::vector<EdgeNode>> nodes = edge_nodes(tables, mesh);
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     const std::unique_ptr<Surface> surface = model.surface(f);
-    for (const LoopId l : tables.loops(f))
-      for (const CoedgeId c : tables.loop_coedges(l))
-        error.area[f] += area_beside_chords(*surface, *model.pcurve(f, c), t[tables.coedge_edge[c]]) +
-                         area_beside_merged(tables, mesh, tables.coedge_edge[c], face_size, f);
+    for (const CoedgeId c : tables.coedges(f)) {
+      const EdgeId e = tables.coedge_edge[c];
+      const double merged = area_beside_merged(tables, mesh, e, face_size, f);
+      const AreaBeside beside = area_beside_chords(*surface, *model.pcurve(f, c), nodes[e]);
+      error.area[f] += beside.asked + merged;
+      error.found_area[f] += beside.found + merged;
+    }
   }
 }
 
@@ -74,14 +105,26 @@ double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a));
 
 /// What some triangles of one face add, see ChordError.
 struct FacePart {
-  double area = 0, distance = 0, node_distance = 0, off_surface = 0;
-  Vec3 node_place, off_place;
+  double area = 0, found_area = 0, volume = 0, moved_volume = 0, flat = 0, size = 0;  // size: times the flat area
+  double distance = 0, node_distance = 0, off_surface = 0, stray = 0;
+  Vec3 node_place, off_place, stray_place;
 };
 
-void add_corner(Vec3 on_surface, Vec3 node, double size, FacePart& part) {
-  const double d = distance(on_surface, node), off = d - kOffSurface * size;
+/// Distance of a node from the surface: at its (u,v), or nearer where the projection from there ends.
+double distance_to_surface(const Surface& surface, Vec2 uv, Vec3 on_surface, Vec3 node, double size) {
+  constexpr double kNear = 1e-3;  // of its requested length: not worth a projection
+  const double d = distance(on_surface, node);
+  if (d <= kNear * size) return d;
+  const auto foot = project_near(surface, node, uv);
+  return foot ? std::min(d, distance(surface.point(*foot), node)) : d;
+}
+
+/// `d`: from the surface's point at the corner's (u,v); `stray`: from the surface.
+void add_corner(double d, double stray, Vec3 node, double size, FacePart& part) {
+  const double off = d - kOffSurface * size;
   if (d > part.node_distance) part.node_distance = d, part.node_place = node;
   if (off > part.off_surface) part.off_surface = off, part.off_place = node;
+  if (stray > part.stray) part.stray = stray, part.stray_place = node;
 }
 
 /// Sum of the squared angles between the normals at the corners, rad^2; poles have none.
@@ -97,33 +140,86 @@ double turning(const std::array<SurfacePoint, 3>& corner) {
   return sum;
 }
 
+/// One triangle, and the surface at its corners.
+struct TriangleOnSurface {
+  std::array<Vec2, 3> uv;
+  std::array<Vec3, 3> x;     // on the surface
+  std::array<Vec3, 3> node;  // of the mesh
+  std::array<double, 3> size;
+};
+
 /// The triangle of the surface's points at its corners, against its four parts with corners on the surface; and against
 /// a sphere that turns as the normals do, where (u,v) near a pole makes poor parts.
-void add_triangle(const Surface& surface, const std::array<Vec2, 3>& uv, std::array<Vec3, 3>& x, FacePart& part) {
+void add_chords(const Surface& surface, TriangleOnSurface& t, FacePart& part) {
   constexpr double kRichardson = 4.0 / 3.0 * 1.1;  // terms of higher order: 10 % for nine triangles on an octant of a
                                                    // sphere
   constexpr double kSphere = 5.0 / 72.0 * 1.5;     // of the area, per rad^2 of turning
   std::array<Vec3, 3> m;
   std::array<SurfacePoint, 3> corner;
+  auto& x = t.x;
   for (int k = 0; k < 3; ++k) {
-    corner[k] = surface.evaluate(uv[k]);
+    corner[k] = surface.evaluate(t.uv[k]);
     x[k] = corner[k].x;
-    m[k] = surface.point(0.5 * (uv[k] + uv[(k + 1) % 3]));
+    m[k] = surface.point(0.5 * (t.uv[k] + t.uv[(k + 1) % 3]));
   }
-  for (int k = 0; k < 3; ++k) part.distance = std::max(part.distance, distance_to_line(m[k], x[k], x[(k + 1) % 3]));
+  std::array<double, 3> heights;
+  for (int k = 0; k < 3; ++k) heights[k] = distance_to_line(m[k], x[k], x[(k + 1) % 3]);
+  const double height = *std::max_element(heights.begin(), heights.end());
+  double curved_side = std::numeric_limits<double>::infinity();  // the shortest: along the others less is curved
+  for (int k = 0; k < 3; ++k)
+    if (heights[k] >= 0.5 * height) curved_side = std::min(curved_side, distance(x[k], x[(k + 1) % 3]));
+  const double size = (t.size[0] + t.size[1] + t.size[2]) / 3, share = asked_share(curved_side, size);
   const double flat = area_of(x[0], x[1], x[2]);
   const double curved =
       area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
-  part.area += std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(corner) * flat);
+  const double found = std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(corner) * flat);
+  part.distance = std::max(part.distance, height);
+  part.found_area += found;
+  part.area += found * share;
+  part.volume += height * flat * share;
+  part.flat += flat;
+  part.size += size * flat;
+}
+
+/// How far the nodes lie from the surface, and what that changes.
+void add_nodes(const Surface& surface, const TriangleOnSurface& t, bool has_merged, FacePart& part) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double stray = distance_to_surface(surface, t.uv[k], t.x[k], t.node[k], t.size[k]);
+    add_corner(distance(t.x[k], t.node[k]), stray, t.node[k], t.size[k], part);
+    sum += stray;
+  }
+  const double flat = area_of(t.x[0], t.x[1], t.x[2]), area = area_of(t.node[0], t.node[1], t.node[2]);
+  part.moved_volume += sum / 3 * std::max(flat, area);
+  if (!has_merged) return;  // nodes drawn together
+  part.area += std::fabs(area - flat);
+  part.found_area += std::fabs(area - flat);
 }
 
 void add_part(const FacePart& part, FaceId f, ChordError& error) {
   error.area[f] += part.area;
+  error.found_area[f] += part.found_area;
+  error.volume[f] += part.volume;
+  error.moved_volume[f] += part.moved_volume;
+  error.flat[f] += part.flat;
+  error.size[f] += part.size;
   error.distance[f] = std::max(error.distance[f], part.distance);
   if (part.node_distance > error.node_distance[f])
     error.node_distance[f] = part.node_distance, error.node_place[f] = part.node_place;
   if (part.off_surface > error.off_surface[f])
     error.off_surface[f] = part.off_surface, error.off_place[f] = part.off_place;
+  if (part.stray > error.stray[f]) error.stray[f] = part.stray, error.stray_place[f] = part.stray_place;
+}
+
+TriangleOnSurface triangle_of(const SurfaceMesh& mesh, std::size_t t) {
+  TriangleOnSurface result;
+  for (int k = 0; k < 3; ++k) {
+    const NodeId n = mesh.triangles[t].n[k];
+    result.uv[k] = mesh.corner_uv[3 * t + k];
+    result.node[k] = mesh.node_xyz[n];
+    result.size[k] = mesh.node_size[n];
+  }
+  return result;
 }
 
 void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
@@ -132,34 +228,33 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& erro
   const auto n_triangles = static_cast<std::size_t>(mesh.n_triangles());
   std::vector<Parts> pieces((n_triangles + kPerPiece - 1) / kPerPiece);
   parallel_for(n_triangles, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    FaceSurface surface(model);
+    FaceSurface faces(model);
     for (std::size_t t = begin; t < end; ++t) {
       const FaceId f = mesh.triangle_face[t];
+      const Surface& surface = faces.of(f);
       FacePart& part = pieces[begin / kPerPiece][f];
-      const auto& n = mesh.triangles[t].n;
-      std::array<Vec3, 3> x;
-      add_triangle(surface.of(f), {mesh.corner_uv[3 * t], mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]}, x,
-                   part);
-      for (int k = 0; k < 3; ++k) add_corner(x[k], mesh.node_xyz[n[k]], mesh.node_size[n[k]], part);
-      if (!mesh.merged.empty())  // nodes drawn together
-        part.area += std::fabs(area_of(mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]) -
-                               area_of(x[0], x[1], x[2]));
+      TriangleOnSurface triangle = triangle_of(mesh, t);
+      add_chords(surface, triangle, part);
+      add_nodes(surface, triangle, !mesh.merged.empty(), part);
     }
   });
   for (const Parts& parts : pieces)
     for (const auto& [f, part] : parts) add_part(part, f, error);
+  for (std::size_t f = 0; f < error.size.size(); ++f)
+    if (error.flat[f] > 0) error.size[f] /= error.flat[f];
 }
 
 }  // namespace
 
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
   ChordError error;
-  error.area.assign(model.tables().n_faces(), 0);
-  error.distance.assign(model.tables().n_faces(), 0);
-  error.node_distance.assign(model.tables().n_faces(), 0);
-  error.node_place.resize(model.tables().n_faces());
-  error.off_surface.assign(model.tables().n_faces(), 0);
-  error.off_place.resize(model.tables().n_faces());
+  const auto n_faces = static_cast<std::size_t>(model.tables().n_faces());
+  for (auto* values : {&error.area, &error.found_area, &error.volume, &error.moved_volume, &error.flat, &error.size,
+                       &error.distance, &error.node_distance, &error.off_surface, &error.stray})
+    values->assign(n_faces, 0);
+  error.node_place.resize(n_faces);
+  error.off_place.resize(n_faces);
+  error.stray_place.resize(n_faces);
   add_edges(model, mesh, error);
   add_triangles(model, mesh, error);
   return error;

@@ -1,10 +1,12 @@
 #include "judge/surface_deviation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "base/threads.h"
+#include "geometry/shape/projection.h"
 #include "judge/face_surface.h"
 
 namespace st {
@@ -32,18 +34,55 @@ namespace {
 
 constexpr std::size_t kPerPiece = 16'384;  // triangles
 
-/// The nearest point found of the surface, as (u,v).
-Vec2 foot(const Surface& surface, Vec3 p, Vec2 guess) {
-  const auto projected = project_near(surface, p, guess);
-  return projected && distance(surface.point(*projected), p) < distance(surface.point(guess), p) ? *projected : guess;
-}
+/// Feet of the midpoints of some triangles. Few of them need more than one start.
+class FootFinder {
+ public:
+  /// The nearest point found of the surface to the triangle's midpoint, as (u,v).
+  Vec2 foot(const Surface& surface, const std::array<Vec3, 3>& x, const Vec2* uv) {
+    const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
+    const double side = std::max({distance(x[0], x[1]), distance(x[1], x[2]), distance(x[2], x[0])});
+    Foot best{(1.0 / 3) * (uv[0] + uv[1] + uv[2]), 0, false};
+    best.distance = distance(surface.point(best.uv), middle);
+    try_from(surface, middle, best.uv, best);
+    for (int k = 0; k < 3 && best.is_doubtful(side); ++k) try_from(surface, middle, uv[k], best);
+    if (best.is_doubtful(side) && n_searches_ < kMostSearches) {
+      ++n_searches_;
+      const SurfaceFoot nearest = closest_point(surface, middle);
+      if (nearest.distance < best.distance) best.uv = nearest.uv;
+    }
+    return best.uv;
+  }
 
-void add_triangle(const Surface& surface, const SurfaceMesh& mesh, TriangleId t, double side, DeviationStats& stats) {
+ private:
+  struct Foot {
+    Vec2 uv;
+    double distance = 0;   // model unit
+    bool is_foot = false;  // Newton's method ended there
+    bool is_doubtful(double side) const { return distance > (is_foot ? kDoubtful : kNegligible) * side; }
+  };
+
+  /// Newton's method from a guess.
+  static void try_from(const Surface& surface, Vec3 p, Vec2 guess, Foot& best) {
+    const auto projected = project_near(surface, p, guess);
+    if (!projected) return;
+    const double d = distance(surface.point(*projected), p);
+    if (d < best.distance) best = {*projected, d, true};
+  }
+
+  static constexpr double kNegligible = 1e-3;  // of the longest side
+  static constexpr double kDoubtful = 0.1;     // of the longest side: an arc of 45 degrees
+  static constexpr int kMostSearches = 1000;   // of the whole surface, up to a millisecond each
+
+  int n_searches_ = 0;
+};
+
+void add_triangle(const Surface& surface, const SurfaceMesh& mesh, TriangleId t, double side, FootFinder& finder,
+                  DeviationStats& stats) {
   const auto& n = mesh.triangles[t].n;
-  const Vec3 a = mesh.node_xyz[n[0]], b = mesh.node_xyz[n[1]], c = mesh.node_xyz[n[2]], middle = (a + b + c) / 3;
-  const Vec2* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(t)];
-  const Vec2 at = foot(surface, middle, (1.0 / 3) * (uv[0] + uv[1] + uv[2]));
-  const double angle = angle_between(cross(b - a, c - a), side * surface_normal(surface, at));
+  const std::array<Vec3, 3> x{mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]};
+  const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
+  const Vec2 at = finder.foot(surface, x, &mesh.corner_uv[3 * static_cast<std::size_t>(t)]);
+  const double angle = angle_between(cross(x[1] - x[0], x[2] - x[0]), side * surface_normal(surface, at));
   stats.add(middle, distance(surface.point(at), middle), degrees(angle));
 }
 
@@ -71,9 +110,10 @@ SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) 
   std::vector<Parts> pieces((n + kPerPiece - 1) / kPerPiece);
   parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface surface(model);
+    FootFinder finder;
     for (std::size_t t = begin; t < end; ++t) {
       const FaceId f = mesh.triangle_face[t];
-      add_triangle(surface.of(f), mesh, static_cast<TriangleId>(t), side[f], pieces[begin / kPerPiece][f]);
+      add_triangle(surface.of(f), mesh, static_cast<TriangleId>(t), side[f], finder, pieces[begin / kPerPiece][f]);
     }
   });
   for (const Parts& parts : pieces)
@@ -90,9 +130,10 @@ std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& me
   std::vector<float> deviations(mesh.triangles.size());
   parallel_for(deviations.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface surface(model);
+    FootFinder finder;
     for (std::size_t t = begin; t < end; ++t) {
       DeviationStats one;
-      add_triangle(surface.of(mesh.triangle_face[t]), mesh, static_cast<TriangleId>(t), 1, one);
+      add_triangle(surface.of(mesh.triangle_face[t]), mesh, static_cast<TriangleId>(t), 1, finder, one);
       deviations[t] = static_cast<float>(one.max_distance);
     }
   });

@@ -15,6 +15,12 @@ bool Findings::passes() const {
   return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.fails(); });
 }
 
+std::int64_t Findings::count(const std::string& check) const {
+  for (const Check& c : checks)
+    if (c.name == check) return c.defects.count;
+  return 0;
+}
+
 std::string face_label(const SurfaceMesh& mesh, FaceId f) {
   const bool has_name = static_cast<std::size_t>(f) < mesh.labels.face_name.size() && !mesh.labels.face_name[f].empty();
   return has_name ? fmt::format("face {} \"{}\"", f + 1, mesh.labels.face_name[f]) : fmt::format("face {}", f + 1);
@@ -152,14 +158,30 @@ std::optional<std::int64_t> genus_of(const TopologyReport& t) {
   return is_manifold ? std::optional(t.genus) : std::nullopt;
 }
 
+/// What is beyond what a mesh of the CAD would be expected to be, though its sizes ask for it.
+std::string said_of_sizes(const Findings& f) {
+  constexpr double kWorthSaying = 0.01;
+  std::string text;
+  if (const std::int64_t n = f.count("below-sizes"))
+    text += fmt::format(", {} {} below the sizes", n, n == 1 ? "face" : "faces");
+  const auto add = [&](const char* what, const std::optional<double>& difference) {
+    if (difference && std::fabs(*difference) > kWorthSaying)
+      text += fmt::format(", {} {:.1f} % {} the CAD's", what, 100 * std::fabs(*difference),
+                          *difference < 0 ? "below" : "above");
+  };
+  add("area", f.area_difference);
+  add("volume", f.volume_difference);
+  return text;
+}
+
 /// Parts in contact are sound each for itself, but not one surface.
 std::string passed_as(const Findings& f) {
   const std::int64_t n = f.crossings.contacts.count;
-  if (n == 0) return "passes";
+  if (n == 0) return "passes" + said_of_sizes(f);
   return fmt::format(
       "passes part by part, which touch or cross in {} pairs of triangles (st-import --join or --unite "
-      "makes them one)",
-      n);
+      "makes them one){}",
+      n, said_of_sizes(f));
 }
 
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
@@ -377,6 +399,8 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
          {"crossings", f.crossings.crossings.count},
          {"area", f.measure.area},
          {"volume", f.measure.volume},
+         {"area_difference", f.area_difference ? json(*f.area_difference) : json()},
+         {"volume_difference", f.volume_difference ? json(*f.volume_difference) : json()},
          {"checks", checks},
          {"quality", quality_json(f.quality.model, ReportDetail::kFull)},
          {"jump_p999", f.quality.jump_p999},

@@ -36,15 +36,19 @@ struct Findings {
   MeshMeasure measure;
   QualityReport quality;
   bool is_stretched = false;  ///< quality, growth and smallest angles are those that stretched sizes see
-  std::optional<ConformityReport> conformity;  ///< with a sizing
-  std::optional<ChordError> chords;            ///< with a geometry
-  std::optional<SurfaceDeviation> deviation;   ///< with a geometry
-  std::optional<ShapeCauses> causes;           ///< with a geometry
-  std::vector<double> cad_area;                ///< [n_faces] with a geometry, model unit squared
-  std::vector<std::int32_t> face_group;        ///< [n_faces] with a geometry
+  std::optional<ConformityReport> conformity;                ///< with a sizing
+  std::optional<ChordError> chords;                          ///< with a geometry
+  std::optional<SurfaceDeviation> deviation;                 ///< with a geometry
+  std::optional<ShapeCauses> causes;                         ///< with a geometry
+  std::vector<double> cad_area;                              ///< [n_faces] with a geometry, model unit squared
+  std::vector<std::int32_t> face_group;                      ///< [n_faces] with a geometry
+  std::optional<double> area_difference, volume_difference;  ///< of the whole mesh from the CAD, relative; with a
+                                                             ///< geometry, volume where both have one
   std::vector<Check> checks;
 
   bool passes() const;
+  /// Of the check of this name; 0 where it was not made.
+  std::int64_t count(const std::string& check) const;
 };
 
 /// "face 17 "WING_UPPER"", 1-based.

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/eigen.h"
 #include "base/error.h"
 #include "base/length.h"
 #include "base/log.h"
@@ -32,12 +35,21 @@ namespace st {
 
 namespace {
 
+/// What the user let st-import sew by, model unit; 0: its default, far below what is checked.
+double sewing_tolerance(const GeometryArtifact& g) {
+  const auto options = nlohmann::json::parse(g.header.options_json, nullptr, false);
+  if (!options.is_object() || !options.contains("sew") || !options["sew"].is_string()) return 0;
+  return resolve_length(parse_length(options["sew"].get<std::string>(), "--sew"),
+                        {g.tables.reference_diagonal(), g.tables.unit_in_m}, "--sew");
+}
+
 /// The geometry with what the checks need of it.
 struct CadSide {
+  double sewing = 0;  // model unit
   Model model;
   std::vector<std::uint8_t> may_be_open, may_be_nonmanifold;
 
-  CadSide(GeometryArtifact&& g, const std::string& path) : model(stored_model(g, path)) {
+  CadSide(GeometryArtifact&& g, const std::string& path) : sewing(sewing_tolerance(g)), model(stored_model(g, path)) {
     std::vector<std::int32_t> offsets;
     std::vector<FaceId> faces;
     model.tables().edge_faces(offsets, faces);
@@ -68,7 +80,7 @@ Check check_complete(const MeshArtifact& artifact) {
 }
 
 /// Faces of the CAD without a triangle; faces of no area need none.
-Check check_faces(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables) {
+Check check_faces(const SurfaceMesh& mesh, const ModelTables& tables) {
   constexpr double kNoArea = 1e-12;  // of the model's area
   Check c{"faces", "CAD faces without a triangle", {}, true, ""};
   double total = 0;
@@ -79,7 +91,6 @@ Check check_faces(const SurfaceMesh& mesh, const MeshMeasure& measure, const Mod
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (!has_triangle[f] && tables.face_area[f] > kNoArea * total)
       c.defects.add({tables.face_box[f].center(), f, kNone});
-  c.note = fmt::format("mesh area / CAD area {:.6f}", total > 0 ? measure.area / total : 0.0);
   return c;
 }
 
@@ -92,25 +103,77 @@ double slack_area(const ModelTables& tables, FaceId f) {
   return std::min(area, kMost * tables.face_area[f]);
 }
 
-/// Faces whose mesh area differs from the CAD's by more than the tolerance, what chords explain, and the slack of the
-/// CAD.
-Check check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
-                  const ChordError& chords, double tolerance) {
-  Check c{"areas", "faces whose area differs from the CAD's", {}, true, ""};
+/// Width of each face however it is turned: of the rectangle with the same area and moment of inertia about its long
+/// axis, as the mesh has it. So a cylinder is about as wide as its diameter. [n_faces] model unit.
+std::vector<double> face_extents(const SurfaceMesh& mesh, std::size_t n_faces) {
+  struct Moments {
+    double area = 0;
+    Vec3 first;
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  };
+  std::vector<Moments> faces(n_faces);
+  const std::vector<Vec3> origin = face_places(mesh, n_faces);
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const FaceId f = mesh.triangle_face[t];
+    std::array<Vec3, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = mesh.node_xyz[mesh.triangles[t].n[k]] - origin[f];
+    const double area = 0.5 * norm(cross(x[1] - x[0], x[2] - x[0]));
+    const Vec3 sum = x[0] + x[1] + x[2];
+    faces[f].area += area;
+    faces[f].first = faces[f].first + area / 3 * sum;
+    for (const Vec3 p : {x[0], x[1], x[2], sum}) {
+      faces[f].second += area / 12 * to_eigen(p) * to_eigen(p).transpose();
+    }
+  }
+  std::vector<double> width;
+  for (const Moments& m : faces) {
+    const double area = std::max(m.area, 1e-300);
+    const Eigen::Vector3d middle = to_eigen(m.first) / area;
+    const PrincipalAxes axes = principal_axes(m.second / area - middle * middle.transpose());
+    width.push_back(std::sqrt(12 * std::max(0.0, axes.value[1])));
+  }
+  return width;
+}
+
+/// Of an area: a larger difference is wrong, whatever explains it.
+constexpr double kMostOff = 0.03;
+
+/// Faces that differ in area from the CAD's.
+struct AreaChecks {
+  Check areas{"areas", "faces whose area differs from the CAD's", {}, true, ""};
+  Check below{"below-sizes", "faces too small for the sizes, of another area than the CAD's", {}, false, ""};
+};
+
+/// Wrong are faces off by more than the tolerance, what chords explain, and the slack of the CAD. Of a face wider than
+/// two requested lengths only chords of the requested length explain anything; of one that reaches two lengths from its
+/// middle they explain no more than kMostOff of its area. Others beyond that are below the sizes: they look as the
+/// sizes make them.
+AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
+                       const ChordError& chords, double tolerance) {
+  constexpr double kWide = 2;      // requested lengths
+  constexpr double kVeryWide = 4;  // likewise: a disc of 15 sides, 2.9 % of it beside its chords
+  AreaChecks c;
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
+  const std::vector<double> extent = face_extents(mesh, tables.n_faces());
   double largest = 0;
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
     const double cad = tables.face_area[f], difference = std::fabs(measure.face_area[f] - cad);
     if (std::binary_search(mesh.merged.strip_face.begin(), mesh.merged.strip_face.end(), f))
       continue;  // partly or wholly closed
-    const double allowed = tolerance * cad + chords.area[f] + slack_area(tables, f);
-    if (difference > allowed && measure.face_area[f] > 0) c.defects.add({place[f], f, kNone});
+    const double width = std::min(tables.face_width[f], extent[f]), size = chords.size[f];
+    const double explained = width > kWide * size ? chords.area[f] : chords.found_area[f];
+    double allowed = tolerance * cad + explained + slack_area(tables, f);
+    if (width > kVeryWide * size) allowed = std::min(allowed, std::max(kMostOff, tolerance) * cad);
+    if (difference > allowed && measure.face_area[f] > 0)
+      c.areas.defects.add({place[f], f, kNone});
+    else if (difference > kMostOff * cad && measure.face_area[f] > 0)
+      c.below.defects.add({place[f], f, kNone});
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest difference {:.3g} % ({}; chord error {:.3g} %)", 100 * largest,
-                         face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
+    c.areas.note = fmt::format("largest difference {:.3g} % ({}; chords of the sizes {:.3g} %)", 100 * largest,
+                               face_label(mesh, worst), 100 * chords.area[worst] / tables.face_area[worst]);
   return c;
 }
 
@@ -157,16 +220,40 @@ Check check_group_tolerance(const ModelTables& tables, const ChordError& chords,
   return c;
 }
 
-/// Faces with a node so far off that it cannot belong there: a wrong face id, a misplaced node.
-Check check_off_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
-  Check c{"off-surface",
-          fmt::format("faces with nodes off the surface by more than {} of their length", kOffSurface),
-          {},
-          true,
-          ""};
-  for (FaceId f = 0; f < tables.n_faces(); ++f)
-    if (chords.off_surface[f] > 2 * std::max(cad_tolerance(tables, f), group_tolerance(of_group, f)))
+/// Tolerances that the user gave: that of sewing, or a larger one of the face's group. [n_faces] model unit, 0: none.
+std::vector<double> given_tolerances(const CadSide& cad) {
+  std::vector<double> given = face_tolerances(cad.model.tables().labels);
+  given.resize(cad.model.tables().n_faces(), 0);
+  for (double& tolerance : given) tolerance = std::max(tolerance, cad.sewing);
+  return given;
+}
+
+/// The tolerances of a face that may move its nodes: what was given, and the CAD's own up to what no CAD needs.
+struct NodeTolerance {
+  double of_cad = 0, given = 0;  // model unit; given 0: none
+  double most = 0;               // off by more is off, whatever the CAD's tolerance
+  double allowed() const { return std::max(std::min(of_cad, most), given); }
+};
+
+NodeTolerance node_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& given,
+                             FaceId f, double diagonal) {
+  constexpr double kOfDiagonal = 1e-3;
+  constexpr double kOfSize = 0.05;
+  return {cad_tolerance(tables, f), given[f], std::max(kOfDiagonal * diagonal, kOfSize * chords.size[f])};
+}
+
+/// Faces with a node so far off that it cannot belong there: a wrong face id, a misplaced node, a CAD whose tolerances
+/// hide a wrong edge.
+Check check_off_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& given) {
+  Check c{"off-surface", "faces with nodes off the surface by more than their lengths allow", {}, true, ""};
+  const double diagonal = tables.reference_diagonal();
+  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+    const NodeTolerance t = node_tolerance(tables, chords, given, f, diagonal);
+    if (chords.off_surface[f] > 2 * t.allowed())
       c.defects.add({chords.off_place[f], f, kNone});
+    else if (chords.stray[f] > std::max(t.most, 2 * t.given))
+      c.defects.add({chords.stray_place[f], f, kNone});
+  }
   return c;
 }
 
@@ -204,23 +291,54 @@ double volume_at_strips(const SurfaceMesh& mesh, const ModelTables& tables) {
   return volume;
 }
 
-/// The volume enclosed against the CAD's: beyond the tolerance there is what the chords cut off, at most their distance
-/// times the area.
-Check check_cad_volume(const SurfaceMesh& mesh, const TopologyReport& topology, const MeshMeasure& measure,
-                       const ModelTables& tables, const ChordError& chords) {
+/// What nodes off their surfaces change of the volume, as far as tolerances allow them to be there: sewing and merging
+/// may each take them once.
+double volume_of_tolerances(const ModelTables& tables, const ChordError& chords, const std::vector<double>& given) {
+  const double diagonal = tables.reference_diagonal();
+  double volume = 0;
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    volume += std::min(chords.moved_volume[f],
+                       2 * node_tolerance(tables, chords, given, f, diagonal).allowed() * chords.flat[f]);
+  return volume;
+}
+
+/// Difference of area and volume of the whole mesh from the CAD's. Volumes only where both have one.
+void compare_wholes(const ModelTables& tables, Findings& f) {
+  double area = 0;
+  for (const double a : tables.face_area) area += a;
+  if (area > 0) f.area_difference = f.measure.area / area - 1;
+  const bool has_volume =
+      f.topology.is_closed() && f.topology.n_cad_boundary_edges == 0 && f.topology.n_cad_nonmanifold_edges == 0;
+  if (has_volume && tables.volume && *tables.volume != 0) f.volume_difference = f.measure.volume / *tables.volume - 1;
+}
+
+/// The area of all faces together: small ones may be below the sizes, the whole may not. Faces that are missing have a
+/// check of their own.
+Check check_cad_area(const Findings& f, bool has_all_faces, double tolerance) {
+  Check c{"cad-area", "meshes whose area differs from the CAD's", {}, true, ""};
+  if (!f.area_difference) return c;
+  if (has_all_faces && std::fabs(*f.area_difference) > std::max(kMostOff, tolerance)) c.defects.add({});
+  c.note = fmt::format("mesh area / CAD area {:.6f}", 1 + *f.area_difference);
+  return c;
+}
+
+/// The volume enclosed against the CAD's: beyond the tolerance there is what chords of the requested length cut off,
+/// and what tolerances move.
+Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const std::vector<double>& given,
+                       const Findings& f) {
   constexpr double kTolerance = 0.005;  // relative
   Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
-  if (!tables.volume || !topology.is_closed() || topology.n_cad_boundary_edges > 0 ||
-      topology.n_cad_nonmanifold_edges > 0) {
+  if (!f.volume_difference) {
     c.note = tables.volume ? "open or non-manifold: none" : "open, or faces between solids: none";
     return c;
   }
-  double explained = volume_at_strips(mesh, tables);
-  for (FaceId f = 0; f < tables.n_faces(); ++f) explained += chords.distance[f] * tables.face_area[f];
-  const double cad = std::fabs(*tables.volume), difference = std::fabs(measure.volume - *tables.volume);
-  if (difference > kTolerance * cad + explained) c.defects.add({});
-  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chord error and closed strips: {:.3g} %)",
-                       measure.volume / *tables.volume, 100 * explained / cad);
+  const ChordError& chords = *f.chords;
+  double explained = volume_at_strips(mesh, tables) + volume_of_tolerances(tables, chords, given);
+  for (const double volume : chords.volume) explained += volume;
+  explained /= std::fabs(*tables.volume);
+  if (std::fabs(*f.volume_difference) > kTolerance + explained) c.defects.add({});
+  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords of the sizes, closed strips, tolerances: {:.3g} %)",
+                       1 + *f.volume_difference, 100 * explained);
   return c;
 }
 
@@ -263,6 +381,7 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       f.topology.n_cad_nonmanifold_edges
           ? fmt::format("{} more where the CAD is non-manifold", f.topology.n_cad_nonmanifold_edges)
           : "";
+  const auto left_of = [&](std::int64_t n) { return std::max<std::int64_t>(0, allow.max_crossings - n); };
   return {
       check_complete(artifact),
       {"closed", "open edges", f.topology.boundary_edges, true, open},
@@ -276,12 +395,13 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       {"folds", "folds: neighbouring triangles turned back on each other", f.shape.folds, true, "", allow.max_folds},
       {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
       {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
-       std::max<std::int64_t>(0, allow.max_crossings - f.crossings.crossings.count)},
+       left_of(f.crossings.crossings.count)},
+      {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
+       f.crossings.cad_contacts, true, "",
+       left_of(f.crossings.crossings.count + f.crossings.overlapping_neighbours.count)},
       {"walls", "crossing pairs of triangles of parts that the CAD keeps apart", f.crossings.walls, is_filled_outside,
        ""},
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
-      {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",
-       f.crossings.cad_contacts, false, ""},
       {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, is_filled_outside,
        is_filled_outside ? "no volume mesh fills the flow domain around them (st-import --unite or --join)" : ""},
       check_volume(f.topology, f.measure)};
@@ -317,13 +437,19 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   f.measure.face_area.resize(cad.model.tables().n_faces(), 0);
   f.cad_area = cad.model.tables().face_area;
   f.face_group = cad.model.tables().labels.face_group;
-  f.checks.push_back(check_faces(mesh, f.measure, cad.model.tables()));
-  f.checks.push_back(check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance));
-  f.checks.push_back(check_cad_volume(mesh, f.topology, f.measure, cad.model.tables(), *f.chords));
+  f.checks.push_back(check_faces(mesh, cad.model.tables()));
+  const bool has_all_faces = !f.checks.back().fails();
+  const AreaChecks areas = check_areas(mesh, f.measure, cad.model.tables(), *f.chords, area_tolerance);
+  f.checks.push_back(areas.areas);
+  f.checks.push_back(areas.below);
+  compare_wholes(cad.model.tables(), f);
+  f.checks.push_back(check_cad_area(f, has_all_faces, area_tolerance));
+  const std::vector<double> given = given_tolerances(cad);
+  f.checks.push_back(check_cad_volume(mesh, cad.model.tables(), given, f));
   const std::vector<double> of_group = face_tolerances(cad.model.tables().labels);
   f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords, of_group));
   if (!of_group.empty()) f.checks.push_back(check_group_tolerance(cad.model.tables(), *f.chords, of_group));
-  f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, of_group));
+  f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, given));
 }
 
 // --- thresholds ---
@@ -449,9 +575,36 @@ void require_entities(const std::string& path, const SurfaceMesh& mesh, const Mo
   }
 }
 
-/// The mesh and its geometry (null: not given); a mesh of another program is associated to it first.
-MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSide>& cad) {
+/// The mesh as it is checked, and what its file had that it has no more.
+struct CheckedMesh {
   MeshArtifact artifact;
+  Defects turned;  ///< edges of a foreign mesh whose triangles face opposite ways: association turns them
+};
+
+/// The face of the triangle whose middle is nearest.
+FaceId nearest_face(const SurfaceMesh& mesh, Vec3 p) {
+  FaceId face = kNone;
+  double least = 0;
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& n = mesh.triangles[t].n;
+    const double d = distance(p, (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3);
+    if (face == kNone || d < least) face = mesh.triangle_face[t], least = d;
+  }
+  return face;
+}
+
+/// Edges of the file's triangles that face opposite ways; faces are those of the associated mesh.
+Defects misoriented_edges(const std::string& path, const SurfaceMesh& associated) {
+  const SurfaceMesh mesh = read_triangulation(path);
+  Defects found = check_topology(mesh, edges_of(mesh)).misoriented_edges;
+  for (DefectPlace& p : found.first) p.face_a = nearest_face(associated, p.xyz), p.face_b = kNone;
+  return found;
+}
+
+/// The mesh and its geometry (null: not given); a mesh of another program is associated to it first.
+CheckedMesh read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSide>& cad) {
+  CheckedMesh result;
+  MeshArtifact& artifact = result.artifact;
   if (!is_foreign_mesh(o.mesh)) {
     artifact = read_mesh(o.mesh);
     cad = read_cad(o, artifact.header);
@@ -467,10 +620,11 @@ MeshArtifact read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSi
     cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
     ForeignMesh foreign = read_foreign_mesh(o.mesh, cad->model, {});
     log_info(association_summary(o.mesh, foreign.artifact.mesh, foreign.report).line);
+    if (foreign.report.n_turned > 0) result.turned = misoriented_edges(o.mesh, foreign.artifact.mesh);
     artifact = std::move(foreign.artifact);
     artifact.header.geometry_hash = hash;
   }
-  return artifact;
+  return result;
 }
 
 std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const ArtifactHeader& mesh_header) {
@@ -530,13 +684,15 @@ StageSummary run_check(const CheckStageOptions& options) {
   if (const std::string& bound = options.thresholds.max_deviation; !bound.empty())
     require_unit(parse_length(bound, "--max-deviation"), read_header(options.geometry).unit_in_m, "--max-deviation");
   std::unique_ptr<CadSide> cad;
-  const MeshArtifact artifact = read_checked_mesh(options, cad);
+  const CheckedMesh checked = read_checked_mesh(options, cad);
+  const MeshArtifact& artifact = checked.artifact;
   const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
   const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
   progress.step("measuring", 0.1);
   measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
+  if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
   progress.step("causes", 0.9);
   judge(options, artifact, corners, cad.get(), f);
   const double seconds = timer.seconds();

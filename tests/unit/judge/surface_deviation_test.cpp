@@ -45,6 +45,18 @@ TEST(SurfaceDeviation, does_not_mind_a_mesh_turned_as_a_whole) {
   EXPECT_NEAR(measure_deviation(ball.model, ball.mesh).model.max_angle_deg, as_made.model.max_angle_deg, 1e-9);
 }
 
+TEST(SurfaceDeviation, is_true_where_the_uv_of_a_triangle_lead_to_another_side) {
+  ShapeMesh ball("sphere");
+  const double before = measure_deviation(ball.model, ball.mesh).model.max_distance;
+  for (int k = 0; k < 3; ++k) {  // to the other end of the diameter
+    Vec2& uv = ball.mesh.corner_uv[300 + k];
+    uv = {uv.x < kPi ? uv.x + kPi : uv.x - kPi, -uv.y};
+  }
+  const SurfaceDeviation d = measure_deviation(ball.model, ball.mesh);
+  EXPECT_NEAR(d.model.max_distance, before, 1e-6);
+  EXPECT_LT(d.model.max_angle_deg, 10);
+}
+
 TEST(SurfaceDeviation, names_the_worst_face) {
   ShapeMesh box("box");
   NodeId n = static_cast<NodeId>(box.mesh.n_nodes()) - 1;  // inside the last face

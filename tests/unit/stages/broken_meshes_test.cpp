@@ -170,7 +170,7 @@ const std::vector<Defect>& defects() {
       {"duplicate_triangle",
        [](SurfaceMesh& m) { add_triangle(m, m.triangles[inner_triangle(m)], inner_triangle(m)); },
        {"manifold", "duplicate-triangles"}},
-      {"fin", lift_a_fin, {"closed", "manifold"}},
+      {"fin", lift_a_fin, {"closed", "manifold", "off-surface"}},
       {"flipped_triangle", [](SurfaceMesh& m) { flip(m, inner_triangle(m)); }, {"oriented"}},
       {"repeated_node", name_a_node_twice, {"closed", "repeated-nodes"}},
       {"degenerate_triangle", flatten, {"zero-area", "crossings", "overlaps"}},

@@ -161,8 +161,10 @@ class CheckCad : public testing::Test {
     return kNone;
   }
 
-  /// The coarsest mesh of n sides: quads halved along the side, fans without a middle node on both caps.
-  MeshArtifact make_mesh(int n) const {
+  /// The coarsest mesh of n sides: quads halved along the side, fans without a middle node on both caps. Requested: its
+  /// chords.
+  MeshArtifact make_mesh(int n) const { return make_mesh(n, 2 * kRadius * std::sin(kPi / n)); }
+  MeshArtifact make_mesh(int n, double size) const {
     const Model model(geometry_.tables, geometry_.brep);
     MeshArtifact a;
     SurfaceMesh& m = a.mesh;
@@ -179,6 +181,7 @@ class CheckCad : public testing::Test {
       add_flat(m, bottom, {{0, i + 1, i}});
       add_flat(m, top, {{n, n + i, n + i + 1}});
     }
+    m.node_size.assign(m.node_xyz.size(), size);
     m.labels = geometry_.tables.labels;
     a.header.schema = "mesh";
     a.header.tool = "test";
@@ -194,7 +197,6 @@ class CheckCad : public testing::Test {
       m.node_entity_dim.push_back(i ? 1 : 0);
       m.node_entity.push_back(i ? e : geometry_.tables.edge_vertices[2 * e]);
       m.node_t.push_back(i ? t : 0);
-      m.node_size.push_back(1);
     }
   }
   static void add_triangle(SurfaceMesh& m, FaceId f, Triangle t, std::array<Vec2, 3> uv) {
@@ -219,9 +221,9 @@ class CheckCad : public testing::Test {
   std::string geometry_hash_;
 };
 
-TEST_F(CheckCad, explains_the_missing_area_of_the_coarsest_mesh_by_its_chords) {
+TEST_F(CheckCad, explains_the_missing_area_of_a_coarse_mesh_by_its_chords) {
   const Model model(geometry_.tables, geometry_.brep);
-  for (const int n : {3, 4, 8, 40}) {
+  for (const int n : {16, 40}) {
     const MeshArtifact a = make_mesh(n);
     const StageSummary s = check(a);
     EXPECT_EQ(s.code, ExitCode::kOk) << n << " sides: " << s.line;
@@ -230,9 +232,43 @@ TEST_F(CheckCad, explains_the_missing_area_of_the_coarsest_mesh_by_its_chords) {
     const double missing_side = 2 * kHeight * kRadius * (kPi - n * std::sin(kPi / n));
     EXPECT_GE(chords.area[face(SurfaceType::kPlane, 0)], 0.99 * missing_cap);
     EXPECT_LE(chords.area[face(SurfaceType::kPlane, 0)], 1.3 * missing_cap);
-    EXPECT_GE(chords.area[face(SurfaceType::kCylinder)], 0.9 * missing_side);
+    EXPECT_GE(chords.found_area[face(SurfaceType::kCylinder)], 0.9 * missing_side);
     EXPECT_NEAR(chords.distance[face(SurfaceType::kCylinder)], kRadius * (1 - std::cos(kPi / n)), 1e-6);
+    EXPECT_GE(chords.volume[face(SurfaceType::kCylinder)], 0.9 * kHeight * missing_cap);
   }
+}
+
+TEST_F(CheckCad, lets_longer_chords_than_requested_explain_no_more_than_these) {
+  const StageSummary s = check(make_mesh(16, 1));  // chords of 3.9
+  EXPECT_EQ(failed_checks(s), (Names{"areas", "cad-volume"})) << s.line;
+}
+
+TEST_F(CheckCad, fails_a_face_off_by_more_than_3_percent_unless_it_is_below_the_sizes) {
+  const auto below = [](const StageSummary& s) {
+    return nlohmann::json::parse(s.json).at("checks").at("below-sizes").at("count").get<int>();
+  };
+  const StageSummary wide = check(make_mesh(6, 6));  // chords of 10; the side is 22 wide, 4.5 % off, the caps are 17
+                                                     // wide
+  EXPECT_EQ(failed_checks(wide), (Names{"areas", "cad-area"})) << wide.line;
+  const StageSummary asked = check(make_mesh(6));
+  EXPECT_EQ(failed_checks(asked), Names{"cad-area"}) << asked.line;
+  EXPECT_EQ(below(asked), 3);
+  const StageSummary narrow = check(make_mesh(3));
+  EXPECT_EQ(failed_checks(narrow), Names{"cad-area"}) << narrow.line;
+  EXPECT_EQ(below(narrow), 3);
+  EXPECT_NEAR(nlohmann::json::parse(narrow.json).at("area_difference"), -0.276, 1e-3);
+  EXPECT_NEAR(nlohmann::json::parse(narrow.json).at("volume_difference"), -0.587, 1e-3);
+}
+
+TEST_F(CheckCad, fails_nodes_off_their_face_whatever_the_tolerances_of_the_cad) {
+  for (double& t : geometry_.tables.edge_tolerance) t = 5;
+  geometry_hash_ = write_geometry(path("geometry.hdf"), geometry_);
+  MeshArtifact a = make_mesh(40);
+  a.mesh.node_xyz[45].z += 0.07;  // of 41, and of a requested length of 1.57
+  EXPECT_EQ(check(a).code, ExitCode::kOk);
+  a.mesh.node_xyz[45].z += 0.02;
+  const StageSummary s = check(a);
+  EXPECT_EQ(failed_checks(s), Names{"off-surface"}) << s.line;
 }
 
 TEST_F(CheckCad, finds_a_face_whose_area_and_a_mesh_whose_volume_is_wrong) {
