@@ -23,6 +23,10 @@ bool WallsApart::are_of_one_body(const TrianglePair& pair) const {
   return body != kNone && body == face_body_[mesh_.triangle_face[pair.b]];
 }
 
+bool WallsApart::are_of_body_and_sheet(const TrianglePair& pair) const {
+  return (face_body_[mesh_.triangle_face[pair.a]] == kNone) != (face_body_[mesh_.triangle_face[pair.b]] == kNone);
+}
+
 bool WallsApart::are_apart(const TrianglePair& pair) {
   if (mesh_.corner_uv.empty()) return false;
   const FaceId a = mesh_.triangle_face[pair.a], b = mesh_.triangle_face[pair.b];

@@ -21,6 +21,8 @@ class WallsApart {
 
   /// Whether both triangles are of one body, whose shells never meet.
   bool are_of_one_body(const TrianglePair& pair) const;
+  /// Whether one triangle is of a body, and the other is not: of a sheet that ends on it.
+  bool are_of_body_and_sheet(const TrianglePair& pair) const;
   /// No, where the surfaces meet within the triangles, both are planes, or the first kTried pairs of these faces meet.
   bool are_apart(const TrianglePair& pair);
 

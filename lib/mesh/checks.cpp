@@ -231,9 +231,11 @@ CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
     const bool is_between = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
     const bool is_contact = is_between && !(cad.is_one_body && cad.is_one_body(p));
     const bool is_own = !is_contact && cad.touches_itself && cad.touches_itself(p);
+    const bool is_sheet = is_own && cad.is_of_sheet && cad.is_of_sheet(p);
     const bool is_gap = is_contact && cad.keeps_apart && cad.keeps_apart(p);
     Defects& kind = is_gap       ? r.walls
                     : is_contact ? r.contacts
+                    : is_sheet   ? r.contacts
                     : is_own     ? r.cad_contacts
                     : p.n_shared ? r.overlapping_neighbours
                                  : r.crossings;

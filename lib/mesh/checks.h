@@ -92,7 +92,8 @@ struct CrossingReport {
   Defects crossings;               ///< pairs within one component, or of one body, without a common node that have a
                                    ///< point in common
   Defects overlapping_neighbours;  ///< pairs with one or two common nodes that have more in common than these
-  Defects contacts;      ///< pairs of different components that have a point in common: parts in contact, no defect
+  Defects contacts;      ///< pairs of different components that have a point in common, or of a body and a sheet that
+                         ///< ends on it: parts in contact, no defect
   Defects walls;         ///< contacts where the CAD keeps the parts apart
   Defects cad_contacts;  ///< pairs of crossings and overlapping neighbours where the CAD touches itself
   bool passes() const { return crossings.count == 0 && overlapping_neighbours.count == 0; }
@@ -101,8 +102,9 @@ struct CrossingReport {
 /// Answers of the CAD about pairs of triangles; they are asked in the order of the pairs. Empty: never.
 struct CadOfPairs {
   std::function<bool(const TrianglePair&)> touches_itself = {};  ///< of a pair of one component
-  std::function<bool(const TrianglePair&)> keeps_apart = {};     ///< of a pair of two components
-  std::function<bool(const TrianglePair&)> is_one_body = {};     ///< likewise: two sides of one body
+  std::function<bool(const TrianglePair&)> is_of_sheet = {};  ///< of such a pair: a body, and a sheet that ends on it
+  std::function<bool(const TrianglePair&)> keeps_apart = {};  ///< of a pair of two components
+  std::function<bool(const TrianglePair&)> is_one_body = {};  ///< likewise: two sides of one body
 };
 
 /// Local, n log n; a second per million triangles.
