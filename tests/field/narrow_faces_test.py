@@ -13,7 +13,8 @@ HERE = Path(__file__).resolve().parent
 class NarrowFaces(ToolTest):
     def expected(self, folder):
         """Triangles by the sizes alone."""
-        return must("st-prolong", folder / "raster.hdf", "-o", folder / "again.hdf", "--json").json()["expected_triangles"]
+        done = must("st-prolong", folder / "raster.hdf", "-o", folder / "again.hdf", "--json")
+        return done.json()["expected_triangles"]
 
     def check(self, folder):
         return Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
