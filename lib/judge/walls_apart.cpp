@@ -24,7 +24,8 @@ bool WallsApart::are_of_one_body(const TrianglePair& pair) const {
 }
 
 bool WallsApart::are_of_body_and_sheet(const TrianglePair& pair) const {
-  return (face_body_[mesh_.triangle_face[pair.a]] == kNone) != (face_body_[mesh_.triangle_face[pair.b]] == kNone);
+  const std::vector<std::int32_t>& solid = model_.tables().face_solid;
+  return (solid[mesh_.triangle_face[pair.a]] == kNone) != (solid[mesh_.triangle_face[pair.b]] == kNone);
 }
 
 bool WallsApart::are_apart(const TrianglePair& pair) {

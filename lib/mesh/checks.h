@@ -102,9 +102,10 @@ struct CrossingReport {
 /// Answers of the CAD about pairs of triangles; they are asked in the order of the pairs. Empty: never.
 struct CadOfPairs {
   std::function<bool(const TrianglePair&)> touches_itself = {};  ///< of a pair of one component
-  std::function<bool(const TrianglePair&)> is_of_sheet = {};  ///< of such a pair: a body, and a sheet that ends on it
-  std::function<bool(const TrianglePair&)> keeps_apart = {};  ///< of a pair of two components
-  std::function<bool(const TrianglePair&)> is_one_body = {};  ///< likewise: two sides of one body
+  std::function<bool(const TrianglePair&)> keeps_apart = {};     ///< of a pair of two components
+  std::function<bool(const TrianglePair&)> is_one_body = {};     ///< likewise: two sides of one body
+  /// Of a pair of one component where the CAD touches itself: a body, and a sheet that ends on it.
+  std::function<bool(const TrianglePair&)> is_of_sheet = {};
 };
 
 /// Local, n log n; a second per million triangles.

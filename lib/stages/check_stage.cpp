@@ -366,8 +366,8 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
     n_cad += contacts.crosses(pair);
     return false;
   };
-  CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_of_body_and_sheet(pair); },
-                   [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
+  CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
+  pairs.is_of_sheet = [&](const TrianglePair& pair) { return walls.are_of_body_and_sheet(pair); };
   if (!has_flow_domain(mesh)) pairs.is_one_body = [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); };
   f.crossings = check_crossings(mesh, pairs);
   if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);

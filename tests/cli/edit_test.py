@@ -261,12 +261,6 @@ class Raster(EditTest):
              self.good / "geometry.hdf")
         self.assertEqual(content_hash(self.folder / "s.hdf"), content_hash(self.good / "sizing.hdf"))
 
-    def test_a_model_far_from_the_origin_is_warned_of(self):
-        for steps, is_far in (("translate 1e8 0 0", True), ("translate 100 0 0", False)):
-            must("st-edit", self.good / "geometry.hdf", "-o", self.folder / "far.hdf", "--transform", steps)
-            run = must("st-raster", self.folder / "far.hdf", "-o", self.folder / "far_raster.hdf")
-            self.assertEqual("from the origin" in run.err, is_far, run.err)
-
     def test_another_geometry_or_one_moved_in_part_is_7(self):
         refused = {"box": artifacts_of("box") / "geometry.hdf"}
         for name, arguments in (("part", ["--remove", "1", "-q"]), ("twice", [])):

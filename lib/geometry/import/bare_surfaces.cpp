@@ -22,6 +22,7 @@
 namespace st::occt {
 namespace {
 
+constexpr std::size_t kSides = 4;   // edges of a surface without trimming: one that has more was made to be sewn
 constexpr int kStations = 8;        // across the surface, at which both sides of a knot are compared
 constexpr double kBeside = 1e-3;    // of the span: normals there are those of the kink
 constexpr double kFold = 2.6;       // radians: a side of the surface that turns by more runs back along itself
@@ -30,6 +31,7 @@ constexpr double kNoArea = 1e-7;    // of that box's square: the surface between
 constexpr double kOnBounds = 1e-9;  // of the range of u or v
 
 enum class Along { kU, kV };
+enum class Cuts { kNeeded, kAll };  // kinks alone close without a cut
 
 struct Range {
   double low = 0, high = 0;
@@ -44,7 +46,7 @@ class SplineLines {
   }
 
   /// Inner knots at which the surface is to be divided.
-  std::vector<double> cuts() const {
+  std::vector<double> cuts(Cuts which) const {
     const bool is_u = along_ == Along::kU;
     const int n = is_u ? spline_->NbUKnots() : spline_->NbVKnots();
     const int degree = is_u ? spline_->UDegree() : spline_->VDegree();
@@ -53,7 +55,8 @@ class SplineLines {
       if ((is_u ? spline_->UMultiplicity(k) : spline_->VMultiplicity(k)) < degree) continue;
       const double before = knot(k - 1), at = knot(k), after = knot(k + 1);
       const double beside = kBeside * std::min(at - before, after - at);
-      if (is_point(at) || has_area(before, at) != has_area(at, after) || is_kink(at, beside) || folds(at, beside))
+      if (is_point(at) || has_area(before, at) != has_area(at, after) || folds(at, beside) ||
+          (which == Cuts::kAll && is_kink(at, beside)))
         result.push_back(at);
     }
     return result;
@@ -129,14 +132,14 @@ bool is_on_bounds(double x, Range r) {
   return std::abs(x - r.low) <= slack || std::abs(x - r.high) <= slack;
 }
 
-/// The face's spline in the model's frame where it is not trimmed; null otherwise.
+/// The face's spline in the model's frame where it is not trimmed and has an edge for each side; null otherwise.
 Handle(Geom_BSplineSurface) whole_spline(const TopoDS_Face& face) {
   auto spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
   if (spline.IsNull() || spline->IsUPeriodic() || spline->IsVPeriodic()) return {};
   Range u, v;
   spline->Bounds(u.low, u.high, v.low, v.high);
   const FaceDomain d = make_domain(face);
-  if (d.loops.size() != 1) return {};
+  if (d.loops.size() != 1 || d.loops[0].coedges.size() > kSides) return {};
   for (const CoedgeUv& c : d.loops[0].coedges)
     if (c.curve.IsNull()) return {};
   for (const Vec2 p : d.loops[0].polygon())
@@ -145,12 +148,14 @@ Handle(Geom_BSplineSurface) whole_spline(const TopoDS_Face& face) {
 }
 
 /// Adds the parts of the face that have an area; itself where there is no cut.
-void add_parts(const TopoDS_Face& face, double diagonal, std::vector<TopoDS_Shape>& parts) {
+void add_parts(const TopoDS_Face& face, double diagonal, Cuts which, std::vector<TopoDS_Shape>& parts) {
   const Handle(Geom_BSplineSurface) spline = whole_spline(face);
   std::vector<double> u, v;
   if (!spline.IsNull()) {
     const double size = rough_box(face).diagonal();
-    u = SplineLines(spline, Along::kU, size).cuts(), v = SplineLines(spline, Along::kV, size).cuts();
+    const SplineLines along_u(spline, Along::kU, size), along_v(spline, Along::kV, size);
+    u = along_u.cuts(which), v = along_v.cuts(which);
+    if (which == Cuts::kNeeded && !(u.empty() && v.empty())) u = along_u.cuts(Cuts::kAll), v = along_v.cuts(Cuts::kAll);
   }
   if (u.empty() && v.empty()) {
     if (!empty_box(face, diagonal)) parts.push_back(face);
@@ -164,15 +169,8 @@ void add_parts(const TopoDS_Face& face, double diagonal, std::vector<TopoDS_Shap
     for (std::size_t j = 0; j + 1 < v.size(); ++j) {
       auto piece = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
       piece->Segment(u[i], u[i + 1], v[j], v[j + 1]);
-      add_parts(BRepBuilderAPI_MakeFace(piece, Precision::Confusion()).Face(), diagonal, parts);
+      add_parts(BRepBuilderAPI_MakeFace(piece, Precision::Confusion()).Face(), diagonal, Cuts::kAll, parts);
     }
-}
-
-/// An open surface alone in the model has nothing to be sewn to.
-bool is_open_alone(const ImportedShape& model) {
-  if (model.faces.Extent() > 1) return false;
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(model.faces(1)));
-  return !surface->IsUClosed() && !surface->IsVClosed();
 }
 
 using Parts = std::map<int, std::vector<TopoDS_Shape>>;  // by the number of the face
@@ -198,8 +196,7 @@ TopoDS_Shape with_parts(const TopoDS_Shape& shape, const ImportedShape& model, c
 
 }  // namespace
 
-void divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  if (is_open_alone(model)) return;
+bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings) {
   Parts parts;
   const double diagonal = rough_box(model.shape).diagonal();
   for (TopExp_Explorer f(model.shape, TopAbs_FACE, TopAbs_SOLID); f.More(); f.Next()) {
@@ -207,7 +204,7 @@ void divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& find
     if (!f.Current().Location().IsIdentity() || parts.count(i) > 0) continue;
     try {
       std::vector<TopoDS_Shape> found;
-      add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, found);
+      add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, Cuts::kNeeded, found);
       if (found.size() < 2) continue;
       const Box3 box = rough_box(f.Current());
       findings.push_back({FindingKind::kDividedSurface, "face " + std::to_string(i) + " of the file", box.center(),
@@ -218,8 +215,8 @@ void divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& find
       continue;
     }
   }
-  if (parts.empty()) return;
-  model.replace(with_parts(model.shape, model, parts), [&](const TopoDS_Shape& face) -> TopoDS_Shape {
+  if (parts.empty()) return false;
+  return model.replace(with_parts(model.shape, model, parts), [&](const TopoDS_Shape& face) -> TopoDS_Shape {
     const auto found = parts.find(model.faces.FindIndex(face));
     return found == parts.end() ? face : TopoDS_Shape(compound_of(found->second));
   });

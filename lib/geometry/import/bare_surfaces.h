@@ -8,12 +8,12 @@
 
 namespace st::occt {
 
-/// Divides faces outside solids that are whole spline surfaces, without trimming, at their knots where the surface has
-/// a kink (of kLeastKink) or is shrunk to a point: the rim of a cap, the end of a middle line that two halves of a cap
-/// have in common. Each such face is a finding; its parts have its
-/// name, those without area are left out. An open surface alone stays. Edges that run there and back become two, which
-/// sewing can join.
-void divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings);
+/// Divides faces outside solids that are whole spline surfaces, without trimming, and would not close: at their knots
+/// where the surface is a point (the end of a middle line that two halves of a cap have in common), beside parts
+/// without area, and where a side runs there and back: it becomes two edges, which sewing can join. Such a face is
+/// divided at kinks of kLeastKink, too: the rims of its caps. Each is a finding; its parts have its name, those without
+/// area are left out. Returns whether there was any.
+bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings);
 
 inline constexpr double kLeastKink = 0.35;  // radians, 20 degrees: between sections of a wing are less
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/occt_evaluators.h"
@@ -156,28 +157,16 @@ class CrossingFaces {
     }
   }
 
-  /// Into the face, square to the edge, at a share of the edge; zero where there is no trimming curve.
-  Vec3 inward(FaceId f, EdgeId e, double station) const {
-    const TopoDS_Face face = TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD));
-    double t0, t1;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges_(e + 1)), face, t0, t1);
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-    if (curve.IsNull() || surface.IsNull()) return {};
-    gp_Pnt2d p;
-    gp_Vec2d along;
-    curve->D1(t0 + station * (t1 - t0), p, along);
-    gp_Pnt x;
-    gp_Vec du, dv;
-    surface->D1(p.X(), p.Y(), x, du, dv);
-    const gp_Vec tangent = along.X() * du + along.Y() * dv, left = du.Crossed(dv).Crossed(tangent);
-    double sign = 1;
-    for (const CoedgeId c : t_.coedges(f))
-      if (t_.coedge_edge[c] == e) sign = t_.coedge_is_reversed[c] ? -1 : 1;
-    return sign * normalized(Vec3{left.X(), left.Y(), left.Z()});
+  /// Into the face, square to the edge, at a share of the edge; zero where there is no way.
+  Vec3 inward(FaceId f, EdgeId e, double station) {
+    const Section way = inner_section(f, e, station);
+    if (way.x.size() < 2) return {};
+    const Vec3 step = way.x[1] - way.x[0];
+    return normalized(step - dot(step, way.tangent) * way.tangent);
   }
 
   /// Both faces go the same way from most of the edge.
-  bool turn_back(EdgeId e, FaceId f, FaceId g) const {
+  bool turn_back(EdgeId e, FaceId f, FaceId g) {
     int n = 0;
     for (const double station : {0.25, 0.5, 0.75}) n += dot(inward(f, e, station), inward(g, e, station)) > kFoldedBack;
     return n >= 2;
@@ -186,9 +175,11 @@ class CrossingFaces {
   void look_for_overlap(EdgeId e, FaceId f, FaceId g) {
     for (const auto& [a, b] : {std::pair{f, g}, std::pair{g, f}}) {
       int n_on = 0;
-      FaceCrossing found{std::min(f, g), std::max(f, g), false, {}, 0, true};
+      FaceCrossing found;
+      std::tie(found.first, found.second) = std::minmax(f, g);
+      found.is_overlap = true;
       for (int k = 2; k < kStations; k += 4) {
-        const auto place = place_on(section(a, e, static_cast<double>(k) / kStations), a, b);
+        const auto place = place_on(inner_section(a, e, static_cast<double>(k) / kStations), a, b);
         if (!place) continue;
         ++n_on;
         if (place->size > found.size) found.size = place->size, found.xyz = place->xyz;
@@ -235,6 +226,16 @@ class CrossingFaces {
         return march(*d.surface, {p.X(), p.Y()}, {along.X(), along.Y()});
       }
     return {};
+  }
+
+  /// The same where the loop may run the other way: the section whose first step is inside the face.
+  Section inner_section(FaceId f, EdgeId e, double station) {
+    const Section left = section(f, e, station);
+    if (left.uv.empty() || (left.uv.size() > 1 && domain(f).loops.contains(left.uv[1]))) return left;
+    const SurfacePoint at = domain(f).face.surface->evaluate(left.uv[0]);
+    const double uu = norm2(at.du), uv = dot(at.du, at.dv), vv = norm2(at.dv), du = dot(left.tangent, at.du),
+                 dv = dot(left.tangent, at.dv);
+    return march(*domain(f).face.surface, left.uv[0], {uv * dv - vv * du, uv * du - uu * dv});  // against the tangent
   }
 
   /// To the left of `along` in (u,v): lengths there do not tell, at noses they change from step to step.

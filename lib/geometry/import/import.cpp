@@ -11,7 +11,6 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/required_unit.h"
-#include "geometry/import/bare_surfaces.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
 #include "geometry/import/crossing_faces.h"
@@ -287,7 +286,6 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   progress.step("looking for faces without area and duplicates", 0.4);
   occt::remove_empty_faces(model, result.findings, path);
   occt::make_space_curves(model, result.findings);
-  occt::divide_bare_surfaces(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);

@@ -110,6 +110,7 @@ TopTools_IndexedMapOfShape changed_faces(const ImportedShape& before, const Impo
   const BySurface sewn(after.faces);
   for (const std::vector<TopoDS_Face>& faces : BySurface(before.faces).sets()) try {
       const std::vector<TopoDS_Face> now = sewn.on_surface_of(faces[0]);
+      if (now.empty()) continue;  // divided into parts of the surface
       const double was = enclosed(faces);
       if (std::abs(enclosed(now) - was) <= kSameInUv * std::abs(was)) continue;
       const Extent a = extent_of(faces), b = extent_of(now);

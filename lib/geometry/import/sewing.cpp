@@ -3,6 +3,8 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GeomAdaptor_Curve.hxx>
 #include <ShapeFix_ShapeTolerance.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -21,6 +23,7 @@
 
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/bare_surfaces.h"
 #include "geometry/import/edge_places.h"
 #include "geometry/import/import.h"
 #include "geometry/import/rooms.h"
@@ -32,6 +35,8 @@ constexpr double kSewRelative[] = {1e-6, 1e-5, 1e-4};  // of the diagonal, first
 
 constexpr double kToleranceGrowth = 10;  // of the sewing tolerance and of what the file had: edges further apart are no
                                          // partners
+
+constexpr double kLessFree = 0.99;  // of the length of free edges: divided surfaces are taken
 
 /// A sewn shape and the images in it of faces (first) and named edges of the original.
 struct Sewn {
@@ -332,9 +337,20 @@ std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& star
   return sewn;
 }
 
-}  // namespace
+double free_length(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape edges;
+  const std::vector<int> uses = edge_uses(shape, edges);
+  double length = 0;
+  for (int i = 0; i < edges.Extent(); ++i) {
+    double t0 = 0, t1 = 0;
+    if (uses[i] != 1 || BRep_Tool::Degenerated(TopoDS::Edge(edges(i + 1)))) continue;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges(i + 1)), t0, t1);
+    if (!curve.IsNull()) length += GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve, t0, t1));
+  }
+  return length;
+}
 
-void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
+void sew_once(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
   Sewn original;
   original.shape = model.shape;
   original.n_free = count_free_edges(model.shape);
@@ -360,6 +376,22 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   if (third) findings.push_back(sewn_finding(FindingKind::kThirdFace, now, *third, tolerance));
   if (third || best || is_group_sewn) adopt(model, original, third ? *third : now, findings);
   if (third) divide_into_rooms(model, findings);
+}
+
+}  // namespace
+
+void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
+  ImportedShape divided = model;
+  std::vector<ImportFinding> own, of_divided;
+  sew_once(model, limits, own);
+  if (count_free_edges(model.shape) > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided)) {
+    sew_once(divided, limits, of_divided);
+    if (free_length(divided.shape) < kLessFree * free_length(model.shape)) {
+      model = divided;
+      own = of_divided;
+    }
+  }
+  findings.insert(findings.end(), own.begin(), own.end());
 }
 
 }  // namespace st::occt

@@ -19,7 +19,9 @@ struct SewingLimits {
 /// Sews a model that has free edges; takes the smallest tolerance that closes it, else the one that leaves the fewest
 /// free edges. Before that, free edges of two faces that both have a tolerance of their own are joined where they are
 /// no further apart than the smaller of the two; where that helps, faces with a tolerance are marked. Faces and
-/// attributes stay; those of one shell come together. A model without free edges is not touched.
+/// attributes stay; those of one shell come together. Where edges stay free, a third face is joined to edges of two
+/// (divide_into_rooms()), and whole spline surfaces are divided if that joins more (divide_bare_surfaces()). A model
+/// without free edges is not touched.
 void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

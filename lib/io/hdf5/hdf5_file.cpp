@@ -312,35 +312,6 @@ Hdf5Writer::Hdf5Writer(const std::string& path, const ArtifactHeader& header) {
 
 Hdf5Writer::~Hdf5Writer() = default;
 
-namespace {
-
-template <class T>
-bool has_none(std::span<const std::byte> bytes) {
-  bool has = false;
-  for (std::size_t i = 0; i + sizeof(T) <= bytes.size(); i += sizeof(T)) {
-    T x;
-    std::memcpy(&x, bytes.data() + i, sizeof(T));
-    has |= x != x;
-  }
-  return has;
-}
-
-/// (u,v) to look at where a face failed: none where they are unknown, and never read back.
-bool may_be_unknown(const std::string& name) { return name == "/VTKHDF/PointData/u" || name == "/VTKHDF/PointData/v"; }
-
-/// Numbers that are none are never written: every reader would call the file damaged.
-void require_numbers(const std::string& name, ElementType type, std::span<const std::byte> bytes) {
-  if (may_be_unknown(name)) return;
-  const bool has = (type == ElementType::kFloat64 && has_none<double>(bytes)) ||
-                   (type == ElementType::kFloat32 && has_none<float>(bytes));
-  if (has)
-    throw Error(ExitCode::kInternal, name +
-                                         ": one of its values is no number, so nothing is written; please report it "
-                                         "with the model");
-}
-
-}  // namespace
-
 void Hdf5Writer::write_raw(const std::string& name, ElementType type, const void* values, std::size_t n_elements,
                            std::size_t columns) {
   if (columns == 0 || n_elements % columns != 0)
@@ -352,7 +323,6 @@ void Hdf5Writer::write_raw(const std::string& name, ElementType type, const void
   const Dataset dataset = impl_->create_dataset(name, native_type(type), space);
   std::string checksum;
   std::vector<std::function<void()>> jobs = {[&] {
-    require_numbers(name, type, bytes);
     Hasher hasher;
     hasher.add(bytes.data(), bytes.size());
     checksum = hasher.hex();
@@ -408,7 +378,6 @@ void Hdf5Writer::append_bytes(std::size_t dataset, std::span<const std::byte> by
 void Hdf5Writer::Impl::flush_rows(AppendedRows& rows) const {
   if (rows.waiting.size() > rows.end - rows.at)
     throw Error(ExitCode::kInternal, rows.info.name + ": more rows than were announced");
-  require_numbers(rows.info.name, rows.info.type, rows.waiting);
   rows.hasher.add(std::span<const std::byte>(rows.waiting));
   rows_file->write(rows.at, rows.waiting, rows.info.name);
   rows.at += rows.waiting.size();
@@ -424,10 +393,7 @@ void Hdf5Writer::Impl::hash_elsewhere(AppendedRows& rows) const {
   for (; n > 0 && rows.at < rows.end; rows.at += static_cast<std::uint64_t>(n)) {
     const std::size_t n_wanted = std::min<std::uint64_t>(piece.size(), rows.end - rows.at);
     n = pread(file, piece.data(), n_wanted, static_cast<off_t>(rows.at));
-    if (n <= 0) continue;
-    const auto got = static_cast<std::size_t>(n);
-    if (got == n_wanted) require_numbers(rows.info.name, rows.info.type, std::span(piece).first(got));
-    rows.hasher.add(piece.data(), got);
+    if (n > 0) rows.hasher.add(piece.data(), static_cast<std::size_t>(n));
   }
   if (file >= 0) close(file);
   require(n > 0, rows.info.name);

@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <limits>
 
-#include "base/error.h"
 #include "base/threads.h"
 #include "io/file/row_file.h"
 #include "unit/io/sample_artifacts.h"
@@ -207,16 +205,6 @@ TEST(Hdf5File, leaves_nothing_after_remove_temporaries) {
   Hdf5Writer writer(dir / "a.hdf", sizing_header());
   remove_temporaries();
   EXPECT_TRUE(dir.files().empty());
-}
-
-TEST(Hdf5Writer, refuses_numbers_that_are_none) {
-  const TemporaryDirectory dir;
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  Hdf5Writer writer(dir / "a.hdf", sizing_header());
-  writer.write("/st/infinite", std::vector<double>{std::numeric_limits<double>::infinity()});
-  EXPECT_THROW(writer.write("/st/doubles", std::vector<double>{1, none}), Error);
-  EXPECT_THROW(writer.write("/st/floats", std::vector<float>{static_cast<float>(none)}), Error);
-  EXPECT_THROW(writer.write("/st/points", std::vector<Vec3>{{1, 2, 3}, {4, none, 6}}), Error);
 }
 
 }  // namespace

@@ -263,7 +263,7 @@ TEST(Checks, set_crossings_apart_where_the_cad_touches_itself) {
   EXPECT_GT(c.cad_contacts.count, 0);
   EXPECT_GT(c.crossings.count, 0);
   EXPECT_EQ(c.cad_contacts.count + c.crossings.count, n);
-  const CrossingReport sheet = check_crossings(m, {touches_itself, [](const TrianglePair&) { return true; }});
+  const CrossingReport sheet = check_crossings(m, {touches_itself, {}, {}, [](const TrianglePair&) { return true; }});
   EXPECT_EQ(sheet.contacts.count, c.cad_contacts.count) << "a sheet that ends on a body";
   EXPECT_EQ(sheet.cad_contacts.count, 0);
 }
