@@ -98,5 +98,6 @@ class ToolTest(unittest.TestCase):
         return run
 
     def expect_nothing_left(self, folder, *expected):
-        """`folder` holds exactly the expected names: no output, no temporary."""
-        self.assertEqual(sorted(p.name for p in Path(folder).iterdir()), sorted(expected))
+        """`folder` holds exactly the expected names, and the record of what ST wrote: no output, no temporary."""
+        names = {p.name for p in Path(folder).iterdir()} - {".st-written"}
+        self.assertEqual(sorted(names), sorted(expected))
