@@ -30,7 +30,7 @@ def stages(model, folder):
     """(stage, arguments) of the chain; artifacts are in folder."""
     path = lambda name: str(folder / f"{name}.hdf")  # noqa: E731
     cad = ["--geometry", path("geometry"), "--sizing", path("sizing")]
-    return [("import", [str(CORPUS / model), "-o", path("geometry")]),
+    return [("import", [str(CORPUS / model), "-o", path("geometry"), "--time-limit", "9999"]),
             ("raster", [path("geometry"), "-o", path("raster"), "--threads", "1"]),
             ("prolong", [path("raster"), "-o", path("sizing"), "--threads", "1"]),
             ("mesh", [path("geometry"), path("sizing"), "-o", path("patches"), "--threads", "1"]),

@@ -15,8 +15,10 @@
 #include <set>
 #include <utility>
 
+#include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/model/bodies.h"
+#include "geometry/shape/projection.h"
 
 namespace st::occt {
 namespace {
@@ -33,6 +35,57 @@ bool meet(const Box3& a, const Box3& b) {
 /// Of a comparison: some microseconds.
 int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 8 : type < SurfaceType::kBezier ? 200 : 400; }
 
+/// Looks whether an edge can go through a surface, from points of the edge and what is closest to them. Parts that
+/// touch have many edges that lie on the other's faces; OpenCASCADE takes a hundred times as long to intersect those.
+class ThroughSearch {
+ public:
+  ThroughSearch(const BRepAdaptor_Curve& edge, const Surface& surface, double tolerance)
+      : edge_(edge), surface_(surface), tolerance_(tolerance) {}
+
+  bool may_go_through() const {
+    constexpr int kHalvings = 5;  // a crossing and the way back within 1/128 of the edge are overlooked
+    const double t0 = edge_.FirstParameter(), t1 = edge_.LastParameter();
+    Station a = station(t0);
+    for (const double share : {0.24, 0.51, 0.77, 1.0}) {  // not the middle, where symmetric models cross
+      const Station b = station(t0 + share * (t1 - t0));
+      if (may_go_through(a, b, kHalvings)) return true;
+      a = b;
+    }
+    return false;
+  }
+
+ private:
+  struct Station {
+    double t;
+    Vec3 x;
+    double distance;  // to the surface
+    double side;      // likewise, along its normal; 0 on the surface
+  };
+
+  Station station(double t) const {
+    const Vec3 x = vec(edge_.Value(t));
+    const SurfaceFoot foot = closest_point(surface_, x);
+    if (foot.distance <= tolerance_) return {t, x, 0, 0};
+    const SurfacePoint p = surface_.evaluate(foot.uv);
+    return {t, x, foot.distance, dot(x - foot.x, cross(p.du, p.dv))};
+  }
+
+  /// A piece that is on the surface at three places lies on it; one that is further away than it is long is apart.
+  bool may_go_through(const Station& a, const Station& b, int halvings) const {
+    constexpr double kUneven = 0.47;       // of a piece: as above
+    constexpr double kLengthOfArc = 1.25;  // over its two chords: 1.11 for half a circle
+    const Station m = station(a.t + kUneven * (b.t - a.t));
+    if (m.distance > kLengthOfArc * std::max(distance(a.x, m.x), distance(m.x, b.x))) return false;
+    if (a.distance + m.distance + b.distance == 0) return false;
+    if (halvings > 0) return may_go_through(a, m, halvings - 1) || may_go_through(m, b, halvings - 1);
+    return a.side * m.side < 0 || m.side * b.side < 0;
+  }
+
+  const BRepAdaptor_Curve& edge_;
+  const Surface& surface_;
+  double tolerance_;
+};
+
 class CrossingSearch {
  public:
   CrossingSearch(const ImportedShape& model, const ModelTables& t, const FaceMeasures& measures)
@@ -47,6 +100,7 @@ class CrossingSearch {
     if (t_.n_solids < 2) return {};
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
     intersectors_.resize(t_.n_faces());
+    surfaces_.resize(t_.n_faces());
     const std::vector<EdgeId> order = edges_by_place();
     for (FaceId f = 0; f < t_.n_faces(); ++f) collect(f, order);
     for (const int most : {kMostCrossingTests / 20, kMostCrossingTests / 4, kMostCrossingTests})
@@ -100,6 +154,10 @@ class CrossingSearch {
     while (!pair.found && pair.n_done < pair.tests.size() && pair.cost_done < most && cost_ < kMostCrossingTestsOfAll) {
       const Test test = pair.tests[pair.n_done++];
       const int cost = cost_of(t_.face_type[test.face]);
+      if (!may_go_through(test.edge, test.face)) {
+        pair.cost -= cost;
+        continue;
+      }
       pair.cost_done += cost;
       cost_ += cost;
       auto& intersector = intersectors_[test.face];
@@ -109,6 +167,15 @@ class CrossingSearch {
       if (const auto place = place_of(test.edge, *intersector))
         pair.found = BodyCrossing{face_of_edge_[test.edge], test.face, *place};
     }
+  }
+
+  bool may_go_through(EdgeId e, FaceId f) {
+    if (t_.face_type[f] == SurfaceType::kPlane) return true;  // costs less than to look
+    auto& surface = surfaces_[f];
+    const double* b = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
+    if (!surface)
+      surface = make_surface(BRep_Tool::Surface(TopoDS::Face(model_.faces(f + 1))), {b[0], b[1], b[2], b[3]});
+    return ThroughSearch(BRepAdaptor_Curve(TopoDS::Edge(edges_(e + 1))), *surface, tolerance_).may_go_through();
   }
 
   CrossingBodies results() const {
@@ -160,6 +227,7 @@ class CrossingSearch {
   TopTools_IndexedMapOfShape edges_;
   std::map<std::pair<int, int>, Pair> pairs_;                             ///< of bodies, the smaller number first
   std::vector<std::unique_ptr<IntCurvesFace_Intersector>> intersectors_;  ///< [n_faces] null: not used yet
+  std::vector<std::unique_ptr<Surface>> surfaces_;                        // [n_faces] likewise
   int cost_ = 0;
 };
 
