@@ -44,8 +44,10 @@ class FootFinder {
     Foot best{(1.0 / 3) * (uv[0] + uv[1] + uv[2]), 0, false};
     best.distance = distance(surface.point(best.uv), middle);
     try_from(surface, middle, best.uv, best);
-    for (int k = 0; k < 3 && best.is_doubtful(side); ++k) try_from(surface, middle, uv[k], best);
-    if (best.is_doubtful(side) && n_searches_ < kMostSearches) {
+    if (best.is_doubtful(side) && !best.is_foot) descend(surface, middle, best);
+    const bool is_own = best.is_foot && is_beside(best.uv, uv);  // the surface bulges there, however far
+    for (int k = 0; k < 3 && !is_own && best.is_doubtful(side); ++k) try_from(surface, middle, uv[k], best);
+    if (!is_own && best.is_doubtful(side) && n_searches_ < kMostSearches) {
       ++n_searches_;
       const SurfaceFoot nearest = closest_point(surface, middle);
       if (nearest.distance < best.distance) best.uv = nearest.uv;
@@ -57,9 +59,16 @@ class FootFinder {
   struct Foot {
     Vec2 uv;
     double distance = 0;   // model unit
-    bool is_foot = false;  // Newton's method ended there
+    bool is_foot = false;  // Newton's method ended there, or at a side of the surface
     bool is_doubtful(double side) const { return distance > (is_foot ? kDoubtful : kNegligible) * side; }
   };
+
+  /// Whether (u,v) lies in the box of a triangle's corners, or beside it by no more than its sides.
+  static bool is_beside(Vec2 p, const Vec2* uv) {
+    const auto [u0, u1] = std::minmax({uv[0].x, uv[1].x, uv[2].x});
+    const auto [v0, v1] = std::minmax({uv[0].y, uv[1].y, uv[2].y});
+    return p.x >= u0 - (u1 - u0) && p.x <= u1 + (u1 - u0) && p.y >= v0 - (v1 - v0) && p.y <= v1 + (v1 - v0);
+  }
 
   /// Newton's method from a guess.
   static void try_from(const Surface& surface, Vec3 p, Vec2 guess, Foot& best) {
@@ -67,6 +76,12 @@ class FootFinder {
     if (!projected) return;
     const double d = distance(surface.point(*projected), p);
     if (d < best.distance) best = {*projected, d, true};
+  }
+
+  /// To a side of the surface, beyond which Newton's method left it.
+  static void descend(const Surface& surface, Vec3 p, Foot& best) {
+    const SurfaceFoot foot = descend_from(surface, p, best.uv);
+    best = {foot.uv, foot.distance, true};
   }
 
   static constexpr double kNegligible = 1e-3;  // of the longest side

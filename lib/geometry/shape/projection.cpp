@@ -97,10 +97,17 @@ std::vector<Start> surface_starts(const Surface& surface, Vec3 target, const std
   return starts;
 }
 
+Bounds bounds_of(const Surface& s) { return {{s.u_min(), s.v_min()}, {s.u_max(), s.v_max()}}; }
+
 }  // namespace
 
+SurfaceFoot descend_from(const Surface& surface, Vec3 target, Vec2 guess) {
+  const Bounds b = bounds_of(surface);
+  return descend(surface, target, b.clamp(guess), b);
+}
+
 SurfaceFoot closest_point(const Surface& surface, Vec3 target) {
-  const Bounds b{{surface.u_min(), surface.v_min()}, {surface.u_max(), surface.v_max()}};
+  const Bounds b = bounds_of(surface);
   if (const auto exact = surface.exact_foot(target); exact && b.clamp(*exact) == *exact) {
     const Vec3 x = surface.point(*exact);
     return {*exact, x, distance(x, target)};

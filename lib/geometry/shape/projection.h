@@ -21,6 +21,9 @@ struct SurfaceFoot {
 /// first. Cost: the grid, tens of microseconds to milliseconds.
 SurfaceFoot closest_point(const Surface& surface, Vec3 p);
 
+/// Likewise by constrained Newton from a guess alone, which is first moved into the bounds: a local minimum.
+SurfaceFoot descend_from(const Surface& surface, Vec3 p, Vec2 guess);
+
 /// Closest point of a curve within its bounds.
 struct CurveFoot {
   double t;

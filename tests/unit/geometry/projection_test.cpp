@@ -49,6 +49,20 @@ TEST_P(ClosestPointOf, is_within_the_bounds_and_no_sample_is_closer) {
   }
 }
 
+TEST_P(ClosestPointOf, is_where_the_descent_from_beside_it_ends) {
+  const Model model = test::make_model(GetParam());
+  const auto s = model.surface(0);
+  const double du = s->u_max() - s->u_min(), dv = s->v_max() - s->v_min(), size = model.tables().box().diagonal();
+  for (int k = 0; k < 25; ++k) {
+    const Vec3 target = point_about(model.tables().face_box[0], k);
+    const SurfaceFoot foot = closest_point(*s, target);
+    const SurfaceFoot again = descend_from(*s, target, foot.uv + Vec2{1e-4 * du, -1e-4 * dv});
+    EXPECT_NEAR(again.distance, foot.distance, 1e-9 * size) << k;
+    EXPECT_TRUE(again.uv.x >= s->u_min() && again.uv.x <= s->u_max() && again.uv.y >= s->v_min() &&
+                again.uv.y <= s->v_max());
+  }
+}
+
 TEST_P(ClosestPointOf, returns_points_of_the_surface_itself) {
   const Model model = test::make_model(GetParam());
   const auto s = model.surface(0);
