@@ -2,6 +2,7 @@
 """Faces whose loops or curves are wrong in the file: repaired and said, or left out and named, whole chains."""
 import math
 import os
+import shutil
 import sys
 import unittest
 from pathlib import Path
@@ -73,6 +74,15 @@ class Faces(ToolTest):
     def test_an_assembly_names_the_files_that_are_missing(self):
         self.expect_error(GEOMETRY, "st-import", self.from_field("stepcode_s1c5.stp"), "-o", self.folder / "s.hdf",
                           says=["missing: FOOT.stp, HEAD.stp, MAINBODY.stp, TAIL.stp", "put them beside it"])
+
+    def test_an_assembly_of_which_a_part_is_there_warns_of_the_others(self):
+        shutil.copy(self.from_field("stepcode_s1c5.stp"), self.folder / "s.stp")
+        shutil.copy(MODELS / "box.step", self.folder / "FOOT.stp")
+        run, found = self.imported(self.folder / "s.stp")
+        for name in ("HEAD", "MAINBODY", "TAIL"):
+            self.assertIn(f"parts in another file, which is missing: {name}.stp", run.err)
+        self.assertNotIn("FOOT", run.err)
+        self.assertEqual(len(found), 3)
 
     def test_field_files_are_right(self):
         rod = self.chain(self.from_field("red_rod_hole_other_period.brep"))
