@@ -156,6 +156,7 @@ void say_bodies(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
     if (f.kind == FindingKind::kNotUnited)
       log_warning(fmt::format("{}: {} stay apart, they could not be united: {}", o.model, f.entity, f.detail));
+    if (f.kind == FindingKind::kNoImprint) log_warning(fmt::format("{}: {} {}", o.model, f.entity, f.what()));
     if (f.kind == FindingKind::kTouchingApart) log_warning(fmt::format("{}: {}", o.model, f.what()));
     if (f.kind == FindingKind::kTouching)
       log_warning(fmt::format("{}: {}; --join gives them common faces, --unite makes them one", o.model, f.what()));

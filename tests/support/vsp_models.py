@@ -316,6 +316,15 @@ def spar(name, sections, at):
     return Component(name, [[Patch([a, b])] for a, b in zip(ends, ends[1:])])
 
 
+def leaves(n):
+    """Sheets around one edge, along x."""
+    rows = []
+    for k in range(n):
+        y, z = 5 * math.cos(2 * math.pi * k / n), 5 * math.sin(2 * math.pi * k / n)
+        rows.append([Patch([[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)], [(0.0, y, z), (10.0, y, z)]])])
+    return Component("leaves", rows)
+
+
 def rooms(lengths, width, height):
     """Rooms in a row along x, each wall once: planes that share no edges."""
     def plane(a, b, c, d):

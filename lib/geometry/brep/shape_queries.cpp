@@ -42,6 +42,16 @@ std::vector<int> edge_uses(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape
   return uses;
 }
 
+std::vector<int> edge_sides(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& edges) {
+  std::vector<int> sides = edge_uses(shape, edges);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    for (TopExp_Explorer e(faces(f).Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next())
+      if (is_constraint(e.Current())) sides[edges.FindIndex(e.Current()) - 1] += 2;
+  return sides;
+}
+
 int count_free_edges(const TopoDS_Shape& shape) {
   TopTools_IndexedMapOfShape edges;
   const std::vector<int> uses = edge_uses(shape, edges);

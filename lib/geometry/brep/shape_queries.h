@@ -25,6 +25,9 @@ bool is_constraint(const TopoDS_Shape& edge);
 /// How often faces use each edge of `edges` (a seam counts twice); fills `edges` with all edges of the shape.
 std::vector<int> edge_uses(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& edges);
 
+/// edge_uses(), and two for each face that has the edge inside: it is on both sides.
+std::vector<int> edge_sides(const TopoDS_Shape& shape, TopTools_IndexedMapOfShape& edges);
+
 /// Edges used once, poles left out.
 int count_free_edges(const TopoDS_Shape& shape);
 

@@ -7,7 +7,9 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
@@ -27,6 +29,10 @@ struct Candidate {
   bool is_loose;  ///< in no solid
 };
 
+Candidate candidate(const TopoDS_Shape& face, int id) {
+  return {id, TopoDS::Face(face.Oriented(TopAbs_FORWARD)), rough_box(face), max_edge_tolerance(face), false};
+}
+
 /// All faces in the order of their boxes; none when all belong to solids.
 std::vector<Candidate> candidates(const ImportedShape& model) {
   std::vector<char> is_loose(model.faces.Extent() + 1, 0);
@@ -35,9 +41,8 @@ std::vector<Candidate> candidates(const ImportedShape& model) {
   std::vector<Candidate> result;
   if (std::find(is_loose.begin(), is_loose.end(), 1) == is_loose.end()) return result;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
-    const TopoDS_Shape& face = model.faces(i);
-    result.push_back(
-        {i, TopoDS::Face(face.Oriented(TopAbs_FORWARD)), rough_box(face), max_edge_tolerance(face), is_loose[i] != 0});
+    result.push_back(candidate(model.faces(i), i));
+    result.back().is_loose = is_loose[i] != 0;
   }
   std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
     return a.box.lo.x != b.box.lo.x ? a.box.lo.x < b.box.lo.x : a.id < b.id;
@@ -80,6 +85,42 @@ bool coincide(const Candidate& a, const Candidate& b, double tolerance) {
   return std::fabs(area_a - area_b) <= kSameArea * area_a && same_surface(da, b.face, tolerance);
 }
 
+/// For each set of edges that several faces have, these faces in order; empty where no edge has more than two faces.
+std::vector<std::vector<int>> faces_of_same_edges(const ImportedShape& model) {
+  TopTools_IndexedMapOfShape edges;
+  const std::vector<int> uses = edge_uses(model.shape, edges);
+  if (std::none_of(uses.begin(), uses.end(), [](int n) { return n > 2; })) return {};
+  std::map<std::vector<int>, std::vector<int>> by_edges;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    TopTools_IndexedMapOfShape own;
+    TopExp::MapShapes(model.faces(i), TopAbs_EDGE, own);
+    std::vector<int> key;
+    for (int k = 1; k <= own.Extent(); ++k)
+      if (!BRep_Tool::Degenerated(TopoDS::Edge(own(k)))) key.push_back(edges.FindIndex(own(k)));
+    std::sort(key.begin(), key.end());
+    by_edges[key].push_back(i);
+  }
+  std::vector<std::vector<int>> result;
+  for (auto& [key, faces] : by_edges)
+    if (faces.size() > 1) result.push_back(std::move(faces));
+  return result;
+}
+
+/// Normals of the surfaces, not of the faces. Precondition: they lie on each other.
+bool same_side(const FaceDomain& a, const TopoDS_Face& b) {
+  const Vec2 middle = {0.5 * (a.bounds.u_min + a.bounds.u_max), 0.5 * (a.bounds.v_min + a.bounds.v_max)};
+  const SurfacePoint at = a.surface->evaluate(middle);
+  const Vec3 n = cross(at.du, at.dv);
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(b);
+  const GeomAPI_ProjectPointOnSurf projection(gp_Pnt(at.x.x, at.x.y, at.x.z), surface);
+  double u, v;
+  projection.LowerDistanceParameters(u, v);
+  gp_Pnt q;
+  gp_Vec du, dv;
+  surface->D1(u, v, q, du, dv);
+  return du.Crossed(dv).Dot({n.x, n.y, n.z}) > 0;
+}
+
 /// A solid with its faces in any order.
 struct SolidCandidate {
   TopoDS_Shape solid;
@@ -91,9 +132,7 @@ SolidCandidate solid_candidate(const TopoDS_Shape& solid) {
   SolidCandidate result{solid, rough_box(solid), {}};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid, TopAbs_FACE, faces);
-  for (int i = 1; i <= faces.Extent(); ++i)
-    result.faces.push_back(
-        {i, TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD)), rough_box(faces(i)), max_edge_tolerance(faces(i)), false});
+  for (int i = 1; i <= faces.Extent(); ++i) result.faces.push_back(candidate(faces(i), i));
   return result;
 }
 
@@ -132,6 +171,31 @@ void remove_duplicate_solids(ImportedShape& model, std::vector<ImportFinding>& f
   }
   if (kept.size() == static_cast<std::size_t>(solids.Extent())) return;
   model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return face; });
+}
+
+void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  bool is_changed = false;
+  for (const std::vector<int>& faces : faces_of_same_edges(model)) {
+    std::vector<Candidate> kept;
+    for (const int id : faces) {
+      const Candidate face = candidate(model.faces(id), id);
+      const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Candidate& other) {
+        return coincide(other, face, std::max({place, face.tolerance, other.tolerance}));
+      });
+      if (twin == kept.end()) {
+        kept.push_back(face);
+        continue;
+      }
+      const bool is_turned = !same_side(make_domain(twin->face), face.face);
+      reshape->Replace(face.face, twin->face.Oriented(is_turned ? TopAbs_REVERSED : TopAbs_FORWARD));
+      is_changed = true;
+      findings.push_back({FindingKind::kDuplicateFace, "face " + std::to_string(id) + " of the file", face.box.center(),
+                          face.box.diagonal(), true, std::to_string(twin->id)});
+    }
+  }
+  if (is_changed) model.replace(reshape->Apply(model.shape), [](const TopoDS_Shape& face) { return face; });
 }
 
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {

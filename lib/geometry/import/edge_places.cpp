@@ -1,14 +1,18 @@
 #include "geometry/import/edge_places.h"
 
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Extrema_ExtPC.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <numeric>
 
 #include "geometry/brep/shape_queries.h"
 
@@ -80,16 +84,47 @@ std::vector<TopoDS_Shape> pieces_of(const TopoDS_Shape& shape) {
   return pieces;
 }
 
+std::vector<TopoDS_Shape> shells_of(const std::vector<TopoDS_Shape>& faces) {
+  std::vector<int> shell(faces.size());
+  std::iota(shell.begin(), shell.end(), 0);
+  TopTools_IndexedMapOfShape edges;
+  std::vector<int> owner;  // of each edge, the shell of the first face that has it
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    for (TopExp_Explorer e(faces[k], TopAbs_EDGE); e.More(); e.Next()) {
+      const std::size_t i = edges.Add(e.Current()) - 1;
+      if (i == owner.size()) owner.push_back(shell[k]);
+      const int from = std::max(owner[i], shell[k]), to = std::min(owner[i], shell[k]);
+      for (std::vector<int>* list : {&shell, &owner}) std::replace(list->begin(), list->end(), from, to);
+    }
+  std::vector<TopoDS_Shape> result;
+  for (int root = 0; root < static_cast<int>(faces.size()); ++root) {
+    TopoDS_Shell members;
+    BRep_Builder builder;
+    builder.MakeShell(members);
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      if (shell[k] == root) builder.Add(members, faces[k]);
+    if (members.NbChildren() > 0) result.push_back(members);
+  }
+  return result;
+}
+
 std::vector<char> have_edges_at_one_place(const std::vector<TopoDS_Shape>& pieces, double tolerance) {
   std::vector<char> result(pieces.size(), 0);
   std::vector<PlacedEdge> edges = edges_of(pieces);
   std::stable_sort(edges.begin(), edges.end(),
                    [](const PlacedEdge& a, const PlacedEdge& b) { return a.box.lo.x < b.box.lo.x; });
+  std::vector<char> is_open(pieces.size(), 0);
+  for (const PlacedEdge& e : edges) is_open[e.piece] |= e.is_free;
+  const auto may_join = [&](const PlacedEdge& a, const PlacedEdge& b) {
+    return a.is_free || (a.piece != b.piece && is_open[b.piece]);
+  };
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (!edges[i].is_free) continue;
+    if (!is_open[edges[i].piece]) continue;
     const gp_Pnt p = edges[i].curve->Value(edges[i].first + kWhere * (edges[i].last - edges[i].first));
     for (std::size_t k = 0; k < edges.size() && edges[k].box.lo.x <= p.X() + tolerance; ++k) {
-      if (k == i || !is_near(edges[k].box, vec(p), tolerance) || !runs_through(edges[k], p, tolerance)) continue;
+      if (k == i || !may_join(edges[i], edges[k]) || !is_near(edges[k].box, vec(p), tolerance) ||
+          !runs_through(edges[k], p, tolerance))
+        continue;
       result[edges[i].piece] = result[edges[k].piece] = 1;
     }
   }

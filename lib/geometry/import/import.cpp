@@ -287,6 +287,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::remove_empty_faces(model, result.findings, path);
   occt::make_space_curves(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
+  occt::share_common_faces(model, result.findings);
   occt::remove_duplicates(model, result.findings);
   say_what_is_not_sewn(options, result.findings);
   progress.step("sewing", 0.42);

@@ -10,18 +10,18 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <algorithm>
-#include <numeric>
 
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/edge_places.h"
 
 namespace st::occt {
 namespace {
 
 bool has_third_face(const TopoDS_Shape& shell) {
   TopTools_IndexedMapOfShape edges;
-  const std::vector<int> uses = edge_uses(shell, edges);
-  return std::any_of(uses.begin(), uses.end(), [](int n) { return n > 2; });
+  const std::vector<int> sides = edge_sides(shell, edges);
+  return std::any_of(sides.begin(), sides.end(), [](int n) { return n > 2; });
 }
 
 /// Solids that OpenCASCADE finds between the faces, which have their edges in common; none where it fails.
@@ -68,31 +68,6 @@ int first_face(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& orde
   int first = order.Extent() + 1;
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) first = std::min(first, order.FindIndex(f.Current()));
   return first;
-}
-
-/// Shells of faces that have edges in common, in the order of the faces.
-std::vector<TopoDS_Shape> shells_of(const std::vector<TopoDS_Shape>& faces) {
-  std::vector<int> shell(faces.size());
-  std::iota(shell.begin(), shell.end(), 0);
-  TopTools_IndexedMapOfShape edges;
-  std::vector<int> owner;  // of each edge, the shell of the first face that has it
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    for (TopExp_Explorer e(faces[k], TopAbs_EDGE); e.More(); e.Next()) {
-      const std::size_t i = edges.Add(e.Current()) - 1;
-      if (i == owner.size()) owner.push_back(shell[k]);
-      const int from = std::max(owner[i], shell[k]), to = std::min(owner[i], shell[k]);
-      for (std::vector<int>* list : {&shell, &owner}) std::replace(list->begin(), list->end(), from, to);
-    }
-  std::vector<TopoDS_Shape> result;
-  for (int root = 0; root < static_cast<int>(faces.size()); ++root) {
-    TopoDS_Shell members;
-    BRep_Builder builder;
-    builder.MakeShell(members);
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      if (shell[k] == root) builder.Add(members, faces[k]);
-    if (members.NbChildren() > 0) result.push_back(members);
-  }
-  return result;
 }
 
 /// Rooms, then sheets, of one shell; the shell itself where there is no room.

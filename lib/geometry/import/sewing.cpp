@@ -24,8 +24,10 @@
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/bare_surfaces.h"
+#include "geometry/import/duplicate_faces.h"
 #include "geometry/import/edge_places.h"
 #include "geometry/import/import.h"
+#include "geometry/import/imprints.h"
 #include "geometry/import/rooms.h"
 
 namespace st::occt {
@@ -307,8 +309,14 @@ std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const
   return best;
 }
 
-/// `now` (made of `start`) with free edges joined to edges that two faces have already. Pieces without such edges stay
-/// as they are: bodies that touch each other keep their own. Nothing where no free edge goes.
+int count_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  return edges.Extent();
+}
+
+/// `now` (made of `start`) with free edges joined to edges that two faces have already, and edges of open pieces at one
+/// place. Other pieces stay as they are: bodies that touch each other keep their own. Nothing where no edge goes.
 std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& start, const Sewn& now, double tolerance) {
   const std::vector<TopoDS_Shape> pieces = pieces_of(now.shape);
   const std::vector<char> is_sewn = have_edges_at_one_place(pieces, tolerance);
@@ -333,7 +341,9 @@ std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& star
   sewn->n_free = count_free_edges(sewn->shape);
   sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
   const double reasonable = kToleranceGrowth * std::max(tolerance, now.edge_tolerance);
-  if (sewn->n_free >= now.n_free || sewn->edge_tolerance > reasonable) return std::nullopt;
+  const bool is_joined =
+      sewn->n_free < now.n_free || (sewn->n_free == now.n_free && count_edges(sewn->shape) < count_edges(now.shape));
+  if (!is_joined || sewn->edge_tolerance > reasonable) return std::nullopt;
   return sewn;
 }
 
@@ -375,7 +385,10 @@ void sew_once(ImportedShape& model, const SewingLimits& limits, std::vector<Impo
   const std::optional<Sewn> third = now.n_free > 0 ? sew_third_faces(model, start, now, tolerance) : std::nullopt;
   if (third) findings.push_back(sewn_finding(FindingKind::kThirdFace, now, *third, tolerance));
   if (third || best || is_group_sewn) adopt(model, original, third ? *third : now, findings);
-  if (third) divide_into_rooms(model, findings);
+  const bool is_imprinted = now.n_free > 0 && imprint_faces(model, third ? Imprints::kEdgesAndFaces : Imprints::kEdges,
+                                                            tolerances.back(), findings);
+  if (third || is_imprinted) share_common_faces(model, findings);
+  if (third || is_imprinted) divide_into_rooms(model, findings);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
+#include "geometry/import/face_probe.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
@@ -143,11 +144,31 @@ bool lies_on(const Surface& of, const Surface& on, const Box3& box, double toler
   return n >= 3;
 }
 
+/// Solids that have edges in common with others (0-based).
+std::set<int> edge_sharers(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape numbers;
+  TopExp::MapShapes(shape, TopAbs_SOLID, numbers);
+  std::map<const TopoDS_TShape*, int> owner;  // for look-up alone
+  std::set<int> sharers;
+  for (int i = 1; i <= numbers.Extent(); ++i)
+    for (TopExp_Explorer e(numbers(i), TopAbs_EDGE); e.More(); e.Next()) {
+      const auto [it, is_new] = owner.emplace(e.Current().TShape().get(), i - 1);
+      if (!is_new && it->second != i - 1) sharers.insert({i - 1, it->second});
+    }
+  return sharers;
+}
+
+/// Of faces of one surface: neighbours do not.
+bool lie_on_each_other(const TopoDS_Face& a, const TopoDS_Face& b, double tolerance) {
+  FaceProbe probe_a(a, tolerance), probe_b(b, tolerance);
+  return probe_a.distance_of(probe_b.samples()) || probe_b.distance_of(probe_a.samples());
+}
+
 /// Finds pairs of solids whose faces lie on each other.
 class FaceContacts {
  public:
   FaceContacts(const ImportedShape& model, const ModelTables& tables, double tolerance)
-      : model_(model), t_(tables), tolerance_(tolerance) {}
+      : model_(model), t_(tables), tolerance_(tolerance), sharers_(edge_sharers(model.shape)) {}
 
   void add_to(Joined& joined) {
     std::vector<FaceId> order;
@@ -175,12 +196,16 @@ class FaceContacts {
     if (t_.face_type[f] == t_.face_type[g]) {
       const Vec3 p = box.center();
       const BRepAdaptor_Surface sa(a, false), sb(b, false);
-      if (const auto same = are_one_surface(sa, sb, {p.x, p.y, p.z}, box.diagonal(), tolerance)) return *same;
+      if (const auto same = are_one_surface(sa, sb, {p.x, p.y, p.z}, box.diagonal(), tolerance))
+        return *same && (!are_sharers(f, g) || lie_on_each_other(a, b, tolerance));
     }
     if (t_.face_type[f] != t_.face_type[g] && is_plane(f) && is_plane(g)) return false;
     if (n_sampled_++ >= kMostSampled) return false;
     const auto on_a = surface_of(a, f), on_b = surface_of(b, g);
     return lies_on(*on_a, *on_b, box, tolerance) || lies_on(*on_b, *on_a, box, tolerance);
+  }
+  bool are_sharers(FaceId f, FaceId g) const {
+    return sharers_.count(t_.face_solid[f]) > 0 && sharers_.count(t_.face_solid[g]) > 0;
   }
   bool is_plane(FaceId f) const { return t_.face_type[f] == SurfaceType::kPlane; }
   std::unique_ptr<Surface> surface_of(const TopoDS_Face& face, FaceId f) const {
@@ -191,6 +216,7 @@ class FaceContacts {
   const ImportedShape& model_;
   const ModelTables& t_;
   double tolerance_;
+  std::set<int> sharers_;
   std::size_t n_sampled_ = 0;
 };
 
@@ -490,16 +516,16 @@ class TouchingSolids {
   TopTools_IndexedMapOfShape solids_;  ///< before anything was joined
 };
 
-/// Solids that have common edges with others in the file are not joined alone.
-void leave_out_sharers(const TopoDS_Shape& shape, std::set<int>& solids) {
-  TopTools_IndexedMapOfShape numbers;
-  TopExp::MapShapes(shape, TopAbs_SOLID, numbers);
-  std::map<const TopoDS_TShape*, int> owner;
-  for (int i = 1; i <= numbers.Extent(); ++i)
-    for (TopExp_Explorer e(numbers(i), TopAbs_EDGE); e.More(); e.Next()) {
-      const auto [it, is_new] = owner.emplace(e.Current().TShape().get(), i - 1);
-      if (!is_new && it->second != i - 1) solids.erase(i - 1), solids.erase(it->second);
-    }
+/// Solids that touch and have edges in common: the file has one edge there, and two faces that lie on each other.
+void join_sharers(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& sharers,
+                  std::vector<ImportFinding>& findings, const std::string& path) {
+  if (sharers.empty()) return;
+  std::vector<std::vector<int>> groups = find_touching_solids(model, model_tables.tables).groups;
+  TouchingSolids solids(model, model_tables, findings, path);
+  for (std::vector<int>& group : groups) {
+    std::erase_if(group, [&](int i) { return sharers.count(i) == 0; });
+    if (group.size() > 1) solids.join(group, {});
+  }
 }
 
 }  // namespace
@@ -532,12 +558,15 @@ void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, 
   const ModelTables& t = model_tables.tables;
   Joined joined(t.n_solids);
   std::set<int> self_touching = add_edge_contacts(model, t, kSamePlace * t.box().diagonal(), joined);
-  std::erase_if(self_touching, [&](int i) { return left_out.count(i) > 0; });
-  if (self_touching.empty()) return;
-  leave_out_sharers(model.shape, self_touching);
+  std::set<int> sharers = edge_sharers(model.shape);
+  for (const int i : left_out) self_touching.erase(i), sharers.erase(i);
+  for (const int i : sharers) self_touching.erase(i);  // not joined alone
   std::vector<ImportFinding> own;
-  TouchingSolids solids(model, model_tables, own, path);
-  for (const int i : self_touching) solids.join({i}, self_touching);
+  join_sharers(model, model_tables, sharers, own, path);
+  if (!self_touching.empty()) {
+    TouchingSolids solids(model, model_tables, own, path);
+    for (const int i : self_touching) solids.join({i}, self_touching);
+  }
   std::erase_if(own, [](const ImportFinding& f) { return f.kind == FindingKind::kTouchingApart; });  // nobody asked
   findings.insert(findings.end(), own.begin(), own.end());
 }

@@ -28,7 +28,8 @@ TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTable
 void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                           std::vector<ImportFinding>& findings, const std::string& path);
 
-/// The same for solids that touch themselves along edges: two meshes of one edge would lie on each other.
+/// The same for solids that touch themselves along edges, or others with which they have edges in common: two meshes of
+/// one edge, or between the same edges, would lie on each other.
 /// Nothing is said where one stays as it is.
 void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                                std::vector<ImportFinding>& findings, const std::string& path);

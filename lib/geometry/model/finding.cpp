@@ -68,6 +68,8 @@ constexpr Wording kWordings[] = {
     {"sewn where three faces or more meet", "sewn where three faces or more meet: {}"},
     {"sheet", "sheet: the same room, or none, is on both sides"},
     {"wall between two rooms", "wall between two rooms"},
+    {"ends or lies on other faces, joined there", "ends or lies on other faces, joined there: {}"},
+    {"ends or lies on other faces, not joined", "ends or lies on other faces, not joined: {}"},
     {"edge without a curve in space", "edge without a curve in space: {}"},
     {"loop in another period of its surface, moved", "loop in another period of its surface, moved by {}"},
     {"hole outside its face", "hole outside its face"},

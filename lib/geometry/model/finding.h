@@ -59,6 +59,8 @@ enum class FindingKind : std::uint8_t {
   kThirdFace,              ///< free edges joined to edges that two faces have already
   kSheet,                  ///< a face with the same room, or none, on both sides
   kSharedWall,             ///< a face between two rooms
+  kImprint,                ///< edges of a face run over the inside of others, which were divided along them
+  kNoImprint,              ///< likewise, but they could not be divided
   kNoSpaceCurve,           ///< an edge without one
   kMovedLoop,              ///< a loop in another period of its surface, moved to its face
   kStrayHole,              ///< a hole outside its face

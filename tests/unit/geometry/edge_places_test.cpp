@@ -2,6 +2,9 @@
 #include "geometry/import/edge_places.h"
 
 #include <gtest/gtest.h>
+#include <BRepBuilderAPI_Sewing.hxx>
+
+#include <utility>
 
 #include "unit/geometry/bare_models.h"
 
@@ -25,6 +28,34 @@ TEST(EdgePlaces, of_bodies_that_touch_are_none) {
   const std::vector<TopoDS_Shape> pieces = {BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)).Shape(),
                                             BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), gp_Pnt(2, 1, 1)).Shape()};
   EXPECT_EQ(occt::have_edges_at_one_place(pieces, 1e-5), (std::vector<char>{0, 0}));
+}
+
+TEST(EdgePlaces, of_open_pieces_are_those_of_two_faces_too) {
+  const auto wing = [](double x, double z) {
+    return polygon({gp_Pnt(0, 0, 0), gp_Pnt(0, 10, 0), gp_Pnt(x, 10, z), gp_Pnt(x, 0, z)});
+  };
+  const auto pair = [&](double x, double z) {
+    BRepBuilderAPI_Sewing sewing;
+    sewing.Add(wing(x, z));
+    sewing.Add(wing(-x, -z));
+    sewing.Perform();
+    return sewing.SewedShape();
+  };
+  const std::vector<TopoDS_Shape> cross = {pair(5, 0), pair(0, 5)};
+  EXPECT_EQ(occt::have_edges_at_one_place(cross, 1e-5), (std::vector<char>{1, 1}));
+  EXPECT_EQ(occt::have_edges_at_one_place({cross[0]}, 1e-5), (std::vector<char>{0}));
+}
+
+TEST(EdgePlaces, shells_of_faces_are_those_with_common_edges) {
+  const TopoDS_Shape a = BRepPrimAPI_MakeBox(1, 1, 1).Shape(), b = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  std::vector<TopoDS_Shape> faces;
+  for (const TopoDS_Shape& box : {a, b})
+    for (TopExp_Explorer f(box, TopAbs_FACE); f.More(); f.Next()) faces.push_back(f.Current());
+  std::swap(faces[2], faces[8]);
+  const std::vector<TopoDS_Shape> shells = occt::shells_of(faces);
+  ASSERT_EQ(shells.size(), 2u);
+  EXPECT_EQ(shells[0].NbChildren(), 6);
+  EXPECT_TRUE(TopExp_Explorer(shells[0], TopAbs_FACE).Current().IsSame(faces[0]));
 }
 
 }  // namespace

@@ -48,12 +48,12 @@ TEST(Rooms, keep_sheets_that_stand_in_them) {
   EXPECT_FALSE(found[0].is_repair);
 }
 
-TEST(Rooms, are_not_divided_where_the_ends_of_a_sheet_have_no_edge_to_lie_on) {
+TEST(Rooms, are_divided_by_a_sheet_whose_ends_have_no_edge_to_lie_on) {
   std::vector<TopoDS_Shape> faces = loose_box(gp_Pnt(0, 0, 0), gp_Pnt(20, 10, 10));
   faces.push_back(polygon({gp_Pnt(0, 0, 0), gp_Pnt(20, 0, 0), gp_Pnt(20, 10, 10), gp_Pnt(0, 10, 10)}));
   const ImportResult r = import_faces(faces);
-  EXPECT_EQ(r.n_nonmanifold_edges, 2) << "the sheet's ends cross the sides of the box, which have no edge there";
-  EXPECT_EQ(r.tables.n_solids, 1);
+  EXPECT_EQ(r.n_nonmanifold_edges, 4) << "the sheet's ends divide the sides of the box";
+  EXPECT_EQ(r.tables.n_solids, 2);
 }
 
 TEST(Rooms, are_none_where_three_sheets_meet) {
@@ -64,6 +64,17 @@ TEST(Rooms, are_none_where_three_sheets_meet) {
   EXPECT_EQ(r.n_nonmanifold_edges, 1);
   EXPECT_EQ(r.n_free_edges, 9);
   EXPECT_EQ(r.tables.n_faces(), 3);
+}
+
+TEST(Rooms, are_none_where_four_sheets_meet_at_one_edge) {
+  std::vector<TopoDS_Shape> faces;
+  for (const auto& [y, z] : {std::pair{5, 0}, {-5, 0}, {0, 5}, {0, -5}})
+    faces.push_back(polygon({gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(10, y, z), gp_Pnt(0, y, z)}));
+  const ImportResult r = import_faces(faces);
+  EXPECT_EQ(r.n_nonmanifold_edges, 1);
+  EXPECT_EQ(r.n_free_edges, 12);
+  EXPECT_EQ(r.tables.n_edges(), 13);
+  EXPECT_EQ(r.tables.n_faces(), 4);
 }
 
 }  // namespace
