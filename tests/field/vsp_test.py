@@ -75,6 +75,23 @@ class Vsp(ToolTest):
         report = must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--json").json()
         self.assertTrue(report["passes"], report)
 
+    def test_single_surfaces_are_united_as_their_patches_are(self):
+        wing = vsp.kinked_wing(tip="round").moved((10, 0.8, -0.5))
+        parts = [vsp.fuselage(), wing, wing.mirrored()]
+        single, patches = (self.imported(layout, parts, layout, "--unite") for layout in ("single", "patches"))
+        for report in (single, patches):
+            self.assertEqual((report["solids"], report["free_edges"]), (1, 0), report)
+            self.assertFalse(report["findings"], report["findings"])
+        for key in ("area", "volume"):
+            self.assertAlmostEqual(single[key] / patches[key], 1, 5, key)
+
+    def test_shaken_points_close_in_every_layout(self):
+        for te, tip, strips in (("sharp", "round", False), ("blunt", "flat", True)):
+            wing = vsp.shaken(vsp.kinked_wing(te=te, tip=tip, strips=strips), 3e-6)
+            for layout in ("patches", "skins", "whole", "single"):
+                label = f"shaken_{te}_{tip}_{layout}"
+                self.expect_closed(self.imported(label, [wing], layout), [wing], 1, label)
+
 
 if __name__ == "__main__":
     unittest.main()

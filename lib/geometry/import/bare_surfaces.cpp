@@ -12,6 +12,7 @@
 #include <TopoDS_Iterator.hxx>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "geometry/brep/compound.h"
@@ -135,7 +136,12 @@ bool is_on_bounds(double x, Range r) {
 /// The face's spline in the model's frame where it is not trimmed and has an edge for each side; null otherwise.
 Handle(Geom_BSplineSurface) whole_spline(const TopoDS_Face& face) {
   auto spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
-  if (spline.IsNull() || spline->IsUPeriodic() || spline->IsVPeriodic()) return {};
+  if (spline.IsNull()) return {};
+  if (spline->IsUPeriodic() || spline->IsVPeriodic()) {
+    spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
+    if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
+    if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
+  }
   Range u, v;
   spline->Bounds(u.low, u.high, v.low, v.high);
   const FaceDomain d = make_domain(face);
@@ -147,30 +153,68 @@ Handle(Geom_BSplineSurface) whole_spline(const TopoDS_Face& face) {
   return spline;
 }
 
-/// Adds the parts of the face that have an area; itself where there is no cut.
-void add_parts(const TopoDS_Face& face, double diagonal, Cuts which, std::vector<TopoDS_Shape>& parts) {
-  const Handle(Geom_BSplineSurface) spline = whole_spline(face);
+/// Knots at which a surface is to be divided, ends included, both ways.
+struct Grid {
   std::vector<double> u, v;
-  if (!spline.IsNull()) {
-    const double size = rough_box(face).diagonal();
-    const SplineLines along_u(spline, Along::kU, size), along_v(spline, Along::kV, size);
-    u = along_u.cuts(which), v = along_v.cuts(which);
-    if (which == Cuts::kNeeded && !(u.empty() && v.empty())) u = along_u.cuts(Cuts::kAll), v = along_v.cuts(Cuts::kAll);
-  }
-  if (u.empty() && v.empty()) {
-    if (!empty_box(face, diagonal)) parts.push_back(face);
-    return;
-  }
-  Range range_u, range_v;
-  spline->Bounds(range_u.low, range_u.high, range_v.low, range_v.high);
-  u.insert(u.begin(), range_u.low), u.push_back(range_u.high);
-  v.insert(v.begin(), range_v.low), v.push_back(range_v.high);
-  for (std::size_t i = 0; i + 1 < u.size(); ++i)
-    for (std::size_t j = 0; j + 1 < v.size(); ++j) {
-      auto piece = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
-      piece->Segment(u[i], u[i + 1], v[j], v[j + 1]);
-      add_parts(BRepBuilderAPI_MakeFace(piece, Precision::Confusion()).Face(), diagonal, Cuts::kAll, parts);
+
+  bool is_cut() const { return u.size() > 2 || v.size() > 2; }
+  void add(const Grid& other) {
+    for (const auto list : {&Grid::u, &Grid::v}) {
+      std::vector<double> both;
+      std::set_union((this->*list).begin(), (this->*list).end(), (other.*list).begin(), (other.*list).end(),
+                     std::back_inserter(both));
+      this->*list = std::move(both);
     }
+  }
+  std::size_t size() const { return u.size() + v.size(); }
+};
+
+Grid grid_of(const Handle(Geom_BSplineSurface) & spline, double size, Cuts which) {
+  Range u, v;
+  spline->Bounds(u.low, u.high, v.low, v.high);
+  Grid grid{SplineLines(spline, Along::kU, size).cuts(which), SplineLines(spline, Along::kV, size).cuts(which)};
+  grid.u.insert(grid.u.begin(), u.low), grid.u.push_back(u.high);
+  grid.v.insert(grid.v.begin(), v.low), grid.v.push_back(v.high);
+  return grid;
+}
+
+/// The parts of a spline, in the order of the grid.
+std::vector<Handle(Geom_BSplineSurface)> parts_of(const Handle(Geom_BSplineSurface) & spline, const Grid& grid) {
+  std::vector<Handle(Geom_BSplineSurface)> parts;
+  for (std::size_t i = 0; i + 1 < grid.u.size(); ++i)
+    for (std::size_t j = 0; j + 1 < grid.v.size(); ++j) {
+      parts.push_back(Handle(Geom_BSplineSurface)::DownCast(spline->Copy()));
+      parts.back()->Segment(grid.u[i], grid.u[i + 1], grid.v[j], grid.v[j + 1]);
+    }
+  return parts;
+}
+
+/// Parts show cuts of their own. They go through the whole surface: the sides of neighbours have to end together.
+Grid complete_grid(const Handle(Geom_BSplineSurface) & spline, double size) {
+  Grid grid = grid_of(spline, size, Cuts::kNeeded);
+  if (!grid.is_cut()) return grid;
+  grid.add(grid_of(spline, size, Cuts::kAll));
+  for (std::size_t n_before = 0; n_before < grid.size();) {
+    n_before = grid.size();
+    Grid all = grid;
+    for (const Handle(Geom_BSplineSurface) & part : parts_of(spline, grid)) {
+      const TopoDS_Face face = BRepBuilderAPI_MakeFace(part, Precision::Confusion()).Face();
+      all.add(grid_of(part, rough_box(face).diagonal(), Cuts::kAll));
+    }
+    grid = std::move(all);
+  }
+  return grid;
+}
+
+/// Adds the parts of the face that have an area; itself where there is no cut.
+void add_parts(const TopoDS_Face& face, double diagonal, std::vector<TopoDS_Shape>& parts) {
+  const Handle(Geom_BSplineSurface) spline = whole_spline(face);
+  const Grid grid = spline.IsNull() ? Grid{} : complete_grid(spline, rough_box(face).diagonal());
+  if (!grid.is_cut()) return parts.push_back(face);
+  for (const Handle(Geom_BSplineSurface) & part : parts_of(spline, grid)) {
+    const TopoDS_Face piece = BRepBuilderAPI_MakeFace(part, Precision::Confusion()).Face();
+    if (!empty_box(piece, diagonal)) parts.push_back(piece);
+  }
 }
 
 using Parts = std::map<int, std::vector<TopoDS_Shape>>;  // by the number of the face
@@ -204,7 +248,7 @@ bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& find
     if (!f.Current().Location().IsIdentity() || parts.count(i) > 0) continue;
     try {
       std::vector<TopoDS_Shape> found;
-      add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, Cuts::kNeeded, found);
+      add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, found);
       if (found.size() < 2) continue;
       const Box3 box = rough_box(f.Current());
       findings.push_back({FindingKind::kDividedSurface, "face " + std::to_string(i) + " of the file", box.center(),

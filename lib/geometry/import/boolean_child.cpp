@@ -3,12 +3,14 @@
 #include <BinTools.hxx>
 #include <Standard_Failure.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <chrono>
 #include <sstream>
 #include <stdexcept>
 
 #include "base/child_process.h"
 #include "base/error.h"
 #include "geometry/brep/compound.h"
+#include "geometry/brep/shape_queries.h"
 
 namespace st::occt {
 namespace {
@@ -48,9 +50,12 @@ std::string bytes_of_work(const std::function<BooleanResult()>& work) {
 }  // namespace
 
 BooleanAttempt run_boolean(const std::function<BooleanResult()>& work, double cpu_seconds) {
+  const auto start = std::chrono::steady_clock::now();
   try {
     return {result_of(run_in_child([&] { return bytes_of_work(work); }, {cpu_seconds}, "boolean operation")), ""};
   } catch (const std::exception& e) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    if (elapsed.count() >= cpu_seconds) return {{}, "OpenCASCADE needs more than " + format_number(cpu_seconds) + " s"};
     return {{}, e.what()};
   }
 }

@@ -360,50 +360,70 @@ double free_length(const TopoDS_Shape& shape) {
   return length;
 }
 
-void sew_once(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
-  Sewn original;
+/// Free edges joined two by two; the model is still as it was.
+struct Pairs {
+  Sewn original, start;      ///< and with what groups' tolerances join
+  std::optional<Sewn> best;  ///< nothing: no tolerance helps
+  std::vector<double> tolerances;
+  bool is_group_sewn = false;
+
+  const Sewn& now() const { return best ? *best : start; }
+};
+
+Pairs sew_pairs(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
+  Pairs pairs;
+  Sewn& original = pairs.original;
   original.shape = model.shape;
   original.n_free = count_free_edges(model.shape);
-  if (original.n_free == 0) return;
   for (int i = 1; i <= model.faces.Extent(); ++i) original.images.push_back(model.faces(i));
   for (const auto& [edge, name] : model.edge_names) original.images.push_back(edge);
   original.edge_tolerance = max_edge_tolerance(model.shape);
-  const double diagonal = rough_box(model.shape).diagonal();
-  const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
-  const Sewn start = sew_groups(model, original, limits.of_face);
-  const bool is_group_sewn = start.n_free < original.n_free;
-  for (std::size_t f = 0; is_group_sewn && f < limits.of_face.size(); ++f)
+  pairs.start = sew_groups(model, original, limits.of_face);
+  const Sewn& start = pairs.start;
+  pairs.is_group_sewn = start.n_free < original.n_free;
+  for (std::size_t f = 0; pairs.is_group_sewn && f < limits.of_face.size(); ++f)
     model.attributes[f].is_sewn_by_group = limits.of_face[f] > 0;
-  if (is_group_sewn)
+  if (pairs.is_group_sewn)
     findings.push_back(sewn_finding(FindingKind::kSewnByGroup, original, start, start.group_tolerance));
-  const std::vector<double> tolerances = tolerances_to_try(diagonal, base, limits.largest);
-  const std::optional<Sewn> best = sew_all(model, start, tolerances);
-  if (best && best->n_free < start.n_free)
-    findings.push_back(sewn_finding(FindingKind::kSewn, start, *best, best->tolerance));
-  const Sewn& now = best ? *best : start;
-  const double tolerance = best ? best->tolerance : tolerances.front();
-  const std::optional<Sewn> third = now.n_free > 0 ? sew_third_faces(model, start, now, tolerance) : std::nullopt;
+  const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
+  pairs.tolerances = tolerances_to_try(rough_box(model.shape).diagonal(), base, limits.largest);
+  pairs.best = sew_all(model, start, pairs.tolerances);
+  if (pairs.best && pairs.best->n_free < start.n_free)
+    findings.push_back(sewn_finding(FindingKind::kSewn, start, *pairs.best, pairs.best->tolerance));
+  return pairs;
+}
+
+/// The model as it is sewn, with third faces where edges are left.
+void take_pairs(ImportedShape& model, const Pairs& pairs, std::vector<ImportFinding>& findings) {
+  const Sewn& now = pairs.now();
+  const double tolerance = pairs.best ? pairs.best->tolerance : pairs.tolerances.front();
+  const std::optional<Sewn> third = now.n_free > 0 ? sew_third_faces(model, pairs.start, now, tolerance) : std::nullopt;
   if (third) findings.push_back(sewn_finding(FindingKind::kThirdFace, now, *third, tolerance));
-  if (third || best || is_group_sewn) adopt(model, original, third ? *third : now, findings);
-  const bool is_imprinted = now.n_free > 0 && imprint_faces(model, third ? Imprints::kEdgesAndFaces : Imprints::kEdges,
-                                                            tolerances.back(), findings);
-  if (third || is_imprinted) share_common_faces(model, findings);
-  if (third || is_imprinted) divide_into_rooms(model, findings);
+  if (third || pairs.best || pairs.is_group_sewn) adopt(model, pairs.original, third ? *third : now, findings);
+  if (now.n_free == 0) return;
+  const Imprints which = third ? Imprints::kEdgesAndFaces : Imprints::kEdges;
+  const bool is_imprinted = imprint_faces(model, which, pairs.tolerances.back(), findings);
+  if (!third && !is_imprinted) return;
+  share_common_faces(model, findings);
+  divide_into_rooms(model, findings);
 }
 
 }  // namespace
 
 void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<ImportFinding>& findings) {
+  if (count_free_edges(model.shape) == 0) return;
   ImportedShape divided = model;
   std::vector<ImportFinding> own, of_divided;
-  sew_once(model, limits, own);
-  if (count_free_edges(model.shape) > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided)) {
-    sew_once(divided, limits, of_divided);
-    if (free_length(divided.shape) < kLessFree * free_length(model.shape)) {
-      model = divided;
-      own = of_divided;
-    }
+  const Pairs pairs = sew_pairs(model, limits, own);
+  bool is_divided = pairs.now().n_free > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided);
+  if (is_divided) {
+    take_pairs(divided, sew_pairs(divided, limits, of_divided), of_divided);
+    is_divided = free_length(divided.shape) < kLessFree * free_length(pairs.now().shape);
   }
+  if (is_divided)
+    model = divided, own = of_divided;
+  else
+    take_pairs(model, pairs, own);
   findings.insert(findings.end(), own.begin(), own.end());
 }
 

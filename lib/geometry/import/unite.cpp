@@ -8,6 +8,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <stdexcept>
 
@@ -21,7 +22,8 @@ namespace {
 
 constexpr double kFuzzy[] = {0, 1e-6, 1e-5, 1e-4};  // of the diagonal of both, the first that gives a sound union
 constexpr double kVolume = 1e-4;                    // relative slack of volumes
-constexpr double kCpuSeconds = 60;                  // for one attempt
+constexpr double kCpuSeconds = 15;                  // for one attempt
+constexpr double kAllSeconds = 60;                  // from the first to the last
 
 /// Solids that are one by now.
 struct Body {
@@ -123,7 +125,11 @@ class Unions {
     box.add(b.box);
     std::string failure;
     for (const double fuzzy : kFuzzy) {
-      const BooleanAttempt done = run_boolean([&] { return fuse(a, b, tracked, fuzzy * box.diagonal()); }, kCpuSeconds);
+      const double left = seconds_left();
+      if (left <= 0 && failure.empty()) failure = "the unions before took " + format_number(kAllSeconds) + " s";
+      if (left <= 0) break;
+      const BooleanAttempt done =
+          run_boolean([&] { return fuse(a, b, tracked, fuzzy * box.diagonal()); }, std::min(kCpuSeconds, left));
       failure = done.failure;
       if (!failure.empty()) continue;
       if (done.result.shape.ShapeType() == TopAbs_SOLID) take(a, b, places, done.result);
@@ -159,6 +165,12 @@ class Unions {
     a.is_gone = true;
   }
 
+  double seconds_left() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    return kAllSeconds - elapsed.count();
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double tolerance_;
   std::vector<Body> bodies_;
   std::vector<std::vector<TopoDS_Shape>> images_;  ///< of faces, then of named edges

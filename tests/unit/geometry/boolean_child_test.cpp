@@ -34,10 +34,10 @@ TEST(BooleanChild, names_a_failure_a_crash_and_a_hang) {
   EXPECT_NE(cause([]() -> BooleanResult { throw Standard_Failure("no"); }), "");
   EXPECT_NE(cause([] { return BooleanResult(); }), "");
   EXPECT_NE(cause([]() -> BooleanResult { std::abort(); }), "");
-  EXPECT_NE(cause([]() -> BooleanResult {
+  EXPECT_EQ(cause([]() -> BooleanResult {
               for (;;) BRepPrimAPI_MakeBox(1, 1, 1).Shape();
             }),
-            "");
+            "OpenCASCADE needs more than 0.2 s");
 }
 
 }  // namespace
