@@ -144,18 +144,31 @@ bool lies_on(const Surface& of, const Surface& on, const Box3& box, double toler
   return n >= 3;
 }
 
-/// Solids that have edges in common with others (0-based).
+/// Solids that have edges in common with others (0-based). Instances of one solid at different places have none.
 std::set<int> edge_sharers(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape numbers;
+  TopTools_IndexedMapOfShape numbers, edges;
   TopExp::MapShapes(shape, TopAbs_SOLID, numbers);
-  std::map<const TopoDS_TShape*, int> owner;  // for look-up alone
+  std::vector<int> owner(1, 0);  // by 1-based edge
   std::set<int> sharers;
   for (int i = 1; i <= numbers.Extent(); ++i)
     for (TopExp_Explorer e(numbers(i), TopAbs_EDGE); e.More(); e.Next()) {
-      const auto [it, is_new] = owner.emplace(e.Current().TShape().get(), i - 1);
-      if (!is_new && it->second != i - 1) sharers.insert({i - 1, it->second});
+      const int k = edges.Add(e.Current());
+      if (k == static_cast<int>(owner.size())) owner.push_back(i);
+      if (owner[k] != i) sharers.insert({i - 1, owner[k] - 1});
     }
   return sharers;
+}
+
+/// Solids that have common edges with others in the file, or are instances of one, are not joined alone.
+void leave_out_sharers(const TopoDS_Shape& shape, std::set<int>& solids) {
+  TopTools_IndexedMapOfShape numbers;
+  TopExp::MapShapes(shape, TopAbs_SOLID, numbers);
+  std::map<const TopoDS_TShape*, int> owner;
+  for (int i = 1; i <= numbers.Extent(); ++i)
+    for (TopExp_Explorer e(numbers(i), TopAbs_EDGE); e.More(); e.Next()) {
+      const auto [it, is_new] = owner.emplace(e.Current().TShape().get(), i - 1);
+      if (!is_new && it->second != i - 1) solids.erase(i - 1), solids.erase(it->second);
+    }
 }
 
 /// Of faces of one surface: neighbours do not.
@@ -560,7 +573,7 @@ void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, 
   std::set<int> self_touching = add_edge_contacts(model, t, kSamePlace * t.box().diagonal(), joined);
   std::set<int> sharers = edge_sharers(model.shape);
   for (const int i : left_out) self_touching.erase(i), sharers.erase(i);
-  for (const int i : sharers) self_touching.erase(i);  // not joined alone
+  leave_out_sharers(model.shape, self_touching);
   std::vector<ImportFinding> own;
   join_sharers(model, model_tables, sharers, own, path);
   if (!self_touching.empty()) {

@@ -7,6 +7,7 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Iterator.hxx>
+#include <gp_Trsf.hxx>
 
 #include "geometry/import/import.h"
 #include "support/shapes.h"
@@ -114,6 +115,16 @@ TEST(DuplicateFaces, between_some_common_edges_are_one_wall_of_both_solids) {
   EXPECT_EQ(r.tables.n_solids, 2);
   EXPECT_NEAR(r.volume, 900, 1e-6);
   EXPECT_EQ(findings_of(r, "bodies that touch joined").size(), 1u);
+}
+
+TEST(DuplicateFaces, of_instances_of_one_solid_at_different_places_stay) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 5).Shape();
+  gp_Trsf up;
+  up.SetTranslation(gp_Vec(0, 0, 5));
+  const ImportResult r = test::import_faces({box, box.Moved(up)});
+  EXPECT_EQ(r.tables.n_faces(), 12);
+  EXPECT_EQ(r.n_repairs, 0);
+  EXPECT_EQ(findings_of(r, "bodies touch").size(), 1u);
 }
 
 }  // namespace
