@@ -1,8 +1,10 @@
 #include "broken/damaged_shapes.h"
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -15,12 +17,14 @@
 #include <BRep_Tool.hxx>
 #include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_Circle.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Curve.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColStd_Array1OfInteger.hxx>
@@ -85,6 +89,16 @@ TopoDS_Shape rod_with_holes(const std::vector<std::pair<double, double>>& holes)
 
 TopoDS_Shape rod_hole() { return rod_with_holes({{1.6, 50}}); }
 
+/// A quarter of a tube's side with a hole in what is not there.
+TopoDS_Shape stray_hole() {
+  const Handle(Geom_CylindricalSurface) surface = new Geom_CylindricalSurface(gp_Ax3(gp::XOY()), 30);
+  BRepBuilderAPI_MakeFace face(surface, 0, 1.5, 0, 100, 1e-7);
+  const Handle(Geom2d_Circle) circle = new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(4, 50), gp_Dir2d(1, 0)), 0.5);
+  face.Add(TopoDS::Wire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle, surface).Edge()).Wire().Reversed()));
+  BRepLib::BuildCurves3d(face.Face());
+  return face.Face();
+}
+
 double signed_area(const TopoDS_Wire& wire, const TopoDS_Face& face) {
   double area = 0;
   for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) {
@@ -101,12 +115,13 @@ double signed_area(const TopoDS_Wire& wire, const TopoDS_Face& face) {
 
 /// Moves the trimming curves of holes (or of the outer loop) of faces that have several loops and are no planes.
 /// `which`: number of the hole; -1: the outer loop; -2: every loop.
-TopoDS_Shape with_moved_loop(const TopoDS_Shape& shape, int which, double periods_u, double periods_v) {
+TopoDS_Shape with_moved_loop(const TopoDS_Shape& shape, int which, double periods_u, double periods_v,
+                             bool is_nearly_closed = false) {
   const TopTools_IndexedMapOfShape faces = parts_of(shape, TopAbs_FACE);
   for (int f = 1; f <= faces.Extent(); ++f) {
     const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
     const Handle(Geom_Surface) s = BRep_Tool::Surface(face);
-    if (parts_of(face, TopAbs_WIRE).Extent() < 2 || !s->IsUClosed()) continue;
+    if (parts_of(face, TopAbs_WIRE).Extent() < 2 || !(s->IsUClosed() || is_nearly_closed)) continue;
     double u0, u1, v0, v1;
     s->Bounds(u0, u1, v0, v1);
     const gp_Vec2d by(periods_u * (u1 - u0), periods_v == 0 ? 0 : periods_v * (v1 - v0));
@@ -147,6 +162,52 @@ TopoDS_Shape as_closed_spline(const TopoDS_Shape& shape, bool is_periodic) {
     if (!is_periodic && s->IsUPeriodic()) s->SetUNotPeriodic();
   }
   return spline;
+}
+
+/// The side of the rod as a spline whose ends miss each other by less than its edges' tolerance: not closed for
+/// OpenCASCADE.
+TopoDS_Shape as_nearly_closed_spline(const TopoDS_Shape& shape) {
+  const TopoDS_Shape spline = as_closed_spline(shape, false);
+  const TopTools_IndexedMapOfShape faces = parts_of(spline, TopAbs_FACE), edges = parts_of(spline, TopAbs_EDGE);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopLoc_Location where;
+    const auto s = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(TopoDS::Face(faces(f)), where));
+    if (s.IsNull() || !s->IsUClosed()) continue;
+    for (int j = 1; j <= s->NbVPoles(); ++j)
+      s->SetPole(s->NbUPoles(), j, s->Pole(s->NbUPoles(), j).Translated(gp_Vec(1e-5, 0, 0)));
+  }
+  for (int i = 1; i <= edges.Extent(); ++i) BRep_Builder().UpdateEdge(TopoDS::Edge(edges(i)), 1e-4);
+  return spline;
+}
+
+/// Without the edge from bottom to top: loops that go around.
+TopoDS_Shape without_seam(const TopoDS_Shape& shape) {
+  const TopTools_IndexedMapOfShape faces = parts_of(shape, TopAbs_FACE);
+  BRep_Builder builder;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+    const TopTools_IndexedMapOfShape wires = parts_of(face, TopAbs_WIRE);
+    for (int k = 1; k <= wires.Extent(); ++k) {
+      const TopoDS_Shape wire = wires(k);
+      std::vector<TopoDS_Shape> others;
+      bool has_seam = false;
+      for (TopoDS_Iterator e(wire); e.More(); e.Next())
+        if (BRep_Tool::IsClosed(TopoDS::Edge(e.Value()), face))
+          has_seam = true;
+        else
+          others.push_back(e.Value());
+      if (!has_seam) continue;
+      face.Free(true);
+      builder.Remove(face, wire);
+      for (const TopoDS_Shape& edge : others) {
+        TopoDS_Wire ring;
+        builder.MakeWire(ring);
+        builder.Add(ring, edge);
+        builder.Add(face, ring);
+      }
+    }
+  }
+  return shape;
 }
 
 /// The straight line between the ends, in its parameters.
@@ -373,6 +434,10 @@ Makers makers() {
       {"rod_hole_spline", [] { return with_moved_loop(as_closed_spline(rod_hole(), true), 0, 1, 0); }},
       {"rod_hole_closed", [] { return with_moved_loop(as_closed_spline(rod_hole(), false), 0, -1, 0); }},
       {"rod_all_beyond", [] { return with_moved_loop(as_closed_spline(rod_hole(), false), -2, 1, 0); }},
+      {"rod_hole_nearly_closed", [] { return with_moved_loop(as_nearly_closed_spline(rod_hole()), 0, 1, 0, true); }},
+      {"rod_hole_no_seam", [] { return without_seam(rod_hole()); }},
+      {"rod_hole_no_seam_p1", [] { return without_seam(with_moved_loop(rod_hole(), 0, 1, 0)); }},
+      {"stray_hole", stray_hole},
       {"torus_hole", torus_hole},
       {"torus_hole_off", [] { return with_moved_loop(torus_hole(), 0, 1, -1); }},
   };

@@ -19,7 +19,9 @@ namespace st::test {
 ///   is moved), rod_hole_p1, rod_hole_m3 (periods of the hole), rod_holes_one_off (of three), rod_outer_off (all but
 ///   the hole), rod_hole_reversed (the solid reversed), rod_hole_spline, rod_hole_closed (the side a B-spline, periodic
 ///   or only closed), rod_all_beyond (a closed one, all its loops a turn too far), rod_hole_elsewhere (half a turn
-///   off).
+///   off), rod_hole_nearly_closed (a spline, closed within tolerance, the hole a turn off), rod_hole_no_seam and
+///   rod_hole_no_seam_p1 (without the seam; the hole a turn off).
+/// - stray_hole: a quarter of a tube's side, with a hole in what is not there.
 /// - A torus of radii 40 and 10 with a radial hole: torus_hole, torus_hole_off (in u and v).
 std::vector<std::string> damaged_shapes();
 

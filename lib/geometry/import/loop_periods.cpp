@@ -4,6 +4,9 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <Precision.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Face.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -23,10 +26,12 @@
 namespace st::occt {
 namespace {
 
-constexpr int kSides = 24;         // of each edge: enough to tell inside from outside
-constexpr double kBeyond = 0.01;   // of the surface's range: beyond it by less is rounding
-constexpr double kWinding = 0.5;   // of a period: a loop that ends further from its start goes around
-constexpr double kMaxPeriods = 8;  // to look for a hole
+constexpr int kSides = 24;          // of each edge: enough to tell inside from outside
+constexpr double kBeyond = 0.01;    // of the surface's range: beyond it by less is rounding
+constexpr double kWinding = 0.5;    // of a period: a loop that ends further from its start goes around
+constexpr double kMaxPeriods = 8;   // to look for a hole
+constexpr int kStations = 8;        // across a surface, at which its ends are compared
+constexpr double kFarBelow = 0.01;  // of the surface's extent: a tolerance that says that ends meet
 
 /// A wire in (u,v), as the face has it.
 struct Loop {
@@ -44,13 +49,42 @@ struct Closing {
   bool is_u_periodic = false, is_v_periodic = false;  ///< else it has no points beyond its bounds
 };
 
-Closing closing_of(const Handle(Geom_Surface) & surface) {
+enum class Along { kU, kV };
+
+/// Whether both ends of a bounded surface are one line within the tolerance of the face's edges, far below its size:
+/// OpenCASCADE says so only of what is equal to 1e-7.
+bool ends_meet(const Handle(Geom_Surface) & surface, const Closing& c, Along along, double tolerance) {
+  if (Precision::IsInfinite(c.lo.x) || Precision::IsInfinite(c.hi.x)) return false;
+  if (Precision::IsInfinite(c.lo.y) || Precision::IsInfinite(c.hi.y)) return false;
+  const auto point = [&](double s, double t) {  // s along, t across
+    const Vec2 uv = along == Along::kU ? Vec2{s, t} : Vec2{t, s};
+    return surface->Value(c.lo.x + uv.x * (c.hi.x - c.lo.x), c.lo.y + uv.y * (c.hi.y - c.lo.y));
+  };
+  double size = 0;
+  for (int k = 0; k <= kStations; ++k) {
+    const double t = static_cast<double>(k) / kStations;
+    if (point(0, t).Distance(point(1, t)) > tolerance) return false;
+    size = std::max(size, point(0, t).Distance(point(0.5, t)));
+  }
+  return tolerance < kFarBelow * size;
+}
+
+double edge_tolerance(const TopoDS_Face& face) {
+  double tolerance = Precision::Confusion();
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(e.Current())));
+  return tolerance;
+}
+
+Closing closing_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface) {
   Closing c;
   surface->Bounds(c.lo.x, c.hi.x, c.lo.y, c.hi.y);
   c.is_u_periodic = surface->IsUPeriodic();
   c.is_v_periodic = surface->IsVPeriodic();
-  c.period.x = c.is_u_periodic ? surface->UPeriod() : surface->IsUClosed() ? c.hi.x - c.lo.x : 0;
-  c.period.y = c.is_v_periodic ? surface->VPeriod() : surface->IsVClosed() ? c.hi.y - c.lo.y : 0;
+  const double tolerance = edge_tolerance(face);
+  const auto is_closed = [&](bool is_said, Along along) { return is_said || ends_meet(surface, c, along, tolerance); };
+  c.period.x = c.is_u_periodic ? surface->UPeriod() : is_closed(surface->IsUClosed(), Along::kU) ? c.hi.x - c.lo.x : 0;
+  c.period.y = c.is_v_periodic ? surface->VPeriod() : is_closed(surface->IsVClosed(), Along::kV) ? c.hi.y - c.lo.y : 0;
   return c;
 }
 
@@ -216,18 +250,20 @@ bool is_to_be_looked_at(const TopoDS_Face& face, const Handle(Geom_Surface) & su
   return false;
 }
 
+bool goes_around(const Loop& loop, const Closing& c) {
+  return (c.period.x > 0 && std::abs(loop.winding.x) > kWinding * c.period.x) ||
+         (c.period.y > 0 && std::abs(loop.winding.y) > kWinding * c.period.y);
+}
+
 void move_loops_of(const NamedFace& f, std::vector<ImportFinding>& findings) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(f.face);
   if (surface_type(surface) == SurfaceType::kPlane || !is_to_be_looked_at(f.face, surface)) return;
-  const Closing c = closing_of(surface);
+  const Closing c = closing_of(f.face, surface);
   if (c.period.x == 0 && c.period.y == 0) return;
   std::vector<Loop> loops = loops_of(f.face);
   if (loops.empty()) return;
-  for (const Loop& loop : loops)  // a band between loops that go around has no outer loop
-    if (std::abs(loop.winding.x) > kWinding * c.period.x && c.period.x > 0)
-      return;
-    else if (std::abs(loop.winding.y) > kWinding * c.period.y && c.period.y > 0)
-      return;
+  if (std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) { return goes_around(loop, c); }))
+    return;  // a band between loops that go around has no outer loop
   const auto outer = std::max_element(loops.begin(), loops.end(),
                                       [](const Loop& a, const Loop& b) { return std::abs(a.area) < std::abs(b.area); });
   if (outer->area <= 0) return;
@@ -235,9 +271,44 @@ void move_loops_of(const NamedFace& f, std::vector<ImportFinding>& findings) {
   if (loops.size() > 1) move_holes(f, loops, static_cast<std::size_t>(outer - loops.begin()), c, findings);
 }
 
+/// A band whose loops go around its surface, without the edge from one to the other.
+bool lacks_seam(const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (surface_type(surface) == SurfaceType::kPlane || !is_to_be_looked_at(face, surface)) return false;
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
+    if (BRep_Tool::IsClosed(TopoDS::Edge(e.Current()), face) || BRep_Tool::Degenerated(TopoDS::Edge(e.Current())))
+      return false;
+  const Closing c = closing_of(face, surface);
+  const std::vector<Loop> loops = loops_of(face);
+  return std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) { return goes_around(loop, c); });
+}
+
+/// Bands get their seam, and the edges that it meets are divided; not where that would open edges.
+void add_missing_seams(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const Handle(ShapeBuild_ReShape) reshape = new ShapeBuild_ReShape;
+  std::vector<ImportFinding> found;
+  for (int i = 1; i <= model.faces.Extent(); ++i) {
+    const TopoDS_Face face = TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));
+    if (!lacks_seam(face)) continue;
+    const TopoDS_Shape now = reshape->Apply(face);
+    if (now.IsNull() || now.ShapeType() != TopAbs_FACE) continue;
+    ShapeFix_Face fix(TopoDS::Face(now));
+    fix.SetContext(reshape);
+    if (!fix.FixMissingSeam()) continue;
+    const Box3 box = rough_box(face);
+    found.push_back({FindingKind::kLostLoops, "face " + std::to_string(i), box.center(), box.diagonal(), true});
+  }
+  if (found.empty()) return;
+  const TopoDS_Shape repaired = reshape->Apply(model.shape);
+  if (count_free_edges(repaired) > count_free_edges(model.shape)) return;
+  model.replace(repaired, [&](const TopoDS_Shape& face) { return reshape->Apply(face); });
+  findings.insert(findings.end(), found.begin(), found.end());
+}
+
 }  // namespace
 
 void move_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  add_missing_seams(model, findings);
   TopTools_MapOfShape seen;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));

@@ -16,7 +16,7 @@ TEST(LoopPeriods, holes_in_another_period_are_moved_to_their_face) {
   const ImportResult sound = import_damaged("rod_hole");
   EXPECT_TRUE(findings_of(sound, kMoved).empty());
   for (const char* shape : {"rod_hole_p1", "rod_hole_m3", "rod_outer_off", "rod_hole_reversed", "rod_hole_spline",
-                            "rod_hole_closed", "rod_all_beyond"}) {
+                            "rod_hole_closed", "rod_hole_nearly_closed", "rod_all_beyond"}) {
     const ImportResult r = import_damaged(shape);
     EXPECT_EQ(findings_of(r, kMoved).size(), 1u) << shape;
     EXPECT_TRUE(r.is_closed) << shape;
@@ -37,6 +37,23 @@ TEST(LoopPeriods, of_both_directions_are_found) {
   ASSERT_EQ(findings_of(r, kMoved).size(), 1u);
   EXPECT_EQ(findings_of(r, kMoved)[0].what(), "loop in another period of its surface, moved by -1 in u, 1 in v");
   EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+}
+
+TEST(LoopPeriods, bands_without_a_seam_get_one) {
+  const ImportResult sound = import_damaged("rod_hole");
+  for (const char* shape : {"rod_hole_no_seam", "rod_hole_no_seam_p1"}) {
+    const ImportResult r = import_damaged(shape);
+    EXPECT_EQ(findings_of(r, "loops rebuilt from their edges").size(), 2u) << shape << ": the side, the hole";
+    EXPECT_TRUE(r.is_closed) << shape;
+    EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area) << shape;
+    EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume) << shape;
+  }
+}
+
+TEST(LoopPeriods, a_hole_that_no_period_brings_into_its_face_is_named) {
+  const ImportResult r = import_damaged("stray_hole");
+  ASSERT_EQ(findings_of(r, "hole outside its face").size(), 1u);
+  EXPECT_EQ(findings_of(r, "hole outside its face")[0].entity, "face 1");
 }
 
 TEST(LoopPeriods, that_are_right_stay_as_they_are) {
