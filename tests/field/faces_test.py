@@ -35,7 +35,7 @@ class Faces(ToolTest):
 
     def test_a_hole_in_another_period_is_a_hole(self):
         sound = self.chain(MODELS / "rod_hole.brep")
-        for name in ("rod_hole_p1", "rod_hole_closed"):
+        for name in ("rod_hole_p1", "rod_hole_closed", "rod_hole_nearly_closed", "rod_hole_no_seam_p1"):
             moved = self.chain(MODELS / f"{name}.brep")
             if name == "rod_hole_p1":
                 self.assertEqual(moved["triangles"], sound["triangles"])

@@ -53,6 +53,7 @@
 
 #include "broken/broken_shapes.h"
 #include "broken/damaged_shapes.h"
+#include "broken/kinked_shapes.h"
 #include "support/shapes.h"
 
 namespace {
@@ -269,9 +270,11 @@ void write_all(const fs::path& dir) {
   for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
                             "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap"})
     st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
-  for (const char* shape : {"rod_hole", "rod_hole_p1", "rod_hole_closed", "no_curve_ring", "no_curve_lost",
-                            "twisted_band", "bumped_seam", "folded_offset"})
+  for (const char* shape : {"rod_hole", "rod_hole_p1", "rod_hole_closed", "rod_hole_nearly_closed", "rod_hole_no_seam",
+                            "rod_hole_no_seam_p1", "stray_hole", "no_curve_ring", "no_curve_lost", "twisted_band",
+                            "bumped_seam", "folded_offset"})
     st::test::write_damaged(shape, dir / (std::string(shape) + ".brep"));
+  for (const std::string& shape : st::test::kinked_shapes()) st::test::write_kinked(shape, dir / (shape + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());

@@ -19,6 +19,7 @@
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/empty_faces.h"
+#include "geometry/import/surface_kinks.h"
 
 namespace st::occt {
 namespace {

@@ -15,6 +15,4 @@ namespace st::occt {
 /// area are left out. Returns whether there was any.
 bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings);
 
-inline constexpr double kLeastKink = 0.35;  // radians, 20 degrees: between sections of a wing are less
-
 }  // namespace st::occt

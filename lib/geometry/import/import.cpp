@@ -21,6 +21,7 @@
 #include "geometry/import/half_model.h"
 #include "geometry/import/import.h"
 #include "geometry/import/kept_areas.h"
+#include "geometry/import/kinked_faces.h"
 #include "geometry/import/left_out_faces.h"
 #include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
@@ -300,6 +301,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::repair_loops(model, result.findings);
   occt::move_loops(model, result.findings);
   occt::repair_pcurves(model, result.findings);
+  occt::divide_kinked_faces(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units) result.findings.push_back({FindingKind::kMixedUnits, "", {}, 0, false, unit.name});
   progress.step("topology and areas", 0.6);

@@ -64,6 +64,7 @@ constexpr Wording kWordings[] = {
     {"repair taken back", "repair taken back: {}"},
     {"edge away from its faces, made again from them", "edge away from its faces, made again from them"},
     {"surface divided at its kinks", "surface divided at its kinks: {} faces"},
+    {"kink inside a face that could not be divided", "kink inside a face that could not be divided"},
     {"face without area, left out", "face without area, left out"},
     {"sewn where three faces or more meet", "sewn where three faces or more meet: {}"},
     {"sheet", "sheet: the same room, or none, is on both sides"},

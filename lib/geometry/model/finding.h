@@ -54,7 +54,8 @@ enum class FindingKind : std::uint8_t {
   kPinchedFace,            ///< a face that shrinks to a point and goes on turned over
   kUndoneRepair,           ///< a repair that made things worse was taken back
   kSpaceCurve,             ///< a space curve away from its faces, made again
-  kDividedSurface,         ///< a whole spline surface, divided at kinks
+  kDividedSurface,         ///< a face, or a whole spline surface, divided at kinks
+  kKinkedFace,             ///< a face with a kink inside that could not be divided
   kEmptyFace,              ///< shrunk to a point or a line, removed
   kThirdFace,              ///< free edges joined to edges that two faces have already
   kSheet,                  ///< a face with the same room, or none, on both sides
