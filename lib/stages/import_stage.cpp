@@ -184,7 +184,8 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
 /// What is not as the CAD means it, and no later stage can mend.
 void say_faults(const ImportStageOptions& o, const ImportResult& r) {
   constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace, FindingKind::kStrayHole,    FindingKind::kFarCurve,
-                                     FindingKind::kMissingFile, FindingKind::kUndoneRepair, FindingKind::kKinkedFace};
+                                     FindingKind::kMissingFile, FindingKind::kUndoneRepair, FindingKind::kKinkedFace,
+                                     FindingKind::kMergedSliver};
   constexpr std::size_t kNamed = 3;
   for (const FindingKind kind : kFaults) {
     std::size_t n = 0;

@@ -143,6 +143,11 @@ TopoDS_Shape pin_in_plate() {
   return compound({TopExp_Explorer(plate, TopAbs_SOLID).Current(), BRepPrimAPI_MakeCylinder(axis, 5, 30).Shape()});
 }
 
+TopoDS_Shape folded_sliver() {
+  return compound({polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 4, 0}, {0, 4, 0}}),
+                   polygon_face({{0, 0, 0}, {0.5, 0.5, 0}, {9.5, 0.5, 0}, {10, 0, 0}})});
+}
+
 TopoDS_Shape far_circle() {
   const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(10, 20).Shape();
   for (TopExp_Explorer e(cylinder, TopAbs_EDGE); e.More(); e.Next()) {
@@ -412,6 +417,7 @@ void add_bodies(Factories& all) {
          return compound({polygon_face({{0, 0, 0}, {10, 0, 0}, {10, 2, 0}, {0, 2, 0}}),
                           polygon_face({{0, 0, 0}, {1, 1, 0}, {9, 1, 0}, {10, 0, 0}})});
        }},
+      {"folded_sliver", folded_sliver},
       {"far_circle", far_circle},
       {"wing_in_body", wing_in_body},
       {"spot",

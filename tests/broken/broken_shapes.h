@@ -20,6 +20,7 @@ namespace st::test {
 ///   open_loop        that sheet, cut off before it comes to itself
 ///   swallow_tail     the two halves of that sheet, with a common edge at x = -1
 ///   folded_flap      a rectangle of 10 x 2, and a trapezoid on one of its long sides that is folded back onto it
+///   folded_sliver    the same, 10 x 4 and a trapezoid of an eighth of its area
 ///   crossing_boxes   a box of 10, and another one whose corner is in the middle of the first
 ///   wing_in_body     a body (cylinder, radius 2, length 20), a wing (box 4 x 30 x 0.5) through it, a pylon (box 1 x
 ///   0.4

@@ -32,6 +32,15 @@ class NarrowFaces(ToolTest):
                 self.assertEqual(len(mesh["merged"]["strips"]), 1)
                 self.assertLess(mesh["triangles"], 1.2 * self.expected(folder))
 
+    def test_a_sliver_folded_back_onto_its_neighbour_is_merged_into_it(self):
+        model = MODELS / "folded_sliver.brep"
+        imported = must("st-import", model, "-o", self.folder / "geometry.hdf", "--json")
+        self.assertIn("face 2: face folded back onto its neighbour, merged into face 1", imported.err)
+        self.assertAlmostEqual(imported.json()["area"], 40 - 4.75, places=5)
+        folder = make_chain(model, self.folder / "sliver")
+        check = self.check(folder)
+        self.assertEqual(check.code, OK, check)
+
     def test_a_face_folded_back_onto_its_neighbour_is_named_and_not_refined_without_end(self):
         model = MODELS / "folded_flap.brep"
         imported = must("st-import", model, "-o", self.folder / "geometry.hdf")

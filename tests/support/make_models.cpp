@@ -268,7 +268,7 @@ void write_all(const fs::path& dir) {
   for (const char* shape : {"crossed_loop", "fan", "thin_pipe"})
     st::test::write_brep(shape, dir / (std::string(shape) + ".brep"));
   for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
-                            "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap"})
+                            "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap", "folded_sliver"})
     st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
   for (const char* shape : {"rod_hole", "rod_hole_p1", "rod_hole_closed", "rod_hole_nearly_closed", "rod_hole_no_seam",
                             "rod_hole_no_seam_p1", "stray_hole", "no_curve_ring", "no_curve_lost", "twisted_band",

@@ -18,6 +18,7 @@
 #include "geometry/import/embedded_edges.h"
 #include "geometry/import/empty_faces.h"
 #include "geometry/import/face_orientation.h"
+#include "geometry/import/folded_slivers.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/import.h"
 #include "geometry/import/kept_areas.h"
@@ -214,8 +215,21 @@ void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing
                         part_name(t, c.of_edge) + " and " + part_name(t, c.face)});
 }
 
-void say_which_faces_cross(const ImportedShape& model, const ModelTables& t, std::vector<ImportFinding>& findings) {
-  for (const occt::FaceCrossing& c : occt::find_crossing_faces(model, t)) {
+/// Once the small faces that lie on a neighbour are merged into it.
+std::vector<occt::FaceCrossing> find_faces_that_cross(ImportedShape& model, occt::ModelOfFile& tables,
+                                                      std::vector<ImportFinding>& findings, const std::string& path) {
+  constexpr int kMostPasses = 4;  // each merges one sliver into a face
+  std::vector<occt::FaceCrossing> found = occt::find_crossing_faces(model, tables.tables);
+  for (int i = 0; i < kMostPasses && occt::merge_folded_slivers(model, tables.tables, found, findings); ++i) {
+    tables = occt::make_tables(model, path);
+    found = occt::find_crossing_faces(model, tables.tables);
+  }
+  return found;
+}
+
+void say_which_faces_cross(const std::vector<occt::FaceCrossing>& crossings, const ModelTables& t,
+                           std::vector<ImportFinding>& findings) {
+  for (const occt::FaceCrossing& c : crossings) {
     if (c.first == c.second)
       findings.push_back({c.is_pinch  ? FindingKind::kPinchedFace
                           : c.is_fold ? FindingKind::kFoldedFace
@@ -311,6 +325,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   relate_bodies(model, tables, options, result.findings, path, progress);
   progress.step("far field and symmetry", 0.7);
   add_flow_domain(model, tables, domain, result.findings, path);
+  progress.step("faces that cross", 0.75);
+  const auto crossings = find_faces_that_cross(model, tables, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
@@ -324,8 +340,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");
   progress.step("looking for defects", 0.8);
   occt::report_topology(model, tables.measures, small, result);
-  progress.step("faces that cross", 0.9);
-  say_which_faces_cross(model, result.tables, result.findings);
+  say_which_faces_cross(crossings, result.tables, result.findings);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
   result.brep = occt::brep_bytes(model.shape);

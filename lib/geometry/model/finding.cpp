@@ -77,6 +77,7 @@ constexpr Wording kWordings[] = {
     {"face left out", "face left out: {}"},
     {"face folds over itself", "face folds over itself"},
     {"trimming curve off its edge by more than a tolerance", "trimming curve off its edge by more than a tolerance"},
+    {"face folded back onto its neighbour, merged into it", "face folded back onto its neighbour, merged into {}"},
     {"parts in another file, which is missing", "parts in another file, which is missing: {}"},
     {"other", "{}"},
 };

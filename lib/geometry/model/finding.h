@@ -68,6 +68,7 @@ enum class FindingKind : std::uint8_t {
   kLeftOutFace,            ///< a face that cannot be meshed at all, taken out of the model
   kFoldedFace,             ///< a face that folds over itself
   kFarCurve,               ///< a trimming curve off its edge by more than a tolerance, left as it is
+  kMergedSliver,           ///< a small face folded back onto its neighbour, merged into it
   kMissingFile,            ///< parts are in another file that is not there
   kOther                   ///< written by another version
 };

@@ -1,0 +1,280 @@
+#include "geometry/import/folded_slivers.h"
+
+#include <BRepTools.hxx>
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "geometry/brep/face_domain.h"
+#include "geometry/brep/face_integral.h"
+#include "geometry/brep/occt_evaluators.h"
+#include "geometry/brep/pcurve_fit.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/brep/wire_walk.h"
+#include "geometry/model/cad_tolerance.h"
+#include "geometry/shape/loop_polygons.h"
+#include "geometry/shape/projection.h"
+
+namespace st::occt {
+namespace {
+
+constexpr double kSmall = 0.25;      // of the neighbour's area: a larger face is no sliver
+constexpr double kOn = 3;            // tolerances: how far from its neighbour's surface it may be
+constexpr double kSamePlace = 1e-6;  // of the diagonal: the least of them
+constexpr double kSameArea = 0.5;    // of the sliver's area: how far the neighbour's may be from what should be left
+constexpr int kAcross = 12;          // samples of the sliver in u and in v,
+constexpr int kAlong = 24;           // and of each of its edges
+
+/// The edges of one wire that bound something, oriented for the neighbour taken forward.
+using Chain = std::vector<TopoDS_Edge>;
+
+/// Empty where a wire cannot be walked.
+std::vector<Chain> chains_of(const TopoDS_Face& forward) {
+  std::vector<Chain> chains;
+  for (TopoDS_Iterator w(forward); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
+    const TopoDS_Wire wire = TopoDS::Wire(w.Value());
+    if (!can_be_walked(wire, forward)) return {};
+    chains.push_back(walk_wire(wire, forward));
+  }
+  return chains;
+}
+
+/// What of both chains bounds them as one face; nullopt where an edge of the sliver is used twice, or the same way by
+/// both.
+std::optional<Chain> sum_of(Chain own, Chain slivers) {
+  std::size_t n_shared = 0;
+  for (std::size_t k = 0; k < slivers.size();) {
+    const auto same = [&](const TopoDS_Edge& e) { return e.IsSame(slivers[k]); };
+    if (std::count_if(slivers.begin(), slivers.end(), same) > 1 || std::count_if(own.begin(), own.end(), same) > 1)
+      return std::nullopt;
+    const auto it = std::find_if(own.begin(), own.end(), same);
+    if (it == own.end()) {
+      ++k;
+      continue;
+    }
+    if (it->Orientation() == slivers[k].Orientation()) return std::nullopt;
+    own.erase(it);
+    slivers.erase(slivers.begin() + static_cast<std::ptrdiff_t>(k));
+    ++n_shared;
+  }
+  if (n_shared == 0) return std::nullopt;
+  own.insert(own.end(), slivers.begin(), slivers.end());
+  return own;
+}
+
+/// From head to tail; empty where the edges are no rings, or meet in a way that leaves a choice.
+std::vector<Chain> rings_of(Chain left) {
+  std::vector<Chain> rings;
+  while (!left.empty()) {
+    Chain ring{left.front()};
+    left.erase(left.begin());
+    const TopoDS_Vertex start = TopExp::FirstVertex(ring.front(), true);
+    while (!TopExp::LastVertex(ring.back(), true).IsSame(start)) {
+      const TopoDS_Vertex end = TopExp::LastVertex(ring.back(), true);
+      const auto follows = [&](const TopoDS_Edge& e) { return TopExp::FirstVertex(e, true).IsSame(end); };
+      const auto next = std::find_if(left.begin(), left.end(), follows);
+      if (next == left.end() || std::count_if(left.begin(), left.end(), follows) > 1) return {};
+      ring.push_back(*next);
+      left.erase(next);
+    }
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+class SliverMerger {
+ public:
+  SliverMerger(const ImportedShape& model, const ModelTables& t)
+      : model_(model), t_(t), least_(kSamePlace * t.box().diagonal()) {}
+
+  /// The neighbour with the sliver in it, oriented forward; nullopt where that cannot be.
+  std::optional<TopoDS_Face> merge(FaceId sliver, FaceId neighbour) const {
+    const TopoDS_Face a = forward(sliver), b = forward(neighbour);
+    const double on = kOn * std::max({least_, cad_tolerance(t_, sliver), cad_tolerance(t_, neighbour)});
+    UvBounds bounds{};
+    BRepTools::UVBounds(b, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
+    const auto surface = make_surface(BRep_Tool::Surface(b), bounds);
+    if (!lies_on(a, *surface, on)) return std::nullopt;
+    std::vector<Chain> own = chains_of(b), slivers = chains_of(a);
+    if (own.empty() || slivers.size() != 1) return std::nullopt;
+    if (model_.faces(sliver + 1).Orientation() != model_.faces(neighbour + 1).Orientation())
+      for (TopoDS_Edge& e : slivers[0]) e.Reverse();
+    for (Chain& chain : own)
+      if (const auto sum = sum_of(chain, slivers[0])) {
+        if (!runs_clear(*sum, slivers[0], on)) return std::nullopt;
+        chain = *sum;
+        return face_of(b, own, slivers[0], *surface, t_.face_area[neighbour] - t_.face_area[sliver],
+                       kSameArea * t_.face_area[sliver]);
+      }
+    return std::nullopt;
+  }
+
+  /// The chords of common edges.
+  double shared_length(FaceId a, FaceId b) const {
+    const auto of_b = t_.edges_of(b);
+    double length = 0;
+    for (const EdgeId e : t_.edges_of(a))
+      if (std::find(of_b.begin(), of_b.end(), e) != of_b.end())
+        length += distance(t_.vertex_xyz[t_.edge_vertices[2 * e]], t_.vertex_xyz[t_.edge_vertices[2 * e + 1]]);
+    return length;
+  }
+
+ private:
+  TopoDS_Face forward(FaceId f) const { return TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD)); }
+
+  /// Whether no edge of the sliver runs along another one, there and back.
+  static bool runs_clear(const Chain& chain, const Chain& added, double on) {
+    for (const TopoDS_Edge& e : added) {
+      if (!is_of(chain, e)) continue;  // a common edge, gone
+      double t0, t1;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(e, t0, t1);
+      const Vec3 middle = vec(curve->Value(0.5 * (t0 + t1)));
+      for (const TopoDS_Edge& other : chain) {
+        const Handle(Geom_Curve) c = BRep_Tool::Curve(other, t0, t1);
+        if (c.IsNull() || other.IsSame(e)) continue;
+        if (closest_point(*make_curve(c, t0, t1), middle).distance <= on) return false;
+      }
+    }
+    return true;
+  }
+  static bool is_of(const Chain& chain, const TopoDS_Edge& edge) {
+    return std::any_of(chain.begin(), chain.end(), [&](const TopoDS_Edge& e) { return e.IsSame(edge); });
+  }
+
+  static bool lies_on(const TopoDS_Face& face, const Surface& surface, double on) {
+    const auto is_on = [&](Vec3 x) { return closest_point(surface, x).distance <= on; };
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+      double t0, t1;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(e.Current()), t0, t1);
+      if (curve.IsNull()) return false;
+      for (int k = 0; k <= kAlong; ++k)
+        if (!is_on(vec(curve->Value(t0 + (t1 - t0) * k / kAlong)))) return false;
+    }
+    const FaceDomain d = make_domain(face);
+    std::vector<LoopSide> sides;
+    for (const LoopUv& loop : d.loops) {
+      const std::vector<Vec2> p = loop.polygon();
+      for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
+    }
+    const LoopPolygons loops(std::move(sides));
+    const UvBounds& b = d.bounds;
+    for (int i = 1; i < kAcross; ++i)
+      for (int j = 1; j < kAcross; ++j) {
+        const Vec2 uv{b.u_min + (b.u_max - b.u_min) * i / kAcross, b.v_min + (b.v_max - b.v_min) * j / kAcross};
+        if (loops.contains(uv) && !is_on(d.surface->point(uv))) return false;
+      }
+    return true;
+  }
+
+  /// `chains` on the surface of `b`, where the edges of `added` get trimming curves.
+  static std::optional<TopoDS_Face> face_of(const TopoDS_Face& b, const std::vector<Chain>& chains, const Chain& added,
+                                            const Surface& surface, double area, double room) {
+    for (const TopoDS_Edge& e : added) {
+      double t0, t1;
+      if (BRep_Tool::CurveOnSurface(e, b, t0, t1).IsNull() && !add_pcurve(e, b, surface)) return std::nullopt;
+    }
+    BRep_Builder builder;
+    TopoDS_Face face = TopoDS::Face(b.EmptyCopied());
+    for (const Chain& chain : chains)
+      for (const Chain& ring : rings_of(chain)) {
+        TopoDS_Wire wire;
+        builder.MakeWire(wire);
+        for (const TopoDS_Edge& e : ring) builder.Add(wire, e);
+        wire.Closed(true);
+        builder.Add(face, wire);
+        if (!can_be_walked(wire, face)) return std::nullopt;
+      }
+    if (!TopoDS_Iterator(face).More()) return std::nullopt;
+    const double left = std::abs(integrate_face(make_domain(face), {}).area);
+    return std::abs(left - area) <= room ? std::optional(face) : std::nullopt;
+  }
+
+  static bool add_pcurve(const TopoDS_Edge& edge, const TopoDS_Face& b, const Surface& surface) {
+    double t0, t1;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+    const double tolerance = BRep_Tool::Tolerance(edge);
+    const Handle(Geom2d_Curve) pcurve = fit_pcurve(
+        {curve, t0, t1}, surface, [&](double t) { return closest_point(surface, vec(curve->Value(t))).uv; },
+        0.5 * tolerance);
+    if (pcurve.IsNull()) return false;
+    double gap = 0;
+    for (int k = 0; k <= kAlong; ++k) {
+      const double t = t0 + (t1 - t0) * k / kAlong;
+      const gp_Pnt2d uv = pcurve->Value(t);
+      gap = std::max(gap, distance(vec(curve->Value(t)), surface.point({uv.X(), uv.Y()})));
+    }
+    BRep_Builder builder;
+    builder.UpdateEdge(edge, pcurve, b, std::max(tolerance, gap));
+    builder.Range(edge, b, t0, t1);
+    for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next())
+      builder.UpdateVertex(TopoDS::Vertex(v.Current()), gap);
+    return true;
+  }
+
+  const ImportedShape& model_;
+  const ModelTables& t_;
+  double least_;
+};
+
+struct Fold {
+  FaceId sliver, neighbour;
+  double shared;  // length
+  Vec3 xyz;
+};
+
+/// Longest common edges first: there the sliver belongs.
+std::vector<Fold> folds_of(const ModelTables& t, const std::vector<FaceCrossing>& found, const SliverMerger& merger) {
+  std::vector<Fold> folds;
+  for (const FaceCrossing& c : found) {
+    if (!c.is_overlap) continue;
+    const bool first_is_small = t.face_area[c.first] < t.face_area[c.second];
+    const FaceId sliver = first_is_small ? c.first : c.second, neighbour = first_is_small ? c.second : c.first;
+    if (t.face_area[sliver] <= kSmall * t.face_area[neighbour])
+      folds.push_back({sliver, neighbour, merger.shared_length(sliver, neighbour), c.xyz});
+  }
+  std::stable_sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) { return a.shared > b.shared; });
+  return folds;
+}
+
+}  // namespace
+
+bool merge_folded_slivers(ImportedShape& model, const ModelTables& t, const std::vector<FaceCrossing>& found,
+                          std::vector<ImportFinding>& findings) {
+  const SliverMerger merger(model, t);
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  std::set<FaceId> changed;
+  std::vector<ImportFinding> merged;
+  for (const Fold& fold : folds_of(t, found, merger)) try {
+      if (changed.contains(fold.sliver) || changed.contains(fold.neighbour)) continue;
+      const auto face = merger.merge(fold.sliver, fold.neighbour);
+      if (!face) continue;
+      reshape->Remove(model.faces(fold.sliver + 1));
+      reshape->Replace(model.faces(fold.neighbour + 1).Oriented(TopAbs_FORWARD), *face);
+      changed.insert({fold.sliver, fold.neighbour});
+      merged.push_back({FindingKind::kMergedSliver, t.face_label(fold.sliver), fold.xyz,
+                        t.face_box[fold.sliver].diagonal(), true, t.face_label(fold.neighbour)});
+    } catch (const Standard_Failure&) {  // stays as it is
+    }
+  if (merged.empty()) return false;
+  if (!model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); }))
+    return false;
+  findings.insert(findings.end(), merged.begin(), merged.end());
+  return true;
+}
+
+}  // namespace st::occt
