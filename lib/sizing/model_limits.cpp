@@ -64,7 +64,7 @@ class LimitsMaker {
 
  private:
   double far_length(std::size_t f) const {
-    return std::max(wall_.max_length, kFarLengthPerDiagonal * t_.face_box[f].diagonal());
+    return std::max(wall_.max_length, kFarLengthPerDiagonal * roles_.own.face_box[f].diagonal());
   }
 
   void set_by_role() {

@@ -86,7 +86,8 @@ class Faces(ToolTest):
 
     def test_field_files_are_right(self):
         rod = self.chain(self.from_field("red_rod_hole_other_period.brep"))
-        self.assertEqual(rod["triangles"], 8094, "as red_rod_hole_ok.brep")
+        sound = self.chain(self.from_field("red_rod_hole_ok.brep"))
+        self.assertEqual(rod["triangles"], sound["triangles"])
         sphere = self.chain(self.from_field("sphere_tolerance_raised.brep"))
         self.assertAlmostEqual(sphere["area"] / (4 * math.pi + 0.24), 1, delta=0.01)
         self.assertLess(sphere["deviation"]["max"], 0.02)
