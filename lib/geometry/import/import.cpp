@@ -285,6 +285,16 @@ void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const Import
   if (!options.join_touching && !options.unite) say_what_touches(model, tables.tables, left_out, findings);
 }
 
+void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  occt::open_slits(model, findings);
+  occt::rebuild_space_curves(model, findings);
+  occt::rebuild_lost_loops(model, findings);
+  occt::repair_loops(model, findings);
+  occt::move_loops(model, findings);
+  occt::repair_pcurves(model, findings);
+  occt::divide_kinked_faces(model, findings);
+}
+
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const FlowDomain domain = parse_flow_domain(options);
   Progress progress("importing", 1);
@@ -309,13 +319,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::sew_and_keep_areas(model, sewing_limits(file, unit, model, options), result.findings);
   occt::orient_faces(model, result.findings);
   progress.step("repairing edges and loops", 0.5);
-  occt::open_slits(model, result.findings);
-  occt::rebuild_space_curves(model, result.findings);
-  occt::rebuild_lost_loops(model, result.findings);
-  occt::repair_loops(model, result.findings);
-  occt::move_loops(model, result.findings);
-  occt::repair_pcurves(model, result.findings);
-  occt::divide_kinked_faces(model, result.findings);
+  repair_edges_and_loops(model, result.findings);
   scale_to_unit(model, unit, result.findings, path);
   if (file.has_mixed_units) result.findings.push_back({FindingKind::kMixedUnits, "", {}, 0, false, unit.name});
   progress.step("topology and areas", 0.6);
