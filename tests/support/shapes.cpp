@@ -551,6 +551,8 @@ const std::map<std::string, Factory>& factories() {
       {"high_degree_wave", [] { return face_of(wave(13, 11, 9, 7, true)); }},
       {"kinked", [] { return face_of(gently_kinked()); }},
       {"crumpled", [] { return face_of(crumpled()); }},
+      {"folded_sheet",
+       [] { return face_of(new Geom_OffsetSurface(wave(10, 8, 3, 3, false), 10), 0.1, 2.9, 0.1, 1.9); }},
       {"crossed_loop", crossed_loop},
       {"bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(5, 4, 30, 20))); }},
       {"rational_bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(4, 5, 30, 20), wave_weights(4, 5))); }},

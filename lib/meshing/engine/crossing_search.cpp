@@ -407,6 +407,7 @@ std::vector<RefinementPoint> CrossingSearch::places_to_refine(const Search& sear
   };
   FacetPairs apart;
   for (const FacetPair& p : pairs_) {
+    if (p.a.face == p.b.face && face_is_given_up_[p.a.face]) continue;
     if (p.factor > 0) apart.push_back(p);
     if (p.factor == kHalve && facets.size() < kMaxCrossingPlaces) add(p, 1);
   }
@@ -543,6 +544,13 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kep
     if (p.factor == kUnknown) p.factor = is_one_body ? kHalve : kMeets;
   std::erase_if(kept, [](const FacetPair& p) { return p.factor == kMeets; });
   return kept;
+}
+
+std::vector<std::int64_t> CrossingSearch::n_pairs_within() const {
+  std::vector<std::int64_t> n(face_body_.size(), 0);
+  for (const FacetPair& p : pairs_)
+    if (p.a.face == p.b.face) ++n[p.a.face];
+  return n;
 }
 
 std::vector<FaceId> CrossingSearch::crossing_faces(bool others_too) const {

@@ -68,15 +68,20 @@ class CrossingSearch {
         is_across_(across_bodies),
         face_body_(bodies_of(model.tables())),
         face_is_fresh_(face_body_.size(), 1),
+        face_is_given_up_(face_body_.size(), 0),
         chords_(face_body_.size()) {}
 
   /// Local. The face's patch is another one now.
   void renew(FaceId f) { face_is_fresh_[f] = 1; }
+  /// Local, on rank 0. No triangles of the face are refined any more for crossing each other, from the next run on.
+  void give_up(FaceId f) { face_is_given_up_[f] = 1; }
   /// Collective. `places` [n_faces], of rank 0. On rank 0 two places for each pair that smaller triangles can
   /// part, up to some thousand. What follows is of rank 0.
   std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places);
   /// By the last run.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  /// [n_faces] those of two triangles of the face.
+  std::vector<std::int64_t> n_pairs_within() const;
   /// Faces with triangles of the last run, ascending; those of which two triangles cross each other, or all.
   std::vector<FaceId> crossing_faces(bool others_too) const;
   /// Triangles of the face, by their places in its patch, that cross others of it, or also of other faces; by the last
@@ -133,6 +138,7 @@ class CrossingSearch {
   std::set<std::pair<FaceId, FaceId>> touching_;  // of two bodies in contact, as far as known
   int n_runs_ = 0;
   std::vector<char> face_is_fresh_;         // patch made since the last run
+  std::vector<char> face_is_given_up_;      // on rank 0
   std::vector<std::vector<Chord>> chords_;  // by face
   FacetPairs pairs_;                        // found so far and still there, sorted
 };

@@ -71,7 +71,8 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       outcomes_(tables_.n_faces()),
       store_(executor),
       places_(tables_.n_faces()),
-      crossings_(model, store_, executor, options.parts_bodies) {
+      crossings_(model, store_, executor, options.parts_bodies),
+      hopeless_(tables_.n_faces()) {
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   result_.edges = std::move(plan_.kept_edges);
@@ -176,12 +177,17 @@ std::vector<Vec3> FaceRounds::bad_places() const {
   return places;
 }
 
-/// Collective. Takes out those about places that are bad after all rounds, and returns them.
-std::vector<Refinement> FaceRounds::drop_useless_refinements() {
+/// Collective. Takes out those about places that are bad after all rounds, or in the boxes of faces that were given up,
+/// and returns them.
+std::vector<Refinement> FaceRounds::drop_useless_refinements(TakeBack what) {
   std::vector<Refinement> useless, kept;
   const std::vector<Vec3> bad = bad_places();
+  std::vector<FaceId> hopeless;
+  if (what == TakeBack::kOfHopelessFacesToo) hopeless = hopeless_.all();
   for (const Refinement& r : refinements_.all()) {
-    const bool is_useless = std::ranges::any_of(bad, [&](Vec3 x) { return distance(r.x, x) < r.reach; });
+    const bool is_useless =
+        std::ranges::any_of(hopeless, [&](FaceId f) { return box_distance(tables_.face_box[f], r.x) == 0; }) ||
+        std::ranges::any_of(bad, [&](Vec3 x) { return distance(r.x, x) < r.reach; });
     (is_useless ? useless : kept).push_back(r);
   }
   share(executor_, useless, kept);
@@ -196,30 +202,46 @@ void FaceRounds::mesh_without(const std::vector<Refinement>& useless) {
   log_info(fmt::format("refining at {} places did not help: {} edges, {} faces again without it", useless.size(),
                        dirty_edges_.size(), dirty_faces_.size()));
   mesh_edges();
-  mesh_regions();
+  mesh_dirty_faces();
   close_holes();
   crossings_.run(*numbering_, places_);
 }
 
-/// Collective. Smaller lengths about places that are bad all the same are no use, and go. The mesh stays as it is where
-/// more were bad without them.
+/// Collective. Smaller lengths about places that are bad all the same are no use, and go; first all those of faces that
+/// were given up. The mesh stays as it is where more were bad without them.
 void FaceRounds::take_back_refinements() {
-  for (int i = 0; i < kMostTakenBack && take_back_once(); ++i) {
+  char has_hopeless = !hopeless_.all().empty();
+  share(executor_, has_hopeless);
+  if (has_hopeless) take_back_once(TakeBack::kOfHopelessFacesToo);
+  for (int i = 0; i < kMostTakenBack && take_back_once(TakeBack::kAtBadPlaces); ++i) {
   }
 }
 
-/// Collective. Whether there may be more.
-bool FaceRounds::take_back_once() {
+/// Local, on rank 0. Folds and own crossings of the faces that were given up.
+std::int64_t FaceRounds::n_bad_of_hopeless() const {
+  const std::vector<std::int64_t> n_crossing = crossings_.n_pairs_within();
+  std::int64_t n = 0;
+  for (const FaceId f : hopeless_.all()) n += outcomes_[f].n_folds + n_crossing[f];
+  return n;
+}
+
+/// Collective. Whether there may be more. On faces that were given up, sizes that leave not clearly fewer are no use
+/// either; but no face may fail for that.
+bool FaceRounds::take_back_once(TakeBack what) {
   std::int64_t n_before = n_bad();
   share(executor_, n_before);
   if (n_before == 0 || refinements_.all().empty()) return false;
-  const std::vector<Refinement> all = refinements_.all(), useless = drop_useless_refinements();
+  std::int64_t n_allowed = n_before;
+  if (what == TakeBack::kOfHopelessFacesToo)
+    n_allowed += std::min(
+        kPerFailure - 1, static_cast<std::int64_t>((1 / kClearlyFewer - 1) * static_cast<double>(n_bad_of_hopeless())));
+  const std::vector<Refinement> all = refinements_.all(), useless = drop_useless_refinements(what);
   if (useless.empty()) return false;
   const EdgeMesh edges = result_.edges;
   const std::vector<FacePlace> places = places_;
   const std::vector<FaceOutcome> outcomes = outcomes_;
   mesh_without(useless);
-  char is_worse = n_bad() > n_before;
+  char is_worse = n_bad() > n_allowed;
   share(executor_, is_worse);
   if (!is_worse) return true;
   refinements_.assign(all);
@@ -412,7 +434,7 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
 
 /// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all. While heavy
 /// faces are cut the others that are light are meshed.
-std::vector<RefinementPoint> FaceRounds::mesh_regions() {
+void FaceRounds::mesh_dirty_faces() {
   ++version_;
   const WorkLimit tile_limit = time_limit(options_.tile_triangles);
   TiledRegions tiled(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
@@ -437,9 +459,36 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   share(executor_, failed);
   TiledRegions none(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
   if (!failed.empty()) mesh_faces(failed, none, progress);
+}
+
+/// Folds of faces that were given up stay.
+std::vector<RefinementPoint> FaceRounds::mesh_regions() {
+  mesh_dirty_faces();
+  give_up(false);
   std::vector<RefinementPoint> all;
-  for (const auto& w : wanted_) all.insert(all.end(), w.begin(), w.end());
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (!hopeless_.contains(f) || outcomes_[f].cause != FailureCause::kNone)
+      all.insert(all.end(), wanted_[f].begin(), wanted_[f].end());
   return all;
+}
+
+/// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
+/// says so, once for each. Whether there are new ones.
+bool FaceRounds::give_up(bool by_crossings) {
+  std::vector<std::int64_t> n_crossing(tables_.n_faces(), 0);
+  if (by_crossings) n_crossing = crossings_.n_pairs_within();
+  bool has_new = false;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    const std::int64_t n_bad = outcomes_[f].n_folds + n_crossing[f];
+    if (!(by_crossings ? hopeless_.gives_up_crossing(f, n_bad) : hopeless_.gives_up_folded(f, n_bad))) continue;
+    has_new = true;
+    crossings_.give_up(f);
+    log_warning(
+        fmt::format("{}: its triangles fold or cross each other {} times, and smaller ones no less: refining there was "
+                    "ended; its surface is damaged or crosses itself, so repair it in the CAD system",
+                    tables_.face_label(f), n_bad));
+  }
+  return has_new;
 }
 
 Regions FaceRounds::faces_as_regions() const {
@@ -690,6 +739,7 @@ void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
   require_countable(static_cast<std::uint64_t>(place.n_triangles()), "triangles of a face", kMaxTriangles);
   FaceOutcome& o = outcomes_[f];
   n_meshed_ += static_cast<std::uint64_t>(place.n_triangles());
+  hopeless_.add_meshed(f, place.n_triangles());
   places_[f] = std::move(place);
   o.cause = report.cause;
   o.error = std::move(report.error);
@@ -764,7 +814,10 @@ std::vector<RefinementPoint> FaceRounds::find_crossings() {
   return_freed_memory();
   std::vector<RefinementPoint> places = crossings_.run(*numbering_, places_);
   result_.n_crossing_pairs = crossings_.n_pairs();
-  return is_restored_ ? std::vector<RefinementPoint>() : places;
+  if (is_restored_) return {};
+  char has_new = give_up(true);
+  share(executor_, has_new);
+  return has_new ? crossings_.run(*numbering_, places_) : places;  // compares nothing again
 }
 
 void FaceRounds::choose_again(std::size_t first_refinement) {

@@ -14,6 +14,7 @@
 #include "geometry/model/model.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/facing_edges.h"
+#include "meshing/engine/hopeless_faces.h"
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
 #include "meshing/engine/patch_store.h"
@@ -88,6 +89,9 @@ class FaceRounds : public MeshRounds {
   std::string made_from() const;
   void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
   void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
+  void mesh_dirty_faces();
+  bool give_up(bool by_crossings);
+  std::int64_t n_bad_of_hopeless() const;
   FaceReport keep(FaceResult&& result);
   Bytes record_whole(FaceId f, const Bytes& report) const;
   Bytes restore_whole(Bytes&& whole);
@@ -117,8 +121,9 @@ class FaceRounds : public MeshRounds {
   void drop_replaced();
   void find_dirty(std::span<const Refinement> refinements);
   void take_back_refinements();
-  bool take_back_once();
-  std::vector<Refinement> drop_useless_refinements();
+  enum class TakeBack { kAtBadPlaces, kOfHopelessFacesToo };
+  bool take_back_once(TakeBack what);
+  std::vector<Refinement> drop_useless_refinements(TakeBack what);
   std::vector<Vec3> bad_places() const;
   std::int64_t n_bad() const;
   void mesh_without(const std::vector<Refinement>& useless);
@@ -144,6 +149,7 @@ class FaceRounds : public MeshRounds {
   std::int64_t version_ = 0;       // of patches made in this round
   std::int64_t own_version_ = 0;   // of patches that rank 0 changed itself: negative
   CrossingSearch crossings_;
+  HopelessFaces hopeless_;  // on rank 0
 };
 
 }  // namespace st

@@ -9,6 +9,7 @@
 #include "features/strip.h"
 #include "mesh/checks.h"
 #include "meshing/topology/curve_discretiser.h"
+#include "support/backward_executor.h"
 #include "support/meshed.h"
 
 namespace st {
@@ -43,6 +44,18 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   EXPECT_EQ(r.failed_faces[0].face, top);
   EXPECT_FALSE(r.failed_faces[0].xyz.empty());
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == top) << f;
+}
+
+TEST(FaceRounds, give_a_face_up_that_smaller_triangles_do_not_unfold) {
+  set_verbosity(Verbosity::kQuiet);
+  const Model model = test::make_model("folded_sheet");
+  const MeshTopology topology(model.tables());
+  const test::BackwardExecutor counted;
+  const MeshResult r = mesh_regions(model, topology, UniformField(1), plan_all(topology), {}, counted);
+  EXPECT_EQ(r.n_rounds, 3);
+  EXPECT_EQ(counted.n_of["face"], 4u) << "once more without what was refined";
+  EXPECT_FALSE(r.folds.empty());
+  EXPECT_TRUE(r.failures.empty());
 }
 
 TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {

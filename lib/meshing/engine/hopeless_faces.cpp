@@ -1,0 +1,31 @@
+#include "meshing/engine/hopeless_faces.h"
+
+#include <utility>
+
+namespace st {
+namespace {
+
+constexpr int kMostWithout = 2;                  // meshings in a row that leave not clearly fewer
+constexpr std::int64_t kManyBad = 100;           // folds and crossings of a face
+constexpr std::int64_t kMuchRepeated = 500'000;  // triangles of these meshings
+
+}  // namespace
+
+bool HopelessFaces::gives_up(Effort& effort, Count& count, std::int64_t n_bad) {
+  if (effort.is_hopeless || std::exchange(count.n_asked, effort.n_meshed) == effort.n_meshed) return false;
+  if (count.fewest == 0 || static_cast<double>(n_bad) < kClearlyFewer * static_cast<double>(count.fewest)) {
+    count = {n_bad, 0, effort.n_meshed, effort.n_meshed};
+    return false;
+  }
+  const bool is_much = n_bad >= kManyBad || effort.n_meshed - count.n_before >= kMuchRepeated;
+  return effort.is_hopeless = ++count.n_without >= kMostWithout && is_much;
+}
+
+std::vector<FaceId> HopelessFaces::all() const {
+  std::vector<FaceId> faces;
+  for (FaceId f = 0; f < static_cast<FaceId>(efforts_.size()); ++f)
+    if (contains(f)) faces.push_back(f);
+  return faces;
+}
+
+}  // namespace st
