@@ -194,6 +194,11 @@ Handle(Geom_BSplineSurface) crumpled() {
   return surface;
 }
 
+/// A wave, offset by more than its radii.
+TopoDS_Shape folded_sheet() {
+  return face_of(new Geom_OffsetSurface(wave(10, 8, 3, 3, false), 10), 0.1, 2.9, 0.1, 1.9);
+}
+
 /// A square, and on one of its edges a second face whose boundary crosses itself: it can only be closed in space.
 TopoDS_Shape crossed_loop() {
   const gp_Pnt corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, -10, 0}, {10, -10, 0}};
@@ -551,8 +556,14 @@ const std::map<std::string, Factory>& factories() {
       {"high_degree_wave", [] { return face_of(wave(13, 11, 9, 7, true)); }},
       {"kinked", [] { return face_of(gently_kinked()); }},
       {"crumpled", [] { return face_of(crumpled()); }},
-      {"folded_sheet",
-       [] { return face_of(new Geom_OffsetSurface(wave(10, 8, 3, 3, false), 10), 0.1, 2.9, 0.1, 1.9); }},
+      {"folded_sheet", folded_sheet},
+      {"folded_sheet_and_pipe",
+       [] {
+         const TopoDS_Shape pipe = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(1.5, 2.5).Shape(),
+                                                   moved(BRepPrimAPI_MakeCylinder(1.48, 4).Shape(), 0, 0, -1))
+                                       .Shape();
+         return occt::compound_of({folded_sheet(), moved(pipe, 28, 0, 7.5)});
+       }},
       {"crossed_loop", crossed_loop},
       {"bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(5, 4, 30, 20))); }},
       {"rational_bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(4, 5, 30, 20), wave_weights(4, 5))); }},

@@ -24,7 +24,7 @@ namespace st::test {
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
 ///   l_face plate_with_hole cone_side sphere_octant
 /// - Sheets: wave rational_wave high_degree_wave bezier rational_bezier stretched kinked crumpled (folded in itself)
-///   folded_sheet (a wave, offset by more than its radii)
+///   folded_sheet (a wave, offset by more than its radii) folded_sheet_and_pipe (a thin pipe in its box)
 /// - Tubes: periodic_tube closed_tube rational_torus thin_tube tube_window (a window across the period)
 /// - Others: revolution extrusion offset loose_box (six faces that share nothing) wire (no face)
 ///   t_junction (an edge of three faces) crossed_loop (two faces, the loop of one crosses itself)

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed at once
 constexpr std::size_t kMaxWallPlaces = 8000;      // likewise, where walls are measured
 constexpr double kAround = 4;                     // triangles that a place makes shorter, about
 constexpr double kCovering = 1.5;                 // of half a triangle's longest side: a circle that covers it
-constexpr double kWider = 0.75;                   // more than that in each later search: new places crossed beside
+constexpr double kWider = 0.75;                   // more than that in each later round: new places crossed beside
 constexpr double kPerWall = 1000;                 // triangles: the search among so many takes as long as a measurement
 constexpr double kLeastFactor = 1.0 / 32;         // of a triangle's length: walls that would need less cannot be parted
 
@@ -302,17 +302,22 @@ std::vector<CrossingSearch::Job> CrossingSearch::jobs_of(const std::vector<Place
   return jobs;
 }
 
-std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& numbering,
-                                                 const std::vector<FacePlace>& places) {
+/// Collective. Of rank 0's places, on every rank.
+std::vector<PlacedPatch> CrossingSearch::sections_of(const std::vector<FacePlace>& places) const {
   std::vector<PlacedPatch> sections;
-  std::vector<Job> jobs;
-  if (executor_.is_root()) {
+  if (executor_.is_root())
     for (std::size_t f = 0; f < places.size(); ++f)
       for (const PatchPlace& place : places[f].sections)
         if (place.is_there()) sections.push_back({static_cast<FaceId>(f), place});
-    jobs = jobs_of(sections);
-  }
-  share(executor_, sections, jobs);
+  share(executor_, sections);
+  return sections;
+}
+
+void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places) {
+  const std::vector<PlacedPatch> sections = sections_of(places);
+  std::vector<Job> jobs;
+  if (executor_.is_root()) jobs = jobs_of(sections);
+  share(executor_, jobs);
   const Search search{store_, executor_, numbering, sections};
   const std::vector<Batch> batches = batches_of(
       jobs, [&](const Job& job) { return search.home(job); }, [&](const Job& job) { return search.weight(job); });
@@ -357,9 +362,6 @@ std::vector<RefinementPoint> CrossingSearch::run(const BoundaryNumbering& number
   pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
   std::sort(pairs_.begin(), pairs_.end(), in_order);
   std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
-  std::vector<RefinementPoint> refined = places_to_refine(search);
-  ++n_runs_;
-  return refined;
 }
 
 /// Local, on rank 0.
@@ -395,8 +397,11 @@ std::vector<CrossingSearch::Corners> CrossingSearch::corners(std::vector<Facet> 
   return all;
 }
 
-/// Collective. The first pairs whose walls are not measured, and pairs from all over the others.
-std::vector<RefinementPoint> CrossingSearch::places_to_refine(const Search& search) const {
+/// The first pairs whose walls are not measured, and pairs from all over the others.
+std::vector<RefinementPoint> CrossingSearch::places_to_refine(const BoundaryNumbering& numbering,
+                                                              const std::vector<FacePlace>& places) {
+  const std::vector<PlacedPatch> sections = sections_of(places);
+  const Search search{store_, executor_, numbering, sections};
   std::vector<Facet> facets;
   std::vector<std::pair<double, double>> how;  // factor and triangles of each
   const auto add = [&](const FacetPair& p, double n_triangles) {
@@ -414,12 +419,13 @@ std::vector<RefinementPoint> CrossingSearch::places_to_refine(const Search& sear
   const std::size_t step = 2 * apart.size() / kMaxWallPlaces + 1;
   for (std::size_t i = 0; i < apart.size(); i += step) add(apart[i], kAround * static_cast<double>(step));
   const std::vector<Corners> all = corners(std::move(facets), search);
-  std::vector<RefinementPoint> places;
+  std::vector<RefinementPoint> refined;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    places.push_back(refinement_of(all[i], how[i].first, kCovering + kWider * n_runs_));
-    places.back().n_triangles = how[i].second;
+    refined.push_back(refinement_of(all[i], how[i].first, kCovering + kWider * n_asked_));
+    refined.back().n_triangles = how[i].second;
   }
-  return places;
+  ++n_asked_;
+  return refined;
 }
 
 /// The longest side times `factor` where there is one, `covering` halves of it around. Else half of it; half the

@@ -73,11 +73,14 @@ class CrossingSearch {
 
   /// Local. The face's patch is another one now.
   void renew(FaceId f) { face_is_fresh_[f] = 1; }
-  /// Local, on rank 0. No triangles of the face are refined any more for crossing each other, from the next run on.
+  /// Local, on rank 0. No triangles of the face are refined any more for crossing each other.
   void give_up(FaceId f) { face_is_given_up_[f] = 1; }
-  /// Collective. `places` [n_faces], of rank 0. On rank 0 two places for each pair that smaller triangles can
-  /// part, up to some thousand. What follows is of rank 0.
-  std::vector<RefinementPoint> run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places);
+  /// Collective. `places` [n_faces], of rank 0.
+  void run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places);
+  /// Collective, after a run of the same places. On rank 0 two places for each pair that smaller triangles can part, up
+  /// to some thousand, with a wider radius each time. What follows is of rank 0.
+  std::vector<RefinementPoint> places_to_refine(const BoundaryNumbering& numbering,
+                                                const std::vector<FacePlace>& places);
   /// By the last run.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
   /// [n_faces] those of two triangles of the face.
@@ -123,7 +126,7 @@ class CrossingSearch {
     bool is_spanning;  // all are on the boundary
   };
   static RefinementPoint refinement_of(const Corners& triangle, double factor, double covering);
-  std::vector<RefinementPoint> places_to_refine(const Search& search) const;
+  std::vector<PlacedPatch> sections_of(const std::vector<FacePlace>& places) const;
   std::vector<Corners> corners(std::vector<Facet> facets, const Search& search) const;
   static std::vector<FacetPairs> by_faces(const FacetPairs& pairs);
   void measure_whole_faces(const Job& job, const Search& search, Found& found) const;
@@ -136,11 +139,11 @@ class CrossingSearch {
   bool is_across_;
   std::vector<std::int32_t> face_body_;
   std::set<std::pair<FaceId, FaceId>> touching_;  // of two bodies in contact, as far as known
-  int n_runs_ = 0;
-  std::vector<char> face_is_fresh_;         // patch made since the last run
-  std::vector<char> face_is_given_up_;      // on rank 0
-  std::vector<std::vector<Chord>> chords_;  // by face
-  FacetPairs pairs_;                        // found so far and still there, sorted
+  int n_asked_ = 0;                               // times for places to refine
+  std::vector<char> face_is_fresh_;               // patch made since the last run
+  std::vector<char> face_is_given_up_;            // on rank 0
+  std::vector<std::vector<Chord>> chords_;        // by face
+  FacetPairs pairs_;                              // found so far and still there, sorted
 };
 
 }  // namespace st

@@ -217,31 +217,43 @@ void FaceRounds::take_back_refinements() {
   }
 }
 
-/// Local, on rank 0. Folds and own crossings of the faces that were given up.
-std::int64_t FaceRounds::n_bad_of_hopeless() const {
+/// Local, on rank 0. What the faces that were given up may fold and cross themselves more often without sizes that left
+/// not clearly fewer. No face may fail for that.
+std::int64_t FaceRounds::n_more_of_hopeless() const {
   const std::vector<std::int64_t> n_crossing = crossings_.n_pairs_within();
   std::int64_t n = 0;
   for (const FaceId f : hopeless_.all()) n += outcomes_[f].n_folds + n_crossing[f];
-  return n;
+  return std::min(kPerFailure - 1, static_cast<std::int64_t>((1 / kClearlyFewer - 1) * static_cast<double>(n)));
 }
 
-/// Collective. Whether there may be more. On faces that were given up, sizes that leave not clearly fewer are no use
-/// either; but no face may fail for that.
+/// Local, on rank 0. Faces without a fold, crossing or failure, ascending.
+std::vector<FaceId> FaceRounds::sound_faces() const {
+  const std::vector<FaceId> crossing = crossings_.crossing_faces(true);
+  std::vector<FaceId> sound;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (const FaceOutcome& o = outcomes_[f]; o.cause == FailureCause::kNone && o.n_folds == 0)
+      if (!std::ranges::binary_search(crossing, f)) sound.push_back(f);
+  return sound;
+}
+
+/// Collective. Whether there may be more.
 bool FaceRounds::take_back_once(TakeBack what) {
   std::int64_t n_before = n_bad();
   share(executor_, n_before);
   if (n_before == 0 || refinements_.all().empty()) return false;
   std::int64_t n_allowed = n_before;
-  if (what == TakeBack::kOfHopelessFacesToo)
-    n_allowed += std::min(
-        kPerFailure - 1, static_cast<std::int64_t>((1 / kClearlyFewer - 1) * static_cast<double>(n_bad_of_hopeless())));
+  std::vector<FaceId> sound;  // and must stay so
+  if (what == TakeBack::kOfHopelessFacesToo) {
+    n_allowed += n_more_of_hopeless();
+    sound = sound_faces();
+  }
   const std::vector<Refinement> all = refinements_.all(), useless = drop_useless_refinements(what);
   if (useless.empty()) return false;
   const EdgeMesh edges = result_.edges;
   const std::vector<FacePlace> places = places_;
   const std::vector<FaceOutcome> outcomes = outcomes_;
   mesh_without(useless);
-  char is_worse = n_bad() > n_allowed;
+  char is_worse = n_bad() > n_allowed || !std::ranges::includes(sound_faces(), sound);
   share(executor_, is_worse);
   if (!is_worse) return true;
   refinements_.assign(all);
@@ -473,22 +485,19 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
 }
 
 /// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
-/// says so, once for each. Whether there are new ones.
-bool FaceRounds::give_up(bool by_crossings) {
+/// says so, once for each.
+void FaceRounds::give_up(bool by_crossings) {
   std::vector<std::int64_t> n_crossing(tables_.n_faces(), 0);
   if (by_crossings) n_crossing = crossings_.n_pairs_within();
-  bool has_new = false;
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const std::int64_t n_bad = outcomes_[f].n_folds + n_crossing[f];
     if (!(by_crossings ? hopeless_.gives_up_crossing(f, n_bad) : hopeless_.gives_up_folded(f, n_bad))) continue;
-    has_new = true;
     crossings_.give_up(f);
     log_warning(
         fmt::format("{}: its triangles fold or cross each other {} times, and smaller ones no less: refining there was "
                     "ended; its surface is damaged or crosses itself, so repair it in the CAD system",
                     tables_.face_label(f), n_bad));
   }
-  return has_new;
 }
 
 Regions FaceRounds::faces_as_regions() const {
@@ -812,12 +821,11 @@ void FaceRounds::close_hole(FaceId f) {
 /// None where the mesh before was restored: refining does not help.
 std::vector<RefinementPoint> FaceRounds::find_crossings() {
   return_freed_memory();
-  std::vector<RefinementPoint> places = crossings_.run(*numbering_, places_);
+  crossings_.run(*numbering_, places_);
   result_.n_crossing_pairs = crossings_.n_pairs();
   if (is_restored_) return {};
-  char has_new = give_up(true);
-  share(executor_, has_new);
-  return has_new ? crossings_.run(*numbering_, places_) : places;  // compares nothing again
+  give_up(true);
+  return crossings_.places_to_refine(*numbering_, places_);
 }
 
 void FaceRounds::choose_again(std::size_t first_refinement) {

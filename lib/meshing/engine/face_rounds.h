@@ -90,8 +90,9 @@ class FaceRounds : public MeshRounds {
   void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
   void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
   void mesh_dirty_faces();
-  bool give_up(bool by_crossings);
-  std::int64_t n_bad_of_hopeless() const;
+  void give_up(bool by_crossings);
+  std::int64_t n_more_of_hopeless() const;
+  std::vector<FaceId> sound_faces() const;
   FaceReport keep(FaceResult&& result);
   Bytes record_whole(FaceId f, const Bytes& report) const;
   Bytes restore_whole(Bytes&& whole);

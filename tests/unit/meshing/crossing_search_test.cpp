@@ -31,7 +31,7 @@ struct Search {
     places.clear();
     for (FacePatch p : patches)
       places.emplace_back(store.put({std::move(p)}, 0, version, meshed.result.edges, meshed.model.tables().vertex_xyz));
-    return search.run(meshed.numbering(), places);
+    return run();
   }
   /// Each patch in two sections.
   std::vector<RefinementPoint> run_in_two(const std::vector<FacePatch>& patches) {
@@ -44,7 +44,11 @@ struct Search {
                                 meshed.model.tables().vertex_xyz));
       places.emplace_back(std::move(two));
     }
-    return search.run(meshed.numbering(), places);
+    return run();
+  }
+  std::vector<RefinementPoint> run() {
+    search.run(meshed.numbering(), places);
+    return search.places_to_refine(meshed.numbering(), places);
   }
   int n_pairs() const { return search.n_pairs(); }
   void renew(FaceId f) { search.renew(f); }
@@ -133,6 +137,21 @@ TEST(CrossingSearch, finds_a_face_that_crosses_itself_from_section_to_section) {
                                  all = sections.search.crossing_in(2, false);
   ASSERT_FALSE(least.empty());
   EXPECT_TRUE(std::ranges::includes(all, least)) << "the cone rule hides some within one section";
+}
+
+TEST(CrossingSearch, refines_no_triangles_of_a_face_that_was_given_up_but_those_that_cross_others) {
+  const Meshed m("box", 8);
+  std::vector<FacePatch> patches = m.result.patches;
+  std::swap(patches[2].inner_xyz.front(), patches[2].inner_xyz.back());
+  push_through(m, 0, patches[0]);
+  Search search(m);
+  const std::size_t n_all = search.run(patches).size();
+  const std::int64_t n_within = search.search.n_pairs_within()[2];
+  ASSERT_GT(n_within, 0);
+  search.search.give_up(2);
+  const std::vector<RefinementPoint> others = search.run();
+  EXPECT_EQ(others.size(), n_all - 2 * static_cast<std::size_t>(n_within));
+  EXPECT_FALSE(others.empty());
 }
 
 TEST(CrossingSearch, parts_faces_that_touch_in_a_node) {

@@ -58,6 +58,12 @@ TEST(FaceRounds, give_a_face_up_that_smaller_triangles_do_not_unfold) {
   EXPECT_TRUE(r.failures.empty());
 }
 
+TEST(FaceRounds, keep_what_refining_mended_beside_a_face_that_is_given_up) {
+  const test::Meshed meshed("folded_sheet_and_pipe", 1);
+  EXPECT_FALSE(meshed.result.folds.empty());
+  EXPECT_EQ(meshed.result.n_crossing_pairs, 0) << "the pipe lies in the sheet's box, its walls 0.02 apart";
+}
+
 TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {
   const test::Meshed meshed("crossed_loop", 2);
   const MeshResult& r = meshed.result;
