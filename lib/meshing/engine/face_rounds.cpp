@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "base/current_work.h"
@@ -610,8 +611,8 @@ void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tile
       });
 }
 
-/// Tasks: groups of tiles, then the faces that were cut. Returns those of which a tile failed, or whose tiles do not
-/// fit, on rank 0.
+/// Tasks: groups of tiles, then the faces that were cut. Returns those of which a tile failed, whose tiles do not fit,
+/// or have numbers that are none, on rank 0.
 std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
   std::vector<FaceId> failed;
   const std::vector<FaceId> cut = tiled.cut_regions();
@@ -642,7 +643,7 @@ std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
         else
           take_whole(cut[task], bytes);
       });
-  store_sections(tiled, std::move(parted));
+  for (const FaceId f : store_sections(tiled, std::move(parted))) failed.push_back(f);
   std::sort(failed.begin(), failed.end());
   return failed;
 }
@@ -665,12 +666,14 @@ FaceRounds::FaceResult FaceRounds::mesh_seams_of(FaceId f, TiledRegions& tiled) 
 }
 
 /// Collective. What is left of tiles and groups are sections of the patches of these faces (rank 0's), where they are.
-void FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted) {
+/// Returns those with numbers that are none, of which none is part of the mesh: as wholes they say what is wrong.
+std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted) {
   std::vector<std::int32_t> sections;
   for (std::int32_t s = 0; s < tiled.n_sections(); ++s)
     if (parted.contains(tiled.section(s).region)) sections.push_back(s);
   share(executor_, sections);
   std::map<FaceId, std::vector<PatchPlace>> places;
+  std::set<FaceId> unsound;
   for (auto& [f, report] : parted) places[f].resize(tiled.n_sections_of(f));
   NamedTasks tasks;
   for (const std::int32_t s : sections) tasks.home.push_back(tiled.rank_of(s));
@@ -683,17 +686,23 @@ void FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport
       tasks,
       [&](std::int32_t task) {
         const auto [f, index] = tiled.section(sections[task]);
-        return packed(store_.put(make_section(tables_, f, index, tiled.take(sections[task]), *numbering_), index,
-                                 version_, result_.edges, tables_.vertex_xyz));
+        PatchSection section = make_section(tables_, f, index, tiled.take(sections[task]), *numbering_);
+        const char is_sound = has_numbers_only(section.patch);
+        if (!is_sound) return packed(is_sound, PatchPlace());
+        return packed(is_sound, store_.put(std::move(section), index, version_, result_.edges, tables_.vertex_xyz));
       },
       [&](std::int32_t task, Bytes&& bytes) {
         const auto [f, index] = tiled.section(sections[task]);
-        unpack(bytes, places[f][index]);
+        char is_sound = 0;
+        unpack(bytes, is_sound, places[f][index]);
+        if (!is_sound) unsound.insert(f);
       });
   for (auto& [f, report] : parted) {
+    if (unsound.contains(f)) continue;
     places[f].push_back(report.place);
     take_face(f, std::move(report), FacePlace(std::move(places[f])));
   }
+  return {unsound.begin(), unsound.end()};
 }
 
 FaceMeshOptions FaceRounds::face_options() const {

@@ -101,7 +101,7 @@ class FaceRounds : public MeshRounds {
   double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
   std::vector<FaceId> mesh_seams(TiledRegions& tiled);
   FaceResult mesh_seams_of(FaceId f, TiledRegions& tiled) const;
-  void store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted);
+  std::vector<FaceId> store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted);
   Regions faces_as_regions() const;
   void take_face(FaceId f, FaceReport&& report, FacePlace&& place);
   bool has_holes() const;

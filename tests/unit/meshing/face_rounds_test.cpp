@@ -11,6 +11,7 @@
 #include "meshing/topology/curve_discretiser.h"
 #include "support/backward_executor.h"
 #include "support/meshed.h"
+#include "unit/meshing/no_number.h"
 
 namespace st {
 namespace {
@@ -44,6 +45,17 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   EXPECT_EQ(r.failed_faces[0].face, top);
   EXPECT_FALSE(r.failed_faces[0].xyz.empty());
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == top) << f;
+}
+
+TEST(FaceRounds, leave_out_a_face_with_numbers_that_are_none_and_name_it) {
+  set_verbosity(Verbosity::kQuiet);
+  const Model window = test::window_without_a_number();
+  const MeshTopology topology(window.tables());
+  const MeshResult r = mesh_regions(window, topology, UniformField(1), plan_all(topology), {}, test::one_rank);
+  ASSERT_EQ(r.failures.size(), 1u);
+  EXPECT_EQ(r.failures[0].face, 0);
+  EXPECT_FALSE(r.failures[0].is_closed);
+  EXPECT_TRUE(r.patches[0].triangles.empty());
 }
 
 TEST(FaceRounds, give_a_face_up_that_smaller_triangles_do_not_unfold) {

@@ -12,9 +12,11 @@
 #include "base/log.h"
 #include "mesh/checks.h"
 #include "meshing/engine/mesh_regions.h"
+#include "meshing/face/face_patch.h"
 #include "support/backward_executor.h"
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/hole_case.h"
+#include "unit/meshing/no_number.h"
 
 namespace st {
 namespace {
@@ -369,6 +371,18 @@ TEST(HoleRounds, grow_a_hole_whose_outline_crosses_itself_and_close_the_mesh) {
   EXPECT_TRUE(r.failures.empty());
   EXPECT_TRUE(check_topology(r.mesh, edges_of(r.mesh)).passes());
   EXPECT_TRUE(check_shape(r.mesh, edges_of(r.mesh)).passes());
+}
+
+TEST(HoleRounds, leave_out_a_face_whose_fill_has_numbers_that_are_none_and_name_it) {
+  const ShapeMesh sound("tube_window", 0.05);
+  const Model window = test::window_without_a_number();
+  const HoleMesh old(sound.mesh, window.tables());
+  const FinerCorner field(sound);
+  HoleMarker holes(window, old, {0, static_cast<TriangleId>(sound.mesh.n_triangles()), 0, 0}, field, {}, one_rank);
+  const MeshResult r = mesh_regions(holes, field, HoleOutput::kPatches, {}, one_rank);
+  ASSERT_EQ(r.failures.size(), 1u);
+  EXPECT_EQ(r.failures[0].face, 0);
+  for (const FacePatch& p : r.patches) EXPECT_TRUE(has_numbers_only(p));
 }
 
 }  // namespace

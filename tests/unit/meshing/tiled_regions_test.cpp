@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 
 #include "base/error.h"
+#include "meshing/face/face_patch.h"
 #include "support/backward_executor.h"
 #include "support/meshed.h"
 
@@ -99,6 +101,48 @@ TEST(TiledFaces, of_which_a_tile_fails_are_tried_whole_and_reported) {
   ASSERT_EQ(r.failures.size(), 1u);
   EXPECT_NE(r.failures[0].cause.find("no size"), std::string::npos);
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == r.failures[0].face) << f;
+}
+
+/// A number of each first tile is none, as if a surface had said so, about the cuts or elsewhere.
+class BrokenTile : public test::BackwardExecutor {
+ public:
+  explicit BrokenTile(bool is_in_band) : is_in_band_(is_in_band) {}
+  void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t)>& compute,
+                       const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    BackwardExecutor::run_named_tasks(
+        tasks,
+        [&](std::int32_t task) {
+          Bytes result = compute(task);
+          const TaskLabel label = tasks.label(task);
+          if (std::string(label.kind) != "tile" || label.part != 0) return result;
+          SplitMesh tile;
+          unpack(tasks.record(task, result), tile);
+          (is_in_band_ ? tile.band.nodes : tile.rest.inner).at(0).x.z = std::numeric_limits<double>::quiet_NaN();
+          return tasks.restore(task, packed(tile));
+        },
+        collect);
+  }
+
+ private:
+  bool is_in_band_;
+};
+
+TEST(TiledFaces, with_numbers_that_are_none_are_tried_whole) {
+  const Model box = test::make_model("box");
+  const test::BackwardExecutor sound;
+  mesh(box, UniformField(0.8), 0.8, 1000, sound);
+  const MeshResult whole = mesh(box, UniformField(0.8), 0.8, 0, test::one_rank);
+  for (const bool is_in_band : {false, true}) {
+    const BrokenTile broken(is_in_band);
+    const MeshResult r = mesh(box, UniformField(0.8), 0.8, 1000, broken);
+    EXPECT_GT(broken.n_of["cut"], 1u);
+    EXPECT_EQ(broken.n_of["face"], sound.n_of["face"] + broken.n_of["cut"]);
+    EXPECT_TRUE(r.failures.empty());
+    for (FaceId f = 0; f < 6; ++f) {
+      EXPECT_TRUE(has_numbers_only(r.patches[f])) << f;
+      EXPECT_EQ(packed(r.patches[f]), packed(whole.patches[f])) << f;
+    }
+  }
 }
 
 }  // namespace
