@@ -38,7 +38,6 @@ constexpr double kLight = 0.25;    // of a tile: such faces take less time than 
 constexpr int kFewPairs = 50;      // of crossing triangles: else faces that cross each other stay as they are
 constexpr double kWorthIt = 0.9;   // of the bad triangles before: as many or less are left by a refill that stays
 constexpr int kMostTakenBack = 4;  // times: bad places move
-constexpr int kMostRefills = 10;   // each leaves a tenth less at least
 constexpr std::int64_t kPerFailure = 1000;    // folds and crossings: as bad as a face that fails
 constexpr std::size_t kMostBadPlaces = 2000;  // that are looked at
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
@@ -272,7 +271,7 @@ bool FaceRounds::take_back_once(TakeBack what) {
 /// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
 /// rather than through themselves.
 void FaceRounds::refill_bad() {
-  for (int i = 0; i < kMostRefills && refill_once(); ++i) {
+  while (refill_once()) {  // each leaves a tenth less at least
   }
 }
 

@@ -130,7 +130,8 @@ class FaceMesher {
         const SurfacePoint s =
             surface_.evaluate({surface_.u_min() + (i + 0.5) * du, surface_.v_min() + (j + 0.5) * dv});
         const double h = work_.field->size(s.x, work_.hint);
-        n += norm(cross(s.du, s.dv)) * du * dv / (h * h);
+        const double share = norm(cross(s.du, s.dv)) * du * dv / (h * h);
+        if (std::isfinite(share)) n += share;
       }
     const double boundary = static_cast<double>(boundary_.nodes.size());
     return static_cast<std::size_t>(

@@ -281,16 +281,30 @@ INSTANTIATE_TEST_SUITE_P(, FaceAtEverySize,
                                          EverySize{"closed_tube", 1}),
                          [](const auto& info) { return std::string(info.param.shape); });
 
-TEST(MeshFace, stops_a_runaway) {
-  /// Asks for next to nothing off the boundary where expected_nodes() does not look: on the diagonal line x = y.
-  class Trap : public UniformField {
-   public:
-    using UniformField::UniformField;
-    double size(Vec3 x, int&) const override { return std::abs(x.x - 3.14159) < 0.01 ? 2e-5 : 1; }
-  };
-  const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}, 1.0);
-  const FaceMesh mesh = mesh_face(kPlane, b, Trap(1), {});
-  EXPECT_LT(mesh.inner.size(), 200000u);
+/// Asks for next to nothing where expected_nodes() does not look: on a line x = const. At one of its probes no number.
+class Trap : public UniformField {
+ public:
+  Trap(double length, double least) : UniformField(length), least_(least) {}
+  using SizeField::size;
+  double size(Vec3 x, int&) const override {
+    if (distance(x, {0.5, 0.5, 0}) < 1e-9) return std::numeric_limits<double>::quiet_NaN();
+    return std::abs(x.x - 35.0 / 11) < 0.015 ? least_ : 1;
+  }
+
+ private:
+  double least_;
+};
+
+TEST(MeshFace, stops_a_runaway_at_what_area_and_boundary_explain) {
+  constexpr int n = 99;  // segments along each side
+  std::vector<Vec2> loop;
+  for (int i = 0; i < n; ++i) loop.push_back({10.0 * i / n, 0});
+  for (int i = 0; i < n; ++i) loop.push_back({10, 10.0 * i / n});
+  for (int i = n; i > 0; --i) loop.push_back({10.0 * i / n, 10});
+  for (int i = n; i > 0; --i) loop.push_back({0, 10.0 * i / n});
+  const FaceMesh mesh = mesh_face(kPlane, polygons({loop}, 10.0 / n), Trap(1, 8e-4), {});
+  EXPECT_EQ(mesh.cause, FailureCause::kTooManyNodes);
+  EXPECT_LT(mesh.inner.size(), 60'000u) << "of some hundred thousand";
 }
 
 TEST(MeshFace, enhancer_improves_the_triangles) {

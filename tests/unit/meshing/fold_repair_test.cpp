@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/meshing/faces.h"
+#include "unit/meshing/grid_patch.h"
 
 namespace st {
 namespace {
@@ -149,6 +150,68 @@ TEST(RepairFolds, counts_and_names_what_it_cannot_repair) {
   EXPECT_GT(mesh.n_folds, 0);
   EXPECT_LT(mesh.n_folds, 100);
   EXPECT_EQ(mesh.refinement.size(), static_cast<std::size_t>(mesh.n_folds));
+}
+
+/// n x n squares of two triangles each on a plane.
+struct Grid {
+  int n;
+  std::unique_ptr<Surface> surface = std::make_unique<PlaneSurface>(test::kPlane);
+  FaceBoundary boundary;
+  FaceMesh mesh;
+
+  explicit Grid(int squares) : n(squares) {
+    std::vector<Vec2> loop;
+    for (int i = 0; i < n; ++i) loop.push_back(place(i, 0));
+    for (int i = 0; i < n; ++i) loop.push_back(place(n, i));
+    for (int i = n; i > 0; --i) loop.push_back(place(i, n));
+    for (int i = n; i > 0; --i) loop.push_back(place(0, i));
+    boundary = test::polygons({loop}, length());
+    for (int j = 1; j < n; ++j)
+      for (int i = 1; i < n; ++i) mesh.inner.push_back({place(i, j), {place(i, j).x, place(i, j).y, 0}, length()});
+    for (const Triangle& t : test::grid_triangles(n))
+      for (const NodeId k : t.n) mesh.corners.push_back(number(k % (n + 1), k / (n + 1)));
+  }
+  double length() const { return 10.0 / n; }
+  FaceNode& inner(int i, int j) { return mesh.inner[static_cast<std::size_t>((j - 1) * (n - 1) + i - 1)]; }
+  void move(int i, int j, Vec2 to) { inner(i, j).uv = to, inner(i, j).x = {to.x, to.y, 0}; }
+  Vec2 place(int i, int j) const { return {10.0 * i / n, 10.0 * j / n}; }
+  void repair() {
+    mesh.n_folds = 1'000'000;
+    repair_folds(*surface, boundary, UniformField(length()), {}, mesh);
+  }
+
+ private:
+  std::int32_t number(int i, int j) const {
+    if (j == 0) return i;
+    if (i == n) return n + j;
+    if (j == n) return 3 * n - i;
+    if (i == 0) return 4 * n - j;
+    return 4 * n + (j - 1) * (n - 1) + i - 1;
+  }
+};
+
+TEST(RepairFolds, tries_no_more_than_some_hundred_places) {
+  constexpr int kPlaces = 15, kApart = 12;
+  Grid grid(kPlaces * kApart);
+  for (int j = 0; j < kPlaces; ++j)
+    for (int i = 0; i < kPlaces; ++i)
+      grid.move(kApart * i + 5, kApart * j + 5, grid.place(kApart * i + 7, kApart * j + 5));
+  const int n_before = n_turned(grid, grid.mesh);
+  ASSERT_EQ(n_before % (kPlaces * kPlaces), 0);
+  grid.repair();
+  EXPECT_EQ(n_turned(grid, grid.mesh), n_before / (kPlaces * kPlaces) * (kPlaces * kPlaces - 200));
+}
+
+TEST(RepairFolds, leaves_a_place_of_thousands_of_nodes_as_it_is) {
+  for (const int n : {30, 50}) {
+    Grid grid(n);
+    for (int j = 1; j < n; ++j)
+      for (int i = 1; i < n; ++i) grid.move(i, j, grid.place(n - i, j));  // all are turned over
+    const int n_before = n_turned(grid, grid.mesh);
+    ASSERT_GT(n_before, n * n);
+    grid.repair();
+    EXPECT_EQ(n_turned(grid, grid.mesh), n == 30 ? 0 : n_before);
+  }
 }
 
 }  // namespace

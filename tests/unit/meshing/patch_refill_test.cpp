@@ -83,6 +83,20 @@ TEST(Refill, keeps_numbers_of_what_stays) {
   EXPECT_EQ(patch.triangle_previous.back(), kNone);
 }
 
+TEST(Refill, tries_no_more_than_some_hundred_places) {
+  constexpr int kApart = 6, kAcross = 18, n = kApart * kAcross;
+  for (const int n_hopeless : {299, 300}) {
+    FacePatch patch = test::grid_patch(n);
+    std::vector<std::size_t> bad;
+    for (int i = 0; i < n_hopeless; ++i) {
+      bad.push_back(static_cast<std::size_t>(2 * kApart * (i / kAcross * n + i % kAcross)) + 2 * (2 * n + 2));
+      std::swap(patch.triangles[bad[i]].n[0], patch.triangles[bad[i]].n[1]);  // what is around it is no loop
+    }
+    bad.push_back(patch.triangles.size() - 5);
+    EXPECT_EQ(refill(patch.inner_xyz, bad, patch), n_hopeless == 299 ? 1 : 0) << n_hopeless;
+  }
+}
+
 TEST(Refill, leaves_alone_what_would_still_be_folded) {
   FacePatch patch = test::grid_patch(1);  // two triangles on a rim, one turned over the other
   patch.inner_xyz[2] = {0.9, 0.2, 0};
