@@ -483,6 +483,17 @@ const std::map<std::string, Factory>& factories() {
                     BRepPrimAPI_MakeCylinder(turned, 9.99, 30).Shape())
              .Shape();
        }},
+      {"rod_and_shallow_prism",
+       [] {
+         return occt::compound_of({BRepPrimAPI_MakeCylinder(0.05, 30).Shape(), moved(shallow_prism(), 40, 0, 0)});
+       }},
+      {"thin_pin_in_block",
+       [] {
+         const gp_Ax2 turned(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(4, 3, 0));
+         return occt::compound_of(
+             {BRepAlgoAPI_Cut(moved(box(4, 4, 30), -2, -2, 0), BRepPrimAPI_MakeCylinder(0.05, 30).Shape()).Shape(),
+              BRepPrimAPI_MakeCylinder(turned, 0.05, 30).Shape()});
+       }},
       {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"wedge_strip", [] { return tapered_bar(); }},

@@ -21,6 +21,7 @@ namespace st::test {
 ///   wing_on_body (its root in a box of 16 x 4 x 8 that ends at z = 4)
 ///   banded_pie (a band of 0.002 about a part of a cylinder, its upper side in two edges)
 ///   fan (the sharp wing revolved by 90 degrees about its nose) wing_skin (without tips, inside out)
+///   thin_pin_in_block (radius 0.05, no gap) rod_and_shallow_prism
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
 ///   l_face plate_with_hole cone_side sphere_octant
 /// - Sheets: wave rational_wave high_degree_wave bezier rational_bezier stretched kinked crumpled (folded in itself)

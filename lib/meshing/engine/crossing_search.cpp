@@ -566,6 +566,12 @@ std::vector<FaceId> CrossingSearch::crossing_faces(bool others_too) const {
   return {faces.begin(), faces.end()};
 }
 
+std::vector<FaceId> CrossingSearch::touching_faces() const {
+  std::set<FaceId> faces;
+  for (const auto& [a, b] : touching_) faces.insert({a, b});
+  return {faces.begin(), faces.end()};
+}
+
 std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) const {
   std::set<std::size_t> triangles;
   for (const FacetPair& p : pairs_) {

@@ -87,6 +87,8 @@ class CrossingSearch {
   std::vector<std::int64_t> n_pairs_within() const;
   /// Faces with triangles of the last run, ascending; those of which two triangles cross each other, or all.
   std::vector<FaceId> crossing_faces(bool others_too) const;
+  /// Faces of two bodies in contact, as far as known, ascending: their triangles may cross.
+  std::vector<FaceId> touching_faces() const;
   /// Triangles of the face, by their places in its patch, that cross others of it, or also of other faces; by the last
   /// run, ascending.
   std::vector<std::size_t> crossing_in(FaceId f, bool others_too) const;

@@ -38,6 +38,10 @@ constexpr double kLight = 0.25;    // of a tile: such faces take less time than 
 constexpr int kFewPairs = 50;      // of crossing triangles: else faces that cross each other stay as they are
 constexpr double kWorthIt = 0.9;   // of the bad triangles before: as many or less are left by a refill that stays
 constexpr int kMostTakenBack = 4;  // times: bad places move
+constexpr double kLooser = 2;      // times a refined length
+constexpr int kMostLoosened = 4;   // times: most are no finer than 1/16 of the request
+constexpr int kMostTried = 2;      // meshings of one such time: places that are needed as they are come to light
+constexpr std::size_t kFewRefined = 200;      // places: else it takes too long
 constexpr std::int64_t kPerFailure = 1000;    // folds and crossings: as bad as a face that fails
 constexpr std::size_t kMostBadPlaces = 2000;  // that are looked at
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
@@ -52,6 +56,20 @@ Box3 box_of(const Curve& curve) {
   box.lo -= {margin, margin, margin};
   box.hi += {margin, margin, margin};
   return box;
+}
+
+/// Twice as long where they are not needed as they are; none where the request is met then.
+std::vector<Refinement> loosened(const std::vector<Refinement>& all, const std::vector<char>& is_needed) {
+  std::vector<Refinement> looser;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Refinement r = all[i];
+    if (!is_needed[i]) {
+      r.reach -= (kLooser - 1) * r.length / kRefinementSlope;
+      r.length *= kLooser;
+    }
+    if (r.reach > r.radius) looser.push_back(r);
+  }
+  return looser;
 }
 
 }  // namespace
@@ -195,12 +213,12 @@ std::vector<Refinement> FaceRounds::drop_useless_refinements(TakeBack what) {
   return useless;
 }
 
-/// Collective. What the refinements reached that are no more is meshed once more.
-void FaceRounds::mesh_without(const std::vector<Refinement>& useless) {
-  if (executor_.is_root()) find_dirty(useless);
+/// Collective. What these refinements reached, which are others or no more, is meshed once more.
+void FaceRounds::mesh_without(const std::vector<Refinement>& changed, const char* why) {
+  if (executor_.is_root()) find_dirty(changed);
   share(executor_, dirty_edges_, dirty_faces_);
-  log_info(fmt::format("refining at {} places did not help: {} edges, {} faces again without it", useless.size(),
-                       dirty_edges_.size(), dirty_faces_.size()));
+  log_info(fmt::format("refining at {} places {}: {} edges, {} faces again", changed.size(), why, dirty_edges_.size(),
+                       dirty_faces_.size()));
   mesh_edges();
   mesh_dirty_faces();
   close_holes();
@@ -247,25 +265,90 @@ bool FaceRounds::take_back_once(TakeBack what) {
     n_allowed += n_more_of_hopeless();
     sound = sound_faces();
   }
-  const std::vector<Refinement> all = refinements_.all(), useless = drop_useless_refinements(what);
+  const Trial before = begin_trial();
+  const std::vector<Refinement> useless = drop_useless_refinements(what);
   if (useless.empty()) return false;
-  const EdgeMesh edges = result_.edges;
-  const std::vector<FacePlace> places = places_;
-  const std::vector<FaceOutcome> outcomes = outcomes_;
-  mesh_without(useless);
+  mesh_without(useless, "did not help");
   char is_worse = n_bad() > n_allowed || !std::ranges::includes(sound_faces(), sound);
   share(executor_, is_worse);
   if (!is_worse) return true;
-  refinements_.assign(all);
-  result_.edges = edges;
+  go_back(before, dirty_faces_);
+  return false;
+}
+
+FaceRounds::Trial FaceRounds::begin_trial() const { return {refinements_.all(), result_.edges, places_, outcomes_}; }
+
+/// Collective. To the mesh from before; `meshed`: faces that were done again since then.
+void FaceRounds::go_back(const Trial& before, const std::vector<FaceId>& meshed) {
+  refinements_.assign(before.refinements);
+  result_.edges = before.edges;
   numbering_.emplace(topology_, result_.edges);
   if (executor_.is_root()) {
-    places_ = places;
-    outcomes_ = outcomes;
-    for (const FaceId f : dirty_faces_) crossings_.renew(f);
+    places_ = before.places;
+    outcomes_ = before.outcomes;
+    for (const FaceId f : meshed) crossings_.renew(f);
   }
   crossings_.run(*numbering_, places_);
+}
+
+/// Collective. Rounds ask for half of a length at once, also beside places that need nothing any more. Where all is
+/// sound in the end, longer lengths with which it stays so are taken.
+void FaceRounds::loosen_refinements() {
+  char is_sound = !is_restored_ && n_bad() == 0;
+  share(executor_, is_sound);
+  if (!is_sound || refinements_.all().size() > kFewRefined) return;
+  for (int i = 0; i < kMostLoosened && loosen_once(); ++i) {
+  }
+}
+
+/// Collective. All lengths twice as long, but for those that must stay, and those about places that are bad then.
+/// Whether some stay so.
+bool FaceRounds::loosen_once() {
+  const Trial before = begin_trial();
+  std::vector<char> is_needed = must_stay();
+  std::vector<Refinement> changed;
+  for (std::size_t k = 0; k < is_needed.size(); ++k)
+    if (!is_needed[k]) changed.push_back(before.refinements[k]);
+  std::vector<FaceId> meshed;
+  for (int i = 0; i < kMostTried && !changed.empty() && std::ranges::count(is_needed, 0) > 0; ++i) {
+    refinements_.assign(loosened(before.refinements, is_needed));
+    mesh_without(changed, i == 0 ? "may be too much" : "is needed");
+    meshed.insert(meshed.end(), dirty_faces_.begin(), dirty_faces_.end());
+    char is_sound = n_bad() == 0;
+    share(executor_, is_sound);
+    if (is_sound) return true;
+    changed = find_needed(before.refinements, is_needed);
+  }
+  if (!meshed.empty()) go_back(before, meshed);
   return false;
+}
+
+/// Collective. By refinement: its length was measured, or it reaches faces of bodies in contact, which may cross, so
+/// that nothing tells what is sound there.
+std::vector<char> FaceRounds::must_stay() const {
+  const std::vector<FaceId> touching = crossings_.touching_faces();
+  std::vector<char> stays;
+  for (const Refinement& r : refinements_.all())
+    stays.push_back(r.radius > 0 || std::ranges::any_of(touching, [&](FaceId f) {
+                      return box_distance(tables_.face_box[f], r.x) < r.reach;
+                    }));
+  share(executor_, stays);
+  return stays;
+}
+
+/// Collective. Marks and returns those of `all` that reach places that are bad now.
+std::vector<Refinement> FaceRounds::find_needed(const std::vector<Refinement>& all,
+                                                std::vector<char>& is_needed) const {
+  const std::vector<Vec3> bad = bad_places();
+  std::vector<Refinement> needed;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Refinement& r = all[k];
+    if (is_needed[k] || std::ranges::none_of(bad, [&](Vec3 x) { return distance(r.x, x) < r.reach; })) continue;
+    is_needed[k] = 1;
+    needed.push_back(r);
+  }
+  share(executor_, is_needed, needed);
+  return needed;
 }
 
 /// Folds and crossings that no smaller sizes could help: triangles of the same nodes without them, off the surface
@@ -328,6 +411,7 @@ void FaceRounds::part_touching() {
 
 void FaceRounds::report(PatchesGo patches) {
   take_back_refinements();
+  loosen_refinements();
   refill_bad();
   part_touching();
   share(executor_, places_);

@@ -127,7 +127,19 @@ class FaceRounds : public MeshRounds {
   std::vector<Refinement> drop_useless_refinements(TakeBack what);
   std::vector<Vec3> bad_places() const;
   std::int64_t n_bad() const;
-  void mesh_without(const std::vector<Refinement>& useless);
+  void mesh_without(const std::vector<Refinement>& changed, const char* why);
+  struct Trial {  // what it may change
+    std::vector<Refinement> refinements;
+    EdgeMesh edges;
+    std::vector<FacePlace> places;
+    std::vector<FaceOutcome> outcomes;
+  };
+  Trial begin_trial() const;
+  void go_back(const Trial& before, const std::vector<FaceId>& meshed);
+  void loosen_refinements();
+  bool loosen_once();
+  std::vector<char> must_stay() const;
+  std::vector<Refinement> find_needed(const std::vector<Refinement>& all, std::vector<char>& is_needed) const;
 
   const Model& model_;
   const MeshTopology& topology_;

@@ -109,6 +109,11 @@ TEST(CrossingSearch, measures_what_it_takes_to_part_bodies_and_leaves_those_in_c
   }
   EXPECT_TRUE(within.run(pin.result.patches).empty());
   EXPECT_TRUE(touching.run(boxes.result.patches).empty());
+  EXPECT_TRUE(touching.search.touching_faces().empty());
+  const Meshed fitting("thin_pin_in_block", 3);
+  Search contact(fitting);
+  EXPECT_TRUE(contact.run(fitting.result.patches).empty());
+  EXPECT_FALSE(contact.search.touching_faces().empty());
 }
 
 TEST(CrossingSearch, finds_in_sections_what_it_finds_in_whole_patches) {

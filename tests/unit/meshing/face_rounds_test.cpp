@@ -76,6 +76,28 @@ TEST(FaceRounds, keep_what_refining_mended_beside_a_face_that_is_given_up) {
   EXPECT_EQ(meshed.result.n_crossing_pairs, 0) << "the pipe lies in the sheet's box, its walls 0.02 apart";
 }
 
+TEST(FaceRounds, take_longer_lengths_where_rounds_refined_more_than_is_needed) {
+  const test::Meshed rod("thin_cylinder", 3);
+  EXPECT_GT(rod.result.n_rounds, 1);
+  EXPECT_TRUE(rod.result.folds.empty() && rod.result.failures.empty());
+  EXPECT_EQ(rod.result.n_crossing_pairs, 0);
+  EXPECT_TRUE(check_topology(rod.mesh, edges_of(rod.mesh)).is_closed());
+  EXPECT_LT(rod.mesh.n_triangles(), 140) << "172 with what the rounds refined";
+}
+
+TEST(FaceRounds, take_longer_lengths_place_by_place) {
+  const test::Meshed rod("thin_cylinder", 3), prism("shallow_prism", 3), both("rod_and_shallow_prism", 3);
+  EXPECT_EQ(both.mesh.n_triangles(), rod.mesh.n_triangles() + prism.mesh.n_triangles())
+      << "the prism needs what was refined";
+  EXPECT_EQ(both.result.n_crossing_pairs, 0);
+}
+
+TEST(FaceRounds, keep_what_they_refined_where_bodies_in_contact_may_cross) {
+  const test::Meshed pin("thin_pin_in_block", 3);
+  EXPECT_GT(pin.result.n_rounds, 1);
+  EXPECT_GT(pin.mesh.n_triangles(), 800) << "638 with longer lengths";
+}
+
 TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {
   const test::Meshed meshed("crossed_loop", 2);
   const MeshResult& r = meshed.result;
