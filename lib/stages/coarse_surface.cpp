@@ -41,7 +41,7 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
 
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
                                  double seconds, const Executor& executor) {
-  if (!is_closed(model.tables(), report_edge_uses(model.tables()).n_free)) return {};
+  if (!is_closed(model.tables(), report_edge_uses(model.tables()))) return {};
   const std::vector<CellLength> cells = prolong_openly(raster, executor);
   OctreeFieldData data;
   data.octree = raster.octree.shape.view();

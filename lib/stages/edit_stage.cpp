@@ -281,7 +281,7 @@ EditResult judge(const Edited& e, const EditInputs& inputs) {
       std::all_of(e.motion.begin(), e.motion.end(), [&](const Similarity& m) { return m.scale == scale; });
   if (scaled_as_one && scale != 1) scale_tolerances(scale, r.tables.labels);
   r.uses = report_edge_uses(r.tables);
-  r.is_closed = is_closed(r.tables, r.uses.n_free);
+  r.is_closed = is_closed(r.tables, r.uses);
   if (!r.is_closed)
     r.tables.volume.reset();
   else if (!r.tables.volume && r.uses.n_nonmanifold == 0)

@@ -228,7 +228,10 @@ void say_unit(const ImportStageOptions& o, const ImportResult& r) {
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
-  if (!r.is_closed && r.n_free_edges == 0)
+  if (!r.is_closed && r.n_free_edges == 0 && r.n_contradictory_edges > 0)
+    log_warning(fmt::format("{}: the model encloses no volume: faces disagree at {} edges which side is outside", model,
+                            r.n_contradictory_edges));
+  else if (!r.is_closed && r.n_free_edges == 0)
     log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
     log_warning(

@@ -92,6 +92,22 @@ class Vsp(ToolTest):
                 label = f"shaken_{te}_{tip}_{layout}"
                 self.expect_closed(self.imported(label, [wing], layout), [wing], 1, label)
 
+    def test_shaken_points_never_close_to_another_volume(self):
+        """Edges shorter than what was shaken find wrong partners: bodies with one side, or edges ten feet apart."""
+        layouts = (("straight", "sharp", "flat", "patches", 3e-5, 23), ("kinked", "sharp", "flat", "skins", 3e-5, 62),
+                   ("straight", "blunt", "round", "whole", 1e-6, 38), ("kinked", "blunt", "flat", "whole", 1e-5, 3))
+        for kind, te, tip, layout, by, seed in layouts:
+            sound = getattr(vsp, kind + "_wing")(te=te, tip=tip, strips=te == "blunt")
+            label = f"shaken_{kind}_{te}_{tip}_{layout}"
+            self.expect_closed(self.imported(label, [vsp.shaken(sound, by, seed)], layout), [sound], 1, label)
+
+    def test_what_sewing_would_twist_stays_open_and_is_named(self):
+        wing = vsp.shaken(vsp.straight_wing(te="blunt", strips=True), 1e-5, 65)
+        report = self.imported("twisted", [wing], "patches")
+        self.assertFalse(report["closed"])
+        self.assertEqual(report["volume"], 0)
+        self.assertTrue([f for f in report["findings"] if "could not agree which side is outside" in f["what"]])
+
 
 if __name__ == "__main__":
     unittest.main()

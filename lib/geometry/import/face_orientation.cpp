@@ -5,6 +5,8 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -50,6 +52,7 @@ class FaceTurner {
     for (TopExp_Explorer e(model.shape, TopAbs_SOLID); e.More(); e.Next())
       for (TopExp_Explorer f(e.Current(), TopAbs_FACE); f.More(); f.Next())
         is_reversed_[model.faces.FindIndex(f.Current()) - 1] = kUnseen;
+    take_solids_that_disagree();
     is_in_shell_.assign(n, 0);
     for (TopExp_Explorer e(model.shape, TopAbs_SHELL); e.More(); e.Next())
       for (TopExp_Explorer f(e.Current(), TopAbs_FACE); f.More(); f.Next())
@@ -76,6 +79,9 @@ class FaceTurner {
   const std::vector<char>& is_turned() const { return is_turned_; }
   /// [n_faces] The first face of those with which it makes a shell; kNone: stays alone, or is in a shell.
   const std::vector<int>& shell() const { return shell_; }
+  /// Whether faces in it may be turned.
+  bool is_open_to_change(const TopoDS_Shape& solid) const { return solids_.Contains(solid); }
+  bool is_in_solid(std::size_t f) const { return is_in_solid_[f] != 0; }
   /// After turning.
   bool points_back(std::size_t f) const { return is_turned_[f] != is_reversed_[f]; }
 
@@ -83,6 +89,41 @@ class FaceTurner {
   static constexpr char kUnseen = 2;  // or in a solid
 
   TopoDS_Face face(int f) const { return TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD)); }
+
+  /// Solids with an edge that both its faces run along the same way, none of whose faces is in another one.
+  void take_solids_that_disagree() {
+    is_in_solid_.assign(is_reversed_.size(), 0);
+    std::vector<int> n_sides(is_reversed_.size(), 0);
+    for (TopExp_Explorer f(model_.shape, TopAbs_FACE); f.More(); f.Next())
+      ++n_sides[model_.faces.FindIndex(f.Current()) - 1];
+    for (TopExp_Explorer s(model_.shape, TopAbs_SOLID); s.More(); s.Next()) {
+      if (!disagrees(s.Current(), n_sides)) continue;
+      solids_.Add(s.Current());
+      for (TopExp_Explorer f(s.Current(), TopAbs_FACE); f.More(); f.Next()) {
+        const int i = model_.faces.FindIndex(f.Current()) - 1;
+        is_reversed_[i] = f.Current().Orientation() == TopAbs_REVERSED;
+        is_in_solid_[i] = 1;
+      }
+    }
+  }
+
+  bool disagrees(const TopoDS_Shape& solid, const std::vector<int>& n_sides) const {
+    TopTools_IndexedMapOfShape edges;
+    std::vector<int> uses, turns;
+    for (TopExp_Explorer f(solid, TopAbs_FACE); f.More(); f.Next()) {
+      if (n_sides[model_.faces.FindIndex(f.Current()) - 1] > 1) return false;
+      for (TopExp_Explorer e(f.Current(), TopAbs_EDGE); e.More(); e.Next()) {
+        if (is_constraint(e.Current()) || BRep_Tool::Degenerated(TopoDS::Edge(e.Current()))) continue;
+        const auto i = static_cast<std::size_t>(edges.Add(e.Current())) - 1;
+        if (i == uses.size()) uses.push_back(0), turns.push_back(0);
+        ++uses[i];
+        turns[i] += e.Current().Orientation() == TopAbs_REVERSED ? -1 : 1;
+      }
+    }
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      if (uses[i] == 2 && turns[i] != 0) return true;
+    return false;
+  }
 
   void collect_uses() {
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
@@ -165,8 +206,9 @@ class FaceTurner {
   }
 
   const ImportedShape& model_;
-  std::vector<char> is_turned_, is_reversed_, is_in_shell_;  // [n_faces]
-  std::vector<int> shell_;                                   // [n_faces]
+  std::vector<char> is_turned_, is_reversed_, is_in_shell_, is_in_solid_;  // [n_faces]
+  std::vector<int> shell_;                                                 // [n_faces]
+  TopTools_MapOfShape solids_;
   TopTools_IndexedMapOfShape edges_;
   std::vector<std::vector<Use>> uses_;  // [n_edges]
 };
@@ -193,7 +235,8 @@ class ShapeMaker {
       if (first != kNone) return first == f ? shells_.at(f) : TopoDS_Shell();
       return turner_.is_turned()[f] ? shape.Reversed() : shape;
     }
-    if (shape.ShapeType() > TopAbs_FACE || shape.ShapeType() == TopAbs_SOLID) return shape;
+    if (shape.ShapeType() > TopAbs_FACE) return shape;
+    if (shape.ShapeType() == TopAbs_SOLID && !turner_.is_open_to_change(shape)) return shape;
     TopoDS_Shape result = shape.EmptyCopied();
     result.Location(TopLoc_Location());
     for (TopoDS_Iterator child(shape); child.More(); child.Next())
@@ -213,11 +256,14 @@ class ShapeMaker {
 void orient_faces(ImportedShape& model, std::vector<ImportFinding>& findings) {
   FaceTurner turner(model);
   turner.run();
-  const auto n = std::ranges::count(turner.is_turned(), 1);
-  if (n == 0 && std::ranges::all_of(turner.shell(), [](int first) { return first == kNone; })) return;
+  std::size_t n[2] = {0, 0};  // outside solids, in solids
+  for (std::size_t f = 0; f < turner.is_turned().size(); ++f)
+    if (turner.is_turned()[f]) ++n[turner.is_in_solid(f)];
+  if (n[0] + n[1] == 0 && std::ranges::all_of(turner.shell(), [](int first) { return first == kNone; })) return;
   model.replace(ShapeMaker(model, turner).run(), [](const TopoDS_Shape& face) { return face; });
-  if (n > 0)
-    findings.push_back({FindingKind::kOther, "", {}, 0, true, "faces of open surfaces turned: " + std::to_string(n)});
+  const char* const what[2] = {"faces of open surfaces turned: ", "faces of solids turned as their neighbours: "};
+  for (const int k : {0, 1})
+    if (n[k] > 0) findings.push_back({FindingKind::kOther, "", {}, 0, true, what[k] + std::to_string(n[k])});
 }
 
 }  // namespace st::occt

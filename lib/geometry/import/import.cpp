@@ -131,6 +131,10 @@ void add_flow_domain(ImportedShape& model, occt::ModelOfFile& tables, const Flow
 }
 
 void require_closed(const ImportResult& result, const std::string& path) {
+  if (!result.is_closed && result.n_free_edges == 0 && result.n_contradictory_edges > 0)
+    throw Error(ExitCode::kGeometry, path +
+                                         ": the model encloses no volume: its faces disagree which side is outside; "
+                                         "repair it in the CAD system, or import without --require-closed");
   if (!result.is_closed)
     throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
                                          " free edges; close it in the CAD system, or import without --require-closed");

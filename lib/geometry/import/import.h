@@ -31,6 +31,7 @@ struct ImportResult {
   std::string format;      ///< "STEP", "IGES", "BREP"
   bool is_closed = false;  ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
+  int n_contradictory_edges = 0;  ///< at which both faces disagree which side is outside
   bool has_assumed_unit = false;  ///< the file names no unit, and that of ImportOptions was taken as it
   double area = 0, volume = 0;    ///< model unit squared, cubed (volume 0 when open)
 };

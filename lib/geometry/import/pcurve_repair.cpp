@@ -200,9 +200,8 @@ void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) 
       const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(use.edge, use.face, p0, p1);
       use.curve = BRep_Tool::Curve(use.edge, use.t0, use.t1);
       if (pcurve.IsNull() || use.curve.IsNull()) continue;
-      if (largest_gap(use, pcurve, kFewSamples).distance <=
-          std::max(harmless, kExcess * BRep_Tool::Tolerance(use.edge)))
-        continue;
+      const double allowed = std::min(kExcess * BRep_Tool::Tolerance(use.edge), kWide * diagonal);
+      if (largest_gap(use, pcurve, kFewSamples).distance <= std::max(harmless, allowed)) continue;
       repair(use, pcurve, diagonal, entity(edges.FindIndex(use.edge), f), findings);
     }
   }

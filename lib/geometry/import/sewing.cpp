@@ -26,6 +26,7 @@
 #include "geometry/import/bare_surfaces.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/edge_places.h"
+#include "geometry/import/false_joins.h"
 #include "geometry/import/import.h"
 #include "geometry/import/imprints.h"
 #include "geometry/import/rooms.h"
@@ -45,10 +46,26 @@ struct Sewn {
   TopoDS_Shape shape;
   std::vector<TopoDS_Shape> images;
   int n_free = 0;
+  int n_false = 0;             ///< edges that joined what does not belong together
   double tolerance = 0;        ///< that it was sewn with
   double group_tolerance = 0;  ///< that groups of it were sewn with before
   double edge_tolerance = 0;   ///< largest of its edges
+
+  /// Edges that are free, or should be.
+  int n_open() const { return n_free + 2 * n_false; }
 };
+
+/// Edges further apart are no partners. `before`: the largest tolerance of an edge then.
+double reasonable_tolerance(double tolerance, double before) { return kToleranceGrowth * std::max(tolerance, before); }
+
+/// Counts what is free or false.
+void judge(Sewn& sewn, double reasonable) {
+  sewn.n_free = count_free_edges(sewn.shape);
+  sewn.edge_tolerance = max_edge_tolerance(sewn.shape);
+  TopTools_IndexedMapOfShape edges;
+  for (const FalseJoin& join : find_false_joins(sewn.shape, reasonable)) edges.Add(join.edge);
+  sewn.n_false = edges.Extent();
+}
 
 bool keeps_faces(const Sewn& sewn, int n_faces) {
   TopTools_IndexedMapOfShape faces;
@@ -134,10 +151,9 @@ Sewn sew_groups(const ImportedShape& model, const Sewn& original, const std::vec
       if (of_face[f] < tolerance) all.push_back(sewn->images[f]);
     sewn->shape = compound_of(all);
     if (!keeps_faces(*sewn, model.faces.Extent())) continue;
-    sewn->n_free = count_free_edges(sewn->shape);
-    sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
+    judge(*sewn, reasonable_tolerance(tolerance, original.edge_tolerance));
     sewn->group_tolerance = tolerance;
-    if (sewn->n_free < state.n_free) state = *sewn;
+    if (sewn->n_open() < state.n_open() && sewn->n_false == 0) state = *sewn;
   }
   return state;
 }
@@ -147,7 +163,7 @@ Sewn sew_groups(const ImportedShape& model, const Sewn& original, const std::vec
 bool is_better(const Sewn& a, const Sewn& b, double reasonable) {
   const bool wild_a = a.edge_tolerance > reasonable, wild_b = b.edge_tolerance > reasonable;
   if (wild_a != wild_b) return wild_b;
-  if (a.n_free != b.n_free) return a.n_free < b.n_free;
+  if (a.n_open() != b.n_open()) return a.n_open() < b.n_open();
   return a.edge_tolerance < 0.5 * b.edge_tolerance;
 }
 
@@ -287,26 +303,64 @@ std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const
   const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
   std::optional<Sewn> best;
   const auto is_closed_by = [&](std::optional<Sewn> sewn, double tolerance) {
-    const double reasonable = kToleranceGrowth * std::max(tolerance, start.edge_tolerance);
+    const double reasonable = reasonable_tolerance(tolerance, start.edge_tolerance);
     if (sewn && keeps_faces(*sewn, model.faces.Extent())) {
-      sewn->n_free = count_free_edges(sewn->shape);
-      sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
-      if (sewn->n_free <= n_allowed && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
+      judge(*sewn, reasonable);
+      if (sewn->n_open() <= n_allowed && (!best || is_better(*sewn, *best, reasonable))) best = sewn;
     }
-    return best && best->n_free == 0 && best->edge_tolerance <= reasonable;
+    return best && best->n_open() == 0 && best->edge_tolerance <= reasonable;
   };
   for (const double tolerance : tolerances) {
     if (is_closed_by(sew(start, {start.shape}, tolerance), tolerance)) return best;
     if (is_closed_by(sew_by_component(model, start, tolerance), tolerance)) return best;
   }
   for (const double tolerance : tolerances) {
-    if (!has_short_free_edge(best ? best->shape : start.shape, tolerance)) continue;
+    if (!(best && best->n_false > 0) && !has_short_free_edge(best ? best->shape : start.shape, tolerance)) continue;
     const std::optional<Sewn> before = best;
     if (is_closed_by(sew(start, {start.shape}, tolerance, FacesAtEdge::kTwo, ShortEdges::kArePoints), tolerance))
       return best;
     best = before;
   }
   return best;
+}
+
+ImportFinding false_join_finding(int face, const FalseJoin& join) {
+  const Box3 box = rough_box(join.edge);
+  return {FindingKind::kUndoneRepair,
+          "face " + std::to_string(face + 1),
+          box.center(),
+          join.distance,
+          false,
+          join.distance > 0 ? "sewn, it would end " + format_number(join.distance) + " away from its edge"
+                            : "sewn, it and its neighbours could not agree which side is outside"};
+}
+
+/// Sewn again, as `wrong` was, without the faces at false edges, each of which is said; nothing where that joins
+/// nothing.
+std::optional<Sewn> sew_without_false_joins(const ImportedShape& model, const Sewn& start, Sewn wrong,
+                                            std::vector<ImportFinding>& findings) {
+  constexpr int kMostPasses = 4;
+  std::set<int> left_out;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const double reasonable = reasonable_tolerance(wrong.tolerance, start.edge_tolerance);
+    for (const FalseJoin& join : find_false_joins(wrong.shape, reasonable))
+      for (int i = 0; i < model.faces.Extent(); ++i)
+        if (wrong.images[i].IsSame(join.face) && left_out.insert(i).second)
+          findings.push_back(false_join_finding(i, join));
+    std::vector<TopoDS_Shape> parts, all;
+    for (int i = 0; i < model.faces.Extent(); ++i) (left_out.count(i) > 0 ? all : parts).push_back(start.images[i]);
+    if (parts.empty()) return std::nullopt;
+    std::optional<Sewn> sewn = sew(start, parts, wrong.tolerance);
+    if (!sewn) return std::nullopt;
+    const std::vector<TopoDS_Shape> pieces = pieces_of(sewn->shape);
+    all.insert(all.begin(), pieces.begin(), pieces.end());
+    sewn->shape = compound_of(all);
+    if (!keeps_faces(*sewn, model.faces.Extent())) return std::nullopt;
+    judge(*sewn, reasonable);
+    if (sewn->n_false == 0) return sewn->n_free < start.n_free ? sewn : std::nullopt;
+    wrong = std::move(*sewn);
+  }
+  return std::nullopt;
 }
 
 int count_edges(const TopoDS_Shape& shape) {
@@ -338,12 +392,11 @@ std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& star
   all.push_back(sewn->shape);
   sewn->shape = compound_of(pieces_of(compound_of(all)));
   if (!keeps_faces(*sewn, n_faces)) return std::nullopt;
-  sewn->n_free = count_free_edges(sewn->shape);
-  sewn->edge_tolerance = max_edge_tolerance(sewn->shape);
-  const double reasonable = kToleranceGrowth * std::max(tolerance, now.edge_tolerance);
-  const bool is_joined =
-      sewn->n_free < now.n_free || (sewn->n_free == now.n_free && count_edges(sewn->shape) < count_edges(now.shape));
-  if (!is_joined || sewn->edge_tolerance > reasonable) return std::nullopt;
+  const double reasonable = reasonable_tolerance(tolerance, now.edge_tolerance);
+  judge(*sewn, reasonable);
+  const bool is_joined = sewn->n_open() < now.n_open() ||
+                         (sewn->n_open() == now.n_open() && count_edges(sewn->shape) < count_edges(now.shape));
+  if (!is_joined || sewn->n_false > 0 || sewn->edge_tolerance > reasonable) return std::nullopt;
   return sewn;
 }
 
@@ -388,6 +441,7 @@ Pairs sew_pairs(ImportedShape& model, const SewingLimits& limits, std::vector<Im
   const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
   pairs.tolerances = tolerances_to_try(rough_box(model.shape).diagonal(), base, limits.largest);
   pairs.best = sew_all(model, start, pairs.tolerances);
+  if (pairs.best && pairs.best->n_false > 0) pairs.best = sew_without_false_joins(model, start, *pairs.best, findings);
   if (pairs.best && pairs.best->n_free < start.n_free)
     findings.push_back(sewn_finding(FindingKind::kSewn, start, *pairs.best, pairs.best->tolerance));
   return pairs;
@@ -415,7 +469,7 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   ImportedShape divided = model;
   std::vector<ImportFinding> own, of_divided;
   const Pairs pairs = sew_pairs(model, limits, own);
-  bool is_divided = pairs.now().n_free > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided);
+  bool is_divided = pairs.now().n_open() > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided);
   if (is_divided) {
     take_pairs(divided, sew_pairs(divided, limits, of_divided), of_divided);
     is_divided = free_length(divided.shape) < kLessFree * free_length(pairs.now().shape);

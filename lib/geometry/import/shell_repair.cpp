@@ -1,5 +1,6 @@
 #include "geometry/import/shell_repair.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/false_joins.h"
 #include "geometry/import/import.h"
 
 #include <BRepClass3d_SolidClassifier.hxx>
@@ -13,6 +14,7 @@
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <cmath>
+#include <limits>
 
 namespace st::occt {
 namespace {
@@ -39,7 +41,7 @@ std::vector<LooseShell> loose_closed_shells(const ImportedShape& model, const Fa
   for (TopExp_Explorer e(model.shape, TopAbs_SHELL, TopAbs_SOLID); e.More(); e.Next()) {
     if (count_free_edges(e.Current()) > 0) continue;
     const double volume = signed_volume(model, measures, e.Current());
-    if (volume == 0) continue;
+    if (volume == 0 || !find_false_joins(e.Current(), std::numeric_limits<double>::infinity()).empty()) continue;
     shells.push_back(
         {e.Current(), volume < 0 ? e.Current().Reversed() : e.Current(), rough_box(e.Current()), std::fabs(volume)});
   }

@@ -22,11 +22,13 @@ Vec3 middle(const ModelTables& t, EdgeId e) {
   return 0.5 * (t.vertex_xyz[t.edge_vertices[2 * e]] + t.vertex_xyz[t.edge_vertices[2 * e + 1]]);
 }
 
-void report_uses(ImportResult& result) {
+EdgeUses report_uses(ImportResult& result) {
   const EdgeUses uses = report_edge_uses(result.tables);
   result.n_free_edges = uses.n_free;
   result.n_nonmanifold_edges = uses.n_nonmanifold;
+  result.n_contradictory_edges = uses.n_contradictory;
   result.findings.insert(result.findings.end(), uses.findings.begin(), uses.findings.end());
+  return uses;
 }
 
 void report_edges(double small, ImportResult& result) {
@@ -122,11 +124,11 @@ std::string cause(const BRepCheck_Analyzer& checker, const TopoDS_Shape& shape) 
 }  // namespace
 
 void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result) {
-  report_uses(result);
+  const EdgeUses uses = report_uses(result);
   report_faces(measures, small, result);
   report_edges(small, result);
   report_gaps(model, small, result);
-  result.is_closed = is_closed(result.tables, result.n_free_edges);
+  result.is_closed = is_closed(result.tables, uses);
   for (double a : result.tables.face_area) result.area += a;
   if (!result.is_closed) return;
   std::vector<int> n_sides(result.tables.n_faces(), 0);

@@ -15,6 +15,7 @@ struct Wording {
 constexpr Wording kWordings[] = {
     {"free edge", "free edge"},
     {"non-manifold edge", "non-manifold edge"},
+    {"faces disagree which side is outside", "faces disagree which side is outside"},
     {"short edge", "short edge"},
     {"tolerance larger than the edge is long", "tolerance larger than the edge is long"},
     {"edges end away from their vertex", "edges end away from their vertex"},

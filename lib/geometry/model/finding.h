@@ -11,6 +11,7 @@ namespace st {
 enum class FindingKind : std::uint8_t {
   kFreeEdge,               ///< used by one face only
   kNonManifoldEdge,        ///< used by three faces or more
+  kContradiction,          ///< both faces of an edge disagree which side is outside
   kShortEdge,              ///< shorter than --small
   kLooseEdgeTolerance,     ///< tolerance larger than the edge is long
   kOpenVertex,             ///< edges end away from their vertex

@@ -7,6 +7,8 @@
 #include <BRep_Builder.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <algorithm>
 
 #include "geometry/import/import.h"
@@ -66,6 +68,37 @@ TEST(FaceOrientation, of_a_sheet_stays_as_it_is) {
     EXPECT_EQ(r.tables.face_is_reversed[0] != 0, is_turned);
     EXPECT_EQ(n_turned(r), 0);
   }
+}
+
+/// A solid of the shape's first shell, with one face turned.
+ImportResult import_with_turned_face(const std::string& shape, int turned) {
+  const TemporaryDirectory dir;
+  test::write_brep(shape, dir / "a.brep");
+  TopoDS_Shape whole;
+  BRep_Builder builder;
+  BRepTools::Read(whole, (dir / "a.brep").c_str(), builder);
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  int n = 0;
+  for (TopExp_Explorer e(whole, TopAbs_FACE); e.More(); e.Next())
+    builder.Add(shell, n++ == turned ? e.Current().Reversed() : e.Current());
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  BRepTools::Write(solid, (dir / "b.brep").c_str());
+  return import_model(dir / "b.brep", {});
+}
+
+TEST(FaceOrientation, of_a_solid_is_that_of_most_of_its_faces) {
+  for (const char* shape : {"box", "drilled_block"})
+    for (const int turned : {0, 1, 3}) {
+      const ImportResult right = test::import_shape(shape), r = import_with_turned_face(shape, turned);
+      EXPECT_TRUE(r.is_closed) << shape;
+      EXPECT_NEAR(r.volume, right.volume, 1e-9 * right.volume) << shape << turned;
+      EXPECT_EQ(std::ranges::count_if(
+                    r.findings, [](const ImportFinding& f) { return f.what().starts_with("faces of solids turned"); }),
+                1);
+    }
 }
 
 TEST(FaceOrientation, of_solids_is_left_to_repair_shells) {
