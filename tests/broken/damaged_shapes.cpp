@@ -9,9 +9,11 @@
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
+#include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_TEdge.hxx>
 #include <BRep_Tool.hxx>
@@ -26,6 +28,7 @@
 #include <Geom_Curve.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -41,6 +44,7 @@
 #include <TopoDS_Iterator.hxx>
 #include <cmath>
 #include <functional>
+#include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 #include <map>
 #include <stdexcept>
@@ -97,6 +101,51 @@ TopoDS_Shape stray_hole() {
   face.Add(TopoDS::Wire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle, surface).Edge()).Wire().Reversed()));
   BRepLib::BuildCurves3d(face.Face());
   return face.Face();
+}
+
+/// A hole in the plane of a box's top, beside the box. `has_tube`: another face begins at it.
+TopoDS_Shape box_with_stray_hole(bool has_tube) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
+  const TopoDS_Edge circle = BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(100, 20, 20), gp::DZ()), 5)).Edge();
+  const TopTools_IndexedMapOfShape faces = parts_of(box, TopAbs_FACE);
+  BRepTools_ReShape reshape;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const TopoDS_Face face = TopoDS::Face(faces(f));
+    const gp_Pln plane = Handle(Geom_Plane)::DownCast(BRep_Tool::Surface(face))->Pln();
+    if (plane.Distance(gp_Pnt(0, 0, 20)) + plane.Distance(gp_Pnt(60, 40, 20)) + plane.Distance(gp_Pnt(60, 0, 20)) > 1)
+      continue;
+    TopoDS_Shape with_hole = face.EmptyCopied().Oriented(TopAbs_FORWARD);
+    for (TopoDS_Iterator w(face, false); w.More(); w.Next()) BRep_Builder().Add(with_hole, w.Value());
+    const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(circle).Wire();
+    BRep_Builder().Add(with_hole, plane.Axis().Direction().Z() > 0 ? wire.Reversed() : wire.Oriented(TopAbs_FORWARD));
+    reshape.Replace(face.Oriented(TopAbs_FORWARD), with_hole);
+  }
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  builder.Add(all, reshape.Apply(box));
+  if (has_tube) builder.Add(all, BRepPrimAPI_MakePrism(circle, gp_Vec(0, 0, 30)).Shape());
+  return all;
+}
+
+/// A drilled box, of whose top the outer loop or the hole runs the wrong way.
+TopoDS_Shape drilled_box_turned(bool is_outer) {
+  const TopoDS_Shape box =
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(60, 40, 20).Shape(),
+                      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(20, 20, -1), gp::DZ()), 8, 22).Shape());
+  const TopTools_IndexedMapOfShape faces = parts_of(box, TopAbs_FACE);
+  BRepTools_ReShape reshape;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+    if (face.NbChildren() != 2) continue;
+    const TopoDS_Wire outer = BRepTools::OuterWire(face);
+    TopoDS_Shape turned = face.EmptyCopied();
+    for (TopoDS_Iterator w(face); w.More(); w.Next())
+      BRep_Builder().Add(turned, w.Value().IsSame(outer) == is_outer ? w.Value().Reversed() : w.Value());
+    reshape.Replace(face, turned);
+    break;
+  }
+  return reshape.Apply(box);
 }
 
 double signed_area(const TopoDS_Wire& wire, const TopoDS_Face& face) {
@@ -438,6 +487,10 @@ Makers makers() {
       {"rod_hole_no_seam", [] { return without_seam(rod_hole()); }},
       {"rod_hole_no_seam_p1", [] { return without_seam(with_moved_loop(rod_hole(), 0, 1, 0)); }},
       {"stray_hole", stray_hole},
+      {"box_stray_hole", [] { return box_with_stray_hole(false); }},
+      {"box_stray_tube", [] { return box_with_stray_hole(true); }},
+      {"turned_hole", [] { return drilled_box_turned(false); }},
+      {"turned_outer", [] { return drilled_box_turned(true); }},
       {"torus_hole", torus_hole},
       {"torus_hole_off", [] { return with_moved_loop(torus_hole(), 0, 1, -1); }},
   };

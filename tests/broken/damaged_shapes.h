@@ -21,7 +21,10 @@ namespace st::test {
 ///   or only closed), rod_all_beyond (a closed one, all its loops a turn too far), rod_hole_elsewhere (half a turn
 ///   off), rod_hole_nearly_closed (a spline, closed within tolerance, the hole a turn off), rod_hole_no_seam and
 ///   rod_hole_no_seam_p1 (without the seam; the hole a turn off).
-/// - stray_hole: a quarter of a tube's side, with a hole in what is not there.
+/// - stray_hole: a quarter of a tube's side, with a hole in what is not there; box_stray_hole: a hole in the plane of a
+///   box's top, beside it; box_stray_tube: likewise, and another face begins there.
+/// - A box of 60 x 40 x 20 with a hole of radius 8 through it: turned_hole, turned_outer (one loop of the top runs the
+///   wrong way).
 /// - A torus of radii 40 and 10 with a radial hole: torus_hole, torus_hole_off (in u and v).
 std::vector<std::string> damaged_shapes();
 

@@ -41,6 +41,15 @@ class Faces(ToolTest):
                 self.assertEqual(moved["triangles"], sound["triangles"])
             self.assertAlmostEqual(moved["area"] / sound["area"], 1, delta=1e-3, msg=name)
 
+    def test_a_hole_beside_its_face_is_left_out(self):
+        for name, area in (("stray_hole", 30 * 1.5 * 100), ("box_stray_hole", 8800),
+                           ("box_stray_tube", 8800 + 2 * math.pi * 5 * 30)):
+            run, _ = self.imported(MODELS / f"{name}.brep")
+            self.assertIn("hole outside its face, left out", run.err)
+            self.assertAlmostEqual(run.json()["area"] / area, 1, 5, name)
+            self.assertEqual("open there: face 7" in run.err, name == "box_stray_tube", run.err)
+            self.assertAlmostEqual(self.chain(MODELS / f"{name}.brep")["area"] / area, 1, delta=0.01, msg=name)
+
     def test_an_edge_without_a_curve_in_space_is_no_straight_line(self):
         found = self.chain(MODELS / "no_curve_ring.brep", raster_options=["--lmax", "5%"])
         self.assertAlmostEqual(found["area"] / (2 * math.pi * 30 * 130), 1, delta=0.01)

@@ -225,6 +225,18 @@ void write_assembly(const fs::path& path) {
 }
 
 /// A cube of 10 in one of 100 around it, each of six faces that share no edge, the last one 0.5 % of the size away.
+/// Two bodies apart, in no shells: one of them a single face.
+TopoDS_Shape loose_box_and_sphere() {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  TopTools_IndexedMapOfShape faces;
+  for (const TopoDS_Shape& body : {box(30, 20, 10), BRepPrimAPI_MakeSphere(gp_Pnt(60, 0, 0), 10).Shape()})
+    TopExp::MapShapes(body, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) builder.Add(all, BRepBuilderAPI_Copy(faces(i)).Shape());
+  return all;
+}
+
 TopoDS_Shape gappy_boxes() {
   TopoDS_Compound all;
   BRep_Builder builder;
@@ -271,13 +283,14 @@ void write_all(const fs::path& dir) {
                             "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap", "folded_sliver"})
     st::test::write_broken(shape, dir / (std::string(shape) + ".brep"));
   for (const char* shape : {"rod_hole", "rod_hole_p1", "rod_hole_closed", "rod_hole_nearly_closed", "rod_hole_no_seam",
-                            "rod_hole_no_seam_p1", "stray_hole", "no_curve_ring", "no_curve_lost", "twisted_band",
-                            "bumped_seam", "folded_offset"})
+                            "rod_hole_no_seam_p1", "stray_hole", "box_stray_hole", "box_stray_tube", "no_curve_ring",
+                            "no_curve_lost", "twisted_band", "bumped_seam", "folded_offset"})
     st::test::write_damaged(shape, dir / (std::string(shape) + ".brep"));
   for (const std::string& shape : st::test::kinked_shapes()) st::test::write_kinked(shape, dir / (shape + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());
+  write_brep(dir / "loose_box_and_sphere.brep", loose_box_and_sphere());
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ enum class FindingKind : std::uint8_t {
   kNoImprint,              ///< likewise, but they could not be divided
   kNoSpaceCurve,           ///< an edge without one
   kMovedLoop,              ///< a loop in another period of its surface, moved to its face
-  kStrayHole,              ///< a hole outside its face
+  kTurnedLoop,             ///< a loop that ran the wrong way around its face
+  kStrayHole,              ///< a hole outside its face, left out
   kLeftOutFace,            ///< a face that cannot be meshed at all, taken out of the model
   kFoldedFace,             ///< a face that folds over itself
   kFarCurve,               ///< a trimming curve off its edge by more than a tolerance, left as it is

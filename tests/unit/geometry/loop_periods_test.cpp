@@ -50,10 +50,43 @@ TEST(LoopPeriods, bands_without_a_seam_get_one) {
   }
 }
 
-TEST(LoopPeriods, a_hole_that_no_period_brings_into_its_face_is_named) {
+TEST(LoopPeriods, a_hole_that_no_period_brings_into_its_face_is_left_out) {
   const ImportResult r = import_damaged("stray_hole");
+  const auto found = findings_of(r, "hole outside its face");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].entity, "face 1");
+  EXPECT_EQ(found[0].what(), "hole outside its face, left out");
+  EXPECT_TRUE(found[0].is_repair);
+  EXPECT_NEAR(r.area, 30 * 1.5 * 100, 1e-6 * r.area);
+  EXPECT_EQ(r.tables.n_edges(), 4);
+}
+
+TEST(LoopPeriods, a_hole_beside_a_plane_face_is_left_out) {
+  const ImportResult r = import_damaged("box_stray_hole");
   ASSERT_EQ(findings_of(r, "hole outside its face").size(), 1u);
-  EXPECT_EQ(findings_of(r, "hole outside its face")[0].entity, "face 1");
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, 8800, 1e-6);
+  EXPECT_NEAR(r.volume, 48000, 1e-6);
+}
+
+TEST(LoopPeriods, faces_that_begin_at_a_hole_beside_its_face_are_named_and_open) {
+  const ImportResult r = import_damaged("box_stray_tube");
+  const auto found = findings_of(r, "hole outside its face");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_FALSE(found[0].is_repair);
+  EXPECT_EQ(found[0].what(), "hole outside its face, left out; open there: face 7");
+  EXPECT_FALSE(r.is_closed);
+  EXPECT_EQ(r.n_free_edges, 2);
+  EXPECT_NEAR(r.area, 8800 + 2 * kPi * 5 * 30, 1e-3);
+}
+
+TEST(LoopPeriods, loops_that_run_the_wrong_way_are_turned) {
+  for (const char* shape : {"turned_hole", "turned_outer"}) {
+    const ImportResult r = import_damaged(shape);
+    EXPECT_EQ(findings_of(r, "loop that ran the wrong way").size(), 1u) << shape;
+    EXPECT_TRUE(r.is_closed) << shape;
+    EXPECT_NEAR(r.volume, 48000 - kPi * 64 * 20, 1e-3) << shape;
+  }
 }
 
 TEST(LoopPeriods, that_are_right_stay_as_they_are) {
