@@ -28,15 +28,17 @@ class ManyFiles(ToolTest):
         return path
 
     def test_compares_with_what_opencascade_finds_in_the_file(self):
-        models = ["box_inch.step", "torus.brep", "plate_with_hole.brep"]
+        models = ["box_inch.step", "torus.brep", "plate_with_hole.brep", "loose_box_and_sphere.brep"]
         done, rows = self.run_script(models)
         self.assertEqual(done.returncode, 0, done)
-        self.assertIn("3 files, 0 silent", done.stdout)
+        self.assertIn("4 files, 0 silent", done.stdout)
         for row in rows:
             self.assertEqual((row["verdict"], row["faces off"]), ("passes", "0"), row)
             self.assertLess(abs(float(row["area %"])), 0.5, row)
             if row["shape"] == "closed":
                 self.assertLess(abs(float(row["volume %"])), 1, row)
+        self.assertEqual(rows[3]["shape"], "closed")
+        self.assertLess(abs(float(rows[3]["volume %"])), 1, "a sphere in no shell counts, too")
         again, _ = self.run_script(models)
         self.assertEqual(again.stdout, done.stdout, "files of the table are passed over")
 

@@ -179,6 +179,28 @@ std::vector<double> solid_volumes(const TopoDS_Shape& shape, double diagonal) {
   return volumes;
 }
 
+/// Shells, and faces in none: one that closes on itself (a sphere) gets none by sewing.
+std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Shell> shells;
+  for (TopExp_Explorer s(shape, TopAbs_SHELL); s.More(); s.Next()) shells.push_back(TopoDS::Shell(s.Current()));
+  for (TopExp_Explorer f(shape, TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) {
+    BRep_Builder builder;
+    builder.MakeShell(shells.emplace_back());
+    builder.Add(shells.back(), f.Current());
+  }
+  return shells;
+}
+
+/// Whether boxes meet: one may be the void of another.
+bool has_nested(const std::vector<TopoDS_Shell>& shells) {
+  std::vector<Bnd_Box> boxes(shells.size());
+  for (std::size_t i = 0; i < shells.size(); ++i) BRepBndLib::AddOptimal(shells[i], boxes[i], false, false);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (!boxes[i].IsOut(boxes[k])) return true;
+  return false;
+}
+
 /// Loose faces are sewn first: a shell without free edges has a volume.
 std::vector<double> sewn_volumes(const TopoDS_Shape& shape, double diagonal) {
   constexpr double kGap = 1e-5;  // of the diagonal
@@ -186,13 +208,13 @@ std::vector<double> sewn_volumes(const TopoDS_Shape& shape, double diagonal) {
   sewing.Add(BRepBuilderAPI_Copy(shape).Shape());
   sewing.Perform();
   if (sewing.NbFreeEdges() > 0 || sewing.NbMultipleEdges() > 0) return {};
-  TopExp_Explorer shells(sewing.SewedShape(), TopAbs_SHELL);
-  if (!shells.More()) return {};
-  const TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells.Current())).Solid();
-  shells.Next();
-  if (shells.More()) return {};  // of several one may be the void of another
-  std::vector<double> volumes;
-  for (const Patch& way : measure_volume(solid, diagonal)) volumes.push_back(way.area);
+  const std::vector<TopoDS_Shell> shells = shells_of(sewing.SewedShape());
+  if (shells.empty() || has_nested(shells)) return {};
+  std::vector<double> volumes(3, 0);
+  for (const TopoDS_Shell& shell : shells) {
+    const std::vector<Patch> ways = measure_volume(BRepBuilderAPI_MakeSolid(shell).Solid(), diagonal);
+    for (std::size_t w = 0; w < ways.size(); ++w) volumes[w] += ways[w].area;
+  }
   return volumes;
 }
 
