@@ -182,10 +182,24 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
 }
 
 /// What is not as the CAD means it, and no later stage can mend.
+constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace, FindingKind::kStrayHole,    FindingKind::kFarCurve,
+                                   FindingKind::kMissingFile, FindingKind::kUndoneRepair, FindingKind::kKinkedFace,
+                                   FindingKind::kMergedSliver};
+
+/// For the verdict: kinds and numbers of those that are no repairs; empty where there is none.
+std::string faults_in_words(const ImportResult& r) {
+  std::string text;
+  for (const FindingKind kind : kFaults) {
+    const auto n = std::count_if(r.findings.begin(), r.findings.end(),
+                                 [&](const ImportFinding& f) { return f.kind == kind && !f.is_repair; });
+    if (n > 0)
+      text +=
+          fmt::format("{}{}{}", text.empty() ? "" : "; ", name_of(kind), n > 1 ? fmt::format(" ({} times)", n) : "");
+  }
+  return text;
+}
+
 void say_faults(const ImportStageOptions& o, const ImportResult& r) {
-  constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace, FindingKind::kStrayHole,    FindingKind::kFarCurve,
-                                     FindingKind::kMissingFile, FindingKind::kUndoneRepair, FindingKind::kKinkedFace,
-                                     FindingKind::kMergedSliver};
   constexpr std::size_t kNamed = 3;
   for (const FindingKind kind : kFaults) {
     std::size_t n = 0;
@@ -275,6 +289,17 @@ double time_limit(const ImportStageOptions& o) {
   return unreadable ? kSeconds : kSeconds + kSecondsPerByte * static_cast<double>(bytes);
 }
 
+/// As artifacts have it: number and input; empty where the faces have the numbers of the file.
+std::vector<std::int32_t> previous_faces(const std::vector<std::int32_t>& file_faces) {
+  std::vector<std::int32_t> previous;
+  bool is_other = false;
+  for (std::size_t f = 0; f < file_faces.size(); ++f) {
+    previous.insert(previous.end(), {file_faces[f], 0});
+    is_other = is_other || file_faces[f] != static_cast<std::int32_t>(f);
+  }
+  return is_other ? previous : std::vector<std::int32_t>();
+}
+
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
   ImportOptions options;
@@ -298,6 +323,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
       fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(),
                   t.n_edges(), r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), extent(r),
                   r.findings.size() - r.n_repairs, r.n_repairs);
+  if (const std::string faults = faults_in_words(r); !faults.empty()) s.line += "; " + faults;
   if (!o.check) {
     GeometryArtifact g;
     g.header.schema = "geometry";
@@ -317,6 +343,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.groups.empty())
       g.header.inputs.push_back({"groups", std::filesystem::path(o.groups).filename().string(), groups.hash});
     g.findings = r.findings;
+    g.previous_faces = previous_faces(r.file_faces);
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
     g.brep = std::move(r.brep);

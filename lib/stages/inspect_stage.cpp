@@ -85,16 +85,42 @@ Json parse_or_text(const std::string& text) {
   return parsed.is_discarded() ? Json(text) : parsed;
 }
 
-/// Faces of an edited geometry that come from each of its inputs; empty for all else.
-std::vector<std::int64_t> faces_of_inputs(const std::string& path, const ArtifactDescription& artifact) {
-  if (artifact.header.schema != "geometry" || artifact.rows("/st/face/previous_id") == 0) return {};
-  std::vector<std::int64_t> count(artifact.header.inputs.size(), 0);
+/// Where the faces of a geometry come from; empty where they have the numbers of a CAD file.
+struct FaceOrigins {
+  std::vector<std::int64_t> n_of_input;  ///< [n_inputs]
+  std::vector<std::int32_t> file_face;   ///< [n_faces] of an imported geometry: number in the CAD file, kNone: none
+};
+
+FaceOrigins face_origins(const std::string& path, const ArtifactDescription& artifact) {
+  FaceOrigins origins;
+  if (artifact.header.schema != "geometry" || artifact.rows("/st/face/previous_id") == 0) return origins;
+  const std::vector<InputRef>& inputs = artifact.header.inputs;
+  origins.n_of_input.assign(inputs.size(), 0);
   const std::vector<std::int32_t> previous = read_geometry(path).previous_faces;
-  for (std::size_t i = 1; i < previous.size(); i += 2) ++count[previous[i]];
-  return count;
+  for (std::size_t i = 0; i + 1 < previous.size(); i += 2) {
+    if (previous[i] != kNone) ++origins.n_of_input[previous[i + 1]];
+    if (inputs[0].role == "cad") origins.file_face.push_back(previous[i]);
+  }
+  return origins;
 }
 
-Json info_json(const std::string& path, const ArtifactDescription& artifact, const std::vector<std::int64_t>& n_faces) {
+/// "face 3 of the file is 3, 4", a line for each face that is several.
+std::vector<std::string> parts_of_faces(const std::vector<std::int32_t>& file_face) {
+  constexpr std::size_t kMost = 8;
+  std::map<std::int32_t, std::vector<std::size_t>> parts;
+  for (std::size_t f = 0; f < file_face.size(); ++f)
+    if (file_face[f] != kNone) parts[file_face[f]].push_back(f + 1);
+  std::vector<std::string> lines;
+  std::erase_if(parts, [](const auto& face) { return face.second.size() < 2; });
+  for (const auto& [face, ids] : parts) {
+    if (lines.size() == kMost) break;
+    lines.push_back(fmt::format("face {} of the file is {}", face + 1, fmt::join(ids, ", ")));
+  }
+  if (parts.size() > kMost) lines.push_back(fmt::format("and {} faces more: see --json", parts.size() - kMost));
+  return lines;
+}
+
+Json info_json(const std::string& path, const ArtifactDescription& artifact, const FaceOrigins& origins) {
   const ArtifactHeader& h = artifact.header;
   Json json = {{"tool", "st-info"},    {"artifact", path},
                {"schema", h.schema},   {"schema_version", h.schema_version},
@@ -108,15 +134,16 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
   json["inputs"] = Json::array();
   for (const InputRef& input : h.inputs)
     json["inputs"].push_back({{"role", input.role}, {"name", input.name}, {"hash", input.hash}});
-  for (std::size_t i = 0; i < n_faces.size(); ++i) json["inputs"][i]["faces"] = n_faces[i];
+  for (std::size_t i = 0; i < origins.n_of_input.size(); ++i) json["inputs"][i]["faces"] = origins.n_of_input[i];
+  for (const std::int32_t face : origins.file_face)
+    json["file_faces"].push_back(face == kNone ? Json(nullptr) : Json(face + 1));
   json["options"] = parse_or_text(h.options_json.empty() ? "{}" : h.options_json);
   json["geometry_hash"] = h.schema == "geometry" ? h.content_hash : h.geometry_hash;
   json["hash"] = h.content_hash;
   return json;
 }
 
-std::string info_lines(const std::string& path, const ArtifactDescription& artifact,
-                       const std::vector<std::int64_t>& n_faces) {
+std::string info_lines(const std::string& path, const ArtifactDescription& artifact, const FaceOrigins& origins) {
   const ArtifactHeader& h = artifact.header;
   std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version,
                                  one_line(h.tool), one_line(h.tool_version));
@@ -127,8 +154,10 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
   for (std::size_t i = 0; i < h.inputs.size(); ++i)
-    row("from " + h.inputs[i].role, fmt::format("{} {}{}", h.inputs[i].name, h.inputs[i].hash,
-                                                n_faces.empty() ? "" : fmt::format(" ({} faces)", n_faces[i])));
+    row("from " + h.inputs[i].role,
+        fmt::format("{} {}{}", h.inputs[i].name, h.inputs[i].hash,
+                    origins.n_of_input.empty() ? "" : fmt::format(" ({} faces)", origins.n_of_input[i])));
+  for (const std::string& line : parts_of_faces(origins.file_face)) row("divided", line);
   if (!h.options_json.empty()) row("options", h.options_json);
   if (h.schema != "geometry") row("geometry", h.geometry_hash);
   row("hash", h.content_hash);
@@ -140,8 +169,8 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
 
 StageSummary run_info(const std::string& artifact) {
   const ArtifactDescription description = describe_artifact(artifact);
-  const std::vector<std::int64_t> n_faces = faces_of_inputs(artifact, description);
-  return {info_lines(artifact, description, n_faces), dump(info_json(artifact, description, n_faces))};
+  const FaceOrigins origins = face_origins(artifact, description);
+  return {info_lines(artifact, description, origins), dump(info_json(artifact, description, origins))};
 }
 
 StageSummary run_hash(const std::string& artifact) {

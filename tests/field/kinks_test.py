@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from chain import MODELS, OK, Run, ToolTest, make_chain  # noqa: E402
+from chain import MODELS, OK, Run, ToolTest, make_chain, must  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 FIELD = Path(os.environ.get("ST_CORPUS", ROOT.parent / "shared" / "corpus")).parent / "field"
@@ -39,6 +39,20 @@ class Kinks(ToolTest):
             self.expect(MODELS / f"{name}.brep", 6, 52, 24)
         self.expect(MODELS / "kink_twice.brep", 12, 104, 48)
         self.expect(MODELS / "kink_tube.brep", 7, 64, 32)
+
+    def test_parts_of_a_face_are_shown_by_its_number_in_the_file(self):
+        twice, plain = self.folder / "twice.hdf", self.folder / "plain.hdf"
+        imported = must("st-import", MODELS / "kink_twice.brep", "-o", twice, "--json").json()
+        must("st-import", MODELS / "no_kink_plate.brep", "-o", plain)
+        info = must("st-info", twice, "--json")
+        of_file = info.json()["file_faces"]
+        self.assertEqual((len(of_file), len(set(of_file))), (12, 8))
+        self.assertNotIn("file_faces", must("st-info", plain, "--json").json())
+        for face in (f for f in set(of_file) if of_file.count(f) > 1):
+            ids = ", ".join(str(k + 1) for k, f in enumerate(of_file) if f == face)
+            self.assertIn(f"face {face} of the file is {ids}", must("st-info", twice).out)
+            what = [f["what"] for f in imported["repairs"] if f["entity"] == f"face {face} of the file"]
+            self.assertEqual(what, [f"surface divided at its kinks: 3 faces: {ids}"])
 
     def test_a_kink_in_an_edge_of_a_plane_is_a_node(self):
         _, found = self.checked(MODELS / "no_kink_plate.brep")

@@ -252,8 +252,8 @@ bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& find
       add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, found);
       if (found.size() < 2) continue;
       const Box3 box = rough_box(f.Current());
-      findings.push_back({FindingKind::kDividedSurface, "face " + std::to_string(i) + " of the file", box.center(),
-                          box.diagonal(), true, std::to_string(found.size())});
+      findings.push_back({FindingKind::kDividedSurface, model.file_label(i), box.center(), box.diagonal(), true,
+                          std::to_string(found.size()) + " faces"});
       for (TopoDS_Shape& part : found) part.Orientation(f.Current().Orientation());
       parts[i] = std::move(found);
     } catch (const Standard_Failure&) {

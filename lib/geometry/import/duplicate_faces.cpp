@@ -191,8 +191,8 @@ void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findin
       const bool is_turned = !same_side(make_domain(twin->face), face.face);
       reshape->Replace(face.face, twin->face.Oriented(is_turned ? TopAbs_REVERSED : TopAbs_FORWARD));
       is_changed = true;
-      findings.push_back({FindingKind::kDuplicateFace, "face " + std::to_string(id) + " of the file", face.box.center(),
-                          face.box.diagonal(), true, std::to_string(twin->id)});
+      findings.push_back({FindingKind::kDuplicateFace, model.file_label(id), face.box.center(), face.box.diagonal(),
+                          true, model.file_label(twin->id)});
     }
   }
   if (is_changed) model.replace(reshape->Apply(model.shape), [](const TopoDS_Shape& face) { return face; });
@@ -215,9 +215,8 @@ void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& finding
       const Candidate& gone = keep_i ? faces[k] : faces[i];
       is_removed[keep_i ? k : i] = 1;
       reshape->Remove(gone.face);
-      findings.push_back(
-          {FindingKind::kDuplicateFace, std::string("face ").append(std::to_string(gone.id)).append(" of the file"),
-           gone.box.center(), gone.box.diagonal(), true, std::to_string(keep_i ? faces[i].id : faces[k].id)});
+      findings.push_back({FindingKind::kDuplicateFace, model.file_label(gone.id), gone.box.center(),
+                          gone.box.diagonal(), true, model.file_label(keep_i ? faces[i].id : faces[k].id)});
     }
   if (std::find(is_removed.begin(), is_removed.end(), 1) == is_removed.end()) return;
   model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); });

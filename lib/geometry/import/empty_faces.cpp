@@ -130,7 +130,7 @@ void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findin
     reshape->Remove(model.faces(i));
     const FaceAttributes& a = model.attributes[i - 1];
     const std::string& name = a.name.empty() ? a.part : a.name;
-    const std::string number = "face " + std::to_string(i) + " of the file";
+    const std::string number = model.file_label(i);
     findings.push_back({FindingKind::kEmptyFace, name.empty() ? number : number + " \"" + name + "\"", box->center(),
                         box->diagonal(), true});
   }

@@ -299,6 +299,18 @@ void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& fi
   occt::divide_kinked_faces(model, findings);
 }
 
+/// The findings of divided faces get the numbers of what is left of their parts.
+void name_parts(const std::vector<std::int32_t>& file_faces, std::vector<ImportFinding>& findings) {
+  for (ImportFinding& f : findings) {
+    if (f.kind != FindingKind::kDividedSurface) continue;
+    std::string ids;
+    for (std::size_t k = 0; k < file_faces.size(); ++k)
+      if (file_faces[k] != kNone && occt::file_label(file_faces[k]) == f.entity)
+        ids += (ids.empty() ? ": " : ", ") + std::to_string(k + 1);
+    f.detail += ids;
+  }
+}
+
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const FlowDomain domain = parse_flow_domain(options);
   Progress progress("importing", 1);
@@ -352,6 +364,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) require_closed(result, path);
   result.brep = occt::brep_bytes(model.shape);
+  for (const occt::FaceAttributes& a : model.attributes) result.file_faces.push_back(a.file_face);
+  name_parts(result.file_faces, result.findings);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;
 }

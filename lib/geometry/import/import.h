@@ -28,8 +28,9 @@ struct ImportResult {
   ModelTables tables;
   std::vector<std::byte> brep;
   std::vector<ImportFinding> findings;
-  std::string format;      ///< "STEP", "IGES", "BREP"
-  bool is_closed = false;  ///< at least one shell and no free edge
+  std::vector<std::int32_t> file_faces;  ///< [n_faces] number of each in the file, from 0; kNone: the import made it
+  std::string format;                    ///< "STEP", "IGES", "BREP"
+  bool is_closed = false;                ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
   int n_contradictory_edges = 0;  ///< at which both faces disagree which side is outside
   bool has_assumed_unit = false;  ///< the file names no unit, and that of ImportOptions was taken as it

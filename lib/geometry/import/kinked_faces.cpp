@@ -161,8 +161,8 @@ void divide_kinked_faces(ImportedShape& model, std::vector<ImportFinding>& findi
   Kinks kinks = kinks_of(model);
   const auto say = [&](FindingKind kind, int i, const std::string& detail) {
     const Box3 box = rough_box(model.faces(i));
-    findings.push_back({kind, "face " + std::to_string(i) + " of the file", kinks[i].xyz, box.diagonal(),
-                        kind == FindingKind::kDividedSurface, detail});
+    findings.push_back(
+        {kind, model.file_label(i), kinks[i].xyz, box.diagonal(), kind == FindingKind::kDividedSurface, detail});
   };
   std::set<int> left;
   for (const auto& [i, k] : kinks) left.insert(i);
@@ -174,7 +174,7 @@ void divide_kinked_faces(ImportedShape& model, std::vector<ImportFinding>& findi
     for (const int i : left)
       if (divided.is_sound(i)) sound.insert(i);
     if (sound.size() == left.size()) {
-      for (const int i : left) say(FindingKind::kDividedSurface, i, std::to_string(divided.parts(i).size()));
+      for (const int i : left) say(FindingKind::kDividedSurface, i, std::to_string(divided.parts(i).size()) + " faces");
       divided.take_over(model);
       std::vector<ImportFinding> of_parts;
       repair_pcurves(model, of_parts);

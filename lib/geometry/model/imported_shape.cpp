@@ -25,6 +25,10 @@ bool ImportedShape::replace(const TopoDS_Shape& changed,
   return true;
 }
 
+std::string file_label(std::int32_t file_face) {
+  return file_face == kNone ? "face that the import made" : "face " + std::to_string(file_face + 1) + " of the file";
+}
+
 namespace {
 
 /// The first names, and how many more.
@@ -61,10 +65,12 @@ ImportedShape collect_parts(const CadFile& file, const std::string& path) {
         result.parts.push_back(
             {part.name, face.body.empty() || part.path.empty() ? part.path : part.path + "/" + face.body});
       if (const int i = result.faces.FindIndex(face.face); i > 0)
-        result.attributes[i - 1] = {face.name, face.layer, part.name, face.color, body->second};
+        result.attributes[i - 1] = {face.name, face.layer, part.name, face.color, body->second, false, kNone};
     }
     for (const auto& edge : part.edges) result.edge_names.emplace_back(edge.edge, edge.name);
   }
+  for (std::size_t f = 0; f < result.attributes.size(); ++f)
+    result.attributes[f].file_face = static_cast<std::int32_t>(f);
   return result;
 }
 

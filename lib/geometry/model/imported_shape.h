@@ -28,7 +28,11 @@ struct FaceAttributes {
   std::int32_t color = kNone;       ///< 0xRRGGBB
   std::int32_t part_index = kNone;  ///< of ImportedShape::parts; kNone: a face that the import made
   bool is_sewn_by_group = false;    ///< its group's tolerance was used
+  std::int32_t file_face = kNone;   ///< number in the file, from 0; kNone: a face that the import made
 };
+
+/// "face 3 of the file".
+std::string file_label(std::int32_t file_face);
 
 /// One shape, its faces in the order of their ids, and what the file said of faces and edges.
 // NOLINTNEXTLINE(bugprone-exception-escape): OpenCASCADE's map copies itself where it is to be moved, and may throw
@@ -39,6 +43,8 @@ struct ImportedShape {
   std::vector<std::pair<TopoDS_Shape, std::string>> edge_names;
   std::vector<PartLabel> parts;
 
+  /// Of a face, from 1, as the file counts: "face 3 of the file".
+  std::string file_label(int face) const { return occt::file_label(attributes[face - 1].file_face); }
   /// Takes over `changed`, in which `images(face)` stands for a face of old (any shape with faces in it, or null when
   /// it is gone): the attributes follow. Returns false and changes nothing when `changed` has no face.
   bool replace(const TopoDS_Shape& changed, const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);

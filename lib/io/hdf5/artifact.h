@@ -46,8 +46,8 @@ struct GeometryArtifact {
   std::vector<std::byte> brep;
   std::vector<ImportFinding> findings;
   bool is_closed = false;
-  /// What each entity of an edited geometry was: its id, and the input it is of (index into header.inputs). [2*n] Empty
-  /// unless st-edit made it. Provenance, not content.
+  /// [2*n] What each was: id (kNone: none) and input (index into header.inputs). Of an edited geometry; of an imported
+  /// one the faces, in the CAD file, where they have other numbers there; empty else. Provenance, not content.
   std::vector<std::int32_t> previous_faces, previous_edges, previous_vertices;
 };
 

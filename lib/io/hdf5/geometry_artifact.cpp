@@ -63,10 +63,12 @@ void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
 constexpr const char *kPreviousFaces = "/st/face/previous_id", *kPreviousEdges = "/st/edge/previous_id",
                      *kPreviousVertices = "/st/vertex/previous_id";
 
-std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& name, std::size_t n) {
+/// `may_be_new`: some may have been nothing before.
+std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& name, std::size_t n,
+                                        bool may_be_new = false) {
   std::vector<std::int32_t> previous = r.read_rows<std::int32_t>(name, n, 2);
   for (std::size_t i = 0; i < n; ++i)
-    if (previous[2 * i] < 0 || previous[2 * i + 1] < 0 ||
+    if (previous[2 * i] < (may_be_new ? kNone : 0) || previous[2 * i + 1] < 0 ||
         static_cast<std::size_t>(previous[2 * i + 1]) >= r.header().inputs.size())
       r.fail(name, "row " + std::to_string(i) + " is of no input");
   return previous;
@@ -169,8 +171,8 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
   write_vertices_and_edges(w, t);
   write_faces(w, t);
   write_findings(w, geometry.findings);
-  if (!geometry.previous_faces.empty()) {
-    w.write(kPreviousFaces, geometry.previous_faces, 2);
+  if (!geometry.previous_faces.empty()) w.write(kPreviousFaces, geometry.previous_faces, 2);
+  if (!geometry.previous_edges.empty()) {
     w.write(kPreviousEdges, geometry.previous_edges, 2);
     w.write(kPreviousVertices, geometry.previous_vertices, 2);
   }
@@ -192,8 +194,10 @@ GeometryArtifact read_geometry(const std::string& path) {
   geometry.tables.unit_in_m = r.header().unit_in_m;
   if (r.has("/st/volume")) geometry.tables.volume = r.read_rows<double>("/st/volume", 1)[0];
   geometry.findings = read_findings(r);
-  if (r.has(kPreviousFaces)) {
-    geometry.previous_faces = read_previous(r, kPreviousFaces, geometry.tables.face_type.size());
+  const bool is_imported = !r.header().inputs.empty() && r.header().inputs[0].role == "cad";
+  if (r.has(kPreviousFaces))
+    geometry.previous_faces = read_previous(r, kPreviousFaces, geometry.tables.face_type.size(), is_imported);
+  if (r.has(kPreviousFaces) && !is_imported) {
     geometry.previous_edges = read_previous(r, kPreviousEdges, geometry.tables.edge_length.size());
     geometry.previous_vertices = read_previous(r, kPreviousVertices, geometry.tables.vertex_xyz.size());
   }
