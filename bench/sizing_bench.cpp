@@ -4,6 +4,9 @@
 //   sizing_bench --open SIZING            opening a sizing artifact
 //   sizing_bench --share SIZING RANKS     likewise by several processes at once, and the memory that they share
 //   sizing_bench --nodes SIZING PATCHES   queries at the nodes inside faces, in the order in which st-mesh asked
+//   sizing_bench --envelope RASTER SIZING MESH   the field at nodes and in space against the smallest of all samples,
+//   for
+//                                         a sizing made with --no-blank; steps between points near each other
 //   sizing_bench --accuracy MODEL         cells and errors of the lengths at the samples for cell_per_length 1 to 8
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -45,6 +48,7 @@ constexpr double kSlope = 0.2;
 struct Storage {
   RasterOctree raster;
   ProlongedLengths lengths;
+  ConeTable cones;
 };
 
 template <class... Args>
@@ -119,8 +123,10 @@ std::vector<RasterBox> sample_boxes(const Model& model, const FaceRoles& roles, 
 
 /// The smallest length + slope * distance of all samples, one by one.
 double exact_length(const std::vector<RasterBox>& boxes, Vec3 x, double largest) {
-  for (const RasterBox& b : boxes)
-    largest = std::min(largest, static_cast<double>(b.length) + kSlope * distance(b.center, x));
+  for (const RasterBox& b : boxes) {
+    const LengthSample sample{b.center, b.length, b.cause, b.normal, b.stretch, b.reach};
+    largest = std::min(largest, Cone(sample, static_cast<float>(kSlope), {}).length_at(x));
+  }
   return largest;
 }
 
@@ -151,9 +157,13 @@ void bench_accuracy(const std::string& path) {
     seed_lengths(samples, kSlope, raster);
     const Neighbours neighbours(raster.shape.view());
     storage->lengths = prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, largest});
-    fit_samples(neighbours, samples, kSlope, nullptr, storage->lengths);
-    const OctreeField field({storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1},
-                            storage);
+    OctreeFieldData data{storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1};
+    if (!samples.empty()) {
+      const std::vector<float> slope(samples.size(), static_cast<float>(kSlope));
+      storage->cones = spread_cones(neighbours, samples, slope, largest, nullptr);
+      data.set_cones(storage->cones, largest);
+    }
+    const OctreeField field(data, storage);
     std::vector<double> errors;
     double bias = 0;
     for (int i = 0; i < kPoints; ++i) {
@@ -169,6 +179,53 @@ void bench_accuracy(const std::string& path) {
         cell_per_length, field.data().octree.n_leaves(), 100 * mean, 100 * bias, std::exp(errors[kPoints / 100]),
         std::exp(errors[kPoints * 99 / 100]));
   }
+}
+
+/// Share of points at which the field is off, and by how much.
+void report_ratios(const char* where, std::vector<double> ratios) {
+  std::sort(ratios.begin(), ratios.end());
+  const std::size_t n = ratios.size();
+  report("{}: field / smallest of all samples at {} points, 1 to 99 %: {:.4f} to {:.4f}, worst {:.4f} to {:.4f}\n",
+         where, n, ratios[n / 100], ratios[n * 99 / 100], ratios.front(), ratios.back());
+}
+
+void bench_envelope(const std::string& raster_path, const std::string& sizing_path, const std::string& mesh_path) {
+  constexpr int kPoints = 10'000;
+  const RasterArtifact raster = read_raster(raster_path);
+  const SizingArtifact sizing = read_sizing(sizing_path);
+  const SurfaceMesh mesh = read_mesh(mesh_path).mesh;
+  const OctreeField field(sizing.field_data(), nullptr);
+  const OctreeView octree = sizing.shape.view();
+  std::vector<Cone> cones;
+  for (const LengthSample& s : raster.samples) cones.emplace_back(s, static_cast<float>(sizing.slope), octree.lo);
+  const auto exact = [&](Vec3 x) {
+    double least = sizing.numbers.far_length;
+    for (const Cone& c : cones) least = std::min(least, c.length_at(x - octree.lo));
+    return sizing.scale * least;
+  };
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::vector<double> at_nodes, in_space, at_samples, steps;
+  for (int i = 0; i < kPoints; ++i) {
+    const Vec3 node = mesh.node_xyz[random() % mesh.node_xyz.size()];
+    at_nodes.push_back(field.SizeField::size(node) / exact(node));
+    const Vec3 away = 0.1 * octree.edge * std::pow(2 * std::abs(uniform(random)), 4) *
+                      Vec3{uniform(random), uniform(random), uniform(random)};
+    in_space.push_back(field.SizeField::size(node + away) / exact(node + away));
+    const LengthSample& s = raster.samples[random() % raster.samples.size()];
+    at_samples.push_back(field.SizeField::size(s.xyz) / exact(s.xyz));
+    const double h = field.SizeField::size(node);
+    const Vec3 step = 2 * h * Vec3{uniform(random), uniform(random), uniform(random)};
+    steps.push_back(std::abs(field.SizeField::size(node + step) - h) / (sizing.slope * norm(step)));
+  }
+  report_ratios("nodes", at_nodes);
+  report_ratios("space", in_space);
+  report_ratios("samples", at_samples);
+  const auto n_steep = std::count_if(steps.begin(), steps.end(), [](double s) { return s > 1.01; });
+  report("steps of up to 1.7 lengths: {:.2f} % steeper than the slope by over 1 %, at most {:.2f} times\n",
+         100.0 * static_cast<double>(n_steep) / kPoints, *std::max_element(steps.begin(), steps.end()));
+  report("cones: {} of {} samples, {:.2f} per cell\n", sizing.cones.cone.size(), raster.samples.size(),
+         static_cast<double>(sizing.cones.of_site.size()) / octree.n_leaves());
 }
 
 void bench_model(const std::string& path, double lmax_percent) {
@@ -373,6 +430,8 @@ int main(int argc, char** argv) {
     share_sizing(argv[2], std::atoi(argv[3]));
   else if (first == "--nodes" && argc > 3)
     time_nodes(argv[2], argv[3]);
+  else if (first == "--envelope" && argc > 4)
+    bench_envelope(argv[2], argv[3], argv[4]);
   else if (first == "--accuracy" && argc > 2)
     bench_accuracy(argv[2]);
   else if (!first.empty())
@@ -381,5 +440,5 @@ int main(int argc, char** argv) {
     report(
         "usage: sizing_bench MODEL [LMAX_PERCENT] | --cells MILLIONS | --open SIZING | --share SIZING RANKS | --nodes "
         "SIZING PATCHES | "
-        "--accuracy MODEL\n");
+        "--envelope RASTER SIZING MESH | --accuracy MODEL\n");
 }

@@ -61,10 +61,12 @@ int count_stations(const Curve& curve) {
 }
 
 /// From x to the curve, near the parameter where its other edge is as long so far.
-double width_at(Vec3 x, const Curve& other, double t) {
-  const double facing = distance(x, other.point(t));
+Vec3 way_across(Vec3 x, const Curve& other, double t) {
+  const Vec3 facing = other.point(t) - x;
   const std::optional<double> foot = project_near(other, x, t);
-  return foot ? std::min(facing, distance(x, other.point(std::clamp(*foot, other.t_min(), other.t_max())))) : facing;
+  if (!foot) return facing;
+  const Vec3 straight = other.point(std::clamp(*foot, other.t_min(), other.t_max())) - x;
+  return norm2(straight) < norm2(facing) ? straight : facing;
 }
 
 void measure_strip(const Model& model, Strip& strip) {
@@ -80,7 +82,7 @@ void measure_strip(const Model& model, Strip& strip) {
   for (int i = 0; i <= n; ++i) {
     const double share = static_cast<double>(i) / n;
     const Vec3 x = kept->point(a.parameter_at(share));
-    strip.stations.push_back({x, width_at(x, *closed, b.parameter_at(strip.is_opposed ? 1 - share : share))});
+    strip.stations.push_back({x, way_across(x, *closed, b.parameter_at(strip.is_opposed ? 1 - share : share))});
   }
 }
 
@@ -121,6 +123,14 @@ bool find_sides(const ModelTables& t, FaceId f, const std::vector<int>& uses, St
 }
 
 }  // namespace
+
+Strip::Station Strip::at(double share) const {
+  const double at = share * static_cast<double>(stations.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), stations.size() - 2);
+  const Station &a = stations[i], &b = stations[i + 1];
+  const double part = at - static_cast<double>(i);
+  return {a.x + part * (b.x - a.x), a.across + part * (b.across - a.across)};
+}
 
 std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
   const std::vector<int> uses = count_uses(tables);

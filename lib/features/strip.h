@@ -16,10 +16,15 @@ struct Strip {
   bool is_opposed = false;           ///< they run against each other
   double length = 0;                 ///< of the first, model unit
   struct Station {
-    Vec3 x;            ///< on the first edge
-    double width = 0;  ///< to the other edge, model unit
+    Vec3 x;       ///< on the first edge
+    Vec3 across;  ///< from there to the other edge
+    double width() const { return norm(across); }
+    Vec3 middle() const { return x + 0.5 * across; }
   };
   std::vector<Station> stations;  ///< from the start of the first edge to its end
+
+  /// Between two stations; `share` of the way, 0 to 1.
+  Station at(double share) const;
 };
 
 /// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer

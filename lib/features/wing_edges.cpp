@@ -234,7 +234,7 @@ class WingEdgeFinder {
     if (mirror[0] != kNone && mirror[1] != kNone) return;
     const bool is_half = mirror[0] != kNone || mirror[1] != kNone;
     std::vector<double> widths;
-    for (const auto& station : strip.stations) widths.push_back(station.width);
+    for (const auto& station : strip.stations) widths.push_back(station.width());
     const double width = (is_half ? 2 : 1) * median(widths);
     if (width > kBluntWidth * strip.length) return;
     if (is_half) complete(strip, places);

@@ -98,12 +98,15 @@ class GapTiler {
     const int n_s = parts(tile.s_hi - tile.s_lo), n_t = parts(tile.t_hi - tile.t_lo);
     if (n_s * n_t > 1 && depth < kMaxDepth) return cut(tile, n_s, n_t, depth + 1);
     const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
-    add_box(patch_.point(s, t), length, patch_.cause);
+    add_box(patch_.point(s, t), length, patch_.cause,
+            reach_of(0.5 * (patch_.point(tile.s_hi, t) - patch_.point(tile.s_lo, t)),
+                     0.5 * (patch_.point(s, tile.t_hi) - patch_.point(s, tile.t_lo))));
     if (has_large_) add_far_box(s, t);
   }
 
-  void add_box(Vec3 x, double length, std::int32_t cause) {
-    boxes_.push_back({x, static_cast<float>(0.5 * cell_per_length_ * length), static_cast<float>(length), cause});
+  void add_box(Vec3 x, double length, std::int32_t cause, const SampleReach& reach = {}) {
+    boxes_.push_back(
+        {x, static_cast<float>(0.5 * cell_per_length_ * length), static_cast<float>(length), cause, {}, {}, reach});
   }
 
   /// Speaks for a patch on the other side that is so large that it may not see this one.

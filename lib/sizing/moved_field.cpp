@@ -15,6 +15,8 @@ SizeExplanation MovedOctreeField::explain(Vec3 xyz) const {
   e.length *= frame_.scale;
   e.along *= frame_.scale;
   e.direction = frame_.rotated(e.direction);
+  e.origin = frame_(e.origin);
+  e.origin_length *= frame_.scale;
   e.gradient = frame_.rotated(e.gradient);  // lengths and distances are scaled alike
   return e;
 }

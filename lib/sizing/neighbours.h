@@ -31,6 +31,17 @@ class Neighbours {
   template <class F>
   void for_each(std::int32_t leaf, F&& f) const;
 
+  /// Likewise, those across faces alone.
+  template <class F>
+  void for_each_across_face(std::int32_t leaf, F&& f) const {
+    if (octree_.node_children.empty()) return;
+    for (int d = -1; d <= 1; d += 2) {
+      visit_direction(leaf, d, 0, 0, f);
+      visit_direction(leaf, 0, d, 0, f);
+      visit_direction(leaf, 0, 0, d, f);
+    }
+  }
+
  private:
   static constexpr std::int32_t kOutside = std::numeric_limits<std::int32_t>::min();
   static int direction(int x, int y, int z) { return (x + 1) + 3 * (y + 1) + 9 * (z + 1); }

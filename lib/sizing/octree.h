@@ -10,6 +10,7 @@
 #include "base/ids.h"
 #include "base/morton.h"
 #include "base/vec.h"
+#include "sizing/sample_reach.h"
 
 namespace st {
 
@@ -47,6 +48,7 @@ struct RasterBox {
   std::int32_t cause = kNone;
   SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
   SampleStretch stretch = {};
+  SampleReach reach = {};
 };
 
 /// The shape of an octree over arrays that somebody else owns (vectors, or a mapped artifact).

@@ -8,7 +8,9 @@
 
 #include "base/similarity.h"
 #include "sizing/blanking.h"
+#include "sizing/cones.h"
 #include "sizing/octree.h"
+#include "sizing/prolong.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -28,6 +30,23 @@ struct OctreeFieldData {
   std::span<const CellLength> along = {};       ///< [n_sites] see StretchedCells; empty: no stretch
   std::span<const SmallNormal> direction = {};  ///< [n_sites]
   double max_aspect = 1;
+  /// Cones of samples (ConeTable). Where there are any, they tell the lengths, together with `other`, and `cells` tell
+  /// no more than which leaves are split.
+  std::span<const Cone> cones = {};
+  std::span<const std::int32_t> cone_cause = {};
+  std::span<const std::int32_t> first_cone = {};  ///< [n_sites + 1]
+  std::span<const std::int32_t> site_cones = {};
+  double max_length = 0;                           ///< where nothing asks for less
+  std::span<const CellLength> other = {};          ///< [n_sites] what is no sample: sources; empty: none
+  std::span<const std::int32_t> other_cause = {};  ///< [n_sites]
+
+  void set_cones(const ConeTable& table, double largest) {
+    cones = table.cone;
+    cone_cause = table.cause;
+    first_cone = table.first;
+    site_cones = table.of_site;
+    max_length = largest;
+  }
 };
 
 /// What stands behind the length at a place.
@@ -40,11 +59,19 @@ struct SizeExplanation {
   Vec3 direction;
   Vec3 gradient;
   std::int32_t cause = kNone;  ///< see pack_cause
+  bool has_origin = false;     ///< the length goes back to a sample: its place and length
+  Vec3 origin;
+  double origin_length = 0;
 };
 
-/// h(x) = min(length + gradient . (x - centre), upper) of the leaf at x, times scale. Never leaves the range of the
-/// lengths of the leaf and its neighbours. Where a surface splits the leaf, those of the part that x lies in; the
-/// smaller one when that is not certain.
+/// By the cones of `data`: lengths, gradients and causes at the centres of all sites, before scale, and no length in a
+/// leaf above its `upper`. What `cells` are then; those of `data` are not looked at.
+ProlongedLengths lengths_at_centers(OctreeFieldData data);
+
+/// With cones: h(x) is the smallest of length + slope * distance over the cones of the site at x, of the sources there,
+/// and of the largest length, times scale; beyond the root cube by the cones of the nearest leaf. Without:
+/// min(length + gradient . (x - centre), upper) of the leaf at x. Where a surface splits the leaf, that of the part
+/// that x lies in; the smaller one when that is not certain.
 class OctreeField : public SizeField {
  public:
   /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n):
@@ -66,15 +93,36 @@ class OctreeField : public SizeField {
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const;
 
  private:
-  Vec3 locate(Vec3 xyz, int& hint) const;
-  /// At d from the centre of the leaf, in its part (kNone: the first).
-  LocalSize local_in(std::int32_t leaf, std::int32_t second, Vec3 d) const;
-  double length_in(const CellLength& cell, Vec3 d) const {
+  /// A place in space, and in its leaf.
+  struct Place {
+    Vec3 from_lo;      // from the lower corner of the root
+    Vec3 from_center;  // of the leaf, moved into the root
+  };
+  static constexpr std::int32_t kOther = -2, kLargest = -1;  // instead of a cone
+
+  Place locate(Vec3 xyz, int& hint) const;
+  /// The leaf, or the second part of one that is split.
+  std::int32_t find_site(std::int32_t leaf, const Place& x) const;
+  LocalSize local_in(std::int32_t site, const Place& x) const;
+  static double length_in(const CellLength& cell, Vec3 d) {
     const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
-    return std::max(data_.scale * std::min<double>(cell.length + rise, std::abs(cell.upper)), min_size_);
+    return std::min<double>(cell.length + rise, std::abs(cell.upper));
   }
-  /// Part of a split leaf at d from its centre: kNone the first, or the index of the second.
-  std::int32_t find_part(std::int32_t leaf, Vec3 d) const;
+  const CellLength& cell_of(std::int32_t site) const {
+    const std::int32_t n = data_.octree.n_leaves();
+    return site < n ? data_.cells[site] : data_.second_cells[site - n];
+  }
+  /// Before scale. `winner` (may be null): the cone that tells it, kOther, or kLargest.
+  double cone_length(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
+  /// Before scale.
+  double length_at(std::int32_t site, const Place& x) const {
+    return data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x);
+  }
+  double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
+  friend ProlongedLengths lengths_at_centers(OctreeFieldData data);
+  CellLength at_center(std::int32_t site, std::int32_t& cause) const;
+  /// Gradient and cause of the length at x, scaled; the cone, if it is one.
+  double explain_at(std::int32_t site, const Place& x, Vec3& gradient, std::int32_t& cause, std::int32_t& cone) const;
   void fill_top(std::int32_t node, int level, std::size_t first);
   /// As OctreeView::find_leaf, by way of the table.
   std::int32_t find_leaf(std::uint64_t key, int& level) const {

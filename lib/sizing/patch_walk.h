@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/boxes.h"
 #include "base/current_work.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
@@ -70,6 +71,54 @@ double inside_area(const Patch<Probe>& patch) {
             (patch.is_inside[k] + patch.is_inside[k + 1] + patch.is_inside[k + 3] + patch.is_inside[k + 4]);
   }
   return area;
+}
+
+/// What of a patch lies inside the loops: the middle of its bounding rectangle in (u,v), and half the longest ways
+/// across, in space.
+struct PatchPart {
+  Vec3 center, along_u, along_v;
+};
+
+/// Adds the piece of a line that lies inside a box, if any.
+inline void add_clipped(Vec2 a, Vec2 b, const Box2& clip, Box2& box) {
+  const Vec2 d = b - a;
+  double t0 = 0, t1 = 1;
+  const auto cut = [&](double at, double along, double lo, double hi) {
+    if (along == 0) return lo <= at && at <= hi;
+    const double enter = ((along > 0 ? lo : hi) - at) / along, leave = ((along > 0 ? hi : lo) - at) / along;
+    t0 = std::max(t0, enter);
+    t1 = std::min(t1, leave);
+    return true;
+  };
+  if (!cut(a.x, d.x, clip.lo.x, clip.hi.x) || !cut(a.y, d.y, clip.lo.y, clip.hi.y) || t0 > t1) return;
+  box.add(a + t0 * d);
+  box.add(a + t1 * d);
+}
+
+/// Between the probes, without further evaluations. Not of patches that must_split() splits.
+template <class Probe>
+PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
+  const Box2 whole{{patch.u[0], patch.v[0]}, {patch.u[2], patch.v[2]}};
+  Box2 box;
+  for (const std::int32_t s : patch.sides) add_clipped(loops.sides()[s].a, loops.sides()[s].b, whole, box);
+  for (std::size_t k = 0; k < 9; ++k)
+    if (patch.is_inside[k]) box.add(patch.uv(k));
+  if (box.is_empty()) box = whole;
+  const auto at = [&](double u, double v) {  // bilinear in each quarter
+    const double s = 2 * (u - whole.lo.x) / whole.size().x, t = 2 * (v - whole.lo.y) / whole.size().y;
+    const std::size_t i = s > 1, j = t > 1, k = 3 * j + i;
+    const double a = s - static_cast<double>(i), b = t - static_cast<double>(j);
+    return (1 - b) * ((1 - a) * patch.probe[k].x + a * patch.probe[k + 1].x) +
+           b * ((1 - a) * patch.probe[k + 3].x + a * patch.probe[k + 4].x);
+  };
+  const Vec2 c = box.center();
+  PatchPart part{at(c.x, c.y), {}, {}};
+  const auto widen = [](Vec3& half, Vec3 side) {
+    if (0.25 * norm2(side) > norm2(half)) half = 0.5 * side;
+  };
+  for (const double v : {box.lo.y, c.y, box.hi.y}) widen(part.along_u, at(box.hi.x, v) - at(box.lo.x, v));
+  for (const double u : {box.lo.x, c.x, box.hi.x}) widen(part.along_v, at(u, box.hi.y) - at(u, box.lo.y));
+  return part;
 }
 
 /// Walks the patches of a trimmed surface that lie inside its loops or are cut by them. `Visitor` has

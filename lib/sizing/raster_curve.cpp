@@ -106,7 +106,7 @@ class PieceWalker {
       const double stop = s1 + kSmallRest * (s1 - s0) < end ? s1 : end;
       const Vec3 x1 = curve_.point(parameter(stop, i));
       const double length = is_rest ? rest_length(s0, end, i) : distance(x0, x1);
-      add_box(0.5 * (s0 + stop), i, length, cause, boxes);
+      add_box(0.5 * (s0 + stop), i, length, reach_of(0.5 * (x1 - x0)), cause, boxes);
       s0 = stop;
       x0 = x1;
     }
@@ -157,14 +157,16 @@ class PieceWalker {
   }
   double parameter(double s, std::size_t i) const { return interpolate(table_.s, table_.t, s, i); }
 
-  void add_box(double s, std::size_t i, double length, std::int32_t cause, std::vector<RasterBox>& boxes) const {
+  void add_box(double s, std::size_t i, double length, const SampleReach& reach, std::int32_t cause,
+               std::vector<RasterBox>& boxes) const {
     length = std::clamp(std::min(length, table_.s.back()), limits_.min_length, limits_.max_length);
     boxes.push_back({curve_.point(parameter(s, i)),
                      static_cast<float>(0.5 * limits_.cell_per_length * length),
                      static_cast<float>(length),
                      cause,
                      {},
-                     stretch_at(s, length)});
+                     stretch_at(s, length),
+                     reach});
   }
 
   SampleStretch stretch_at(double s, double length) const {

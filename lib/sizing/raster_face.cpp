@@ -216,9 +216,11 @@ class FaceRaster {
   }
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
-    boxes_.push_back({size.center, static_cast<float>(0.5 * limits_.cell_per_length * length),
-                      static_cast<float>(length), cause_, SmallNormal(patch.probe[4].normal),
-                      stretch_of(patch, length)});
+    const PatchPart part = part_inside(patch, loops_);
+    boxes_.push_back({patch.sides.empty() ? size.center : part.center,
+                      static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_,
+                      SmallNormal(patch.probe[4].normal), stretch_of(patch, length),
+                      reach_of(part.along_u, part.along_v)});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
     report_.area += inside_area(patch);
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);

@@ -15,20 +15,12 @@ constexpr double kWorthwhile = 0.9;        // of the largest length: more asks f
 constexpr double kSpacing = 1;             // lengths between two boxes
 constexpr int kMaxBoxes = 20000;           // per strip
 
-/// Between two stations.
-struct StripPlace {
-  Vec3 x;
-  double width;
-  bool is_tapered;
-};
-
-StripPlace place_at(const Strip& strip, double share) {
-  const double at = share * static_cast<double>(strip.stations.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
+/// Whether the width changes along the way; `share`: of it.
+bool is_tapered(const Strip& strip, double share) {
+  const double n = static_cast<double>(strip.stations.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(share * n), strip.stations.size() - 2);
   const Strip::Station &a = strip.stations[i], &b = strip.stations[i + 1];
-  const double part = at - static_cast<double>(i);
-  return {a.x + part * (b.x - a.x), a.width + part * (b.width - a.width),
-          std::abs(b.width - a.width) > kTaper * distance(a.x, b.x)};
+  return std::abs(b.width() - a.width()) > kTaper * distance(a.x, b.x);
 }
 
 }  // namespace
@@ -37,18 +29,23 @@ void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t
   const double least_width = kResolved * limits.min_length;
   double share = 0;
   for (int n = 0; share <= 1 && n < kMaxBoxes; ++n) {
-    const auto [x, width, is_tapered] = place_at(strip, share);
-    const double least = is_tapered ? limits.min_length : kWidthsPerLength * least_width;
+    const Strip::Station station = strip.at(share);
+    const double width = station.width();
+    const double least = is_tapered(strip, share) ? limits.min_length : kWidthsPerLength * least_width;
     const double length = std::clamp(kWidthsPerLength * width, least, limits.max_length);
+    const double step = std::max(kSpacing * length / strip.length, 1.0 / kMaxBoxes);
     if (width > least_width && length < kWorthwhile * limits.max_length)
-      boxes.push_back({x,
+      boxes.push_back({station.middle(),
                        static_cast<float>(0.5 * limits.cell_per_length * length),
                        static_cast<float>(length),
                        cause,
                        {},
-                       stretch_along([&](double at) { return place_at(strip, at).x; }, share, strip.length, length,
-                                     {limits.max_aspect, limits.max_length, limits.alpha})});
-    share += std::max(kSpacing * length / strip.length, 1.0 / kMaxBoxes);
+                       stretch_along([&](double at) { return strip.at(at).x; }, share, strip.length, length,
+                                     {limits.max_aspect, limits.max_length, limits.alpha}),
+                       reach_of(0.5 * (strip.at(std::min(share + 0.5 * step, 1.0)).x -
+                                       strip.at(std::max(share - 0.5 * step, 0.0)).x),
+                                0.5 * station.across)});
+    share += step;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "sizing/sample_seeds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -144,22 +145,31 @@ class SiteVisitor {
   SiteVisitor(const OctreeView& octree, const Neighbours& neighbours, const Blanking& blanking, const F& f)
       : octree_(octree), neighbours_(neighbours), blanking_(blanking), f_(f) {}
 
+  /// Its own, without those around.
+  void visit_own(const LengthSample& s) const {
+    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(s.xyz)));
+    for_parts(s, leaf, [&](std::int32_t site) { f_(site, leaf); });
+    if (blanking_.colour[leaf] == CellColour::kBlanked) visit_beside(s, leaf);
+  }
+
   void visit(const LengthSample& s) const {
     const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(s.xyz)));
     for_parts(s, leaf, [&](std::int32_t site) {
       f_(site, leaf_of(site));
       for_each_link(&blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { visit_near(other, s); });
     });
-    // the surface may bulge a little into what is blanked: lengths do not pass from there
-    if (blanking_.colour[leaf] != CellColour::kBlanked) return;
-    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
-      for_parts(s, other, [&](std::int32_t site) { f_(site, leaf_of(site)); });
-    });
+    if (blanking_.colour[leaf] == CellColour::kBlanked) visit_beside(s, leaf);
   }
 
  private:
   std::int32_t leaf_of(std::int32_t site) const {
     return site < octree_.n_leaves() ? site : blanking_.split_leaf[site - octree_.n_leaves()];
+  }
+  /// The surface may bulge a little into what is blanked: lengths do not pass from there.
+  void visit_beside(const LengthSample& s, std::int32_t blanked) const {
+    neighbours_.for_each(blanked, [&](std::int32_t other, const CellStep&) {
+      for_parts(s, other, [&](std::int32_t site) { f_(site, leaf_of(site)); });
+    });
   }
   /// Calls g(site) for the parts of the leaf on whose surface the sample lies.
   template <class G>
@@ -264,6 +274,14 @@ class SampleFit {
   std::vector<Link> links_;
 };
 
+/// Of its rectangle, a little inside.
+std::array<Vec3, 4> corners_of(const LengthSample& s) {
+  constexpr double kInside = 0.9;
+  const Vec3 u = kInside * Vec3{s.reach.u[0], s.reach.u[1], s.reach.u[2]},
+             v = kInside * Vec3{s.reach.v[0], s.reach.v[1], s.reach.v[2]};
+  return {s.xyz + u + v, s.xyz + u - v, s.xyz - u + v, s.xyz - u - v};
+}
+
 }  // namespace
 
 Vec3 origin_of_places(const Box3& model) {
@@ -283,10 +301,11 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 
   for (const RasterBox& b : boxes) {
     const Vec3 x = b.center - origin;
     samples.push_back(
-        {origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch});
+        {origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch, b.reach});
   }
   const auto key = [](const LengthSample& s) {
-    return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along);
+    return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along, s.reach.u[0], s.reach.u[1],
+                      s.reach.u[2], s.reach.v[0], s.reach.v[1], s.reach.v[2]);
   };
   std::sort(samples.begin(), samples.end(),
             [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
@@ -337,6 +356,30 @@ void for_each_seed(const Neighbours& neighbours, std::span<const LengthSample> s
     else
       visit_leaves(octree, octree.node_children.empty() ? ~0 : 0, octree.lo + Vec3{half, half, half}, half, s.xyz,
                    s.length, own);
+  }
+}
+
+void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
+                       const std::function<void(std::int32_t, std::int32_t)>& f) {
+  const OctreeView& octree = neighbours.octree();
+  const auto leaf_at = [&](Vec3 x) { return octree.find_leaf(morton::encode(octree.grid_point(x))); };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto own = [&](std::int32_t site, auto) { f(site, static_cast<std::int32_t>(i)); };
+    const auto visit = [&](const LengthSample& s, std::int32_t leaf) {
+      if (blanking)
+        SiteVisitor(octree, neighbours, *blanking, own).visit_own(s);
+      else
+        own(leaf, 0);
+    };
+    const std::int32_t leaf = leaf_at(samples[i].xyz);
+    visit(samples[i], leaf);
+    if (samples[i].reach == SampleReach{}) continue;
+    for (const Vec3 corner : corners_of(samples[i]))
+      if (const std::int32_t other = leaf_at(corner); other != leaf) {
+        LengthSample moved = samples[i];
+        moved.xyz = corner;
+        visit(moved, other);
+      }
   }
 }
 

@@ -21,6 +21,7 @@ struct LengthSample {
   std::int32_t cause = kNone;
   SmallNormal normal = {};  ///< of the surface there, out of the solid; unknown on edges
   SampleStretch stretch = {};
+  SampleReach reach = {};  ///< around `xyz`
 };
 
 /// From where places that are kept in single precision count: the origin of space, or the middle of a model that is far
@@ -36,6 +37,11 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 
 /// length passes from there. A pair may come several times.
 void for_each_seed(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                    const std::function<void(std::int32_t, std::int32_t)>& f);
+
+/// Calls f(site, sample) for the sites that a sample lies in: its leaf, or the part of it on whose surface it lies; of
+/// a blanked leaf also the parts beside it, for the surface may bulge a little into what is blanked.
+void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
+                       const std::function<void(std::int32_t, std::int32_t)>& f);
 
 /// Takes away the lengths that edges and faces store, before sources are added and samples seeded.
 void forget_samples(RasterOctree& octree);

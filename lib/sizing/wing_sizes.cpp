@@ -62,31 +62,25 @@ class WingRaster {
     end_run(run);
   }
 
-  /// Along one long edge of the base; `strip` is measured from the other one, perhaps.
+  /// All over the base, by the chords of one of its long edges; `strip` is measured from the other one, perhaps.
   void add_base(const Strip& strip, const TrailingEdge& trailing) {
-    const auto curve = model_.curve(trailing.edge);
-    const ArcTable arc(*curve);
+    const double way = ArcTable(*model_.curve(trailing.edge)).length();
     const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
-    walk(arc.length(), pack_cause(CauseKind::kFace, strip.face), [&](double share) {
+    walk(way, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
       const double chord = trailing.chord_at(share), edge = length_of(chord);
-      const double width = (trailing.is_half ? 2 : 1) * width_at(strip, is_turned ? 1 - share : share);
+      const Strip::Station station = strip.at(is_turned ? 1 - share : share);
+      const double width = (trailing.is_half ? 2 : 1) * station.width();
       const double length = std::clamp(width / sizes_.base_cells, kFinestBase * edge, edge);
-      return Place{curve->point(arc.parameter_at(share)), std::max(length, floor_of(chord))};
+      return Place{station.middle(), std::max(length, floor_of(chord)), 0.5 * station.across};
     });
   }
 
  private:
   struct Place {
     Vec3 x;
-    double length;  // asked for there
+    double length;     // asked for there
+    Vec3 across = {};  // half the width over which it is asked for
   };
-
-  static double width_at(const Strip& strip, double share) {
-    const double at = share * static_cast<double>(strip.stations.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), strip.stations.size() - 2);
-    const double part = at - static_cast<double>(i);
-    return strip.stations[i].width + part * (strip.stations[i + 1].width - strip.stations[i].width);
-  }
 
   double floor_of(double chord) const { return LocalLengths(wing_, sizes_).floor(chord); }
   double length_of(double chord) const { return std::max(LocalLengths(wing_, sizes_).asked(chord), floor_of(chord)); }
@@ -97,15 +91,19 @@ class WingRaster {
     double share = 0;
     for (int n = 0; n < kMaxBoxes; ++n) {
       const Place place = place_at(std::min(share, 1.0));
+      const double step = std::max(place.length / way, 1.0 / kMaxBoxes);
       boxes_.push_back({place.x,
                         static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
                         static_cast<float>(place.length),
                         cause,
                         {},
                         stretch_along([&](double at) { return place_at(at).x; }, std::min(share, 1.0), way,
-                                      place.length, sizes_.stretch)});
+                                      place.length, sizes_.stretch),
+                        reach_of(0.5 * (place_at(std::min(share + 0.5 * step, 1.0)).x -
+                                        place_at(std::clamp(share - 0.5 * step, 0.0, 1.0)).x),
+                                 place.across)});
       if (share >= 1) return;
-      share += std::max(place.length / way, 1.0 / kMaxBoxes);
+      share += step;
     }
   }
 

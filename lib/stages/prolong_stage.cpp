@@ -160,15 +160,13 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
   return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side}, 0, {blank.file}};
 }
 
-/// Samples to the cells around them, and where lengths may pass.
-void seed_and_blank(const Barrier& barrier, double slope, const Neighbours& neighbours, RasterArtifact& raster,
-                    Blanking& blanking) {
-  if (barrier.surface.triangles.empty()) return seed_lengths(raster.samples, slope, raster.octree);
+/// Where lengths may pass; the stored lengths get second parts.
+void blank(const Barrier& barrier, const Neighbours& neighbours, RasterOctree& octree, Blanking& blanking) {
+  if (barrier.surface.triangles.empty()) return;
   blanking =
       blank_cells(neighbours, barrier.surface.view(), barrier.surface.side, find_open_edges(barrier.surface.view()));
   blanking.flow_along_normals = barrier.flow_along_normals;
-  add_second_parts(blanking, raster.octree);
-  seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
+  add_second_parts(blanking, octree);
 }
 
 /// Slope of each cell; empty: o.slope everywhere.
@@ -180,6 +178,62 @@ std::vector<float> cell_slopes(const ProlongStageOptions& o, const std::optional
                        {o.slope, raster.numbers.far_length}, blanking);
 }
 
+/// [n_samples]
+std::vector<float> sample_slopes(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds,
+                                 std::span<const LengthSample> samples) {
+  std::vector<float> slope(samples.size(), static_cast<float>(o.slope));
+  for (std::size_t i = 0; seeds && i < samples.size(); ++i)
+    if (const double own = seeds->of_cause(samples[i].cause); own > 0) slope[i] = static_cast<float>(own);
+  return slope;
+}
+
+/// Lengths by cell, of what the octree stores.
+class CellProlongation {
+ public:
+  CellProlongation(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds, const Neighbours& neighbours,
+                   RasterArtifact& raster, const SizingArtifact& sizing)
+      : neighbours_(neighbours),
+        raster_(raster),
+        max_aspect_(sizing.numbers.max_aspect),
+        blanking_(sizing.blanking.colour.empty() ? nullptr : &sizing.blanking),
+        cell_slope_(cell_slopes(o, seeds, neighbours, raster, blanking_)),
+        options_{o.slope, raster.numbers.far_length, cell_slope_} {}
+
+  ProlongedLengths run() const {
+    return prolong(neighbours_, raster_.octree.stored_length, raster_.octree.stored_cause, options_, blanking_);
+  }
+  StretchedCells stretch(const std::vector<SourceRequest>& requests, const ProlongedLengths& lengths) const {
+    return prolong_stretch(neighbours_, {raster_.samples, requests}, raster_.octree.stored_length, lengths, options_,
+                           max_aspect_, blanking_);
+  }
+
+ private:
+  const Neighbours& neighbours_;
+  const RasterArtifact& raster_;
+  const double max_aspect_;
+  const Blanking* const blanking_;
+  const std::vector<float> cell_slope_;
+  const ProlongOptions options_;
+};
+
+void seed(const Neighbours& neighbours, double slope, RasterArtifact& raster, const Blanking& blanking) {
+  if (blanking.colour.empty()) return seed_lengths(raster.samples, slope, raster.octree);
+  seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
+}
+
+/// Of all sites, one after the other.
+template <class T>
+std::vector<T> all_of(std::vector<T> cells, const std::vector<T>& second_cells) {
+  cells.insert(cells.end(), second_cells.begin(), second_cells.end());
+  return cells;
+}
+
+/// Whether lengths may be longer along a direction anywhere.
+bool allows_stretch(std::span<const LengthSample> samples, const SourceInput& input, double max_aspect) {
+  return max_aspect > 1 && (input.max_aspect > 1 || std::any_of(samples.begin(), samples.end(),
+                                                                [](const auto& s) { return s.stretch.along > 0; }));
+}
+
 /// Prolongs what the raster and `input` ask for; `sizing` gets shape, lengths, blanking and slope.
 void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier, Progress& progress,
                   RasterArtifact& raster, SizingArtifact& sizing) {
@@ -189,8 +243,9 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
     slope_seeds.emplace(named, raster);
     for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
   }
+  const bool is_stretched = allows_stretch(raster.samples, input, sizing.numbers.max_aspect),
+             has_cones = !raster.samples.empty() && !is_stretched;
   if (!raster.samples.empty()) forget_samples(raster.octree);
-  const bool is_stretched = sizing.numbers.max_aspect > 1;
   std::vector<SourceRequest> requests;
   if (!input.sources.empty())
     raster.octree =
@@ -199,18 +254,25 @@ void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const 
   progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
   progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
-  seed_and_blank(barrier, o.slope, neighbours, raster, sizing.blanking);
+  blank(barrier, neighbours, raster.octree, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
-  ProlongOptions options{o.slope, raster.numbers.far_length};
-  const std::vector<float> cell_slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
-  options.cell_slope = cell_slope;
   progress.step("lengths", 0.4);
-  sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause, options, blanking);
-  if (is_stretched)
-    sizing.stretched = prolong_stretch(neighbours, {raster.samples, requests}, raster.octree.stored_length,
-                                       sizing.lengths, options, sizing.numbers.max_aspect, blanking);
-  fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
+  if (!has_cones) seed(neighbours, o.slope, raster, sizing.blanking);
+  if (!has_cones || !input.sources.empty()) {
+    const CellProlongation cells(o, slope_seeds, neighbours, raster, sizing);
+    sizing.lengths = cells.run();
+    if (is_stretched) sizing.stretched = cells.stretch(requests, sizing.lengths);
+    if (!has_cones) fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
+  }
+  if (has_cones && !input.sources.empty()) {
+    sizing.other = all_of(sizing.lengths.cells, sizing.lengths.second_cells);
+    sizing.other_cause = all_of(sizing.lengths.cause, sizing.lengths.second_cause);
+  }
+  if (has_cones)
+    sizing.cones = spread_cones(neighbours, raster.samples, sample_slopes(o, slope_seeds, raster.samples),
+                                raster.numbers.far_length, blanking);
   sizing.shape = std::move(raster.octree.shape);
+  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data());
 }
 
 /// A size field and what it requires of each group.

@@ -104,9 +104,14 @@ struct PointSize {
 PointSize find_size(const std::string& artifact, const OctreeField& field, Vec3 x) {
   PointSize p{x, field.explain(x), {}, "", false, field.slope()};
   const Similarity frame = field.frame();
-  p.origin = find_origin(field.data(), Neighbours(field.data().octree), p.why.leaf);
-  p.origin.xyz = frame(p.origin.xyz);
-  p.origin.length *= frame.scale;
+  if (p.why.has_origin) {
+    p.origin.xyz = p.why.origin;
+    p.origin.length = p.why.origin_length;
+  } else {
+    p.origin = find_origin(field.data(), Neighbours(field.data().octree), p.why.leaf);
+    p.origin.xyz = frame(p.origin.xyz);
+    p.origin.length *= frame.scale;
+  }
   p.cause = cause_text(read_cause_names(artifact), p.why.cause);
   p.is_inside = is_inside(field.data().octree, frame.inverse()(x));
   return p;

@@ -27,10 +27,10 @@ class SlopeSeeds {
   /// the leaf or cause its length, or whose cells take their lengths from the edge that causes it; 0: there is none.
   std::vector<float> of_sites(const OctreeView& octree, std::span<const std::int32_t> stored_cause,
                               const Blanking* blanking) const;
-
- private:
+  /// Of the named face that is the cause, or whose cells take their lengths from the edge that is; 0: none.
   double of_cause(std::int32_t cause) const;
 
+ private:
   OctreeShape raster_shape_;
   std::vector<double> of_face_, of_edge_, of_leaf_;  // 0: not named
 };

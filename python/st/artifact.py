@@ -5,7 +5,7 @@ import h5py
 import numpy
 
 MAX_LEVEL = 20  # of an octree: keys have this many bits along each axis
-NEWEST_VERSION = {"geometry": 1, "raster": 6, "sizing": 5, "patches": 2, "mesh": 1, "failures": 1}
+NEWEST_VERSION = {"geometry": 1, "raster": 8, "sizing": 6, "patches": 2, "mesh": 1, "failures": 1}
 CELL_CHUNK = 65536  # points whose sizes are computed at once
 
 
@@ -143,12 +143,41 @@ class Sizing(_Octree):
             self._split = (self["/st/split/leaf"], self["/st/split/plane"].astype(float),
                            self["/st/split/cell"].astype(float))
 
-    def _length(self, cell, offset):
-        """Linear in the cell, no more than its neighbourhood allows, no less than the smallest of all."""
-        rise = numpy.einsum("ij,ij->i", cell[:, 1:4], offset)
+        self._cone = self.get("/st/cone/cone")
+        if self._cone is not None:
+            self._cone = self._cone.astype(float)
+            self._first, self._of_site = self["/st/cone/first"].astype(numpy.int64), self["/st/cone/of_site"]
+            self._other = self.get("/st/octree/other")
+
+    @staticmethod
+    def _linear(cell, offset):
+        """Linear in the cell, no more than its neighbourhood allows."""
+        return numpy.minimum(cell[:, 0] + numpy.einsum("ij,ij->i", cell[:, 1:4], offset), numpy.abs(cell[:, 4]))
+
+    def _by_cones(self, site, place):
+        """The smallest of length + slope * distance over the samples of each cell; places from the root's corner."""
+        n = self._first[site + 1] - self._first[site]
+        row = numpy.repeat(numpy.arange(len(site)), n)
+        rank = numpy.arange(len(row)) - numpy.repeat(numpy.cumsum(n) - n, n)
+        cone = self._cone[self._of_site[self._first[site][row] + rank]]
+        way = place[row] - cone[:, :3]
+        for side, half in ((cone[:, 5:8], cone[:, 11]), (cone[:, 8:11], cone[:, 12])):
+            along = numpy.clip(numpy.einsum("ij,ij->i", way, side), -half, half)
+            way -= along[:, None] * side
+        length = numpy.full(len(site), float(self.numbers["far_length"]))
+        numpy.minimum.at(length, row, cone[:, 3] + cone[:, 4] * numpy.linalg.norm(way, axis=1))
+        return length
+
+    def _length(self, site, cell, offset, place):
+        """No less than the smallest of all. Sites are cells, then second parts."""
+        if self._cone is None:
+            length = self._linear(cell, offset)
+        else:
+            length = self._by_cones(site, place)
+            if self._other is not None:
+                length = numpy.minimum(length, self._linear(self._other[site].astype(float), offset))
         scale = self.numbers["scale"]
-        least = scale * self.numbers["smallest_length"]
-        return numpy.maximum(scale * numpy.minimum(cell[:, 0] + rise, numpy.abs(cell[:, 4])), least)
+        return numpy.maximum(scale * length, scale * self.numbers["smallest_length"])
 
     def size(self, points):
         """The requested length at each of `points` (n, 3); the length across where lengths are stretched."""
@@ -165,18 +194,19 @@ class Sizing(_Octree):
         leaf = numpy.searchsorted(self.leaf_key, key, side="right") - 1
         extent = 1 << (MAX_LEVEL - self.leaf_level[leaf].astype(numpy.int64))[:, None]
         offset = (grid - place // extent * extent - 0.5 * extent) * (self.root[3] / end)
-        length = self._length(self.cell[leaf], offset)
+        place = local - self.root[:3]
+        length = self._length(leaf, self.cell[leaf], offset, place)
         if self._split is not None:
-            self._use_parts(leaf, offset, length)
+            self._use_parts(leaf, offset, place, length)
         return self._scale * length
 
-    def _use_parts(self, leaf, offset, length):
+    def _use_parts(self, leaf, offset, place, length):
         """Where a mesh separates a cell: the second part behind the plane, the smaller one close to it."""
         split_leaf, plane, cell = self._split
         at = numpy.minimum(numpy.searchsorted(split_leaf, leaf), len(split_leaf) - 1)
         mine = numpy.flatnonzero((split_leaf[at] == leaf) & (self.cell[leaf, 4] < 0))
         part = at[mine]
-        second = self._length(cell[part], offset[mine])
+        second = self._length(len(self.cell) + part, cell[part], offset[mine], place[mine])
         height = numpy.einsum("ij,ij->i", plane[part, :3], offset[mine]) - plane[part, 3]
         is_second = numpy.where(numpy.abs(height) > plane[part, 4], height <= 0, second < length[mine])
         length[mine] = numpy.where(is_second, second, length[mine])

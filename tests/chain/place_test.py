@@ -13,10 +13,10 @@ from chain import Run, ToolTest, make_chain  # noqa: E402
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 VARY = os.environ["ST_VARY"]
 VARIANTS = ["moved", "turned", "tumbled", "scaled", "mirrored", "reordered", "loose", "reversed"]
-TURNED = {"turned", "tumbled"}
 MODELS = {  # and the largest length
     "aero_onera_m6_sharpte.brep": "10%",
     "aero_d150_wing.igs": "10%",
+    "aero_tigl_simplewing.brep": "10%",
     "basic_refine_cone_cone.brep": "5%",
     "basic_refine_sphere_cube.brep": "5%",
     "mech_esp_piston.brep": "5%",
@@ -26,7 +26,6 @@ MODELS = {  # and the largest length
 }
 TOUCHING = {"mech_geouned_tank.stp"}  # solids: walls between them are there once where faces are loose
 MOST = 0.02  # difference in the number of triangles, relative
-MOST_TURNED = 0.05  # likewise: cells of the octree lie along the axes of space
 KNOWN = {  # larger differences that were measured; the limits shrink when their causes are mended
     ("mech_geouned_tank.stp", "reordered"): 0.03,
 }
@@ -50,7 +49,7 @@ class Place(ToolTest):
             with self.subTest(variant):
                 code, report = self.report_of(CORPUS / name, variant, lmax)
                 self.assertEqual(code, verdict, report)
-                most = KNOWN.get((name, variant), MOST_TURNED if variant in TURNED else MOST)
+                most = KNOWN.get((name, variant), MOST)
                 self.assertLessEqual(abs(report["triangles"] - same["triangles"]), most * same["triangles"],
                                      f"{report['triangles']} triangles, {same['triangles']} of the shape as it is")
                 self.assertLess(abs(report["area"] / (SCALE.get(variant, 1) * same["area"]) - 1), AREA)

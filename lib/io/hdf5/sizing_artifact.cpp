@@ -20,6 +20,9 @@ template <>
 struct Element<CellLength> : Elements<ElementType::kFloat32, 5> {};
 
 template <>
+struct Element<Cone> : Elements<ElementType::kFloat32, 13> {};
+
+template <>
 struct Element<CellPlane> : Elements<ElementType::kFloat32, 6> {};
 
 template <>
@@ -27,6 +30,9 @@ struct Element<CellSplit> : Elements<ElementType::kFloat32, 5> {};
 
 template <>
 struct Element<SmallNormal> : Elements<ElementType::kUint8, 3> {};
+
+template <>
+struct Element<SampleReach> : Elements<ElementType::kFloat32, 6> {};
 
 template <>
 struct Element<CellColour> : Elements<ElementType::kUint8> {};
@@ -40,7 +46,9 @@ constexpr int kSampledRasterVersion = 3;    // of a complete raster with samples
 constexpr int kPartialRasterVersion = 4;    // of an incomplete one; from here on not_sampled is written
 constexpr int kSurfaceRasterVersion = 5;    // of one with a coarse surface, the same length in all directions
 constexpr int kStretchedRasterVersion = 6;  // of one near the origin
+constexpr int kFarRasterVersion = 7;        // of one far from it; up to here samples are points
 constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length in all directions
+constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengths, not cones
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -55,6 +63,7 @@ constexpr const char* kSampleLength = "/st/sample/length";
 constexpr const char* kPlaceOrigin = "/st/place_origin";
 constexpr const char* kSampleCause = "/st/sample/cause";
 constexpr const char* kSampleNormal = "/st/sample/normal";
+constexpr const char* kSampleReach = "/st/sample/reach";
 constexpr const char* kSampleDirection = "/st/sample/direction";
 constexpr const char* kSampleAlong = "/st/sample/along";
 constexpr const char* kMaxAspect = "max_aspect";
@@ -70,6 +79,12 @@ constexpr const char* kSplitLeaf = "/st/split/leaf";
 constexpr const char* kSplitPlane = "/st/split/plane";
 constexpr const char* kSplitCell = "/st/split/cell";
 constexpr const char* kSplitCause = "/st/split/cause";
+constexpr const char* kCone = "/st/cone/cone";
+constexpr const char* kConeCause = "/st/cone/cause";
+constexpr const char* kFirstCone = "/st/cone/first";
+constexpr const char* kSiteCones = "/st/cone/of_site";
+constexpr const char* kOther = "/st/octree/other";
+constexpr const char* kOtherCause = "/st/octree/other_cause";
 constexpr const char* kFaceOffset = "/st/face/cell_offset";
 constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
 constexpr const char* kFaceArea = "/st/face/cell_area";
@@ -119,6 +134,12 @@ void require_shape(const Hdf5Reader& file, const OctreeView& octree) {
 
 bool is_positive(float x) { return is_finite(x) & (x > 0); }
 
+bool is_reach(const SampleReach& r) {
+  bool is_good = true;
+  for (int k = 0; k < 3; ++k) is_good = is_good & is_finite(r.u[k]) & is_finite(r.v[k]);
+  return is_good;
+}
+
 /// Finite lengths > 0; `upper` may be negated.
 bool is_length(const CellLength& c) {
   return is_positive(c.length) & is_positive(std::abs(c.upper)) & is_finite(c.gradient[0]) & is_finite(c.gradient[1]) &
@@ -141,6 +162,33 @@ void require_split(const Hdf5Reader& file, std::span<const std::int32_t> leaf, s
   });
 }
 
+/// Of sides that are finite.
+bool is_rectangle(const Cone& c) {
+  bool is_good = true;
+  for (int e = 0; e < 2; ++e) {
+    is_good = is_good & is_finite(c.half[e]) & (c.half[e] >= 0);
+    for (int k = 0; k < 3; ++k) is_good = is_good & is_finite(c.side[e][k]);
+  }
+  return is_good;
+}
+
+/// Cones have lengths, sites name cones that exist.
+void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
+  const std::size_t n_sites = data.cells.size() + data.split_leaf.size();
+  require_rows_to_be(file, kCone, data.cones, "a place with a length and a slope > 0", [](const Cone& c) {
+    return is_finite(c.x[0]) & is_finite(c.x[1]) & is_finite(c.x[2]) & is_positive(c.length) & is_positive(c.slope) &
+           is_rectangle(c);
+  });
+  if (data.cone_cause.size() != data.cones.size()) file.fail(kConeCause, "does not fit the number of cones");
+  if (data.first_cone.size() != n_sites + 1) file.fail(kFirstCone, "does not fit the number of cells");
+  require_offsets(file, kFirstCone, data.first_cone, data.site_cones.size());
+  require_ids(file, kSiteCones, data.site_cones, data.cones.size());
+  if (data.other.empty()) return;
+  if (data.other.size() != n_sites || data.other_cause.size() != n_sites)
+    file.fail(kOther, "does not fit the number of cells");
+  require_cells(file, kOther, data.other);
+}
+
 /// Slope and scale of a sizing.
 std::pair<double, double> read_slope_and_scale(const Hdf5Reader& file) {
   const double slope = file.double_attribute(kSizing, "slope"), scale = file.double_attribute(kSizing, "scale");
@@ -160,10 +208,12 @@ OctreeShape read_shape(const Hdf5Reader& file) {
   return shape;
 }
 
-void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, Vec3 origin, bool is_stretched) {
+void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, Vec3 origin, bool has_reach,
+                   bool is_stretched) {
   std::vector<float> points, lengths, along;
   std::vector<std::int32_t> causes;
   std::vector<SmallNormal> normals, directions;
+  std::vector<SampleReach> reaches;
   for (const LengthSample& s : samples) {
     normals.push_back(s.normal);
     const Vec3 x = s.xyz - origin;
@@ -172,11 +222,13 @@ void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, V
     causes.push_back(s.cause);
     directions.push_back(s.stretch.direction);
     along.push_back(s.stretch.along);
+    reaches.push_back(s.reach);
   }
   file.write<float>(kSamplePoint, points, 3);
   file.write<float>(kSampleLength, lengths);
   file.write<std::int32_t>(kSampleCause, causes);
   file.write<SmallNormal>(kSampleNormal, normals);
+  if (has_reach) file.write<SampleReach>(kSampleReach, reaches);
   if (!is_stretched) return;
   file.write<SmallNormal>(kSampleDirection, directions);
   file.write<float>(kSampleAlong, along);
@@ -193,6 +245,11 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
   std::vector<LengthSample> samples;
   std::vector<SmallNormal> directions(lengths.size());
   std::vector<float> along(lengths.size());
+  std::vector<SampleReach> reaches(lengths.size());
+  if (file.has(kSampleReach)) {
+    reaches = file.read_rows<SampleReach>(kSampleReach, lengths.size());
+    require_rows_to_be(file, kSampleReach, std::span<const SampleReach>(reaches), "finite", is_reach);
+  }
   if (file.has(kSampleAlong)) {
     directions = file.read_rows<SmallNormal>(kSampleDirection, lengths.size());
     along = file.read_rows<float>(kSampleAlong, lengths.size());
@@ -203,7 +260,8 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
                        lengths[i],
                        causes[i],
                        normals[i],
-                       {directions[i], along[i]}});
+                       {directions[i], along[i]},
+                       reaches[i]});
   return samples;
 }
 
@@ -277,7 +335,33 @@ struct MappedArrays {
   MappedArray<std::int32_t> second_cause;
   MappedArray<CellLength> along;
   MappedArray<SmallNormal> direction;
+  MappedArray<Cone> cone;
+  MappedArray<std::int32_t> cone_cause;
+  MappedArray<std::int32_t> first_cone;
+  MappedArray<std::int32_t> site_cones;
+  MappedArray<CellLength> other;
+  MappedArray<std::int32_t> other_cause;
 };
+
+/// The cones of a file that has them.
+void map_cones(const Hdf5Reader& file, MappedArrays& arrays, OctreeFieldData& data) {
+  arrays.cone = file.map<Cone>(kCone);
+  arrays.cone_cause = file.map<std::int32_t>(kConeCause);
+  arrays.first_cone = file.map<std::int32_t>(kFirstCone);
+  arrays.site_cones = file.map<std::int32_t>(kSiteCones);
+  if (file.has(kOther)) {
+    arrays.other = file.map<CellLength>(kOther);
+    arrays.other_cause = file.map<std::int32_t>(kOtherCause);
+  }
+  data.cones = arrays.cone.values();
+  data.cone_cause = arrays.cone_cause.values();
+  data.first_cone = arrays.first_cone.values();
+  data.site_cones = arrays.site_cones.values();
+  data.other = arrays.other.values();
+  data.other_cause = arrays.other_cause.values();
+  data.max_length = read_numbers(file).far_length;
+  require_cones(file, data);
+}
 
 /// The smallest length of the field is one, and coordinates of the model have digits enough for it.
 void require_distinct_lengths(const Hdf5Reader& file, double min_length, double scale, double root_edge) {
@@ -292,17 +376,12 @@ void require_distinct_lengths(const Hdf5Reader& file, double min_length, double 
 
 std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length) {
   const std::vector<double> root = file.read_rows<double>(kRoot, 4);
-  const auto arrays = std::make_shared<MappedArrays>(MappedArrays{file.map<std::uint64_t>(kLeafKey),
-                                                                  file.map<std::uint8_t>(kLeafLevel),
-                                                                  file.map<std::int32_t>(kNodeChild, 8),
-                                                                  file.map<CellLength>(kCell),
-                                                                  file.map<std::int32_t>(kCause),
-                                                                  {},
-                                                                  {},
-                                                                  {},
-                                                                  {},
-                                                                  {},
-                                                                  {}});
+  const auto arrays = std::make_shared<MappedArrays>();
+  arrays->leaf_key = file.map<std::uint64_t>(kLeafKey);
+  arrays->leaf_level = file.map<std::uint8_t>(kLeafLevel);
+  arrays->node_child = file.map<std::int32_t>(kNodeChild, 8);
+  arrays->cell = file.map<CellLength>(kCell);
+  arrays->cause = file.map<std::int32_t>(kCause);
   if (file.has(kColour)) {
     const std::size_t n = file.info(kSplitLeaf).shape[0];
     arrays->split_leaf = file.map<std::int32_t>(kSplitLeaf);
@@ -341,6 +420,7 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
     data.direction = arrays->direction.values();
     data.max_aspect = read_numbers(file).max_aspect;
   }
+  if (file.has(kCone)) map_cones(file, *arrays, data);
   std::tie(data.slope, data.scale) = read_slope_and_scale(file);
   require_distinct_lengths(file, min_length, data.scale, root[3]);
   return make_octree_field(data, arrays, min_length, read_frame(file));
@@ -384,7 +464,10 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   if (raster.n_not_sampled > 0) header.schema_version = kPartialRasterVersion;
   if (!raster.surface.triangles.empty()) header.schema_version = kSurfaceRasterVersion;
   if (raster.numbers.max_aspect > 1) header.schema_version = kStretchedRasterVersion;
-  if (raster.faces.origin != Vec3{}) header.schema_version = kRasterVersion;
+  if (raster.faces.origin != Vec3{}) header.schema_version = kFarRasterVersion;
+  const bool has_reach = std::any_of(raster.samples.begin(), raster.samples.end(),
+                                     [](const LengthSample& s) { return s.reach != SampleReach{}; });
+  if (has_reach) header.schema_version = kRasterVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, raster.numbers);
   if (header.schema_version >= kPartialRasterVersion) file.set_attribute(kSizing, kNotSampled, raster.n_not_sampled);
@@ -393,7 +476,7 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
   const Vec3 origin = raster.faces.origin;
   if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
-  if (!raster.samples.empty()) write_samples(file, raster.samples, origin, raster.numbers.max_aspect > 1);
+  if (!raster.samples.empty()) write_samples(file, raster.samples, origin, has_reach, raster.numbers.max_aspect > 1);
   if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
   file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
   file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
@@ -439,11 +522,13 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   const bool is_blanked = !sizing.blanking.colour.empty();
   const bool is_moved = sizing.frame != Similarity();
   header.schema_version = is_moved ? kPlainSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
-  if (!sizing.stretched.along.empty()) header.schema_version = kSizingVersion;
+  if (!sizing.stretched.along.empty()) header.schema_version = kStretchedSizingVersion;
+  if (!sizing.cones.first.empty()) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
   for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.at_centre());
+  for (const Cone& c : sizing.cones.cone) smallest = std::min<double>(smallest, c.length);
   file.set_attribute(kSizing, "slope", sizing.slope);
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);
@@ -461,6 +546,16 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   if (!sizing.stretched.along.empty()) {
     file.write<CellLength>(kAlong, sizing.stretched.along);
     file.write<SmallNormal>(kDirection, sizing.stretched.direction);
+  }
+  if (!sizing.cones.first.empty()) {
+    file.write<Cone>(kCone, sizing.cones.cone);
+    file.write<std::int32_t>(kConeCause, sizing.cones.cause);
+    file.write<std::int32_t>(kFirstCone, sizing.cones.first);
+    file.write<std::int32_t>(kSiteCones, sizing.cones.of_site);
+  }
+  if (!sizing.other.empty()) {
+    file.write<CellLength>(kOther, sizing.other);
+    file.write<std::int32_t>(kOtherCause, sizing.other_cause);
   }
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
@@ -496,6 +591,15 @@ SizingArtifact read_sizing(const std::string& path) {
     const std::size_t n_sites = n + sizing.blanking.split_leaf.size();
     sizing.stretched = {file.read_rows<CellLength>(kAlong, n_sites), file.read_rows<SmallNormal>(kDirection, n_sites)};
     require_cells(file, kAlong, sizing.stretched.along);
+  }
+  if (file.has(kCone)) {
+    sizing.cones = {file.read<Cone>(kCone), file.read<std::int32_t>(kConeCause), file.read<std::int32_t>(kFirstCone),
+                    file.read<std::int32_t>(kSiteCones)};
+    if (file.has(kOther)) {
+      sizing.other = file.read<CellLength>(kOther);
+      sizing.other_cause = file.read<std::int32_t>(kOtherCause);
+    }
+    require_cones(file, sizing.field_data());
   }
   sizing.face_weight = read_face_weight(file);
   sizing.names = read_names(file);

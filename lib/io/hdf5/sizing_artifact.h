@@ -17,7 +17,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 7, kSizingVersion = 5;
+inline constexpr int kRasterVersion = 8, kSizingVersion = 6;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -67,25 +67,33 @@ struct SizingArtifact {
                      ///< are as before
   OctreeShape shape;
   ProlongedLengths lengths;
-  StretchedCells stretched;         ///< empty: lengths are the same in all directions
+  ConeTable cones;                ///< tell the lengths, with `other`; `lengths` are those at the leaves' centres then.
+                                  ///< Empty: `lengths` tell them
+  std::vector<CellLength> other;  ///< [n_sites] lengths of sources, where there are cones and sources
+  std::vector<std::int32_t> other_cause;  ///< [n_sites] likewise
+  StretchedCells stretched;               ///< empty: lengths are the same in all directions
   Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
 
   /// Views of the arrays above, in the octree's own frame.
   OctreeFieldData field_data() const {
-    return {shape.view(),
-            lengths.cells,
-            lengths.cause,
-            slope,
-            scale,
-            blanking.split_leaf,
-            blanking.split,
-            lengths.second_cells,
-            lengths.second_cause,
-            stretched.along,
-            stretched.direction,
-            numbers.max_aspect};
+    OctreeFieldData data{shape.view(),
+                         lengths.cells,
+                         lengths.cause,
+                         slope,
+                         scale,
+                         blanking.split_leaf,
+                         blanking.split,
+                         lengths.second_cells,
+                         lengths.second_cause,
+                         stretched.along,
+                         stretched.direction,
+                         numbers.max_aspect};
+    data.set_cones(cones, numbers.far_length);
+    data.other = other;
+    data.other_cause = other_cause;
+    return data;
   }
 };
 

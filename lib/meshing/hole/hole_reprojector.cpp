@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/error.h"
 #include "meshing/topology/mesh_topology.h"
 #include "meshing/topology/small_features.h"
@@ -23,14 +24,6 @@ constexpr double kEvenStretch = 1.5;      // of the segments of an edge that kee
 constexpr auto kOnVertex = static_cast<std::uint8_t>(EntityDim::kVertex),
                kOnEdge = static_cast<std::uint8_t>(EntityDim::kEdge),
                kInFace = static_cast<std::uint8_t>(EntityDim::kFace);
-
-struct UvBox {
-  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
-  void add(Vec2 p) {
-    lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
-    hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
-  }
-};
 
 double stretched(double x, double from_lo, double from_hi, double to_lo, double to_hi) {
   const double span = from_hi - from_lo;
@@ -206,8 +199,8 @@ class Mover {
   }
 
   /// Of the nodes on the boundary of a face: as the old mesh has them, and by the new trimming curves.
-  std::pair<UvBox, UvBox> boundary_boxes(FaceId f, std::size_t begin, std::size_t end) const {
-    UvBox before, after;
+  std::pair<Box2, Box2> boundary_boxes(FaceId f, std::size_t begin, std::size_t end) const {
+    Box2 before, after;
     for (std::size_t i = begin; i < end; ++i)
       for (int k = 0; k < 3; ++k)
         if (old_.node_entity_dim[old_.triangles[i].n[k]] != kInFace) before.add(old_.corner_uv[3 * i + k]);

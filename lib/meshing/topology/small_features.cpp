@@ -235,8 +235,8 @@ std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
     double width = 0, length = 0;  // sums over the stations
     for (const Strip::Station& s : strip.stations) {
       const double h = field.size(s.x, hint);
-      is_narrow |= s.width < face_limit[strip.face].at(h);
-      width += s.width;
+      is_narrow |= s.width() < face_limit[strip.face].at(h);
+      width += s.width();
       length += h;
     }
     return !is_narrow || width > length;

@@ -19,7 +19,7 @@ TEST(Strip, is_no_square_face_nor_one_with_a_seam) {
 TEST(Strip, knows_its_width_along_its_length) {
   const Strip strip = test::tapered_strip();
   ASSERT_NE(strip.face, kNone);
-  for (const Strip::Station& s : strip.stations) EXPECT_NEAR(s.width, 0.02 + 0.98 * s.x.x / 20, 2e-3);
+  for (const Strip::Station& s : strip.stations) EXPECT_NEAR(s.width(), 0.02 + 0.98 * s.x.x / 20, 2e-3);
 }
 
 /// The sides of the band about the shape banded_pie.

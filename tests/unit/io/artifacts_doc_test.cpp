@@ -82,6 +82,7 @@ RasterArtifact sample_raster() {
   r.octree.stored_length.resize(15, 1);
   r.octree.stored_cause.resize(15);
   r.samples.resize(11);
+  r.samples[4].reach = reach_of({1, 0, 0});
   r.surface.points.resize(13);
   r.surface.triangles.resize(6, {{0, 1, 2}});
   r.faces.offsets = {0, 3, 6, 7};
@@ -113,6 +114,10 @@ SizingArtifact sample_sizing() {
   s.blanking.split.resize(2);
   s.lengths.second_cells.resize(2);
   s.lengths.second_cause.resize(2);
+  s.cones = {std::vector<Cone>(9), std::vector<std::int32_t>(9), std::vector<std::int32_t>(18),
+             std::vector<std::int32_t>(21)};
+  s.other.resize(17);
+  s.other_cause.resize(17);
   s.stretched.along.resize(17);
   s.stretched.direction.resize(17);
   s.face_weight = {1, 2, 3};

@@ -124,6 +124,7 @@ std::vector<Sample> samples() {
        [](const auto& p) {
          RasterArtifact raster = sample_raster();
          raster.surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 2, 1}}}, BlankSide::kOutside};
+         raster.samples[1].reach = reach_of({0.1, 0, 0}, {0, 0.1, 0});
          write_raster(p, raster);
        },
        [](const auto& p) { read_raster(p); }},

@@ -274,6 +274,58 @@ SizingArtifact split_sizing() {
   return sizing;
 }
 
+/// Likewise, with two cones, one of them in each site, and lengths of sources.
+SizingArtifact cone_sizing() {
+  SizingArtifact sizing = split_sizing();
+  const auto n_sites = static_cast<std::int32_t>(sizing.stretched.along.size());
+  sizing.cones.cone = {Cone({{0.1, 0.2, 0.3}, 0.02F, kNone, {}, {}, reach_of({0.01, 0, 0}, {0, 0.02, 0})}, 0.2F, {}),
+                       Cone({{0.5, 0.2, 0.3}, 0.03F}, 0.1F, {})};
+  sizing.cones.cause = {kNone, kNone};
+  for (std::int32_t site = 0; site <= n_sites; ++site) sizing.cones.first.push_back(site);
+  sizing.cones.of_site.assign(n_sites, 1);
+  sizing.other.assign(n_sites, sizing.lengths.cells[0]);
+  sizing.other_cause.assign(n_sites, kNone);
+  return sizing;
+}
+
+TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
+  static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const TemporaryDirectory dir;
+  const std::string path = dir / "a.hdf";
+  write_sizing(path, cone_sizing());
+  const SizingArtifact read = read_sizing(path);
+  EXPECT_EQ(read.cones.of_site, cone_sizing().cones.of_site);
+  EXPECT_EQ(read.cones.cone[1].slope, 0.1F);
+  const MappedSizing mapped = map_sizing(path);
+  EXPECT_EQ(mapped.field->data().cones.size(), 2U);
+  EXPECT_EQ(mapped.field->data().other.size(), read.other.size());
+  const ArtifactBreaks<SizingArtifact> breaks = {
+      {"/st/cone/cone: row 1 is not a place with a length and a slope > 0",
+       [](auto& s) { s.cones.cone[1].x[2] = kNan; }},
+      {"/st/cone/cone: row 0 is not a place with a length and a slope > 0",
+       [](auto& s) { s.cones.cone[0].length = 0; }},
+      {"/st/cone/cone: row 0 is not a place with a length and a slope > 0",
+       [](auto& s) { s.cones.cone[0].slope = -1; }},
+      {"/st/cone/cone: row 0 is not a place with a length and a slope > 0",
+       [](auto& s) { s.cones.cone[0].half[1] = kNan; }},
+      {"/st/cone/cone: row 0 is not a place with a length and a slope > 0",
+       [](auto& s) { s.cones.cone[0].side[0][2] = kNan; }},
+      {"/st/cone/cause: does not fit the number of cones", [](auto& s) { s.cones.cause.pop_back(); }},
+      {"/st/cone/first: does not fit the number of cells", [](auto& s) { s.cones.first.pop_back(); }},
+      {"/st/cone/first", [](auto& s) { s.cones.first[2] = 1'000'000; }},
+      {"/st/cone/of_site: row 1 names entity 2 of", [](auto& s) { s.cones.of_site[1] = 2; }},
+      {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other.pop_back(); }},
+      {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other_cause.pop_back(); }},
+      {"/st/octree/other: row 2 is not a finite length > 0", [](auto& s) { s.other[2].length = kNan; }}};
+  for (const auto& [says, break_it] : breaks) {
+    SizingArtifact sizing = cone_sizing();
+    break_it(sizing);
+    write_sizing(path, sizing);
+    EXPECT_ERROR(read_sizing(path), kInput, path + ": " + says);
+    EXPECT_ERROR(map_sizing(path), kInput, path + ": " + says);
+  }
+}
+
 TEST(SizingDamage, is_refused_by_both_readers) {
   static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const TemporaryDirectory dir;

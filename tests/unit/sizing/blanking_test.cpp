@@ -267,6 +267,39 @@ TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
   }
 }
 
+/// Likewise, by cones.
+TEST(Blanking, cone_of_a_sample_is_on_its_side_of_a_thin_plate_only) {
+  for (const double z : {0.4531, 0.4711, 0.4999}) {
+    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
+    std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.45}, 0.0625F);
+    boxes.erase(boxes.begin());
+    const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
+    boxes.push_back({{0.5, 0.5, z + 0.006}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
+    boxes.push_back({{0.52, 0.5, z}, 0.03F, 0.02F, below, SmallNormal({0, 0, -1})});
+    RasterOctree raster = build_octree(test::kUnitBox, boxes);
+    forget_samples(raster);
+    const OctreeView octree = raster.shape.view();
+    const Neighbours neighbours(octree);
+    Blanking blanking = blank_cells(neighbours, plate.view(), BlankSide::kInside);
+    blanking.flow_along_normals = 1;
+    add_second_parts(blanking, raster);
+    const std::vector<LengthSample> samples = sorted_samples(boxes);
+    const std::vector<float> slope(samples.size(), static_cast<float>(kSlope));
+    const ConeTable cones = spread_cones(neighbours, samples, slope, kLargest, &blanking);
+    OctreeFieldData data{octree, {}, {}, kSlope, 1, blanking.split_leaf, blanking.split};
+    data.set_cones(cones, kLargest);
+    const ProlongedLengths lengths = lengths_at_centers(data);
+    data.cells = lengths.cells;
+    const OctreeField field(data, nullptr);
+    for (const double off : {0.0005, 0.02, 0.1, 0.2}) {
+      EXPECT_NE(field.explain({0.5, 0.5, z + 0.006 + off}).cause, below) << z << " " << off;
+      EXPECT_EQ(field.explain({0.5, 0.5, z - off}).cause, below) << z << " " << off;
+    }
+    EXPECT_GE(field.SizeField::size({0.5, 0.5, z + 0.0065}), 0.15);
+    EXPECT_LE(field.SizeField::size({0.5, 0.5, z - 0.0005}), 0.03);
+  }
+}
+
 /// Nothing is known at a hole, and nothing is blanked.
 TEST(Blanking, leaves_a_hole_open_and_still_separates_what_is_far_from_it) {
   BlankedSurface plate = box_surface({-0.5, -0.5, 0.4531}, {1.5, 1.5, 0.4591}, 1);

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "geometry/shape/analytic.h"
+#include "sizing/cones.h"
 
 namespace st {
 namespace {
@@ -255,6 +256,32 @@ TEST(RasterFace, covers_exactly_the_trimmed_part) {
       if (loops.contains({x, y})) {
         ASSERT_GT(s.length_at({x, y, 0}), 0) << x << " " << y;
       }
+}
+
+/// Least distance of x from the rectangles of the samples, over their lengths.
+double lengths_away(const Sampling& s, Vec3 x) {
+  double least = 1e300;
+  for (const RasterBox& b : s.boxes)
+    least = std::min(least, norm(Cone({b.center, b.length, b.cause, {}, {}, b.reach}, 1, {}).way_to(x)) / b.length);
+  return least;
+}
+
+TEST(RasterFace, asks_for_its_lengths_on_rectangles_that_cover_it_and_hardly_more) {
+  const PlaneSurface plane(kRasterFrame, -50, 50, -50, 50);
+  const LoopPolygons loops = polygon({{{-7.3, -4.1}, {9.2, -2.2}, {8.7, 6.6}, {-6.1, 5.3}}});
+  const Sampling s = sample(plane, loops, {0.01, 4, radians(10), 4});
+  double least_outside = 1e300;
+  for (double x = -12; x <= 12; x += 0.1)
+    for (double y = -9; y <= 9; y += 0.1) {
+      if (loops.contains({x, y}))
+        ASSERT_LT(lengths_away(s, plane.point({x, y})), 1e-3) << x << " " << y;
+      else if (std::abs(x) > 11 || std::abs(y) > 8)
+        least_outside = std::min(least_outside, lengths_away(s, plane.point({x, y})));
+    }
+  EXPECT_GT(least_outside, 0.3) << "as far as the loops, not as far as the pieces into which the surface was cut";
+  const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 2, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  const Sampling round = sample(sphere);
+  for_grid(sphere, 40, [&](Vec2 uv) { ASSERT_LT(lengths_away(round, sphere.point(uv)), 0.25); });
 }
 
 TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {

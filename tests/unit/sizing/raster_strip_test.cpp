@@ -44,8 +44,8 @@ TEST(RasterStrip, follows_edges_of_many_turns) {
   ASSERT_EQ(strips.size(), 3u);
   for (const Strip& strip : strips) {
     for (const Strip::Station& s : strip.stations) {
-      EXPECT_GT(s.width, 0.29);
-      EXPECT_LT(s.width, 0.43);
+      EXPECT_GT(s.width(), 0.29);
+      EXPECT_LT(s.width(), 0.43);
     }
     std::vector<RasterBox> boxes;
     raster_strip(strip, limits(0.2, 10), 0, boxes);

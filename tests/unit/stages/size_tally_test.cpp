@@ -133,7 +133,8 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
     ASSERT_NE(same, groups.end());
     EXPECT_LE(g.least, g.median);
     EXPECT_GE(g.least, raster.numbers.min_length * (1 - 1e-6));
-    EXPECT_LE(same->least, g.least * (1 + 1e-2)) << "growth makes lengths smaller only";
+    EXPECT_LE(same->least, g.least * (1 + 5e-2))
+        << "growth makes lengths smaller only; beside a sample they are larger";
     EXPECT_NEAR(sum_of_shares(g), 1, 1e-12);
   }
   const std::vector<std::string> lines = sampled_lines(sampled, raster.cause_names(), 12);
