@@ -55,6 +55,11 @@ std::string random_digits() {
   return text;
 }
 
+/// Beside the file that it will replace.
+std::string temporary_name(const std::string& path) {
+  return directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
+}
+
 /// Makes an empty file that was not there before, and follows no link; its errno, or 0.
 int make_new(const std::string& name) {
   const int fd = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -63,7 +68,10 @@ int make_new(const std::string& name) {
   return 0;
 }
 
-int reserve_slot(const std::string& name) {
+/// Before the file is made. Throws Error(kOutput) for names that do not fit.
+int reserve_slot(const std::string& name, const std::string& path) {
+  if (name.size() >= kNameLength || base_of(path).size() > 220)
+    fail(path, "the name is too long", "choose a shorter one");
   for (int i = 0; i < kSlots; ++i) {
     int free = 0;
     if (!g_slots[i].state.compare_exchange_strong(free, 1)) continue;
@@ -146,10 +154,12 @@ void require_place(const std::string& path) {
   if (stat(directory.c_str(), &info) != 0)
     fail(path, "directory " + directory + ": " + std::strerror(errno), "create it first");
   if (!S_ISDIR(info.st_mode)) fail(path, directory + " is not a directory", "choose another directory");
-  const std::string probe =
-      directory + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
-  fail_unless_made(path, make_new(probe));
-  unlink(probe.c_str());
+  const std::string probe = temporary_name(path);
+  const int slot = reserve_slot(probe, path);
+  const int error = make_new(probe);
+  if (error == 0) unlink(probe.c_str());
+  g_slots[slot].state.store(0);
+  fail_unless_made(path, error);
 }
 
 }  // namespace
@@ -162,10 +172,8 @@ void require_writable(const std::string& path) {
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   require_place(path);
   remove_stale(path, kGrace);
-  name_ = directory_of(path) + "/." + base_of(path) + ".tmp." + std::to_string(getpid()) + "." + random_digits();
-  if (name_.size() >= kNameLength || base_of(path).size() > 220)
-    fail(path, "the name is too long", "choose a shorter one");
-  slot_ = reserve_slot(name_);
+  name_ = temporary_name(path);
+  slot_ = reserve_slot(name_, path);
   if (const int error = make_new(name_)) {
     g_slots[slot_].state.store(0);
     fail_unless_made(path, error);
