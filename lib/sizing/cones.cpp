@@ -171,7 +171,9 @@ class ConeSpread {
         }
         table.of_site.push_back(number[s]);
       }
-      std::sort(table.of_site.begin() + table.first.back(), table.of_site.end());
+      std::sort(table.of_site.begin() + table.first.back(), table.of_site.end(), [&](std::int32_t a, std::int32_t b) {
+        return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length : a < b;
+      });
       require_countable(table.of_site.size(), "lengths of samples in cells");
       table.first.push_back(static_cast<std::int32_t>(table.of_site.size()));
     }

@@ -42,7 +42,7 @@ struct ConeTable {
   std::vector<Cone> cone;             ///< those that tell any, by leaf
   std::vector<std::int32_t> cause;    ///< [cones]
   std::vector<std::int32_t> first;    ///< [n_sites + 1] into `of_site`; empty: there are no cones
-  std::vector<std::int32_t> of_site;  ///< cones, ascending for each site
+  std::vector<std::int32_t> of_site;  ///< cones, those of the shortest lengths first for each site
 };
 
 /// The cones that tell the smallest of length + slope * distance, bounded by `max_length` (model unit, > 0), in each

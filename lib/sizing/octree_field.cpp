@@ -62,11 +62,16 @@ double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t*
   double least = data_.max_length;
   std::int32_t by = kLargest;
   for (std::int32_t k = data_.first_cone[site]; k < data_.first_cone[site + 1]; ++k) {
-    const double length = data_.cones[data_.site_cones[k]].length_at(x.from_lo);
-    if (length < least) {
-      least = length;
-      by = data_.site_cones[k];
-    }
+    const Cone& cone = data_.cones[data_.site_cones[k]];
+    const double room = least - cone.length;
+    if (!(room > 0)) break;  // shorter ones come first
+    const double slope = cone.slope, nearer = room + slope * (cone.half[0] + cone.half[1]);
+    // its rectangle is no closer than its place less half its sides
+    if (!(slope * slope * norm2(x.from_lo - Vec3{cone.x[0], cone.x[1], cone.x[2]}) < nearer * nearer)) continue;
+    const double distance2 = norm2(cone.way_to(x.from_lo));
+    if (!(slope * slope * distance2 < room * room)) continue;
+    least = cone.length + slope * std::sqrt(distance2);
+    by = data_.site_cones[k];
   }
   if (!data_.other.empty())
     if (const double length = length_in(data_.other[site], x.from_center); length < least) {
