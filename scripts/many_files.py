@@ -182,7 +182,7 @@ def print_summary(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+    parser = argparse.ArgumentParser(usage=__doc__.replace("%", "%%"))
     parser.add_argument("bin_dir", type=lambda path: Path(path).resolve())
     parser.add_argument("table", type=Path)
     parser.add_argument("--seconds", type=float, default=60)
