@@ -104,8 +104,9 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
   for (std::size_t k = 0; k < 9; ++k)
     if (patch.is_inside[k]) box.add(patch.uv(k));
   if (box.is_empty()) box = whole;
+  const auto place = [](double x, double lo, double size) { return size > 0 ? 2 * (x - lo) / size : 0; };
   const auto at = [&](double u, double v) {  // bilinear in each quarter
-    const double s = 2 * (u - whole.lo.x) / whole.size().x, t = 2 * (v - whole.lo.y) / whole.size().y;
+    const double s = place(u, whole.lo.x, whole.size().x), t = place(v, whole.lo.y, whole.size().y);
     const std::size_t i = s > 1, j = t > 1, k = 3 * j + i;
     const double a = s - static_cast<double>(i), b = t - static_cast<double>(j);
     return (1 - b) * ((1 - a) * patch.probe[k].x + a * patch.probe[k + 1].x) +

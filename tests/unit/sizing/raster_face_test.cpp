@@ -8,6 +8,7 @@
 
 #include "geometry/shape/analytic.h"
 #include "sizing/cones.h"
+#include "sizing/patch_walk.h"
 
 namespace st {
 namespace {
@@ -282,6 +283,20 @@ TEST(RasterFace, asks_for_its_lengths_on_rectangles_that_cover_it_and_hardly_mor
   const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 2, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
   const Sampling round = sample(sphere);
   for_grid(sphere, 40, [&](Vec2 uv) { ASSERT_LT(lengths_away(round, sphere.point(uv)), 0.25); });
+}
+
+TEST(RasterFace, has_places_in_patches_without_width) {
+  Patch<CurvePoint> patch;
+  for (std::size_t k = 0; k < 3; ++k) {
+    patch.u[k] = 1;
+    patch.v[k] = 0.5 * static_cast<double>(k);
+  }
+  for (std::size_t k = 0; k < 9; ++k) patch.probe[k].x = {3, patch.uv(k).y, 0};
+  patch.is_inside.fill(true);
+  const PatchPart part = part_inside(patch, LoopPolygons());
+  EXPECT_EQ(part.center, (Vec3{3, 0.5, 0}));
+  EXPECT_EQ(part.along_u, Vec3{});
+  EXPECT_EQ(part.along_v, (Vec3{0, 0.5, 0}));
 }
 
 TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {
