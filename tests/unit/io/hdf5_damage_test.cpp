@@ -288,6 +288,18 @@ SizingArtifact cone_sizing() {
   return sizing;
 }
 
+/// By the reader and the mapper, each with its message.
+void expect_refused_by_both(const std::string& path, const SizingArtifact& good,
+                            const ArtifactBreaks<SizingArtifact>& breaks) {
+  for (const auto& [says, break_it] : breaks) {
+    SizingArtifact sizing = good;
+    break_it(sizing);
+    write_sizing(path, sizing);
+    EXPECT_ERROR(read_sizing(path), kInput, path + ": " + says);
+    EXPECT_ERROR(map_sizing(path), kInput, path + ": " + says);
+  }
+}
+
 TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
   static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const TemporaryDirectory dir;
@@ -317,13 +329,7 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
       {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other.pop_back(); }},
       {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other_cause.pop_back(); }},
       {"/st/octree/other: row 2 is not a finite length > 0", [](auto& s) { s.other[2].length = kNan; }}};
-  for (const auto& [says, break_it] : breaks) {
-    SizingArtifact sizing = cone_sizing();
-    break_it(sizing);
-    write_sizing(path, sizing);
-    EXPECT_ERROR(read_sizing(path), kInput, path + ": " + says);
-    EXPECT_ERROR(map_sizing(path), kInput, path + ": " + says);
-  }
+  expect_refused_by_both(path, cone_sizing(), breaks);
 }
 
 TEST(SizingDamage, is_refused_by_both_readers) {
@@ -341,13 +347,7 @@ TEST(SizingDamage, is_refused_by_both_readers) {
       {"/st/octree/along: row 2 is not a finite length > 0", [](auto& s) { s.stretched.along[2].length = kNan; }},
       {"/st/octree/frame: row 12 is not finite", [](auto& s) { s.frame.translation.z = kNan; }},
       {"/st/octree/frame: its scale is not positive", [](auto& s) { s.frame.scale = -1; }}};
-  for (const auto& [says, break_it] : breaks) {
-    SizingArtifact sizing = split_sizing();
-    break_it(sizing);
-    write_sizing(path, sizing);
-    EXPECT_ERROR(read_sizing(path), kInput, path + ": " + says);
-    EXPECT_ERROR(map_sizing(path), kInput, path + ": " + says);
-  }
+  expect_refused_by_both(path, split_sizing(), breaks);
 }
 
 TEST(SizingDamage, of_lengths_that_are_mapped_is_refused) {

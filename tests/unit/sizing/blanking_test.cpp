@@ -234,69 +234,67 @@ TEST(WindingNumber, is_exact_where_rays_meet_edges_and_corners) {
       }
 }
 
-/// Samples on both sides of a plate thinner than the cells: each side keeps its own.
-TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
-  for (const double z : {0.4531, 0.4711, 0.4999}) {
-    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
+/// Samples on both sides of a plate thinner than the cells.
+struct ThinPlate {
+  static constexpr double kThickness = 0.006;
+  const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
+  const double z;
+  RasterOctree raster;
+  std::vector<LengthSample> samples;
+  Blanking blanking;
+
+  explicit ThinPlate(double z) : z(z) {
+    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + kThickness}, 40);
     std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.45}, 0.0625F);
     boxes.erase(boxes.begin());
-    const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
-    boxes.push_back({{0.5, 0.5, z + 0.006}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
+    boxes.push_back({{0.5, 0.5, z + kThickness}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
     boxes.push_back({{0.52, 0.5, z}, 0.03F, 0.02F, below, SmallNormal({0, 0, -1})});
-    RasterOctree raster = build_octree(test::kUnitBox, boxes);
+    raster = build_octree(test::kUnitBox, boxes);
     forget_samples(raster);
-    const OctreeView octree = raster.shape.view();
-    const Neighbours neighbours(octree);
-    Blanking blanking = blank_cells(neighbours, plate.view(), BlankSide::kInside);
+    blanking = blank_cells(Neighbours(octree()), plate.view(), BlankSide::kInside);
     blanking.flow_along_normals = 1;
     add_second_parts(blanking, raster);
-    const std::vector<LengthSample> samples = sorted_samples(boxes);
-    seed_lengths(samples, kSlope, blanking, neighbours, raster);
-    ProlongedLengths lengths =
-        prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, kLargest}, &blanking);
-    fit_samples(neighbours, samples, kSlope, &blanking, lengths);
-    const OctreeField field({octree, lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf, blanking.split,
-                             lengths.second_cells, lengths.second_cause},
-                            nullptr);
+    samples = sorted_samples(boxes);
+  }
+  OctreeView octree() const { return raster.shape.view(); }
+
+  void expect_each_side_to_keep_its_own(const OctreeField& field) const {
     for (const double off : {0.0005, 0.02, 0.1, 0.2}) {
-      EXPECT_NE(field.explain({0.5, 0.5, z + 0.006 + off}).cause, below) << z << " " << off;
+      EXPECT_NE(field.explain({0.5, 0.5, z + kThickness + off}).cause, below) << z << " " << off;
       EXPECT_EQ(field.explain({0.5, 0.5, z - off}).cause, below) << z << " " << off;
     }
     EXPECT_GE(field.SizeField::size({0.5, 0.5, z + 0.0065}), 0.15);
     EXPECT_LE(field.SizeField::size({0.5, 0.5, z - 0.0005}), 0.03);
+  }
+};
+
+TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
+  for (const double z : {0.4531, 0.4711, 0.4999}) {
+    ThinPlate plate(z);
+    const Neighbours neighbours(plate.octree());
+    const Blanking& blanking = plate.blanking;
+    seed_lengths(plate.samples, kSlope, blanking, neighbours, plate.raster);
+    ProlongedLengths lengths =
+        prolong(neighbours, plate.raster.stored_length, plate.raster.stored_cause, {kSlope, kLargest}, &blanking);
+    fit_samples(neighbours, plate.samples, kSlope, &blanking, lengths);
+    const OctreeField field({plate.octree(), lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf,
+                             blanking.split, lengths.second_cells, lengths.second_cause},
+                            nullptr);
+    plate.expect_each_side_to_keep_its_own(field);
   }
 }
 
 /// Likewise, by cones.
 TEST(Blanking, cone_of_a_sample_is_on_its_side_of_a_thin_plate_only) {
   for (const double z : {0.4531, 0.4711, 0.4999}) {
-    const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + 0.006}, 40);
-    std::vector<RasterBox> boxes = fine_spot({0.5, 0.5, 0.45}, 0.0625F);
-    boxes.erase(boxes.begin());
-    const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
-    boxes.push_back({{0.5, 0.5, z + 0.006}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
-    boxes.push_back({{0.52, 0.5, z}, 0.03F, 0.02F, below, SmallNormal({0, 0, -1})});
-    RasterOctree raster = build_octree(test::kUnitBox, boxes);
-    forget_samples(raster);
-    const OctreeView octree = raster.shape.view();
-    const Neighbours neighbours(octree);
-    Blanking blanking = blank_cells(neighbours, plate.view(), BlankSide::kInside);
-    blanking.flow_along_normals = 1;
-    add_second_parts(blanking, raster);
-    const std::vector<LengthSample> samples = sorted_samples(boxes);
-    const std::vector<float> slope(samples.size(), static_cast<float>(kSlope));
-    const ConeTable cones = spread_cones(neighbours, samples, slope, kLargest, &blanking);
-    OctreeFieldData data{octree, {}, {}, kSlope, 1, blanking.split_leaf, blanking.split};
+    const ThinPlate plate(z);
+    const std::vector<float> slope(plate.samples.size(), static_cast<float>(kSlope));
+    const ConeTable cones = spread_cones(Neighbours(plate.octree()), plate.samples, slope, kLargest, &plate.blanking);
+    OctreeFieldData data{plate.octree(), {}, {}, kSlope, 1, plate.blanking.split_leaf, plate.blanking.split};
     data.set_cones(cones, kLargest);
     const ProlongedLengths lengths = lengths_at_centers(data);
     data.cells = lengths.cells;
-    const OctreeField field(data, nullptr);
-    for (const double off : {0.0005, 0.02, 0.1, 0.2}) {
-      EXPECT_NE(field.explain({0.5, 0.5, z + 0.006 + off}).cause, below) << z << " " << off;
-      EXPECT_EQ(field.explain({0.5, 0.5, z - off}).cause, below) << z << " " << off;
-    }
-    EXPECT_GE(field.SizeField::size({0.5, 0.5, z + 0.0065}), 0.15);
-    EXPECT_LE(field.SizeField::size({0.5, 0.5, z - 0.0005}), 0.03);
+    plate.expect_each_side_to_keep_its_own(OctreeField(data, nullptr));
   }
 }
 
