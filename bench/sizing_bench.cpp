@@ -194,7 +194,8 @@ void bench_envelope(const std::string& raster_path, const std::string& sizing_pa
   const RasterArtifact raster = read_raster(raster_path);
   const SizingArtifact sizing = read_sizing(sizing_path);
   const SurfaceMesh mesh = read_mesh(mesh_path).mesh;
-  const OctreeField field(sizing.field_data(), nullptr);
+  const std::unique_ptr<OctreeField> owned = sizing.field();
+  const OctreeField& field = *owned;
   const OctreeView octree = sizing.shape.view();
   std::vector<Cone> cones;
   for (const LengthSample& s : raster.samples) cones.emplace_back(s, static_cast<float>(sizing.slope), octree.lo);

@@ -79,44 +79,93 @@ std::vector<CellArea> unite(std::vector<FacePart> parts, double face_area, Vec3 
   return cells;
 }
 
-/// Points that share out the area of a face in a cell: a grid on its plane, cut off at the cell's sides.
+/// A point that stands for so large a part of the area of a face in a cell, as others do.
+struct AreaPoint {
+  Vec3 x;
+  double weight = 0;
+};
+
+/// Points that share out the area of a face in a cell: squares of its plane whose middles lie in the cell, smaller ones
+/// where sources ask for less somewhere in a square than at its middle.
 class PlanePoints {
  public:
-  static constexpr int kLargest = 48;  // points per axis
-  /// `n` points per axis.
-  const std::vector<Vec3>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n) {
+  static constexpr int kLargest = 48;  // squares per axis before sources are looked at
+  explicit PlanePoints(const OctreeField& field) : field_(field) {}
+
+  /// `n` squares per axis.
+  const std::vector<AreaPoint>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n) {
     points_.clear();
-    const Vec3 c = origin + Vec3{plane.center[0], plane.center[1], plane.center[2]},
-               m{plane.normal[0], plane.normal[1], plane.normal[2]};
-    const double steepest = std::max({std::abs(m.x), std::abs(m.y), std::abs(m.z)});
-    if (steepest > 0)
+    center_ = origin + Vec3{plane.center[0], plane.center[1], plane.center[2]};
+    normal_ = {plane.normal[0], plane.normal[1], plane.normal[2]};
+    middle_ = middle;
+    edge_ = edge;
+    steepest_ = std::max({std::abs(normal_.x), std::abs(normal_.y), std::abs(normal_.z)});
+    if (steepest_ > 0)
       for (int b = 0; b < n; ++b)
-        for (int a = 0; a < n; ++a) add(c, m, middle, edge, (a + 0.5) / n - 0.5, (b + 0.5) / n - 0.5, steepest);
-    if (points_.empty()) points_.push_back(c);
+        for (int a = 0; a < n; ++a) add((a + 0.5) / n - 0.5, (b + 0.5) / n - 0.5, 1.0 / n);
+    if (points_.empty()) points_.push_back({center_, 1});
+    total_ = 0;
+    for (const AreaPoint& p : points_) total_ += p.weight;
     return points_;
   }
+  /// Of the weights of the points.
+  double total() const { return total_; }
 
  private:
-  void add(Vec3 c, Vec3 m, Vec3 middle, double edge, double a, double b, double steepest) {
-    Vec3 x;
-    double height;
-    if (std::abs(m.z) == steepest) {
-      x = {middle.x + a * edge, middle.y + b * edge, 0};
-      height = x.z = c.z - (m.x * (x.x - c.x) + m.y * (x.y - c.y)) / m.z;
-      height -= middle.z;
-    } else if (std::abs(m.y) == steepest) {
-      x = {middle.x + a * edge, 0, middle.z + b * edge};
-      height = x.y = c.y - (m.x * (x.x - c.x) + m.z * (x.z - c.z)) / m.y;
-      height -= middle.y;
-    } else {
-      x = {0, middle.y + a * edge, middle.z + b * edge};
-      height = x.x = c.x - (m.y * (x.y - c.y) + m.z * (x.z - c.z)) / m.x;
-      height -= middle.x;
+  /// A square by its middle and side, as shares of the cell's edge.
+  void add(double a, double b, double side) {
+    double height = 0;
+    const Vec3 x = on_plane(a, b, height);
+    if (field_.data().sources && is_coarse(x, a, b, side)) {
+      for (const double v : {-0.25, 0.25})
+        for (const double u : {-0.25, 0.25}) add(a + u * side, b + v * side, 0.5 * side);
+      return;
     }
-    if (std::abs(height) <= 0.5 * edge) points_.push_back(x);
+    if (std::abs(height) <= 0.5 * edge_) points_.push_back({x, side * side});
   }
+  /// The point of the plane over (a, b), and how far it lies from the middle of the cell the third way.
+  Vec3 on_plane(double a, double b, double& height) const {
+    const Vec3 c = center_, m = normal_;
+    Vec3 x;
+    if (std::abs(m.z) == steepest_) {
+      x = {middle_.x + a * edge_, middle_.y + b * edge_, 0};
+      height = x.z = c.z - (m.x * (x.x - c.x) + m.y * (x.y - c.y)) / m.z;
+      height -= middle_.z;
+    } else if (std::abs(m.y) == steepest_) {
+      x = {middle_.x + a * edge_, 0, middle_.z + b * edge_};
+      height = x.y = c.y - (m.x * (x.x - c.x) + m.z * (x.z - c.z)) / m.y;
+      height -= middle_.y;
+    } else {
+      x = {0, middle_.y + a * edge_, middle_.z + b * edge_};
+      height = x.x = c.x - (m.y * (x.y - c.y) + m.z * (x.z - c.z)) / m.x;
+      height -= middle_.x;
+    }
+    return x;
+  }
+  /// Whether lengths of sources vary much in a square that is larger than they are; x is its middle.
+  bool is_coarse(Vec3 x, double a, double b, double side) {
+    constexpr double kLeastShare = 0.8;  // of the least in the largest: 1.5 % of the triangles around a point source
+    constexpr double kSmallest = 1e-4;   // of the cell's edge
+    if (side < kSmallest) return false;
+    const SourceTree& sources = *field_.data().sources;
+    const double radius = std::sqrt(0.5) * side * edge_ / steepest_, length = length_at(x),
+                 least = sources.least_near(x, radius, length);
+    if (2 * radius <= least) return false;
+    if (least < kLeastShare * length) return true;
+    if (!sources.tells(x, length)) return false;
+    double height = 0;
+    for (const double v : {-0.5, 0.5})
+      for (const double u : {-0.5, 0.5})
+        if (kLeastShare * length_at(on_plane(a + u * side, b + v * side, height)) > length) return true;
+    return false;
+  }
+  double length_at(Vec3 x) { return field_.OctreeField::size(x, hint_) / field_.data().scale; }
 
-  std::vector<Vec3> points_;
+  const OctreeField& field_;
+  int hint_ = 0;
+  Vec3 center_, normal_, middle_;
+  double edge_ = 0, steepest_ = 0, total_ = 0;
+  std::vector<AreaPoint> points_;
 };
 
 /// Points per axis for a cell of the raster: 2, times the cells that the field has along it.
@@ -138,19 +187,17 @@ double area_share(const LocalSize& local, Vec3 normal) {
 /// Unites points of one cell that follow each other and have one cause.
 class PartCollector {
  public:
-  /// `area` that each point stands for.
-  PartCollector(FaceId face, double area, const std::function<void(const SizedPart&)>& visit)
-      : visit_(visit), face_(face), area_(area) {}
+  PartCollector(FaceId face, const std::function<void(const SizedPart&)>& visit) : visit_(visit), face_(face) {}
 
-  /// A point of length `h`; its weight is that of a unit area, without kTrianglesPerGradient.
-  void add(std::int32_t cause, double h, const FaceWeight& weight) {
+  /// A point of length `h` that stands for `area`; its weight is that of a unit area, without kTrianglesPerGradient.
+  void add(std::int32_t cause, double h, double area, const FaceWeight& weight) {
     if (!visit_) return;
     if (part_.area > 0 && cause != part_.cause) finish();
     if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}};
-    part_.area += area_;
+    part_.area += area;
     part_.least = std::min(part_.least, h);
-    part_.weight.uniform += area_ * weight.uniform;
-    part_.weight.graded += kTrianglesPerGradient * area_ * weight.graded;
+    part_.weight.uniform += area * weight.uniform;
+    part_.weight.graded += kTrianglesPerGradient * area * weight.graded;
   }
 
   void finish() {
@@ -161,7 +208,6 @@ class PartCollector {
  private:
   const std::function<void(const SizedPart&)>& visit_;
   FaceId face_;
-  double area_;
   SizedPart part_;
 };
 
@@ -191,7 +237,7 @@ double SizedPart::length() const { return std::max(least, std::sqrt(area / weigh
 std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field,
                                      const std::function<void(const SizedPart&)>& visit) {
   std::vector<FaceWeight> weights(static_cast<std::size_t>(faces.n_faces()));
-  PlanePoints points;
+  PlanePoints points(field);
   int hint = 0;
   for (std::size_t f = 0; f < weights.size(); ++f)
     for (std::int64_t k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k) {
@@ -202,22 +248,22 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
       const int n_points = points_per_axis(raster, leaf, field.data().octree);
       const auto& on_plane = points.make(faces.plane[i], faces.origin, raster.leaf_center(leaf),
                                          raster.cell_edge(raster.leaf_levels[leaf]), n_points);
-      const double area = static_cast<double>(faces.area[i]) / static_cast<double>(on_plane.size());
       double uniform = 0, graded = 0;
-      PartCollector parts(static_cast<FaceId>(f), area, visit);
-      for (const Vec3& x : on_plane) {
+      PartCollector parts(static_cast<FaceId>(f), visit);
+      const double unit = static_cast<double>(faces.area[i]) / points.total();
+      for (const auto& [x, weight] : on_plane) {
         Vec3 gradient;
         std::int32_t cause = kNone;
         const double h = field.size_and_gradient(x, hint, gradient, cause);
-        const double share = field.is_stretched() ? area_share(field.local(x, hint), normal) : 1;
+        const double share = field.is_stretched() ? area_share(field.OctreeField::local(x, hint), normal) : 1;
         const FaceWeight at_point{share / (h * h), share * norm(gradient - dot(gradient, normal) * normal) / (h * h)};
-        uniform += at_point.uniform;
-        graded += at_point.graded;
-        parts.add(cause, h, at_point);
+        uniform += weight * at_point.uniform;
+        graded += weight * at_point.graded;
+        parts.add(cause, h, unit * weight, at_point);
       }
       parts.finish();
-      weights[f].uniform += area * uniform;
-      weights[f].graded += kTrianglesPerGradient * area * graded;
+      weights[f].uniform += unit * uniform;
+      weights[f].graded += kTrianglesPerGradient * unit * graded;
     }
   return weights;
 }

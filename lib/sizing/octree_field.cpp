@@ -19,6 +19,7 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
     min_length = smallest->at_centre();
     for (const Cone& c : data.cones) min_length = std::min<double>(min_length, c.length);
   }
+  if (data_.sources) min_length = std::min(min_length, data_.sources->min_size());
   min_size_ = min_length * data_.scale;
   top_.resize(std::size_t{1} << (3 * kTopLevel));
   fill_top(data.octree.node_children.empty() ? ~0 : 0, 0, 0);
@@ -54,13 +55,14 @@ inline OctreeField::Place OctreeField::locate(Vec3 xyz, int& hint) const {
     hint = find_leaf(key, level);
   const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
   const double half = 0.5 * extent;
-  return {xyz - octree.lo,
+  return {xyz,
+          xyz - octree.lo,
           {unit_ * (gx - (p.x & mask) - half), unit_ * (gy - (p.y & mask) - half), unit_ * (gz - (p.z & mask) - half)}};
 }
 
 double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
   double least = data_.max_length;
-  std::int32_t by = kLargest;
+  std::int32_t by = kNone;
   for (std::int32_t k = data_.first_cone[site]; k < data_.first_cone[site + 1]; ++k) {
     const Cone& cone = data_.cones[data_.site_cones[k]];
     const double room = least - cone.length;
@@ -73,11 +75,6 @@ double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t*
     least = cone.length + slope * std::sqrt(distance2);
     by = data_.site_cones[k];
   }
-  if (!data_.other.empty())
-    if (const double length = length_in(data_.other[site], x.from_center); length < least) {
-      least = length;
-      by = kOther;
-    }
   if (winner) *winner = by;
   return least;
 }
@@ -98,7 +95,8 @@ inline std::int32_t OctreeField::find_site(std::int32_t leaf, const Place& x) co
 
 double OctreeField::size(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
-  return scaled(length_at(find_site(hint, x), x));
+  const double length = length_at(find_site(hint, x), x);
+  return scaled(data_.sources ? data_.sources->size_below(xyz, length) : length);
 }
 
 LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
@@ -112,49 +110,53 @@ LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
 
 LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
-  return local_in(find_site(hint, x), x);
+  const LocalSize own = local_in(find_site(hint, x), x);
+  if (!data_.sources) return own;
+  const LocalSize least =
+      data_.sources->local_below(xyz, {own.length / data_.scale, own.along / data_.scale, own.direction});
+  return {scaled(least.length), scaled(least.along), least.direction};
 }
 
-double OctreeField::explain_at(std::int32_t site, const Place& x, Vec3& gradient, std::int32_t& cause,
-                               std::int32_t& cone) const {
-  const auto linear = [&](const CellLength& c, std::int32_t of, double length) {
-    cause = of;
-    const bool is_cut_off = length >= std::abs(static_cast<double>(c.upper)) || data_.scale * length <= min_size_;
-    gradient = is_cut_off ? Vec3{} : data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
-  };
-  const std::int32_t n = data_.octree.n_leaves();
-  cone = kLargest;
+OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) const {
+  Answer answer;
   const double length =
-      data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x, &cone);
-  if (data_.first_cone.empty()) {
-    linear(cell_of(site), site < n ? data_.cause[site] : data_.second_cause[site - n], length);
-  } else if (cone == kOther) {
-    linear(data_.other[site], data_.other_cause[site], length);
-  } else if (cone == kLargest) {
-    gradient = {};
-    cause = kNone;
-  } else {
-    const Cone& c = data_.cones[cone];
-    cause = data_.cone_cause[cone];
-    gradient = data_.scale * c.slope * normalized(c.way_to(x.from_lo));
+      data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x, &answer.cone);
+  const double least = data_.sources ? data_.sources->size_below(x.xyz, length, &answer.source) : length;
+  answer.length = scaled(least);
+  if (answer.source != kNone) {
+    answer.cone = kNone;
+    answer.cause = data_.sources->entry(answer.source).cause;
+    answer.gradient = data_.scale * data_.sources->gradient(answer.source, x.xyz);
+  } else if (answer.cone != kNone) {
+    const Cone& c = data_.cones[answer.cone];
+    answer.cause = data_.cone_cause[answer.cone];
+    answer.gradient = data_.scale * c.slope * normalized(c.way_to(x.from_lo));
+  } else if (data_.first_cone.empty()) {
+    const std::int32_t n = data_.octree.n_leaves();
+    const CellLength& c = cell_of(site);
+    answer.cause = site < n ? data_.cause[site] : data_.second_cause[site - n];
+    const bool is_cut_off = length >= std::abs(static_cast<double>(c.upper)) || data_.scale * length <= min_size_;
+    if (!is_cut_off) answer.gradient = data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
   }
-  return scaled(length);
+  return answer;
 }
 
 double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const {
   const Place x = locate(xyz, hint);
-  std::int32_t cone = kLargest;
-  return explain_at(find_site(hint, x), x, gradient, cause, cone);
+  const Answer answer = answer_at(find_site(hint, x), x);
+  gradient = answer.gradient;
+  cause = answer.cause;
+  return answer.length;
 }
 
 CellLength OctreeField::at_center(std::int32_t site, std::int32_t& cause) const {
   const std::int32_t n = data_.octree.n_leaves(), leaf = site < n ? site : data_.split_leaf[site - n];
-  Vec3 gradient;
-  std::int32_t cone = kLargest;
-  const double length =
-      explain_at(site, {data_.octree.leaf_center(leaf) - data_.octree.lo, {}}, gradient, cause, cone) / data_.scale;
-  const double reach = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
-  gradient = gradient / data_.scale;
+  const Vec3 center = data_.octree.leaf_center(leaf);
+  const Answer answer = answer_at(site, {center, center - data_.octree.lo, {}});
+  cause = answer.cause;
+  const double length = answer.length / data_.scale,
+               reach = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
+  const Vec3 gradient = answer.gradient / data_.scale;
   return {static_cast<float>(length),
           {static_cast<float>(gradient.x), static_cast<float>(gradient.y), static_cast<float>(gradient.z)},
           static_cast<float>(std::min(data_.max_length, length + data_.slope * reach))};
@@ -169,6 +171,7 @@ ProlongedLengths lengths_at_centers(OctreeFieldData data) {
   at.second_cause.resize(data.split_leaf.size());
   data.cells = at.cells;
   data.scale = 1;
+  data.sources = nullptr;
   const OctreeField field(data, nullptr, std::numeric_limits<double>::min());
   for (std::size_t i = 0; i < n; ++i) at.cells[i] = field.at_center(static_cast<std::int32_t>(i), at.cause[i]);
   for (std::size_t k = 0; k < at.second_cells.size(); ++k) {
@@ -183,20 +186,24 @@ SizeExplanation OctreeField::explain(Vec3 xyz) const {
   const Place x = locate(xyz, leaf);
   const std::int32_t site = find_site(leaf, x);
   SizeExplanation result;
-  std::int32_t cone = kLargest;
-  explain_at(site, x, result.gradient, result.cause, cone);
-  const LocalSize local = local_in(site, x);
+  const Answer answer = answer_at(site, x);
+  result.gradient = answer.gradient;
+  result.cause = answer.cause;
+  const LocalSize local = OctreeField::local(xyz, leaf);
   result.length = local.length;
   result.along = local.along;
   result.direction = local.direction;
   result.leaf = leaf;
   result.level = data_.octree.leaf_levels[leaf];
   result.cell_edge = data_.octree.cell_edge(result.level);
-  if (cone >= 0) {
-    const Cone& c = data_.cones[cone];
-    result.has_origin = true;
-    result.origin = data_.octree.lo + x.from_lo - c.way_to(x.from_lo);
+  result.has_origin = answer.cone != kNone || answer.source != kNone;
+  if (answer.cone != kNone) {
+    const Cone& c = data_.cones[answer.cone];
+    result.origin = xyz - c.way_to(x.from_lo);
     result.origin_length = data_.scale * c.length;
+  } else if (answer.source != kNone) {
+    result.origin = data_.sources->origin(answer.source, xyz);
+    result.origin_length = data_.scale * data_.sources->entry(answer.source).source->size(result.origin);
   }
   return result;
 }

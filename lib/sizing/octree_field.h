@@ -12,6 +12,7 @@
 #include "sizing/octree.h"
 #include "sizing/prolong.h"
 #include "sizing/size_field.h"
+#include "sizing/source_tree.h"
 
 namespace st {
 
@@ -30,15 +31,14 @@ struct OctreeFieldData {
   std::span<const CellLength> along = {};       ///< [n_sites] see StretchedCells; empty: no stretch
   std::span<const SmallNormal> direction = {};  ///< [n_sites]
   double max_aspect = 1;
-  /// Cones of samples (ConeTable). Where there are any, they tell the lengths, together with `other`, and `cells` tell
-  /// no more than which leaves are split.
+  /// Cones of samples (ConeTable). Where there are any, they tell the lengths, and `cells` tell no more than which
+  /// leaves are split.
   std::span<const Cone> cones = {};
   std::span<const std::int32_t> cone_cause = {};
   std::span<const std::int32_t> first_cone = {};  ///< [n_sites + 1]
   std::span<const std::int32_t> site_cones = {};
-  double max_length = 0;                           ///< where nothing asks for less
-  std::span<const CellLength> other = {};          ///< [n_sites] what is no sample: sources; empty: none
-  std::span<const std::int32_t> other_cause = {};  ///< [n_sites]
+  double max_length = 0;                ///< where nothing asks for less
+  const SourceTree* sources = nullptr;  ///< in the octree's frame, before scale; asked everywhere. Null: none
 
   void set_cones(const ConeTable& table, double largest) {
     cones = table.cone;
@@ -64,14 +64,15 @@ struct SizeExplanation {
   double origin_length = 0;
 };
 
-/// By the cones of `data`: lengths, gradients and causes at the centres of all sites, before scale, and no length in a
-/// leaf above its `upper`. What `cells` are then; those of `data` are not looked at.
+/// By the cones of `data`: lengths, gradients and causes at the centres of all sites, before scale and without sources,
+/// and no length in a leaf above its `upper`. What `cells` are then; those of `data` are not looked at.
 ProlongedLengths lengths_at_centers(OctreeFieldData data);
 
-/// With cones: h(x) is the smallest of length + slope * distance over the cones of the site at x, of the sources there,
-/// and of the largest length, times scale; beyond the root cube by the cones of the nearest leaf. Without:
-/// min(length + gradient . (x - centre), upper) of the leaf at x. Where a surface splits the leaf, that of the part
-/// that x lies in; the smaller one when that is not certain.
+/// h(x) is the smallest of what the octree tells and of what the sources ask for at x, times scale. The octree tells,
+/// with cones: the smallest of length + slope * distance over the cones of the site at x, and of the largest length;
+/// beyond the root cube by the cones of the nearest leaf. Without: min(length + gradient . (x - centre), upper) of the
+/// leaf at x. Where a surface splits the leaf, that of the part that x lies in; the smaller one when that is not
+/// certain.
 class OctreeField : public SizeField {
  public:
   /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n):
@@ -81,7 +82,9 @@ class OctreeField : public SizeField {
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;
   LocalSize local(Vec3 xyz, int& hint) const override;
-  bool is_stretched() const override { return !data_.along.empty(); }
+  bool is_stretched() const override {
+    return !data_.along.empty() || (data_.sources && data_.sources->max_aspect() > 1);
+  }
   double min_size() const override { return min_size_; }
   double slope() const override { return data_.slope * data_.scale; }
   const OctreeFieldData& data() const { return data_; }
@@ -95,10 +98,17 @@ class OctreeField : public SizeField {
  private:
   /// A place in space, and in its leaf.
   struct Place {
+    Vec3 xyz;          // in the octree's frame
     Vec3 from_lo;      // from the lower corner of the root
     Vec3 from_center;  // of the leaf, moved into the root
   };
-  static constexpr std::int32_t kOther = -2, kLargest = -1;  // instead of a cone
+  /// What tells the length at a place.
+  struct Answer {
+    double length = 0;  // scaled
+    Vec3 gradient;      // likewise
+    std::int32_t cause = kNone;
+    std::int32_t cone = kNone, source = kNone;  // if it is one
+  };
 
   Place locate(Vec3 xyz, int& hint) const;
   /// The leaf, or the second part of one that is split.
@@ -112,7 +122,7 @@ class OctreeField : public SizeField {
     const std::int32_t n = data_.octree.n_leaves();
     return site < n ? data_.cells[site] : data_.second_cells[site - n];
   }
-  /// Before scale. `winner` (may be null): the cone that tells it, kOther, or kLargest.
+  /// Before scale. `winner` (may be null): the cone that tells it, or kNone.
   double cone_length(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
   /// Before scale.
   double length_at(std::int32_t site, const Place& x) const {
@@ -121,8 +131,7 @@ class OctreeField : public SizeField {
   double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
   friend ProlongedLengths lengths_at_centers(OctreeFieldData data);
   CellLength at_center(std::int32_t site, std::int32_t& cause) const;
-  /// Gradient and cause of the length at x, scaled; the cone, if it is one.
-  double explain_at(std::int32_t site, const Place& x, Vec3& gradient, std::int32_t& cause, std::int32_t& cone) const;
+  Answer answer_at(std::int32_t site, const Place& x) const;
   void fill_top(std::int32_t node, int level, std::size_t first);
   /// As OctreeView::find_leaf, by way of the table.
   std::int32_t find_leaf(std::uint64_t key, int& level) const {

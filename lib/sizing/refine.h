@@ -1,40 +1,31 @@
-// Sources and background meshes burnt into the octree: cells fine enough for them, and their lengths in the cells.
+// Octrees for programs that know cells only: fine enough to show what sources ask for.
 #pragma once
 
-#include <memory>
-#include <span>
+#include <cstdint>
 #include <vector>
 
-#include "sizing/octree.h"
-#include "sizing/source.h"
+#include "sizing/octree_field.h"
 
 namespace st {
 
-/// A source, and what to call it when it is the cause of a length.
-struct NamedSource {
-  const SizeSource* source = nullptr;
-  std::int32_t cause = kNone;
-};
-
-/// What a source asks for at the centre of a leaf.
-struct SourceRequest {
-  std::int32_t leaf = 0;
-  float length = 0;       ///< model unit, > 0
-  SampleStretch stretch;  ///< along 0: none
-};
-
 struct RefineOptions {
-  double max_length = 0;                 ///< longer lengths are of no interest, model unit
   double cell_per_length = 2;            ///< cells are never split below this many lengths
   std::int64_t max_leaves = 50'000'000;  ///< Error(kUsage) beyond
 };
 
-/// The octree refined where the lengths of the sources change over a cell by more than half and more than linearly,
-/// balanced again; stored lengths are the smaller of the raster's and the sources': the smallest of a source's lengths
-/// in cells that meet its core, its length at the centre elsewhere. Cells that lie within one core stay as they are,
-/// however small the length. Independent of the order of sources with different causes. Cost: cells times the sources
-/// that matter there. `requests` (may be null) gets all that the sources ask for, by leaf.
-RasterOctree refine_octree(const RasterOctree& raster, std::span<const NamedSource> sources,
-                           const RefineOptions& options, std::vector<SourceRequest>* requests = nullptr);
+/// The octree of the field, refined until the lengths of its sources change by less than a quarter from the centre of a
+/// cell to anywhere in it, balanced again. Cells within the core of a source stay as they are, however small its
+/// length.
+OctreeShape refine_octree(const OctreeField& field, const RefineOptions& options = {});
+
+/// What each cell tells at its centre, before scale.
+struct ShownOctree {
+  OctreeShape shape;                ///< refined where there are sources
+  std::vector<float> length;        ///< [leaves]
+  std::vector<std::int32_t> cause;  ///< [leaves]
+  std::vector<std::int32_t> leaf;   ///< [leaves] of the field's own octree, in which each lies
+};
+
+ShownOctree show_octree(const OctreeField& field);
 
 }  // namespace st

@@ -4,58 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "base/eigen.h"
-
 namespace st {
 namespace {
 
 constexpr double kLn2 = 0.69314718055994530942;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Length at the distance `r`: constant, then exponential, then, from where that would exceed the slope, linear.
-double length_at(const SourceSpacing& s, double slope, double r) {
-  const double t = r - s.radius;
-  if (!(t > 0)) return s.length;
-  const double width = (s.doubling - s.radius) / kLn2;  // grows by e over this
-  if (!(width > 0) || s.length >= slope * width) return s.length + slope * t;
-  const double steep = width * std::log(slope * width / s.length);  // here the slope is reached
-  return t <= steep ? s.length * std::exp(t / width) : slope * (width + t - steep);
-}
-
-/// What the source asks for at the point of it that is nearest to a place, and how far that is.
-struct Nearest {
-  double distance = 0;  // negative inside volumes
-  SourceSpacing spacing;
-};
-
-Nearest nearest_on_segment(Vec3 x, const Vec3* p, const SourceSpacing* s) {
-  const Vec3 d = p[1] - p[0];
-  const double d2 = norm2(d), t = d2 > 0 ? std::clamp(dot(x - p[0], d) / d2, 0.0, 1.0) : 0;
-  const auto mix = [t](double a, double b) { return a + t * (b - a); };
-  return {distance(x, p[0] + t * d),
-          {mix(s[0].length, s[1].length), mix(s[0].radius, s[1].radius), mix(s[0].doubling, s[1].doubling)}};
-}
-
-/// Nearest point of a triangle: inside when its foot is, else on one of the sides.
-Nearest nearest_on_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::array<SourceSpacing, 3>& s) {
+double distance_to_triangle(Vec3 x, const std::array<Vec3, 3>& p) {
   const Vec3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b), r = x - p[0];
-  const double n2 = norm2(n);
-  if (n2 > 0) {
-    const double wb = dot(cross(r, b), n) / n2, wc = dot(cross(a, r), n) / n2, wa = 1 - wb - wc;
-    if (wa >= 0 && wb >= 0 && wc >= 0) {
-      const auto mix = [&](double SourceSpacing::*m) { return wa * (s[0].*m) + wb * (s[1].*m) + wc * (s[2].*m); };
-      return {std::abs(dot(r, n)) / std::sqrt(n2),
-              {mix(&SourceSpacing::length), mix(&SourceSpacing::radius), mix(&SourceSpacing::doubling)}};
-    }
-  }
-  Nearest best{kInfinity, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 q[2] = {p[k], p[(k + 1) % 3]};
-    const SourceSpacing t[2] = {s[k], s[(k + 1) % 3]};
-    const Nearest side = nearest_on_segment(x, q, t);
-    if (side.distance < best.distance) best = side;
-  }
-  return best;
+  const double n2 = norm2(n), wb = dot(cross(r, b), n), wc = dot(cross(a, r), n);
+  if (n2 > 0 && wb >= 0 && wc >= 0 && wb + wc <= n2) return std::abs(dot(r, n)) / std::sqrt(n2);
+  return std::min({segment_distance(x, p[0], p[1]), segment_distance(x, p[1], p[2]), segment_distance(x, p[2], p[0])});
 }
 
 /// Negative inside, as below: how far from the surface.
@@ -78,174 +37,160 @@ double distance_to_cylinder(Vec3 x, Vec3 a, Vec3 axis, double height, double rad
   return std::hypot(std::max(lengthwise, 0.0), std::max(sideways, 0.0));
 }
 
+/// The smallest value of f over [0, 1]: the best of evenly spaced places, then golden sections about it.
+template <class F>
+double least_over(const F& f) {
+  constexpr int kPlaces = 8;     // a line has two least places at most: at its own least length and at its foot
+  constexpr int kSections = 32;  // about the best place, to 1e-7
+  constexpr double kGolden = 0.6180339887498949;
+  double best = f(0.0), at = 0;
+  for (int i = 1; i <= kPlaces; ++i)
+    if (const double value = f(static_cast<double>(i) / kPlaces); value < best) best = value, at = i;
+  double lo = std::max(0.0, (at - 1) / kPlaces), hi = std::min(1.0, (at + 1) / kPlaces);
+  double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo), f_a = f(a), f_b = f(b);
+  for (int i = 0; i < kSections; ++i) {
+    if (f_a < f_b) {
+      hi = b, b = a, f_b = f_a;
+      f_a = f(a = hi - kGolden * (hi - lo));
+    } else {
+      lo = a, a = b, f_a = f_b;
+      f_b = f(b = lo + kGolden * (hi - lo));
+    }
+  }
+  return std::min({best, f_a, f_b});
+}
+
+/// The smallest over a segment of a linear length plus `slope` times the distance from x.
+double least_over_segment(Vec3 x, Vec3 a, Vec3 b, double length_a, double length_b, double slope) {
+  const Vec3 d = b - a;
+  const double d2 = norm2(d), rise = length_b - length_a;
+  double t = rise < 0 ? 1 : 0;
+  if (d2 > 0 && std::abs(rise) < slope * std::sqrt(d2)) {
+    const double foot = dot(x - a, d) / d2, m = rise / (slope * std::sqrt(d2)), height = distance(x, a + foot * d);
+    t = std::clamp(foot - m * height / std::sqrt((1 - m * m) * d2), 0.0, 1.0);
+  }
+  return length_a + t * rise + slope * distance(x, a + t * d);
+}
+
+SourceSpacing mixed(const SourceSpacing& a, const SourceSpacing& b, double t) {
+  return {a.length + t * (b.length - a.length), a.radius + t * (b.radius - a.radius),
+          a.doubling + t * (b.doubling - a.doubling)};
+}
+
 class ShapeSource final : public SizeSource {
  public:
-  ShapeSource(const SourceSpec& spec, double slope) : spec_(spec), slope_(slope) {
-    const int n = n_spacings(spec.kind);
-    min_size_ = spec.spacing[0].length;
-    for (int k = 1; k < n; ++k) min_size_ = std::min(min_size_, spec.spacing[k].length);
-    if (n > 1) measure_change(n);
+  ShapeSource(const SourceSpec& spec, double slope) : SizeSource(slope), spec_(spec) {
+    const auto& s = spec.spacing;
+    least_ = s[0];
+    double width = s[0].doubling - s[0].radius;
+    for (int k = 1; k < n_spacings(spec.kind); ++k) {
+      is_varied_ |= s[k].length != s[0].length || s[k].radius != s[0].radius || s[k].doubling != s[0].doubling;
+      least_.length = std::min(least_.length, s[k].length);
+      least_.radius = std::max(least_.radius, s[k].radius);
+      width = std::max(width, s[k].doubling - s[k].radius);
+    }
+    least_.doubling = least_.radius + width;
+    is_plain_ = least_.radius == 0 && !(width > 0);
   }
 
-  double size(Vec3 x, int&) const override {
-    const Nearest n = nearest(x);
-    return length_at(n.spacing, slope_, n.distance);
+  double size(Vec3 x, int&) const override { return size_below(x, kInfinity); }
+  double size_below(Vec3 x, double upper) const override {
+    const double at_least = grown_length(least_, slope(), distance_from(x));
+    if (!is_varied_ || !(at_least < upper)) return std::min(at_least, upper);
+    return std::min(upper, spec_.kind == SourceKind::kLine ? on_line(x) : on_triangle(x));
   }
   LocalSize local(Vec3 x, int& hint) const override {
     const double length = size(x, hint);
     return {length, spec_.aspect * length, spec_.aspect > 1 ? spec_.direction : Vec3{}};
   }
-  bool is_stretched() const override { return spec_.aspect > 1; }
   double max_aspect() const override { return spec_.aspect; }
-  double min_size() const override { return min_size_; }
-  double slope() const override { return slope_; }
-
-  SizeRange range(Vec3 center, double half) const override {
-    const double radius = std::sqrt(3.0) * half;
-    const Nearest n = nearest(center);
-    const SourceSpacing& s = n.spacing;
-    const double dl = change_.length * radius, dr = change_.radius * radius, dd = change_.doubling * radius;
-    const double nearest_r = std::max(0.0, n.distance - radius);
-    const SourceSpacing least{std::max(min_size_, s.length - dl), s.radius + dr,
-                              s.doubling > s.radius ? s.doubling + dd : 0};
-    const SourceSpacing most{s.length + dl, std::max(0.0, s.radius - dr), s.doubling - dd};
-    const bool meets_core = nearest_r <= least.radius;
-    return {length_at(least, slope_, nearest_r), length_at(most, slope_, n.distance + radius), meets_core, meets_core};
+  double min_size() const override { return least_.length; }
+  SourceGrowth growth() const override {
+    SourceSpec shape = spec_;
+    for (SourceSpacing& s : shape.spacing) s.radius = 0;
+    return {core_box(shape), least_};
   }
 
  private:
-  Nearest nearest(Vec3 x) const {
+  /// From the source's points to x; not positive inside volumes.
+  double distance_from(Vec3 x) const {
     const auto& p = spec_.point;
     switch (spec_.kind) {
       case SourceKind::kPoint:
-        return {distance(x, p[0]), spec_.spacing[0]};
+        return distance(x, p[0]);
       case SourceKind::kLine:
-        return nearest_on_segment(x, p.data(), spec_.spacing.data());
+        return segment_distance(x, p[0], p[1]);
       case SourceKind::kTriangle:
-        return nearest_on_triangle(x, p, spec_.spacing);
+        return distance_to_triangle(x, p);
       case SourceKind::kBox:
-        return {distance_to_box(x, spec_), spec_.spacing[0]};
+        return distance_to_box(x, spec_);
       case SourceKind::kCylinder:
-        return {distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent),
-                spec_.spacing[0]};
+        return distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent);
       case SourceKind::kSphere:
-        return {distance(x, p[0]) - spec_.extent, spec_.spacing[0]};
+        return distance(x, p[0]) - spec_.extent;
       case SourceKind::kDisc:
-        return {distance_to_cylinder(x, p[0], normalized(spec_.half_axis[0]), 0, spec_.extent), spec_.spacing[0]};
+        return distance_to_cylinder(x, p[0], normalized(spec_.half_axis[0]), 0, spec_.extent);
     }
-    return {};
+    return 0;
   }
-
-  /// Bounds how fast the spacing changes along a line or triangle: largest difference over the smallest extent.
-  void measure_change(int n) {
-    double extent = distance(spec_.point[0], spec_.point[1]);
-    if (n == 3) {
-      double longest = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        longest = std::max(longest, distance(spec_.point[k], spec_.point[(k + 1) % 3]));
-      extent = norm(cross(spec_.point[1] - spec_.point[0], spec_.point[2] - spec_.point[0])) / longest;
-    }
-    const auto bound = [&](double SourceSpacing::*m) {
-      double lo = spec_.spacing[0].*m, hi = lo;
-      for (int k = 1; k < n; ++k) {
-        lo = std::min(lo, spec_.spacing[k].*m);
-        hi = std::max(hi, spec_.spacing[k].*m);
-      }
-      return hi > lo && extent > 0 ? (hi - lo) / extent : 0;
-    };
-    change_ = {bound(&SourceSpacing::length), bound(&SourceSpacing::radius), bound(&SourceSpacing::doubling)};
+  double between(Vec3 x, Vec3 a, Vec3 b, const SourceSpacing& at_a, const SourceSpacing& at_b) const {
+    if (is_plain_) return least_over_segment(x, a, b, at_a.length, at_b.length, slope());
+    return least_over(
+        [&](double t) { return grown_length(mixed(at_a, at_b, t), slope(), distance(x, a + t * (b - a))); });
+  }
+  double on_line(Vec3 x) const {
+    return between(x, spec_.point[0], spec_.point[1], spec_.spacing[0], spec_.spacing[1]);
+  }
+  double on_triangle(Vec3 x) const {
+    const auto& p = spec_.point;
+    const auto& s = spec_.spacing;
+    if (is_plain_) return least_over_triangle(x, p, {s[0].length, s[1].length, s[2].length}, slope());
+    return least_over([&](double t) {
+      return between(x, p[0] + t * (p[1] - p[0]), p[0] + t * (p[2] - p[0]), mixed(s[0], s[1], t), mixed(s[0], s[2], t));
+    });
   }
 
   SourceSpec spec_;
-  double slope_, min_size_;
-  SourceSpacing change_;  // per distance
-};
-
-/// One tetrahedron of a background mesh. Barycentric coordinate k at x is weight_[k] . x + offset_[k].
-class TetSource final : public SizeSource {
- public:
-  TetSource(const std::array<Vec3, 4>& p, const std::array<LocalSize, 4>& size) {
-    std::array<double, 4> h{};
-    for (std::size_t k = 0; k < 4; ++k) h[k] = size[k].length;
-    length_ = h;
-    find_direction(size);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Vec3 a = p[(k + 1) % 4], b = p[(k + 2) % 4], c = p[(k + 3) % 4], n = cross(b - a, c - a);
-      weight_[k] = n / dot(n, p[k] - a);
-      offset_[k] = -dot(weight_[k], a);
-      gradient_ += h[k] * weight_[k];
-      box_.add(p[k]);
-    }
-    min_size_ = *std::min_element(h.begin(), h.end());
-  }
-
-  /// Inside: linear. Outside: at the nearest point, roughly (coordinates cut off at zero).
-  double size(Vec3 x, int&) const override { return interpolate(length_, x); }
-  LocalSize local(Vec3 x, int& hint) const override {
-    const double length = size(x, hint);
-    return {length, is_stretched() ? std::max(length, interpolate(along_, x)) : length, direction_};
-  }
-  bool is_stretched() const override { return max_aspect_ > 1; }
-  double max_aspect() const override { return max_aspect_; }
-  double min_size() const override { return min_size_; }
-  double slope() const override { return norm(gradient_); }
-  bool is_everywhere() const override { return false; }
-  bool covers(Vec3 x) const override {
-    constexpr double kOnSide = -1e-9;  // of the height: sides are shared
-    for (std::size_t k = 0; k < 4; ++k)
-      if (coordinate(k, x) < kOnSide) return false;
-    return true;
-  }
-
-  SizeRange range(Vec3 center, double half) const override {
-    constexpr SizeRange kNothing{kInfinity, kInfinity, false, false};
-    const Vec3 a = box_.lo - center, b = center - box_.hi;
-    if (std::max({a.x, a.y, a.z, b.x, b.y, b.z}) > half) return kNothing;
-    double value = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double c = coordinate(k, center);
-      if (c + half * sum_abs(weight_[k]) < 0) return kNothing;
-      value += c * length_[k];
-    }
-    const double change = half * sum_abs(gradient_), largest = *std::max_element(length_.begin(), length_.end());
-    const Vec3 e = box_.hi - box_.lo;
-    return {std::clamp(value - change, min_size_, largest), std::clamp(value + change, min_size_, largest), false,
-            2 * half > std::max({e.x, e.y, e.z})};
-  }
-
- private:
-  static double sum_abs(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-  double coordinate(std::size_t k, Vec3 x) const { return dot(weight_[k], x) + offset_[k]; }
-  double interpolate(const std::array<double, 4>& value, Vec3 x) const {
-    double sum = 0, weights = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double w = std::max(0.0, coordinate(k, x));
-      sum += w * value[k];
-      weights += w;
-    }
-    return sum / weights;
-  }
-  /// The direction that the squeezes of the nodes share most, and the lengths along it.
-  void find_direction(const std::array<LocalSize, 4>& size) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const LocalSize& s : size) sum += to_eigen(s.squeeze()) * to_eigen(s.squeeze()).transpose();
-    if (sum.trace() > 0) direction_ = principal_axes(sum).axis[2];
-    for (std::size_t k = 0; k < 4; ++k) {
-      along_[k] = size[k].in(direction_);
-      max_aspect_ = std::max(max_aspect_, along_[k] / length_[k]);
-    }
-  }
-
-  std::array<Vec3, 4> weight_;
-  std::array<double, 4> offset_{}, length_{}, along_{};
-  Vec3 direction_;
-  double max_aspect_ = 1;
-  Vec3 gradient_;
-  Box3 box_;
-  double min_size_ = 0;
+  SourceSpacing least_;     // smallest length, largest radius, slowest growth of all its points
+  bool is_varied_ = false;  // the spacing is not one for all points
+  bool is_plain_ = false;   // lengths grow by the slope from every point on
 };
 
 }  // namespace
+
+double grown_length(const SourceSpacing& s, double slope, double r) {
+  const double t = r - s.radius;
+  if (!(t > 0)) return s.length;
+  const double width = (s.doubling - s.radius) / kLn2;  // grows by e over this
+  if (!(width > 0) || s.length >= slope * width) return s.length + slope * t;
+  const double steep = width * std::log(slope * width / s.length);  // here the slope is reached
+  return t <= steep ? s.length * std::exp(t / width) : slope * (width + t - steep);
+}
+
+SourceGrowth SizeSource::growth() const {
+  constexpr double kFar = 1e150;  // whose square is a number
+  return {{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {min_size(), 0, 0}};
+}
+
+double least_over_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::array<double, 3>& length, double slope) {
+  const Vec3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
+  const double n2 = norm2(n);
+  if (n2 > 0) {
+    const Vec3 gradient = ((length[1] - length[0]) * cross(b, n) + (length[2] - length[0]) * cross(n, a)) / n2;
+    const double m2 = norm2(gradient) / (slope * slope);
+    if (m2 < 1) {  // the place from which the length at x grows, if it lies inside
+      const double height = std::abs(dot(x - p[0], n)) / std::sqrt(n2);
+      const Vec3 r = x - p[0] - (height / (slope * std::sqrt(1 - m2))) * gradient;
+      const double wb = dot(cross(r, b), n) / n2, wc = dot(cross(a, r), n) / n2;
+      if (wb >= 0 && wc >= 0 && wb + wc <= 1)
+        return length[0] + wb * (length[1] - length[0]) + wc * (length[2] - length[0]) +
+               slope * height / std::sqrt(1 - m2);
+    }
+  }
+  return std::min({least_over_segment(x, p[0], p[1], length[0], length[1], slope),
+                   least_over_segment(x, p[1], p[2], length[1], length[2], slope),
+                   least_over_segment(x, p[2], p[0], length[2], length[0], slope)});
+}
 
 int n_spacings(SourceKind kind) { return kind == SourceKind::kLine ? 2 : kind == SourceKind::kTriangle ? 3 : 1; }
 
@@ -303,40 +248,8 @@ void transform(const Similarity& motion, SourceSpec& source) {
   source.direction = motion.rotated(source.direction);
 }
 
-void transform(const Similarity& motion, BackgroundMesh& mesh) {
-  for (Vec3& p : mesh.node_xyz) p = motion(p);
-  for (LocalSize& s : mesh.node_size)
-    s = {motion.scale * s.length, motion.scale * s.along, motion.rotated(s.direction)};
-}
-
-std::int64_t remove_stretch(BackgroundMesh& mesh) {
-  std::int64_t n_stretched = 0;
-  for (LocalSize& s : mesh.node_size) {
-    n_stretched += s.along > s.length;
-    s = {s.length, s.length, {}};
-  }
-  return n_stretched;
-}
-
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope) {
   return std::make_unique<ShapeSource>(spec, slope);
-}
-
-std::vector<std::unique_ptr<SizeSource>> make_sources(const BackgroundMesh& mesh) {
-  constexpr double kFlat = 1e-12;  // volume over cubed edge
-  std::vector<std::unique_ptr<SizeSource>> sources;
-  for (const auto& tet : mesh.tets) {
-    std::array<Vec3, 4> p;
-    std::array<LocalSize, 4> size;
-    for (std::size_t k = 0; k < 4; ++k) {
-      p[k] = mesh.node_xyz[tet[k]];
-      size[k] = mesh.node_size[tet[k]];
-    }
-    const Vec3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-    const double volume6 = std::abs(dot(cross(a, b), c)), longest = std::max({norm(a), norm(b), norm(c)});
-    if (volume6 > kFlat * longest * longest * longest) sources.push_back(std::make_unique<TetSource>(p, size));
-  }
-  return sources;
 }
 
 }  // namespace st

@@ -1,7 +1,8 @@
-// Lengths asked for in space besides the raster: point, line and triangle sources, volumes, and the cells of a
-// background mesh.
+// Lengths asked for in space besides the raster: points, lines, triangles and volumes. Background meshes:
+// background.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -12,31 +13,6 @@
 
 namespace st {
 
-/// Bounds of a length over a cube.
-struct SizeRange {
-  double lo = 0, hi = 0;    ///< lo <= length <= hi wherever the source asks for something; lo = infinity: it asks for
-                            ///< nothing there
-  bool meets_core = false;  ///< part of the cube may lie where the length is constant and smallest
-  bool has_detail = false;  ///< the length may do more in the cube than grow evenly: its values at a few points do not
-                            ///< tell
-};
-
-/// Something that asks for lengths in space. A new kind of source is a new implementation.
-class SizeSource : public SizeField {
- public:
-  using SizeField::size;
-  /// Bounds over the cube center +- half; they may be wide, but tighten as the cube shrinks.
-  virtual SizeRange range(Vec3 center, double half) const = 0;
-  /// Whether it asks for something everywhere, and if not, whether at `xyz`; elsewhere size() continues what holds at
-  /// the border.
-  virtual bool is_everywhere() const { return true; }
-  virtual bool covers(Vec3) const { return true; }
-  /// Largest ratio of the two lengths of local().
-  virtual double max_aspect() const { return 1; }
-};
-
-enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
-
 /// What a source asks for at one of its points (FLITE): `length` up to the distance `radius`, twice as much at
 /// `doubling`, growing exponentially, but never faster than the slope.
 struct SourceSpacing {
@@ -44,6 +20,36 @@ struct SourceSpacing {
   double radius = 0;    ///< model unit, >= 0
   double doubling = 0;  ///< model unit; <= radius: growth by the slope alone
 };
+
+/// The length that such a point asks for at the distance `r`.
+double grown_length(const SourceSpacing& spacing, double slope, double r);
+
+/// A bound of what a source asks for: nothing at the distance r from `core` is below grown_length(spacing, slope, r).
+struct SourceGrowth {
+  Box3 core;
+  SourceSpacing spacing;
+};
+
+/// Something that asks for lengths in all of space. A new kind of source is a new implementation of min_size() and
+/// size(), the two methods of the paper (section 3.1); it shall grow by slope() at most.
+class SizeSource : public SizeField {
+ public:
+  explicit SizeSource(double slope) : slope_(slope) {}
+  using SizeField::size;
+  double slope() const final { return slope_; }
+  /// min(upper, size(x)), sooner where a bound is enough.
+  virtual double size_below(Vec3 x, double upper) const { return std::min(upper, size(x)); }
+  /// The tighter, the sooner a search passes over it. Here: it may ask for its smallest length anywhere.
+  virtual SourceGrowth growth() const;
+  /// Largest ratio of the two lengths of local().
+  virtual double max_aspect() const { return 1; }
+  bool is_stretched() const override { return max_aspect() > 1; }
+
+ private:
+  double slope_;
+};
+
+enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
 
 /// A source as the user describes it.
 struct SourceSpec {
@@ -70,23 +76,12 @@ Box3 core_box(const SourceSpec& source);
 /// Positions and directions are moved; lengths, radii and extents are scaled.
 void transform(const Similarity& motion, SourceSpec& source);
 
-/// The source as a field that grows by at most `slope`. Precondition: lengths > 0, radii >= 0, slope > 0.
+/// The source as a field: at each point the smallest over the source's points of what they ask for there. Exact where
+/// the spacing is one for all points, or grows by the slope from all of them without radii; otherwise to 1e-6.
+/// Precondition: lengths > 0, radii >= 0, slope > 0.
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope);
 
-/// A background mesh: lengths at the nodes of tetrahedra, linear inside. In each tetrahedron one direction may have a
-/// longer length: the one along which its nodes together are stretched most.
-struct BackgroundMesh {
-  std::vector<Vec3> node_xyz;
-  std::vector<LocalSize> node_size;
-  std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
-};
-
-/// Takes the smallest length in all directions; the number of nodes that had a longer one.
-std::int64_t remove_stretch(BackgroundMesh& mesh);
-
-void transform(const Similarity& motion, BackgroundMesh& mesh);
-
-/// One source per tetrahedron; flat ones are left out.
-std::vector<std::unique_ptr<SizeSource>> make_sources(const BackgroundMesh& mesh);
+/// The smallest over a triangle of a linear length plus `slope` times the distance from x. Exact.
+double least_over_triangle(Vec3 x, const std::array<Vec3, 3>& point, const std::array<double, 3>& length, double slope);
 
 }  // namespace st

@@ -17,12 +17,12 @@ double length_in(Vec3 t, double across, double along, Vec3 direction) {
 
 class StretchProlongation {
  public:
-  StretchProlongation(const Neighbours& neighbours, const StretchSeeds& seeds, const ProlongedLengths& lengths,
-                      const ProlongOptions& options, double max_aspect, const Blanking* blanking)
+  StretchProlongation(const Neighbours& neighbours, std::span<const LengthSample> samples,
+                      const ProlongedLengths& lengths, const ProlongOptions& options, double max_aspect,
+                      const Blanking* blanking)
       : octree_(neighbours.octree()),
         neighbours_(neighbours),
-        samples_(seeds.samples),
-        requests_(seeds.requests),
+        samples_(samples),
         options_(options),
         max_aspect_(max_aspect),
         blanking_(blanking) {
@@ -44,45 +44,23 @@ class StretchProlongation {
   }
 
  private:
-  /// Calls f(site, request) for what sources ask of leaves and their second parts.
-  template <class F>
-  void for_each_request(const F& f) const {
-    for (std::size_t r = 0; r < requests_.size(); ++r) {
-      const std::int32_t leaf = requests_[r].leaf;
-      f(leaf, static_cast<std::int32_t>(r));
-      if (!blanking_) continue;
-      const auto it = std::lower_bound(blanking_->split_leaf.begin(), blanking_->split_leaf.end(), leaf);
-      if (it != blanking_->split_leaf.end() && *it == leaf)
-        f(octree_.n_leaves() + static_cast<std::int32_t>(it - blanking_->split_leaf.begin()),
-          static_cast<std::int32_t>(r));
-    }
-  }
-  const SampleStretch& stretch_of(std::int32_t origin) const {
-    const auto n_samples = static_cast<std::int32_t>(samples_.size());
-    return origin < n_samples ? samples_[origin].stretch : requests_[origin - n_samples].stretch;
-  }
-
-  /// The direction of the sample or source that the length of a site goes back to.
+  /// The direction of the sample that the length of a site goes back to.
   void find_directions(std::span<const float> stored_length) {
     const auto n_samples = static_cast<std::int32_t>(samples_.size());
-    const std::int32_t n_all = n_samples + static_cast<std::int32_t>(requests_.size());
-    std::vector<std::int32_t> origin(stored_length.size(), n_all);
+    std::vector<std::int32_t> origin(stored_length.size(), n_samples);
     for_each_seed(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       const LengthSample& s = samples_[sample];
       const auto length = static_cast<float>(s.length + options_.slope * distance(s.xyz, centre_[site]));
       if (length == stored_length[site]) origin[site] = std::min(origin[site], sample);
     });
-    for_each_request([&](std::int32_t site, std::int32_t r) {
-      if (requests_[r].length == stored_length[site]) origin[site] = std::min(origin[site], n_samples + r);
-    });
     const std::vector<std::int32_t> label = spread_labels(neighbours_, stored_length, origin, options_, blanking_);
     for (const std::int32_t from : label) {
-      const bool has_one = from != kNone && from < n_all && stretch_of(from).along > 0;
-      direction_.push_back(has_one ? normalized(Vec3(stretch_of(from).direction)) : Vec3{});
+      const bool has_one = from != kNone && from < n_samples && samples_[from].stretch.along > 0;
+      direction_.push_back(has_one ? normalized(Vec3(samples_[from].stretch.direction)) : Vec3{});
     }
   }
 
-  /// What samples and sources allow at the sites that they concern.
+  /// What samples allow at the sites that they concern.
   void seed(std::span<const float> stored_length) {
     along_.resize(across_.size());
     for (std::size_t site = 0; site < along_.size(); ++site)
@@ -95,10 +73,6 @@ class StretchProlongation {
       const double rise = options_.slope * distance(s.xyz, centre_[site]);
       known[site] = std::min(known[site], static_cast<float>(s.length + rise));
       limit(site, s.length, s.stretch, rise);
-    });
-    for_each_request([&](std::int32_t site, std::int32_t r) {
-      known[site] = std::min(known[site], requests_[r].length);
-      limit(site, requests_[r].length, requests_[r].stretch, 0);
     });
     for (std::size_t site = 0; site < along_.size(); ++site)
       if (stored_length[site] < known[site]) lower(static_cast<std::int32_t>(site), stored_length[site]);
@@ -141,7 +115,6 @@ class StretchProlongation {
   const OctreeView& octree_;
   const Neighbours& neighbours_;
   std::span<const LengthSample> samples_;
-  std::span<const SourceRequest> requests_;
   const ProlongOptions& options_;
   const double max_aspect_;
   const Blanking* blanking_;
@@ -153,10 +126,10 @@ class StretchProlongation {
 
 }  // namespace
 
-StretchedCells prolong_stretch(const Neighbours& neighbours, const StretchSeeds& seeds,
+StretchedCells prolong_stretch(const Neighbours& neighbours, std::span<const LengthSample> samples,
                                std::span<const float> stored_length, const ProlongedLengths& lengths,
                                const ProlongOptions& options, double max_aspect, const Blanking* blanking) {
-  return StretchProlongation(neighbours, seeds, lengths, options, max_aspect, blanking).run(stored_length);
+  return StretchProlongation(neighbours, samples, lengths, options, max_aspect, blanking).run(stored_length);
 }
 
 }  // namespace st

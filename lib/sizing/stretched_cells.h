@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sizing/prolong.h"
-#include "sizing/refine.h"
 #include "sizing/sample_seeds.h"
 
 namespace st {
@@ -16,18 +15,13 @@ struct StretchedCells {
   std::vector<SmallNormal> direction;  ///< [n_sites] unknown: the same length in all directions
 };
 
-/// What asked for the lengths that cells store. What neither list names allows no stretch.
-struct StretchSeeds {
-  std::span<const LengthSample> samples;
-  std::span<const SourceRequest> requests = {};  ///< of sources
-};
-
-/// Prolongs what samples and sources allow along their directions. Each site takes the direction of the one that its
+/// Prolongs what samples allow along their directions; a stored length that none of them names allows no stretch. Each
+/// site takes the direction of the one that its
 /// length goes back to; the length along it is the largest that all of them allow in this direction and that grows by
 /// at most the slope from cell to cell, also where directions differ: a metric whose growth is limited in every
 /// direction (Alauzet 2010), with the directions fixed beforehand so that the result is unique. `stored_length`:
 /// [n_sites] as seeded. `lengths`: of prolong().
-StretchedCells prolong_stretch(const Neighbours& neighbours, const StretchSeeds& seeds,
+StretchedCells prolong_stretch(const Neighbours& neighbours, std::span<const LengthSample> samples,
                                std::span<const float> stored_length, const ProlongedLengths& lengths,
                                const ProlongOptions& options, double max_aspect, const Blanking* blanking);
 

@@ -53,28 +53,28 @@ void require_valid(const ProlongStageOptions& o) {
     throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
-/// Resolved options; file names stand among the inputs.
-std::string options_json(const ProlongStageOptions& o, double scale) {
-  Json json = {{"slope", o.slope}, {"scale", scale}};
+/// The options that the octree's lengths depend on; file names stand among the inputs.
+Json octree_options(const ProlongStageOptions& o) {
+  Json json = {{"slope", o.slope}};
   if (!o.slope_of.empty()) json["slope_of"] = o.slope_of;
   if (!o.blank.empty()) json["blank_side"] = o.blank_side;
   if (o.no_blank) json["no_blank"] = true;
-  if (!o.transform.empty()) json["transform"] = o.transform;
-  if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
   if (o.allow_incomplete) json["allow_incomplete"] = true;
-  return json_text(json);
+  return json;
 }
 
-ArtifactHeader sizing_header(const ProlongStageOptions& o, const ArtifactHeader& raster, double scale,
-                             const std::vector<InputRef>& sources) {
-  ArtifactHeader header = raster;
-  header.schema = "sizing";
-  header.tool = "st-prolong";
-  header.tool_version = ST_VERSION;
-  header.options_json = options_json(o, scale);
-  header.inputs = {{"raster", std::filesystem::path(o.raster).filename().string(), raster.content_hash}};
-  header.inputs.insert(header.inputs.end(), sources.begin(), sources.end());
-  return header;
+/// Likewise those of a finished field.
+Json octree_options(const std::string& options_json) {
+  Json json = Json::parse(options_json);
+  for (const char* key : {"scale", "transform", "target_triangles"}) json.erase(key);
+  return json;
+}
+
+std::string options_json(Json json, const ProlongStageOptions& o, double scale) {
+  json["scale"] = scale;
+  if (!o.transform.empty()) json["transform"] = o.transform;
+  if (o.target_triangles) json["target_triangles"] = *o.target_triangles;
+  return json_text(json);
 }
 
 /// The scale of all lengths that gives this many triangles: N(s) = a/s^2 + b/s, solved for 1/s.
@@ -202,9 +202,9 @@ class CellProlongation {
   ProlongedLengths run() const {
     return prolong(neighbours_, raster_.octree.stored_length, raster_.octree.stored_cause, options_, blanking_);
   }
-  StretchedCells stretch(const std::vector<SourceRequest>& requests, const ProlongedLengths& lengths) const {
-    return prolong_stretch(neighbours_, {raster_.samples, requests}, raster_.octree.stored_length, lengths, options_,
-                           max_aspect_, blanking_);
+  StretchedCells stretch(const ProlongedLengths& lengths) const {
+    return prolong_stretch(neighbours_, raster_.samples, raster_.octree.stored_length, lengths, options_, max_aspect_,
+                           blanking_);
   }
 
  private:
@@ -221,101 +221,125 @@ void seed(const Neighbours& neighbours, double slope, RasterArtifact& raster, co
   seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
 }
 
-/// Of all sites, one after the other.
-template <class T>
-std::vector<T> all_of(std::vector<T> cells, const std::vector<T>& second_cells) {
-  cells.insert(cells.end(), second_cells.begin(), second_cells.end());
-  return cells;
-}
-
 /// Whether lengths may be longer along a direction anywhere.
-bool allows_stretch(std::span<const LengthSample> samples, const SourceInput& input, double max_aspect) {
-  return max_aspect > 1 && (input.max_aspect > 1 || std::any_of(samples.begin(), samples.end(),
-                                                                [](const auto& s) { return s.stretch.along > 0; }));
+bool allows_stretch(std::span<const LengthSample> samples, double max_aspect) {
+  return max_aspect > 1 &&
+         std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.stretch.along > 0; });
 }
 
-/// Prolongs what the raster and `input` ask for; `sizing` gets shape, lengths, blanking and slope.
-void make_lengths(const ProlongStageOptions& o, const SourceInput& input, const Barrier& barrier, Progress& progress,
-                  RasterArtifact& raster, SizingArtifact& sizing) {
+/// Prolongs what the raster asks for; `sizing` gets shape, lengths, blanking and slope.
+void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress& progress, RasterArtifact& raster,
+                  SizingArtifact& sizing) {
   std::optional<SlopeSeeds> slope_seeds;
   sizing.slope = o.slope;
   if (const std::vector<NamedSlope> named = parse_slopes(o.slope_of); !named.empty()) {
     slope_seeds.emplace(named, raster);
     for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
   }
-  const bool is_stretched = allows_stretch(raster.samples, input, sizing.numbers.max_aspect),
+  const bool is_stretched = allows_stretch(raster.samples, sizing.numbers.max_aspect),
              has_cones = !raster.samples.empty() && !is_stretched;
   if (!raster.samples.empty()) forget_samples(raster.octree);
-  std::vector<SourceRequest> requests;
-  if (!input.sources.empty())
-    raster.octree =
-        refine_octree(raster.octree, input.sources, {raster.numbers.far_length, raster.numbers.cell_per_length},
-                      is_stretched ? &requests : nullptr);
   progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
   progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
   blank(barrier, neighbours, raster.octree, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   progress.step("lengths", 0.4);
-  if (!has_cones) seed(neighbours, o.slope, raster, sizing.blanking);
-  if (!has_cones || !input.sources.empty()) {
-    const CellProlongation cells(o, slope_seeds, neighbours, raster, sizing);
-    sizing.lengths = cells.run();
-    if (is_stretched) sizing.stretched = cells.stretch(requests, sizing.lengths);
-    if (!has_cones) fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
-  }
-  if (has_cones && !input.sources.empty()) {
-    sizing.other = all_of(sizing.lengths.cells, sizing.lengths.second_cells);
-    sizing.other_cause = all_of(sizing.lengths.cause, sizing.lengths.second_cause);
-  }
-  if (has_cones)
+  if (has_cones) {
     sizing.cones = spread_cones(neighbours, raster.samples, sample_slopes(o, slope_seeds, raster.samples),
                                 raster.numbers.far_length, blanking);
+  } else {
+    seed(neighbours, o.slope, raster, sizing.blanking);
+    const CellProlongation cells(o, slope_seeds, neighbours, raster, sizing);
+    sizing.lengths = cells.run();
+    if (is_stretched) sizing.stretched = cells.stretch(sizing.lengths);
+    fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
+  }
   sizing.shape = std::move(raster.octree.shape);
-  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data());
+  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data(nullptr));
 }
 
 /// A size field and what it requires of each group.
 struct ProlongedSizes {
   SizingArtifact sizing;
+  Json octree_options;
   std::vector<GroupSizes> groups;
   std::vector<FaceWeight> weights;
 
-  void set_scale(double scale) {
+  void set_scale(const ProlongStageOptions& o, double scale) {
     sizing.scale = scale;
+    sizing.header.options_json = options_json(octree_options, o, scale);
     sizing.face_weight.clear();
     for (const FaceWeight& w : weights) sizing.face_weight.push_back(w.at(scale));
   }
 };
 
-ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, RasterArtifact&& raster) {
-  const MovedGeometry moved = read_moved(o, raster.header);
-  const Similarity to_octree = moved.motion.inverse();
+/// Adds the sources of `o`, and all that depends on them and on the scale, to the octree's lengths.
+ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Progress& progress,
+                           SizingArtifact&& sizing) {
   SourceInput input = read_sources(
-      o.sources, o.background, parse_similarity(o.transform, "--transform").then(to_octree), o.slope,
-      {raster.numbers.diagonal * moved.motion.scale, raster.header.unit_in_m}, raster.numbers.max_aspect > 1);
-  warn_of_places(input, raster.octree.shape.view(), raster.numbers.far_length);
+      o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
+      octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
+      sizing.numbers.max_aspect > 1);
+  warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length);
+  sizing.sources = std::move(input.set);
+  sizing.names.source = std::move(input.names);
+  progress.step("expected triangles", 0.8);
+  SizeTally tally = tally_by_group(sizing.labels, sizing.faces.n_faces());
+  std::vector<FaceWeight> weights =
+      face_weights(sizing.faces, sizing.shape.view(), *sizing.field(), [&](const SizedPart& part) { tally.add(part); });
+  const double scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
+  std::vector<InputRef>& inputs = sizing.header.inputs;
+  std::erase_if(inputs, [](const InputRef& i) { return i.role == "sources" || i.role == "background"; });
+  inputs.insert(inputs.end(), input.files.begin(), input.files.end());
+  ProlongedSizes result{std::move(sizing), std::move(octree_options), {}, std::move(weights)};
+  result.groups = tally.groups(scale, result.sizing.frame.scale);
+  result.set_scale(o, scale);
+  return result;
+}
+
+ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, RasterArtifact&& raster) {
+  require_complete(o, raster);
+  MovedGeometry moved = read_moved(o, raster.header);
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
-  sizing.numbers.max_aspect = std::max(sizing.numbers.max_aspect, input.max_aspect);
-  const OctreeShape raster_shape = raster.octree.shape;
-  const Barrier barrier = find_barrier(o, raster, to_octree);
-  make_lengths(o, input, barrier, progress, raster, sizing);
-  progress.step("expected triangles", 0.8);
-  sizing.names = {std::move(raster.edge_name), raster.labels.face_name, std::move(input.names)};
-  const OctreeField field(sizing.field_data(), nullptr);
-  SizeTally tally = tally_by_group(raster);
-  std::vector<FaceWeight> weights =
-      face_weights(raster.faces, raster_shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
-  const double scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
-  input.files.insert(input.files.end(), barrier.file.begin(), barrier.file.end());
-  input.files.insert(input.files.begin(), moved.file.begin(), moved.file.end());
-  sizing.header = sizing_header(o, raster.header, scale, input.files);
+  const Barrier barrier = find_barrier(o, raster, moved.motion.inverse());
+  make_lengths(o, barrier, progress, raster, sizing);
+  sizing.names = {std::move(raster.edge_name), raster.labels.face_name, {}};
+  sizing.faces = std::move(raster.faces);
+  sizing.labels = std::move(raster.labels);
+  sizing.header = raster.header;
+  sizing.header.schema = "sizing";
+  sizing.header.tool = "st-prolong";
+  sizing.header.tool_version = ST_VERSION;
   sizing.header.geometry_hash = moved.hash;
-  ProlongedSizes result{std::move(sizing), tally.groups(scale, moved.motion.scale), std::move(weights)};
-  result.set_scale(scale);
-  return result;
+  sizing.header.inputs = {{"raster", std::filesystem::path(o.raster).filename().string(), raster.header.content_hash}};
+  for (const std::vector<InputRef>& files : {moved.file, barrier.file})
+    sizing.header.inputs.insert(sizing.header.inputs.end(), files.begin(), files.end());
+  return add_sources(o, octree_options(o), progress, std::move(sizing));
+}
+
+/// Other sources for a finished field; what the octree tells stays.
+ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
+  SizingArtifact sizing = read_sizing(o.raster);
+  if (sizing.faces.n_faces() == 0)
+    throw Error(ExitCode::kInput, fmt::format("{}: an older version of st-prolong made it, without the places of the "
+                                              "faces; give the raster, or run st-prolong on it once",
+                                              o.raster));
+  const Json made_with = Json::parse(sizing.header.options_json);
+  const ProlongStageOptions defaults;
+  if (!o.slope_of.empty() || !o.blank.empty() || o.no_blank || !o.geometry.empty() ||
+      (o.slope != defaults.slope && o.slope != made_with["slope"].get<double>()))
+    throw Error(ExitCode::kUsage, fmt::format("{}: is a finished field, of which the sources and the scale can be "
+                                              "changed; give the raster for other slopes, blanking or geometry",
+                                              o.raster));
+  if (!o.target_triangles && o.scale == defaults.scale) {  // as it was
+    if (made_with.contains("target_triangles")) o.target_triangles = made_with["target_triangles"].get<int>();
+    o.scale = made_with["scale"].get<double>();
+  }
+  sizing.scale = 1;
+  return add_sources(o, octree_options(sizing.header.options_json), progress, std::move(sizing));
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing,
@@ -324,7 +348,9 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
       std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                           [](const CellLength& a, const CellLength& b) { return a.at_centre() < b.at_centre(); });
   const double scale = sizing.scale * sizing.frame.scale;
-  const double lo = scale * smallest->at_centre(), hi = scale * largest->at_centre(),
+  const auto tree = sizing.sources.tree();
+  const double least = tree ? tree->min_size() : smallest->at_centre();
+  const double lo = scale * std::min<double>(smallest->at_centre(), least), hi = scale * largest->at_centre(),
                n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
   const std::string sources =
@@ -367,8 +393,7 @@ std::string family_member(const std::string& path, const std::string& level) {
 /// The size field of the same options with all lengths times `scale`.
 void write_member(ProlongStageOptions o, const std::string& path, double scale, ProlongedSizes& sizes) {
   o.target_triangles.reset();
-  sizes.set_scale(scale);
-  sizes.sizing.header.options_json = options_json(o, scale);
+  sizes.set_scale(o, scale);
   write_sizing(path, sizes.sizing);
   log_info(fmt::format("  {}: scale {:.4g}", path, scale));
 }
@@ -376,9 +401,8 @@ void write_member(ProlongStageOptions o, const std::string& path, double scale, 
 ProlongedSizes read_and_prolong(const ProlongStageOptions& o) {
   Progress progress("prolonging", 1);
   progress.step("reading", 0);
-  RasterArtifact raster = read_raster(o.raster);
-  require_complete(o, raster);
-  return prolong_raster(o, progress, std::move(raster));
+  if (read_header(o.raster).schema == "sizing") return change_sources(o, progress);
+  return prolong_raster(o, progress, read_raster(o.raster));
 }
 
 }  // namespace
@@ -394,8 +418,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   SizingArtifact& sizing = sizes.sizing;
   report_expected_triangles(sizing.face_weight, sizing.names.face, o.max_triangles, o.output);
   if (!o.sample.empty()) {
-    sample_sizes(*make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame), sizing.names, o.sample,
-                 o.sample_output);
+    sample_sizes(*sizing.field(sizing.frame), sizing.names, o.sample, o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_report(line);

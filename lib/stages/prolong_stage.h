@@ -11,7 +11,7 @@
 namespace st {
 
 struct ProlongStageOptions {
-  std::string raster;  ///< raster artifact
+  std::string raster;  ///< raster artifact, or a sizing whose sources and scale are changed
   std::string output = "sizing.hdf";
   double slope = 0.2;
   static constexpr NumberOption kSlope{"--slope", "S", "(0, 2]",

@@ -8,14 +8,20 @@
 
 #include "base/morton.h"
 #include "io/hdf5/sizing_artifact.h"
-#include "sizing/moved_field.h"
+#include "sizing/refine.h"
 
 namespace st {
 namespace {
 
-bool is_blanked(const SizingArtifact& sizing, std::size_t leaf) {
-  return !sizing.blanking.colour.empty() && sizing.blanking.colour[leaf] == CellColour::kBlanked;
-}
+/// The cells that are shown, without those that are blanked.
+struct Shown {
+  ShownOctree octree;
+  const std::vector<CellColour>& colour;
+
+  bool is_blanked(std::size_t leaf) const {
+    return !colour.empty() && colour[octree.leaf[leaf]] == CellColour::kBlanked;
+  }
+};
 
 /// The cell of level `deepest` at most that a leaf is part of.
 std::pair<std::uint64_t, int> united(const OctreeShape& shape, std::size_t leaf, int deepest) {
@@ -25,23 +31,22 @@ std::pair<std::uint64_t, int> united(const OctreeShape& shape, std::size_t leaf,
 
 /// Leaves in Morton order: those of one cell follow each other.
 template <class Visit>
-void for_each_cell(const SizingArtifact& sizing, int deepest, const Visit& visit) {
-  const OctreeShape& shape = sizing.shape;
+void for_each_cell(const Shown& shown, int deepest, const Visit& visit) {
+  const OctreeShape& shape = shown.octree.shape;
   for (std::size_t leaf = 0; leaf < shape.leaf_keys.size();) {
     const auto cell = united(shape, leaf, deepest);
     double least = std::numeric_limits<double>::infinity();
     for (; leaf < shape.leaf_keys.size() && united(shape, leaf, deepest) == cell; ++leaf)
-      if (!is_blanked(sizing, leaf))
-        least = std::min(least, static_cast<double>(sizing.lengths.cells[leaf].at_centre()));
+      if (!shown.is_blanked(leaf)) least = std::min(least, static_cast<double>(shown.octree.length[leaf]));
     if (least < std::numeric_limits<double>::infinity()) visit(cell.first, cell.second, least);
   }
 }
 
 /// The deepest level at which there are at most `most` cells.
-int choose_level(const SizingArtifact& sizing, std::size_t most) {
+int choose_level(const Shown& shown, std::size_t most) {
   for (int deepest = kMaxLevel; deepest > 2; --deepest) {
     std::size_t n = 0;
-    for_each_cell(sizing, deepest, [&](std::uint64_t, int, double) { ++n; });
+    for_each_cell(shown, deepest, [&](std::uint64_t, int, double) { ++n; });
     if (n <= most) return deepest;
   }
   return 2;
@@ -64,7 +69,8 @@ SizeReason reason_of(std::int32_t cause, FaceId face) {
 SliceCells slice_cells(const SizingArtifact& sizing, std::size_t most) {
   SliceCells cells;
   const double scale = sizing.scale * sizing.frame.scale;
-  for_each_cell(sizing, choose_level(sizing, most), [&](std::uint64_t key, int level, double length) {
+  const Shown shown{show_octree(*sizing.field()), sizing.blanking.colour};
+  for_each_cell(shown, choose_level(shown, most), [&](std::uint64_t key, int level, double length) {
     const GridPoint corner = morton::decode(key);
     cells.corner.insert(cells.corner.end(), {corner.x, corner.y, corner.z});
     cells.level.push_back(static_cast<std::uint8_t>(level));
@@ -88,7 +94,7 @@ nlohmann::ordered_json slice_frame(const SizingArtifact& sizing) {
 TriangleCauses triangle_causes(const SizingArtifact& sizing, const SurfaceMesh& mesh) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
   TriangleCauses causes{nlohmann::ordered_json::array(), {}};
-  const auto field = make_octree_field(sizing.field_data(), nullptr, 0, sizing.frame);
+  const auto field = sizing.field(sizing.frame);
   std::map<std::pair<std::int32_t, SizeReason>, std::uint16_t> known;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
     const auto& n = mesh.triangles[t].n;

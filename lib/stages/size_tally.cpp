@@ -88,11 +88,10 @@ std::vector<GroupSizes> SizeTally::groups(double scale, double unit) const {
   return all;
 }
 
-SizeTally tally_by_group(const RasterArtifact& raster) {
-  const FaceLabels& labels = raster.labels;
+SizeTally tally_by_group(const FaceLabels& labels, std::int32_t n_faces) {
   if (labels.group_name.size() > 1) return {labels.group_name, labels.face_group};
   const std::string name = labels.group_name.empty() ? "model" : labels.group_name.front();
-  return {{name}, std::vector<std::int32_t>(static_cast<std::size_t>(raster.faces.n_faces()), 0)};
+  return {{name}, std::vector<std::int32_t>(static_cast<std::size_t>(n_faces), 0)};
 }
 
 std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most) {
@@ -109,7 +108,7 @@ std::string range_text(const std::vector<GroupSizes>& groups) {
 }
 
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
-  SizeTally tally = tally_by_group(raster);
+  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
   for (FaceId f = 0; f < raster.faces.n_faces(); ++f)
     for (std::int64_t k = raster.faces.offsets[f]; k < raster.faces.offsets[f + 1]; ++k) {
       const std::int32_t leaf = raster.faces.leaf[k];

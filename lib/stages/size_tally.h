@@ -64,8 +64,8 @@ class SizeTally {
 /// Groups that a table shows.
 inline constexpr std::size_t kMostGroups = 12;
 
-/// A tally by the main groups of the raster; one of all faces, "model", where there is none.
-SizeTally tally_by_group(const RasterArtifact& raster);
+/// A tally by the main groups of faces; one of all faces, "model", where there is none.
+SizeTally tally_by_group(const FaceLabels& labels, std::int32_t n_faces);
 
 /// One line per group, aligned, below a heading; at most `most` of them, then how many more there are.
 std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most);

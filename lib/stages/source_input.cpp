@@ -56,12 +56,15 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, bool is_str
                     "st-raster --max-aspect to keep the others",
                     n));
   transform(motion, mesh);
-  for (const Vec3 x : mesh.node_xyz) input.background.add(x);
-  for (auto& tet : make_sources(mesh)) {
-    input.sources.push_back({tet.get(), pack_cause(CauseKind::kOther, 0)});
-    input.owned.push_back(std::move(tet));
-  }
-  input.n_tets += mesh.tets.size();
+  append(mesh, input.set.background);
+}
+
+/// The background to the slope.
+void limit_background(double slope, BackgroundMesh& mesh) {
+  if (const std::int64_t n = limit_growth(slope, mesh))
+    log_warning(
+        fmt::format("the background mesh grows faster than the slope {:g}: lengths of {} of its {} nodes are lowered",
+                    slope, n, mesh.node_xyz.size()));
 }
 
 std::string label_of(const std::string& name, std::size_t number) {
@@ -88,44 +91,51 @@ double distance_between(const Box3& a, Vec3 lo, Vec3 hi) {
   return norm(Vec3{gap(a.lo.x, a.hi.x, lo.x, hi.x), gap(a.lo.y, a.hi.y, lo.y, hi.y), gap(a.lo.z, a.hi.z, lo.z, hi.z)});
 }
 
-/// The least that a source outside asks for inside, near its core.
-double least_inside(const SizeSource& source, const Box3& core, Vec3 lo, Vec3 hi) {
-  double least = source.size(clamped(core.center(), lo, hi));
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 x{corner & 1 ? core.hi.x : core.lo.x, corner & 2 ? core.hi.y : core.lo.y,
-                 corner & 4 ? core.hi.z : core.lo.z};
-    least = std::min(least, source.size(clamped(x, lo, hi)));
-  }
-  return least;
+/// What is to be said of something outside: how far it is away, and what of it is felt inside.
+std::string outside_text(double away, double least_inside, double far_length) {
+  return fmt::format(
+      "lies {:.4g} outside the octree, which holds the model alone: {}; is it in the model's unit and "
+      "place (--transform)?",
+      away,
+      least_inside < far_length ? fmt::format("only its growth reaches in, as {:.4g} or more", least_inside)
+                                : "it has no effect");
 }
 
 }  // namespace
 
 void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length) {
   const Vec3 lo = octree.lo, hi = octree.lo + octree.edge * Vec3{1, 1, 1};
-  constexpr const char* kWhere = "outside the octree, which holds the model alone";
-  for (std::size_t s = 0; s < input.specs.size(); ++s) {
-    const Box3 core = core_box(input.specs[s]);
+  const auto least_inside = [&](const SizeSource& source, const Box3& core) {
+    double least = source.size(clamped(core.center(), lo, hi));
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 x{corner & 1 ? core.hi.x : core.lo.x, corner & 2 ? core.hi.y : core.lo.y,
+                   corner & 4 ? core.hi.z : core.lo.z};
+      least = std::min(least, source.size(clamped(x, lo, hi)));
+    }
+    return least;
+  };
+  for (std::size_t s = 0; s < input.set.sources.size(); ++s) {
+    const SourceSpec& spec = input.set.sources[s];
+    const Box3 core = core_box(spec);
     const double away = distance_between(core, lo, hi);
-    if (away == 0) continue;
-    const double least =
-        least_inside(*input.sources[input.sources.size() - input.specs.size() + s].source, core, lo, hi);
-    log_warning(fmt::format(
-        "{} lies {:.4g} {}: {}; is it in the model's unit and place (--transform)?", label_of(input.specs[s].name, s),
-        away, kWhere,
-        least < far_length ? fmt::format("only its growth reaches in, as {:.4g} or more", least) : "it has no effect"));
+    if (away > 0)
+      log_warning(label_of(spec.name, s) + " " +
+                  outside_text(away, least_inside(*make_source(spec, input.set.slope), core), far_length));
   }
-  if (!input.background.is_empty() && distance_between(input.background, lo, hi) > 0)
-    log_warning(
-        fmt::format("the background mesh lies {:.4g} {}: it has no effect; is it in the model's unit and place "
-                    "(--transform)?",
-                    distance_between(input.background, lo, hi), kWhere));
+  Box3 background;
+  for (const Vec3 x : input.set.background.node_xyz) background.add(x);
+  if (background.is_empty() || distance_between(background, lo, hi) == 0) return;
+  const double away = distance_between(background, lo, hi);
+  log_warning("the background mesh " +
+              outside_text(away, least_inside(*make_background(input.set.background, input.set.slope), background),
+                           far_length));
 }
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
                          double slope, const ModelScale& scale, bool is_stretched) {
   SourceInput input;
-  std::vector<SourceSpec> specs;
+  input.set.slope = slope;
+  std::vector<SourceSpec>& specs = input.set.sources;
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {
     merge(specs, file, path);
     add_background(std::move(file.background), motion, is_stretched, input);
@@ -133,15 +143,11 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
   };
   if (!background.empty()) take(read_background_file(background), background, "background");
   for (const std::string& path : files) take(read_source_file(path, scale), path, "sources");
+  limit_background(slope, input.set.background);
   for (SourceSpec& spec : specs) {
     transform(motion, spec);
     warn_of_extent(spec, input.names.size());
-    input.owned.push_back(make_source(spec, slope));
-    input.sources.push_back(
-        {input.owned.back().get(), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(input.names.size()))});
     input.names.push_back(spec.name);
-    input.max_aspect = std::max(input.max_aspect, spec.aspect);
-    input.specs.push_back(spec);
   }
   return input;
 }

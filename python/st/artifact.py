@@ -4,8 +4,10 @@ import json
 import h5py
 import numpy
 
+from .sources import Sources
+
 MAX_LEVEL = 20  # of an octree: keys have this many bits along each axis
-NEWEST_VERSION = {"geometry": 1, "raster": 8, "sizing": 6, "patches": 2, "mesh": 1, "failures": 1}
+NEWEST_VERSION = {"geometry": 1, "raster": 8, "sizing": 7, "patches": 2, "mesh": 1, "failures": 1}
 CELL_CHUNK = 65536  # points whose sizes are computed at once
 
 
@@ -143,11 +145,11 @@ class Sizing(_Octree):
             self._split = (self["/st/split/leaf"], self["/st/split/plane"].astype(float),
                            self["/st/split/cell"].astype(float))
 
+        self._sources = Sources(self)
         self._cone = self.get("/st/cone/cone")
         if self._cone is not None:
             self._cone = self._cone.astype(float)
             self._first, self._of_site = self["/st/cone/first"].astype(numpy.int64), self["/st/cone/of_site"]
-            self._other = self.get("/st/octree/other")
 
     @staticmethod
     def _linear(cell, offset):
@@ -169,15 +171,12 @@ class Sizing(_Octree):
         return length
 
     def _length(self, site, cell, offset, place):
-        """No less than the smallest of all. Sites are cells, then second parts."""
+        """Of the octree, before scale. Sites are cells, then second parts."""
         if self._cone is None:
             length = self._linear(cell, offset)
         else:
             length = self._by_cones(site, place)
-            if self._other is not None:
-                length = numpy.minimum(length, self._linear(self._other[site].astype(float), offset))
-        scale = self.numbers["scale"]
-        return numpy.maximum(scale * length, scale * self.numbers["smallest_length"])
+        return length
 
     def size(self, points):
         """The requested length at each of `points` (n, 3); the length across where lengths are stretched."""
@@ -198,7 +197,8 @@ class Sizing(_Octree):
         length = self._length(leaf, self.cell[leaf], offset, place)
         if self._split is not None:
             self._use_parts(leaf, offset, place, length)
-        return self._scale * length
+        self._sources.lower(local, length)
+        return self._scale * self.numbers["scale"] * numpy.maximum(length, self.numbers["smallest_length"])
 
     def _use_parts(self, leaf, offset, place, length):
         """Where a mesh separates a cell: the second part behind the plane, the smaller one close to it."""

@@ -1,6 +1,7 @@
 """What a size specification says of itself: the length at a point and why, lengths at many points, the background
 meshes of other programs."""
 import csv
+import math
 import re
 import struct
 import sys
@@ -77,7 +78,7 @@ class Sizes(ToolTest):
         text = (self.folder / "s.pos").read_text()
         lengths = [float(v) for cell in re.findall(r"\)\{([^}]*)\}", text) for v in cell.split(",")]
         self.assertEqual(text.count("SH("), text.count("\n") - 2)
-        self.assertEqual(text.count("SH("), self.n_cells)
+        self.assertGreater(text.count("SH("), self.n_cells)  # finer where the source is
         self.assertAlmostEqual(min(lengths), 0.1, delta=1e-3)
         must("st-export", sizing, "-o", self.folder / "s.bac")
         (self.folder / "p.csv").write_text("26,20,5\n25.2,20,5\n10,10,10\n")
@@ -87,6 +88,81 @@ class Sizes(ToolTest):
         for row in csv.DictReader((self.folder / "o.csv").read_text().splitlines()):
             at = must("st-info", sizing, "--at", f"{row['x']},{row['y']},{row['z']}", "--json").json()
             self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
+
+
+class Sources(ToolTest):
+    """Sources and backgrounds count exactly, and can be changed in a finished field."""
+
+    SOURCES = """
+[[source]]
+name = "nose"
+type = "point"
+at = [10, 10, 5]
+length = 0.05
+radius = 0.5
+[[source]]
+type = "line"
+points = [[0, 0, 0], [30, 20, 10]]
+length = [0.2, 0.9]
+[[source]]
+type = "sphere"
+at = [500, 10, 5]
+extent = 2
+length = 0.01
+"""
+
+    def setUp(self):
+        super().setUp()
+        self.raster, self.sizing = (artifacts_of("box") / f"{name}.hdf" for name in ("raster", "sizing"))
+        self.sources = self.folder / "sources.toml"
+        self.sources.write_text(self.SOURCES)
+
+    def prolong(self, artifact, name, *options):
+        must("st-prolong", artifact, "-o", self.folder / name, *options)
+        return (self.folder / name).read_bytes()
+
+    def lengths_at(self, sizing, places):
+        return [must("st-info", sizing, "--at", ",".join(map(str, p)), "--json").json()["length"] for p in places]
+
+    def test_each_place_gets_what_was_asked_for(self):
+        self.prolong(self.raster, "s.hdf", "--sources", self.sources)
+        places = [(10, 10, 5), (10, 10, 5.9), (0, 0, 0), (15, 10, 5), (500, 10, 7.5), (1000, 10, 5)]
+        wanted = [0.05, 0.05 + 0.2 * 0.4, 0.2, None, 0.01 + 0.2 * 0.5, None]
+        for place, length, want in zip(places, self.lengths_at(self.folder / "s.hdf", places), wanted):
+            if want:
+                self.assertAlmostEqual(length, want, delta=1e-9, msg=place)
+
+    def test_a_finished_field_takes_other_sources_as_the_raster_does(self):
+        for options in ([], ["--target-triangles", "5000"], ["--scale", "0.5"]):
+            plain = self.prolong(self.raster, "plain.hdf", *options)
+            fresh = self.prolong(self.raster, "fresh.hdf", *options, "--sources", self.sources)
+            self.assertNotEqual(plain, fresh)
+            self.assertEqual(self.prolong(self.folder / "plain.hdf", "again.hdf", "--sources", self.sources), fresh)
+            self.assertEqual(self.prolong(self.folder / "again.hdf", "none.hdf"), plain)
+
+    def test_what_the_octree_tells_is_not_changed_silently(self):
+        for options in (["--slope", "0.1"], ["--no-blank"], ["--slope-of", "side=0.1"]):
+            self.expect_error(USAGE, "st-prolong", self.sizing, "-o", self.folder / "s.hdf", *options,
+                              says="give the raster")
+        self.expect_nothing_left(self.folder, "sources.toml")
+
+    def test_a_background_is_lowered_to_the_slope_and_grows_outside(self):
+        nodes = [(0, 0, 0), (20, 0, 0), (0, 20, 0), (0, 0, 20)]
+        for steep, says in ((0, None), (40, "lengths of 1 of its 4 nodes are lowered")):
+            lengths = [0.1, 0.3 + steep, 0.1, 0.1]
+            lines = ["background", "4 1 0 0 0"]
+            for i, (node, length) in enumerate(zip(nodes, lengths)):
+                lines.append(f"{i + 1} {' '.join(map(str, node))}")
+                lines += [f"{' '.join(axis)} {length}" for axis in ("100", "010", "001")]
+            lines += ["1 1 2 3 4", "* points", "* lines", "* triangles", ""]
+            (self.folder / "b.bac").write_text("\n".join(lines))
+            run = must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / "b.bac")
+            (self.assertIn if says else self.assertNotIn)(says or "lowered", run.err)
+            middle, side = self.lengths_at(self.folder / "s.hdf", [(5, 5, 5), (5, 5, -2)])
+            self.assertAlmostEqual(middle, 0.1 + 0.25 * (4 if steep else 0.2), delta=1e-9)
+            # by the lengths below it, or, where those grow as fast as the slope, by the nearest edge of the border
+            wanted = 0.1 + 0.2 * math.sqrt(29) if steep else 0.15 + 2 * math.sqrt(0.04 - 0.01**2)
+            self.assertAlmostEqual(side, wanted, delta=1e-9)
 
 
 class Causes(ToolTest):

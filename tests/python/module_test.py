@@ -17,6 +17,49 @@ MODELS, WORK = Path(os.environ["ST_MODELS"]), Path(os.environ["ST_WORK"]) / "pyt
 EXAMPLE = Path(__file__).parents[2] / "examples/python/grid_family.py"
 
 
+SOURCES = """
+source = [
+  {type = "point", at = [5, 5, 5], length = 0.2, radius = 1, doubling = 3},
+  {type = "line", points = [[0, 0, 0], [20, 5, 0]], length = [0.3, 3]},
+  {type = "line", points = [[0, 20, 0], [20, 15, 3]], length = [0.3, 0.9], radius = [0, 2], doubling = [4, 6]},
+  {type = "triangle", points = [[0, 0, 10], [20, 0, 10], [0, 20, 10]], length = [0.4, 1, 2]},
+  {type = "triangle", points = [[0, 0, 10], [-9, 0, 10], [0, -9, 10]], length = [0.4, 1, 2], radius = [1, 2, 3]},
+  {type = "box", lo = [15, 15, 2], hi = [18, 19, 5], length = 0.4, radius = 0.3},
+  {type = "cylinder", from = [25, 2, 2], to = [28, 9, 5], extent = 1, length = 0.3},
+  {type = "sphere", at = [22, 12, -5], extent = 2, length = 0.5},
+  {type = "disc", at = [12, 12, 15], normal = [1, 2, 3], extent = 2, length = 0.5},
+]
+"""
+BACKGROUND = """background of two tetrahedra
+5 2 0 0 0
+1 20 18 12
+1 0 0 0.3
+0 1 0 0.3
+0 0 1 0.3
+2 29 18 12
+1 0 0 0.9
+0 1 0 0.9
+0 0 1 0.9
+3 20 27 12
+1 0 0 0.5
+0 1 0 0.5
+0 0 1 0.5
+4 22 20 18
+1 0 0 0.4
+0 1 0 0.4
+0 0 1 0.4
+5 22 20 4
+1 0 0 0.7
+0 1 0 0.7
+0 0 1 0.7
+1 1 2 3 4
+2 1 2 3 5
+* points
+* lines
+* triangles
+"""
+
+
 class Module(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -88,6 +131,22 @@ class Module(unittest.TestCase):
                 sides.append(said)
                 self.assertAlmostEqual(field.size(x)[0] / said, 1, places=9)
         self.assertGreater(max(sides[k + 1] / sides[k] for k in range(0, 8, 2)), 1.02, sides)
+
+    def test_sizes_of_sources_and_a_background_are_those_of_st_prolong(self):
+        folder = WORK / "sources"
+        folder.mkdir()
+        (folder / "s.toml").write_text(SOURCES)
+        (folder / "b.bac").write_text(BACKGROUND)
+        lo, hi = st.read(WORK / "mesh.hdf").points.min(axis=0), st.read(WORK / "mesh.hdf").points.max(axis=0)
+        points = lo + (hi - lo) * (numpy.random.default_rng(3).random((2000, 3)) * 1.6 - 0.3)
+        numpy.savetxt(folder / "p.csv", points, delimiter=",", fmt="%.17g")
+        st.run("st-prolong", WORK / "raster.hdf", output=folder / "sizing.hdf", sources=folder / "s.toml",
+               background=folder / "b.bac", sample=folder / "p.csv", sample_output=folder / "o.csv")
+        said = numpy.genfromtxt(folder / "o.csv", delimiter=",", names=True, usecols=range(7))["length"]
+        causes = {line.rsplit(",", 1)[1] for line in (folder / "o.csv").read_text().splitlines()[1:]}
+        self.assertGreater(len(causes & {f'"source {i}"' for i in range(1, 10)}), 7, causes)
+        self.assertIn('"the background mesh"', causes)
+        self.assertLess(numpy.abs(st.read(folder / "sizing.hdf").size(points) / said - 1).max(), 1e-6)
 
     def test_sizes_of_a_field_that_was_moved_with_its_geometry(self):
         moved = WORK / "moved"

@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
   st::ToolMain tool(
       "st-prolong",
       "Makes the size field from a raster, sources and a background mesh; limits the growth of edge lengths.");
-  tool.input("raster", o.raster, "raster artifact");
+  tool.input("raster", o.raster, "raster artifact, or a sizing to change its sources and scale");
   tool.output(o.output);
   tool.number(o.kSlope, o.slope);
   tool.text("--slope-of", o.slope_of, "NAME=S,...",

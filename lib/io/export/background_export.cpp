@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/file/temporary_file.h"
 #include "sizing/octree_tets.h"
+#include "sizing/refine.h"
 
 namespace st {
 namespace {
@@ -70,7 +71,8 @@ void write_metric(const LocalSize& size, TextFile& file) {
 }  // namespace
 
 void export_bac(const OctreeField& field, const std::string& output) {
-  const OctreeTets mesh = octree_tets(field.data().octree);
+  const OctreeShape shape = refine_octree(field);
+  const OctreeTets mesh = octree_tets(shape.view());
   const Similarity frame = field.frame();
   TextFile file(output);
   file << "* background mesh\n" << static_cast<std::int64_t>(mesh.node_xyz.size()) << " ";
@@ -93,10 +95,12 @@ void export_bac(const OctreeField& field, const std::string& output) {
 }
 
 void export_pos(const OctreeField& field, const std::string& output) {
-  const OctreeView& octree = field.data().octree;
+  const OctreeShape shape = refine_octree(field);
+  const OctreeView octree = shape.view();
   const Similarity frame = field.frame();
   TextFile file(output);
   file << "View \"size\" {\n";
+  int hint = 0;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     const Vec3 c = octree.leaf_center(leaf);
     const double half = 0.5 * octree.cell_edge(octree.leaf_levels[leaf]);
@@ -112,7 +116,6 @@ void export_pos(const OctreeField& field, const std::string& output) {
     constexpr double kInside = 1 - 1e-9;  // just inside, so that this leaf answers
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
-      int hint = leaf;
       const LocalSize size = field.local(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint);
       file << (k ? "," : "");
       if (field.is_stretched())

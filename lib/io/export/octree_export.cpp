@@ -12,6 +12,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "io/hdf5/vtu_arrays.h"
+#include "sizing/refine.h"
 
 namespace st {
 namespace {
@@ -98,11 +99,13 @@ void write_vtu(const OctreeView& octree, const CellData& data, const std::string
   temporary.commit();
 }
 
-void add_stretch(const SizingArtifact& sizing, CellData& data) {
-  for (std::int32_t leaf = 0; leaf < sizing.shape.view().n_leaves(); ++leaf) {
-    const Vec3 d = sizing.frame.rotated(normalized(Vec3(sizing.stretched.direction[leaf])));
-    data.along.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * sizing.stretched.along[leaf].length);
-    for (const double x : {d.x, d.y, d.z}) data.direction.push_back(static_cast<float>(x));
+void add_stretch(const OctreeField& field, const OctreeView& shown, CellData& data) {
+  int hint = 0;
+  for (std::int32_t leaf = 0; leaf < shown.n_leaves(); ++leaf) {
+    const LocalSize size = field.local(data.frame(shown.leaf_center(leaf)), hint);
+    data.along.push_back(static_cast<float>(size.along));
+    for (const double x : {size.direction.x, size.direction.y, size.direction.z})
+      data.direction.push_back(static_cast<float>(x));
   }
 }
 
@@ -129,13 +132,17 @@ void export_octree(const std::string& artifact, const std::string& output) {
     return;
   }
   const SizingArtifact sizing = read_sizing(artifact);
-  for (const CellLength& c : sizing.lengths.cells)
-    data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * c.length);
-  data.cause = sizing.lengths.cause;
+  const ShownOctree shown = show_octree(*sizing.field());
+  for (const float length : shown.length)
+    data.size.push_back(static_cast<float>(sizing.scale * sizing.frame.scale) * length);
+  data.cause = shown.cause;
   data.frame = sizing.frame;
-  if (!sizing.stretched.along.empty()) add_stretch(sizing, data);
-  for (const CellColour c : sizing.blanking.colour) data.colour.push_back(static_cast<std::uint8_t>(c));
-  write_vtu(sizing.shape.view(), data, output);
+  if (const auto field = sizing.field(sizing.frame); field->is_stretched())
+    add_stretch(*field, shown.shape.view(), data);
+  if (!sizing.blanking.colour.empty())
+    for (const std::int32_t leaf : shown.leaf)
+      data.colour.push_back(static_cast<std::uint8_t>(sizing.blanking.colour[leaf]));
+  write_vtu(shown.shape.view(), data, output);
 }
 
 }  // namespace st

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -49,6 +50,7 @@ constexpr int kStretchedRasterVersion = 6;  // of one near the origin
 constexpr int kFarRasterVersion = 7;        // of one far from it; up to here samples are points
 constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length in all directions
 constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengths, not cones
+constexpr int kConeSizingVersion = 6;       // of one without faces and sources
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -83,8 +85,13 @@ constexpr const char* kCone = "/st/cone/cone";
 constexpr const char* kConeCause = "/st/cone/cause";
 constexpr const char* kFirstCone = "/st/cone/first";
 constexpr const char* kSiteCones = "/st/cone/of_site";
-constexpr const char* kOther = "/st/octree/other";
-constexpr const char* kOtherCause = "/st/octree/other_cause";
+constexpr const char* kOther = "/st/octree/other";  // sources by cell: version 6 alone
+constexpr const char* kSourceKind = "/st/source/kind";
+constexpr const char* kSourceNumbers = "/st/source/numbers";
+constexpr const char* kSourceSlope = "source_slope";
+constexpr const char* kBackgroundNode = "/st/background/node";
+constexpr const char* kBackgroundSize = "/st/background/size";
+constexpr const char* kBackgroundTet = "/st/background/tet";
 constexpr const char* kFaceOffset = "/st/face/cell_offset";
 constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
 constexpr const char* kFaceArea = "/st/face/cell_area";
@@ -183,10 +190,6 @@ void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
   if (data.first_cone.size() != n_sites + 1) file.fail(kFirstCone, "does not fit the number of cells");
   require_offsets(file, kFirstCone, data.first_cone, data.site_cones.size());
   require_ids(file, kSiteCones, data.site_cones, data.cones.size());
-  if (data.other.empty()) return;
-  if (data.other.size() != n_sites || data.other_cause.size() != n_sites)
-    file.fail(kOther, "does not fit the number of cells");
-  require_cells(file, kOther, data.other);
 }
 
 /// Slope and scale of a sizing.
@@ -302,6 +305,31 @@ FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves) {
   return faces;
 }
 
+void write_face_cells(Hdf5Writer& file, const FaceCells& faces) {
+  const Vec3 origin = faces.origin;
+  if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
+  file.write<std::int64_t>(kFaceOffset, faces.offsets);
+  file.write<std::int32_t>(kFaceLeaf, faces.leaf);
+  file.write<float>(kFaceArea, faces.area);
+  file.write<CellPlane>(kFacePlane, faces.plane);
+}
+
+/// What a file says of faces besides their names.
+void write_groups(Hdf5Writer& file, const FaceLabels& labels) {
+  if (labels.face_group.empty()) return;
+  file.write_strings(kGroupName, labels.group_name);
+  file.write<std::int32_t>(kFaceGroup, labels.face_group);
+  write_labels(file, labels);
+}
+
+FaceLabels read_face_labels(const Hdf5Reader& file, const FaceCells& faces) {
+  FaceLabels labels;
+  labels.face_name = file.read_strings(kFaceName);
+  if (faces.offsets.size() != labels.face_name.size() + 1) file.fail(kFaceOffset, "does not fit the number of faces");
+  if (file.has(kFaceGroup)) return read_labels(file, labels.face_name.size());  // files before groups were have none
+  return labels;
+}
+
 /// Rotation by rows, scale, translation.
 void write_frame(Hdf5Writer& file, const Similarity& frame) {
   std::vector<double> numbers;
@@ -322,6 +350,114 @@ Similarity read_frame(const Hdf5Reader& file) {
   return frame;
 }
 
+constexpr std::size_t kSourceColumns = 32;
+
+/// Points, half axes, spacings, extent, aspect, direction.
+std::array<double, kSourceColumns> source_row(const SourceSpec& s) {
+  std::array<double, kSourceColumns> row{};
+  auto out = row.begin();
+  const auto add = [&](Vec3 v) {
+    for (const double x : {v.x, v.y, v.z}) *out++ = x;
+  };
+  for (const Vec3 p : s.point) add(p);
+  for (const Vec3 h : s.half_axis) add(h);
+  for (const SourceSpacing& d : s.spacing) add({d.length, d.radius, d.doubling});
+  *out++ = s.extent;
+  *out++ = s.aspect;
+  add(s.direction);
+  return row;
+}
+
+SourceSpec source_of(SourceKind kind, const double* in) {
+  SourceSpec s;
+  s.kind = kind;
+  const auto take = [&] {
+    const Vec3 v{in[0], in[1], in[2]};
+    in += 3;
+    return v;
+  };
+  for (Vec3& p : s.point) p = take();
+  for (Vec3& h : s.half_axis) h = take();
+  for (SourceSpacing& d : s.spacing) {
+    const Vec3 v = take();
+    d = {v.x, v.y, v.z};
+  }
+  s.extent = *in++;
+  s.aspect = *in++;
+  s.direction = take();
+  return s;
+}
+
+void write_sources(Hdf5Writer& file, const SourceSet& set) {
+  file.set_attribute(kSizing, kSourceSlope, set.slope);
+  if (!set.sources.empty()) {
+    std::vector<std::uint8_t> kinds;
+    std::vector<double> numbers;
+    for (const SourceSpec& s : set.sources) {
+      kinds.push_back(static_cast<std::uint8_t>(s.kind));
+      const auto row = source_row(s);
+      numbers.insert(numbers.end(), row.begin(), row.end());
+    }
+    file.write<std::uint8_t>(kSourceKind, kinds);
+    file.write<double>(kSourceNumbers, numbers, kSourceColumns);
+  }
+  if (set.background.tets.empty()) return;
+  std::vector<double> sizes;
+  for (const LocalSize& s : set.background.node_size)
+    sizes.insert(sizes.end(), {s.length, s.along, s.direction.x, s.direction.y, s.direction.z});
+  std::vector<std::int32_t> tets;
+  for (const auto& tet : set.background.tets) tets.insert(tets.end(), tet.begin(), tet.end());
+  file.write<Vec3>(kBackgroundNode, set.background.node_xyz);
+  file.write<double>(kBackgroundSize, sizes, 5);
+  file.write<std::int32_t>(kBackgroundTet, tets, 4);
+}
+
+BackgroundMesh read_background(const Hdf5Reader& file) {
+  BackgroundMesh mesh;
+  mesh.node_xyz = file.read<Vec3>(kBackgroundNode);
+  const std::vector<double> sizes = file.read_rows<double>(kBackgroundSize, mesh.node_xyz.size(), 5);
+  const std::vector<std::int32_t> tets = file.read<std::int32_t>(kBackgroundTet, 4);
+  require_finite(file, kBackgroundNode, mesh.node_xyz);
+  require_finite(file, kBackgroundSize, sizes);
+  require_ids(file, kBackgroundTet, tets, mesh.node_xyz.size());
+  for (std::size_t i = 0; i < mesh.node_xyz.size(); ++i) {
+    const double* s = sizes.data() + 5 * i;
+    if (!(s[0] > 0 && s[1] >= s[0])) file.fail(kBackgroundSize, fmt::format("row {} is no length > 0", i));
+    mesh.node_size.push_back({s[0], s[1], {s[2], s[3], s[4]}});
+  }
+  for (std::size_t t = 0; t + 4 <= tets.size(); t += 4)
+    mesh.tets.push_back({tets[t], tets[t + 1], tets[t + 2], tets[t + 3]});
+  return mesh;
+}
+
+/// Empty where the file has none.
+SourceSet read_sources(const Hdf5Reader& file) {
+  SourceSet set;
+  if (file.has(kOther))
+    file.fail(kOther, "holds sources by cell, as one version of st-prolong stored them: run st-prolong again");
+  if (!file.has(kFaceOffset)) return set;
+  set.slope = file.double_attribute(kSizing, kSourceSlope);
+  if (!is_finite(set.slope) || !(set.slope > 0))
+    file.fail(std::string(kSizing) + "@" + kSourceSlope, "is no slope > 0");
+  if (file.has(kBackgroundTet)) set.background = read_background(file);
+  if (!file.has(kSourceKind)) return set;
+  const std::vector<std::uint8_t> kinds = file.read<std::uint8_t>(kSourceKind);
+  const std::vector<double> numbers = file.read_rows<double>(kSourceNumbers, kinds.size(), kSourceColumns);
+  const std::vector<std::string> names = file.read_strings(kSourceName);
+  require_finite(file, kSourceNumbers, numbers);
+  if (names.size() != kinds.size()) file.fail(kSourceName, "does not fit the number of sources");
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] > static_cast<std::uint8_t>(SourceKind::kDisc)) file.fail(kSourceKind, "names a kind that is unknown");
+    set.sources.push_back(source_of(static_cast<SourceKind>(kinds[i]), numbers.data() + kSourceColumns * i));
+    SourceSpec& s = set.sources.back();
+    s.name = names[i];
+    bool is_good = s.extent >= 0 && s.aspect >= 1;
+    for (int k = 0; k < n_spacings(s.kind); ++k) is_good &= s.spacing[k].length > 0 && s.spacing[k].radius >= 0;
+    if (!is_good) file.fail(kSourceNumbers, fmt::format("row {} asks for no length > 0", i));
+  }
+  return set;
+}
+
 /// What a mapped field keeps alive.
 struct MappedArrays {
   MappedArray<std::uint64_t> leaf_key;
@@ -339,8 +475,7 @@ struct MappedArrays {
   MappedArray<std::int32_t> cone_cause;
   MappedArray<std::int32_t> first_cone;
   MappedArray<std::int32_t> site_cones;
-  MappedArray<CellLength> other;
-  MappedArray<std::int32_t> other_cause;
+  std::shared_ptr<const SourceTree> sources;
 };
 
 /// The cones of a file that has them.
@@ -349,16 +484,10 @@ void map_cones(const Hdf5Reader& file, MappedArrays& arrays, OctreeFieldData& da
   arrays.cone_cause = file.map<std::int32_t>(kConeCause);
   arrays.first_cone = file.map<std::int32_t>(kFirstCone);
   arrays.site_cones = file.map<std::int32_t>(kSiteCones);
-  if (file.has(kOther)) {
-    arrays.other = file.map<CellLength>(kOther);
-    arrays.other_cause = file.map<std::int32_t>(kOtherCause);
-  }
   data.cones = arrays.cone.values();
   data.cone_cause = arrays.cone_cause.values();
   data.first_cone = arrays.first_cone.values();
   data.site_cones = arrays.site_cones.values();
-  data.other = arrays.other.values();
-  data.other_cause = arrays.other_cause.values();
   data.max_length = read_numbers(file).far_length;
   require_cones(file, data);
 }
@@ -421,6 +550,8 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
     data.max_aspect = read_numbers(file).max_aspect;
   }
   if (file.has(kCone)) map_cones(file, *arrays, data);
+  arrays->sources = read_sources(file).tree();
+  data.sources = arrays->sources.get();
   std::tie(data.slope, data.scale) = read_slope_and_scale(file);
   require_distinct_lengths(file, min_length, data.scale, root[3]);
   return make_octree_field(data, arrays, min_length, read_frame(file));
@@ -437,6 +568,11 @@ CauseNames read_names(const Hdf5Reader& file) {
 }
 
 }  // namespace
+
+std::unique_ptr<OctreeField> SizingArtifact::field(const Similarity& of) const {
+  const std::shared_ptr<const SourceTree> tree = sources.tree();
+  return make_octree_field(field_data(tree.get()), tree, 0, of);
+}
 
 std::string cause_text(const CauseNames& names, std::int32_t cause) {
   if (cause == kNone) return "the largest length";
@@ -474,21 +610,13 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   write_shape(file, raster.octree.shape);
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
-  const Vec3 origin = raster.faces.origin;
-  if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
-  if (!raster.samples.empty()) write_samples(file, raster.samples, origin, has_reach, raster.numbers.max_aspect > 1);
+  if (!raster.samples.empty())
+    write_samples(file, raster.samples, raster.faces.origin, has_reach, raster.numbers.max_aspect > 1);
   if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
-  file.write<std::int64_t>(kFaceOffset, raster.faces.offsets);
-  file.write<std::int32_t>(kFaceLeaf, raster.faces.leaf);
-  file.write<float>(kFaceArea, raster.faces.area);
-  file.write<CellPlane>(kFacePlane, raster.faces.plane);
+  write_face_cells(file, raster.faces);
   file.write_strings(kFaceName, raster.labels.face_name);
   file.write_strings(kEdgeName, raster.edge_name);
-  if (!raster.labels.face_group.empty()) {
-    file.write_strings(kGroupName, raster.labels.group_name);
-    file.write<std::int32_t>(kFaceGroup, raster.labels.face_group);
-    write_labels(file, raster.labels);
-  }
+  write_groups(file, raster.labels);
   return file.commit();
 }
 
@@ -510,10 +638,7 @@ RasterArtifact read_raster(const std::string& path) {
   raster.faces = read_face_cells(file, n);
   if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.faces.origin);
   raster.edge_name = file.read_strings(kEdgeName);
-  raster.labels.face_name = file.read_strings(kFaceName);
-  const std::size_t n_faces = raster.labels.face_name.size();
-  if (raster.faces.offsets.size() != n_faces + 1) file.fail(kFaceOffset, "does not fit the number of faces");
-  if (file.has(kFaceGroup)) raster.labels = read_labels(file, n_faces);  // files before groups were have none
+  raster.labels = read_face_labels(file, raster.faces);
   return raster;
 }
 
@@ -523,12 +648,15 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   const bool is_moved = sizing.frame != Similarity();
   header.schema_version = is_moved ? kPlainSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
   if (!sizing.stretched.along.empty()) header.schema_version = kStretchedSizingVersion;
-  if (!sizing.cones.first.empty()) header.schema_version = kSizingVersion;
+  if (!sizing.cones.first.empty()) header.schema_version = kConeSizingVersion;
+  const bool has_faces = sizing.faces.n_faces() > 0;
+  if (has_faces) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
   for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.at_centre());
   for (const Cone& c : sizing.cones.cone) smallest = std::min<double>(smallest, c.length);
+  if (const auto tree = sizing.sources.tree()) smallest = std::min(smallest, tree->min_size());
   file.set_attribute(kSizing, "slope", sizing.slope);
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);
@@ -553,9 +681,10 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<std::int32_t>(kFirstCone, sizing.cones.first);
     file.write<std::int32_t>(kSiteCones, sizing.cones.of_site);
   }
-  if (!sizing.other.empty()) {
-    file.write<CellLength>(kOther, sizing.other);
-    file.write<std::int32_t>(kOtherCause, sizing.other_cause);
+  if (has_faces) {
+    write_sources(file, sizing.sources);
+    write_face_cells(file, sizing.faces);
+    write_groups(file, sizing.labels);
   }
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
@@ -595,14 +724,15 @@ SizingArtifact read_sizing(const std::string& path) {
   if (file.has(kCone)) {
     sizing.cones = {file.read<Cone>(kCone), file.read<std::int32_t>(kConeCause), file.read<std::int32_t>(kFirstCone),
                     file.read<std::int32_t>(kSiteCones)};
-    if (file.has(kOther)) {
-      sizing.other = file.read<CellLength>(kOther);
-      sizing.other_cause = file.read<std::int32_t>(kOtherCause);
-    }
-    require_cones(file, sizing.field_data());
+    require_cones(file, sizing.field_data(nullptr));
   }
   sizing.face_weight = read_face_weight(file);
   sizing.names = read_names(file);
+  sizing.sources = read_sources(file);
+  if (file.has(kFaceOffset)) {
+    sizing.faces = read_face_cells(file, n);
+    sizing.labels = read_face_labels(file, sizing.faces);
+  }
   return sizing;
 }
 

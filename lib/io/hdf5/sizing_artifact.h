@@ -12,12 +12,13 @@
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
 #include "sizing/sample_seeds.h"
+#include "sizing/source_set.h"
 #include "sizing/stretched_cells.h"
 
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 8, kSizingVersion = 6;
+inline constexpr int kRasterVersion = 8, kSizingVersion = 7;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {
@@ -67,17 +68,18 @@ struct SizingArtifact {
                      ///< are as before
   OctreeShape shape;
   ProlongedLengths lengths;
-  ConeTable cones;                ///< tell the lengths, with `other`; `lengths` are those at the leaves' centres then.
-                                  ///< Empty: `lengths` tell them
-  std::vector<CellLength> other;  ///< [n_sites] lengths of sources, where there are cones and sources
-  std::vector<std::int32_t> other_cause;  ///< [n_sites] likewise
-  StretchedCells stretched;               ///< empty: lengths are the same in all directions
-  Blanking blanking;                ///< colours and splits; empty: no surface blanks anything. Links are not stored
+  ConeTable cones;           ///< tell the lengths; `lengths` are those at the leaves' centres then. Empty: `lengths`
+                             ///< tell them
+  SourceSet sources;         ///< count besides, everywhere
+  StretchedCells stretched;  ///< empty: lengths are the same in all directions
+  Blanking blanking;         ///< colours and splits; empty: no surface blanks anything. Links are not stored
+  FaceCells faces;           ///< as in the raster; empty: not known, so that sources cannot be changed
+  FaceLabels labels;         ///< likewise
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
 
-  /// Views of the arrays above, in the octree's own frame.
-  OctreeFieldData field_data() const {
+  /// Views of the arrays above, in the octree's own frame. `tree`: of `sources`.
+  OctreeFieldData field_data(const SourceTree* tree) const {
     OctreeFieldData data{shape.view(),
                          lengths.cells,
                          lengths.cause,
@@ -91,10 +93,11 @@ struct SizingArtifact {
                          stretched.direction,
                          numbers.max_aspect};
     data.set_cones(cones, numbers.far_length);
-    data.other = other;
-    data.other_cause = other_cause;
+    data.sources = tree;
     return data;
   }
+  /// The field over these arrays, in the octree's own frame; in the model's with `frame`.
+  std::unique_ptr<OctreeField> field(const Similarity& of = {}) const;
 };
 
 /// As all write_* and read_* of io/hdf5/artifact.h: atomic, checked, Error(kOutput) and Error(kInput).

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sizing/source.h"
+#include "sizing/background.h"
 
 namespace st {
 

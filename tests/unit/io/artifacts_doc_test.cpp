@@ -116,8 +116,13 @@ SizingArtifact sample_sizing() {
   s.lengths.second_cause.resize(2);
   s.cones = {std::vector<Cone>(9), std::vector<std::int32_t>(9), std::vector<std::int32_t>(18),
              std::vector<std::int32_t>(21)};
-  s.other.resize(17);
-  s.other_cause.resize(17);
+  s.sources.slope = 0.2;
+  s.sources.sources.resize(2);
+  s.sources.background.node_xyz.resize(4);
+  s.sources.background.node_size.resize(4);
+  s.sources.background.tets.resize(6);
+  s.faces = sample_raster().faces;
+  s.labels = sample_raster().labels;
   s.stretched.along.resize(17);
   s.stretched.direction.resize(17);
   s.face_weight = {1, 2, 3};

@@ -274,7 +274,7 @@ SizingArtifact split_sizing() {
   return sizing;
 }
 
-/// Likewise, with two cones, one of them in each site, and lengths of sources.
+/// Likewise, with two cones, one of them in each site.
 SizingArtifact cone_sizing() {
   SizingArtifact sizing = split_sizing();
   const auto n_sites = static_cast<std::int32_t>(sizing.stretched.along.size());
@@ -283,8 +283,28 @@ SizingArtifact cone_sizing() {
   sizing.cones.cause = {kNone, kNone};
   for (std::int32_t site = 0; site <= n_sites; ++site) sizing.cones.first.push_back(site);
   sizing.cones.of_site.assign(n_sites, 1);
-  sizing.other.assign(n_sites, sizing.lengths.cells[0]);
-  sizing.other_cause.assign(n_sites, kNone);
+  return sizing;
+}
+
+/// With two sources and a background of one tetrahedron.
+SizingArtifact source_sizing() {
+  SizingArtifact sizing = sample_sizing();
+  SourceSpec point, line;
+  point.point[0] = {0.3, 0.3, 0.3};
+  point.spacing[0] = {0.001, 0.1, 0.2};
+  line.kind = SourceKind::kLine;
+  line.point = {{{0, 0, 0}, {1, 1, 1}, {}}};
+  line.spacing = {{{0.002, 0, 0}, {0.003, 0, 0}, {}}};
+  line.aspect = 3;
+  line.direction = {0, 0, 1};
+  sizing.sources.slope = 0.2;
+  sizing.sources.sources = {point, line};
+  sizing.sources.background.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  sizing.sources.background.node_size.assign(4, {0.01, 0.01, {}});
+  sizing.sources.background.tets = {{0, 1, 2, 3}};
+  sizing.names.source = {"wake", "tip"};
+  sizing.faces = sample_raster().faces;
+  sizing.labels = sample_raster().labels;
   return sizing;
 }
 
@@ -310,7 +330,6 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
   EXPECT_EQ(read.cones.cone[1].slope, 0.1F);
   const MappedSizing mapped = map_sizing(path);
   EXPECT_EQ(mapped.field->data().cones.size(), 2U);
-  EXPECT_EQ(mapped.field->data().other.size(), read.other.size());
   const ArtifactBreaks<SizingArtifact> breaks = {
       {"/st/cone/cone: row 1 is not a place with a length and a slope > 0",
        [](auto& s) { s.cones.cone[1].x[2] = kNan; }},
@@ -325,11 +344,35 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
       {"/st/cone/cause: does not fit the number of cones", [](auto& s) { s.cones.cause.pop_back(); }},
       {"/st/cone/first: does not fit the number of cells", [](auto& s) { s.cones.first.pop_back(); }},
       {"/st/cone/first", [](auto& s) { s.cones.first[2] = 1'000'000; }},
-      {"/st/cone/of_site: row 1 names entity 2 of", [](auto& s) { s.cones.of_site[1] = 2; }},
-      {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other.pop_back(); }},
-      {"/st/octree/other: does not fit the number of cells", [](auto& s) { s.other_cause.pop_back(); }},
-      {"/st/octree/other: row 2 is not a finite length > 0", [](auto& s) { s.other[2].length = kNan; }}};
+      {"/st/cone/of_site: row 1 names entity 2 of", [](auto& s) { s.cones.of_site[1] = 2; }}};
   expect_refused_by_both(path, cone_sizing(), breaks);
+}
+
+TEST(SizingDamage, of_sources_is_refused_by_both_readers) {
+  static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const TemporaryDirectory dir;
+  const std::string path = dir / "a.hdf";
+  const SizingArtifact good = source_sizing();
+  write_sizing(path, good);
+  const SizingArtifact read = read_sizing(path);
+  const MappedSizing mapped = map_sizing(path);
+  for (const Vec3 x : {Vec3{0.3, 0.3, 0.3}, Vec3{3, 2, 1}, Vec3{0.25, 0.1, 0.5}})
+    EXPECT_EQ(static_cast<const SizeField&>(*mapped.field).size(x),
+              static_cast<const SizeField&>(*good.field()).size(x));
+  EXPECT_EQ(read.sources.sources[1].direction.z, 1);
+  EXPECT_EQ(read.faces.leaf, good.faces.leaf);
+  const ArtifactBreaks<SizingArtifact> breaks = {
+      {"/st/source/numbers: row 31 is not finite", [](auto& s) { s.sources.sources[0].direction.z = kNan; }},
+      {"/st/source/numbers: row 1 asks for no length > 0", [](auto& s) { s.sources.sources[1].spacing[1].length = 0; }},
+      {"/st/source/numbers: row 0 asks for no length > 0", [](auto& s) { s.sources.sources[0].aspect = 0.5; }},
+      {"/st/source/kind: names a kind that is unknown",
+       [](auto& s) { s.sources.sources[0].kind = static_cast<SourceKind>(7); }},
+      {"/st/source/name: does not fit the number of sources", [](auto& s) { s.names.source.pop_back(); }},
+      {"/st/sizing@source_slope: is no slope > 0", [](auto& s) { s.sources.slope = 0; }},
+      {"/st/background/node: row 2 is not finite", [](auto& s) { s.sources.background.node_xyz[2].x = kNan; }},
+      {"/st/background/size: row 1 is no length > 0", [](auto& s) { s.sources.background.node_size[1].length = 0; }},
+      {"/st/background/tet: row 3 names entity 4 of", [](auto& s) { s.sources.background.tets[0][3] = 4; }}};
+  expect_refused_by_both(path, good, breaks);
 }
 
 TEST(SizingDamage, is_refused_by_both_readers) {

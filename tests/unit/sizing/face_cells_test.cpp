@@ -102,6 +102,44 @@ TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
   }
 }
 
+/// A point source far smaller than the cell in which the face lies.
+TEST(FaceCells, weigh_sources_smaller_than_their_cells) {
+  const RasterOctree raster = build_octree(test::kUnitBox, {});
+  const ProlongedLengths lengths{{{0.5F, {}, 0.5F}}, {kNone}};
+  for (const double least : {0.0005, 0.01, 0.1}) {
+    SourceSpec spec;
+    spec.point[0] = {0.31, 0.62, 0.9};
+    spec.spacing[0].length = least;
+    std::vector<SourceTree::Entry> entries;
+    entries.push_back({make_source(spec, 0.2), pack_cause(CauseKind::kSource, 0)});
+    const SourceTree tree(std::move(entries));
+    OctreeFieldData data{raster.shape.view(), lengths.cells, lengths.cause, 0.2, 1};
+    data.sources = &tree;
+    const OctreeField field(data, nullptr);
+    FaceCells faces;
+    const double lo = raster.shape.lo.x, edge = raster.shape.edge;
+    const auto area_of_cell = static_cast<float>(edge * edge);
+    faces.append_face(std::vector<CellArea>{{0, area_of_cell, {0.5F, 0.5F, 0.9F}, {0, 0, 1}}});
+    // rings about the source, as far as they lie in the cell
+    double expected = 0;
+    constexpr int kRings = 4000, kSectors = 720;
+    const double growth = std::log(1.5 / 1e-5) / kRings;
+    for (int i = 0; i < kRings; ++i)
+      for (int k = 0; k < kSectors; ++k) {
+        const double r = 1e-5 * std::exp((i + 0.5) * growth), angle = 2 * kPi * k / kSectors;
+        const Vec3 x = spec.point[0] + r * Vec3{std::cos(angle), std::sin(angle), 0};
+        if (std::min(x.x, x.y) < lo || std::max(x.x, x.y) > lo + edge) continue;
+        const double h = std::min(0.5, least + 0.2 * r);
+        expected += r * r * growth * (2 * kPi / kSectors) / (h * h);
+      }
+    double area = 0;
+    const FaceWeight w =
+        face_weights(faces, raster.shape.view(), field, [&](const SizedPart& part) { area += part.area; })[0];
+    EXPECT_NEAR(w.uniform / expected, 1, 0.02) << least;
+    EXPECT_NEAR(area / area_of_cell, 1, 1e-6);
+  }
+}
+
 TEST(FaceCells, weigh_gradients_along_the_face_only) {
   const RasterOctree raster = build_octree(test::kUnitBox, {});
   const ProlongedLengths graded{{{0.5F, {0.1F, 0, 0.1F}, 2}}, {kNone}};

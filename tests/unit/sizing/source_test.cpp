@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "base/box_tree.h"
+
 namespace st {
 namespace {
 
@@ -57,19 +59,26 @@ TEST(Source, line_interpolates_between_its_ends) {
   SourceSpec s;
   s.kind = SourceKind::kLine;
   s.point = {{{0, 0, 0}, {2, 0, 0}, {}}};
+  s.spacing = {{{0.1, 0, 0}, {0.3, 0, 0}, {}}};
+  // the length at x grows from where the line's own gradient, 0.1, and the slope balance: sqrt(0.2^2 - 0.1^2) upwards
+  EXPECT_NEAR(size_at(s, {1, 0.2, 0}), 0.2 + 0.2 * std::sqrt(0.03), 1e-12);
+  EXPECT_NEAR(size_at(s, {1, 0, 0}), 0.2, 1e-12);
+  EXPECT_NEAR(size_at(s, {-0.1, 0, 0}), 0.12, 1e-12);
   s.spacing = {{{0.1, 0.2, 1}, {0.3, 0.4, 1}, {}}};
-  EXPECT_NEAR(size_at(s, {1, 0.29, 0}), 0.2, 1e-12);
   EXPECT_NEAR(size_at(s, {-0.1, 0, 0}), 0.1, 1e-12);
-  EXPECT_NEAR(size_at(s, {2.3, 0.1, 0}), 0.3, 1e-12);
+  EXPECT_LT(size_at(s, {1, 0.29, 0}), 0.2);  // less than at its foot: other points of the line are near, too
 }
 
 TEST(Source, triangle_interpolates_between_its_corners) {
   SourceSpec s;
   s.kind = SourceKind::kTriangle;
   s.point = {{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}};
-  s.spacing = {{{0.1, 0.5, 0}, {0.2, 0.5, 0}, {0.6, 0.5, 0}}};
-  EXPECT_NEAR(size_at(s, {1, 1, 0.4}), 0.3, 1e-12);
-  EXPECT_NEAR(size_at(s, {1.5, -0.3, 0}), 0.15, 1e-12);
+  s.spacing = {{{0.1, 0, 0}, {0.2, 0, 0}, {0.4, 0, 0}}};
+  const double g2 = (0.01 + 0.09) / 9;  // squared gradient of the lengths on it
+  EXPECT_NEAR(size_at(s, {1, 1, 0.4}), 0.1 + 0.1 / 3 + 0.3 / 3 + 0.4 * std::sqrt(0.04 - g2), 1e-12);
+  EXPECT_NEAR(size_at(s, {1, 1, 0}), 0.1 + 0.1 / 3 + 0.3 / 3, 1e-12);
+  s.spacing[2].length = 2;  // steeper than the slope: what is near the first corner asks for less there, too
+  EXPECT_NEAR(size_at(s, {0, 3, 0}), 0.1 + 3 * kSourceSlope, 1e-12);
 }
 
 TEST(Source, volumes_are_constant_inside) {
@@ -92,21 +101,19 @@ TEST(Source, volumes_are_constant_inside) {
   }
 }
 
-TEST(Source, range_bounds_the_length_in_the_cube) {
+TEST(Source, asks_nowhere_for_less_than_its_growth_says) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::uniform_real_distribution<double> uniform(-2, 2);
   for (const SourceSpec& spec : one_of_each_kind()) {
-    const auto source = make_source(spec, kSourceSlope);
+    const SourceGrowth growth = make_source(spec, kSourceSlope)->growth();
+    double nearest = 10;
     for (int i = 0; i < 3000; ++i) {
-      const Vec3 c = 2.0 * Vec3{uniform(random), uniform(random), uniform(random)};
-      const double half = std::pow(10, -2 + 2 * std::abs(uniform(random)));
-      const SizeRange range = source->range(c, half);
-      const double h = static_cast<const SizeField&>(*source).size(
-          c + half * Vec3{uniform(random), uniform(random), uniform(random)});
-      ASSERT_LE(range.lo, h * (1 + 1e-12)) << static_cast<int>(spec.kind);
-      ASSERT_GE(range.hi, h * (1 - 1e-12)) << static_cast<int>(spec.kind);
-      ASSERT_GE(range.lo, source->min_size());
+      const Vec3 x{uniform(random), uniform(random), uniform(random)};
+      const double bound = grown_length(growth.spacing, kSourceSlope, std::sqrt(distance2(x, growth.core)));
+      ASSERT_GE(size_at(spec, x), bound * (1 - 1e-12)) << static_cast<int>(spec.kind);
+      nearest = std::min(nearest, size_at(spec, x) / bound);
     }
+    EXPECT_LT(nearest, 1.2) << static_cast<int>(spec.kind);
   }
 }
 
@@ -138,41 +145,6 @@ TEST(Source, may_be_stretched_along_a_direction_that_turns_with_it) {
   EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * (0.1 + 0.5 * kSourceSlope), 1e-12);
   transform(parse_similarity("rotate 0 0 1 90", ""), spec);
   EXPECT_NEAR(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.5, 1e-9);
-}
-
-TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
-  BackgroundMesh mesh;
-  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Vec3 t = normalized(Vec3{1, 2, 0});
-  mesh.node_size = {{0.1, 0.8, t}, {0.1, 0.4, -t}, {0.2, 0.2, {}}, {0.1, 0.6, t}};
-  mesh.tets = {{0, 1, 2, 3}};
-  const auto tets = make_sources(mesh);
-  int hint = 0;
-  const LocalSize first = tets[0]->local({0, 0, 0}, hint), middle = tets[0]->local({0.25, 0.25, 0.25}, hint);
-  EXPECT_NEAR(first.in(t), 0.8, 1e-9);
-  EXPECT_NEAR(middle.in(t), (0.8 + 0.4 + 0.2 + 0.6) / 4, 1e-9);
-  EXPECT_NEAR(middle.length, 0.125, 1e-12);
-  EXPECT_NEAR(tets[0]->max_aspect(), 8, 1e-9);
-  EXPECT_EQ(remove_stretch(mesh), 3);
-  EXPECT_EQ(make_sources(mesh)[0]->local({0, 0, 0}, hint).in(t), 0.1);
-}
-
-TEST(BackgroundMesh, is_linear_in_each_tetrahedron_and_silent_outside) {
-  BackgroundMesh mesh;
-  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const double h : {0.1, 0.2, 0.3, 0.4}) mesh.node_size.push_back({h, h, {}});
-  mesh.tets = {{0, 1, 2, 3}, {0, 1, 2, 2}};
-  const auto tets = make_sources(mesh);
-  ASSERT_EQ(tets.size(), 1u);  // the flat one is left out
-  const Vec3 x{0.2, 0.3, 0.1};
-  EXPECT_NEAR(static_cast<const SizeField&>(*tets[0]).size(x), 0.1 + 0.02 + 0.06 + 0.03, 1e-12);
-  EXPECT_TRUE(tets[0]->covers(x));
-  EXPECT_FALSE(tets[0]->covers({0.5, 0.5, 0.5}));
-  EXPECT_TRUE(std::isinf(tets[0]->range({2, 2, 2}, 0.5).lo));
-  const SizeRange range = tets[0]->range(x, 0.01);
-  EXPECT_LT(range.lo, 0.21);
-  EXPECT_GT(range.hi, 0.21);
-  EXPECT_LT(range.hi - range.lo, 0.02);
 }
 
 TEST(Source, without_extent_becomes_what_it_is) {

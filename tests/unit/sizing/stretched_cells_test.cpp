@@ -131,46 +131,6 @@ TEST(ProlongStretch, no_cell_allows_more_than_its_neighbours_and_the_slope) {
   EXPECT_GT(n_stretched, 1000);
 }
 
-/// A stretched box source, and with a `second` length one in the same place that is the same in all directions.
-LocalSize in_sources(double second, Vec3 x) {
-  SourceSpec box;
-  box.kind = SourceKind::kBox;
-  box.point[0] = {0.5, 0.5, 0.5};
-  box.half_axis = {{{0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}}};
-  box.spacing[0].length = 0.02;
-  box.aspect = 5;
-  box.direction = {1, 0, 0};
-  std::vector<std::unique_ptr<SizeSource>> all;
-  all.push_back(make_source(box, kSlope));
-  box.aspect = 1;
-  box.spacing[0].length = second;
-  if (second > 0) all.push_back(make_source(box, kSlope));
-  std::vector<NamedSource> named;
-  for (const auto& source : all) named.push_back({source.get(), pack_cause(CauseKind::kSource, 0)});
-  std::vector<SourceRequest> requests;
-  const RasterOctree octree = refine_octree(build_octree(test::kUnitBox, {}), named, {kLargest, 2}, &requests);
-  const OctreeView view = octree.shape.view();
-  const Neighbours neighbours(view);
-  const ProlongOptions options{kSlope, kLargest};
-  const ProlongedLengths lengths = prolong(neighbours, octree.stored_length, octree.stored_cause, options);
-  const StretchedCells stretched =
-      prolong_stretch(neighbours, {{}, requests}, octree.stored_length, lengths, options, kAspect, nullptr);
-  OctreeFieldData data{view, lengths.cells, lengths.cause, kSlope, 1};
-  data.along = stretched.along;
-  data.direction = stretched.direction;
-  data.max_aspect = kAspect;
-  return local(OctreeField(data, nullptr), x);
-}
-
-TEST(ProlongStretch, takes_what_sources_allow_and_the_least_of_several) {
-  const Vec3 inside{0.5, 0.5, 0.5};
-  EXPECT_NEAR(in_sources(0, inside).in({1, 0, 0}), 0.1, 1e-3);
-  EXPECT_NEAR(in_sources(0, inside).in({0, 1, 0}), 0.02, 1e-3);
-  EXPECT_NEAR(in_sources(0.05, inside).in({1, 0, 0}), 0.05, 1e-3);
-  EXPECT_NEAR(in_sources(0.05, inside).in({0, 1, 0}), 0.02, 1e-3);
-  EXPECT_LT(in_sources(0, {0.98, 0.98, 0.5}).in({1, 0, 0}), kLargest * 1.01);
-}
-
 TEST(ProlongStretch, does_not_depend_on_the_order_of_the_samples) {
   std::vector<RasterBox> boxes = line_along_x(0.06);
   add_line({0.2, 0.2, 0.5}, {0.8, 0.8, 0.6}, 0.006, 0.09, boxes);

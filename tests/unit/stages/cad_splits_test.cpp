@@ -39,7 +39,8 @@ class CadSplits : public testing::Test {
   }
 
   std::vector<double> lengths(const SizingArtifact& sizing) const {
-    const OctreeField field(sizing.field_data(), nullptr);
+    const std::unique_ptr<OctreeField> owned = sizing.field();
+    const OctreeField& field = *owned;
     std::vector<double> result;
     for (const Vec3& x : points_) result.push_back(static_cast<const SizeField&>(field).size(x));
     return result;

@@ -34,7 +34,8 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
     }
     staged_.make_sizing(GetParam().shape);
     sizing_ = read_sizing(staged_.prolong.output);
-    field_ = std::make_unique<OctreeField>(sizing_.field_data(), nullptr);
+    field_ = sizing_.field();
+    octree_ = std::make_unique<OctreeField>(sizing_.field_data(nullptr), nullptr);
   }
 
   std::int32_t leaf_at(const LengthSample& s) const {
@@ -54,7 +55,8 @@ class SizeFieldOfModel : public testing::TestWithParam<FieldCase> {
 
   test::StagedModel staged_;
   SizingArtifact sizing_;
-  std::unique_ptr<OctreeField> field_;
+  std::unique_ptr<OctreeField> field_;   // of octree and sources
+  std::unique_ptr<OctreeField> octree_;  // without sources
   std::mt19937_64 random_{11};
 };
 
@@ -87,7 +89,7 @@ TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
   for (int i = 0; i < 200'000; ++i) {
     int leaf = 0;
     const Vec3 x = random_point();
-    const double h = field_->size(x, leaf), own = sizing_.lengths.cells[leaf].length;
+    const double h = octree_->size(x, leaf), own = sizing_.lengths.cells[leaf].length;
     if (has_cones && sizing_.blanking.colour.empty()) {
       ASSERT_NEAR(h, own, sizing_.slope * distance(x, sizing_.shape.view().leaf_center(leaf)) + kLeftOut * own);
       continue;

@@ -94,7 +94,7 @@ TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
   staged_.make_sizing();
   const RasterArtifact raster = read_raster(staged_.raster.output);
   const MappedSizing sizing = map_sizing(staged_.prolong.output);
-  SizeTally tally = tally_by_group(raster);
+  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
   std::vector<double> weight(sizing.face_weight.size(), 0), area(weight.size(), 0);
   face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) {
     EXPECT_LE(p.least, p.length());
@@ -123,7 +123,7 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
   const RasterArtifact raster = read_raster(staged_.raster.output);
   const MappedSizing sizing = map_sizing(staged_.prolong.output);
   const std::vector<GroupSizes> sampled = sampled_groups(raster);
-  SizeTally tally = tally_by_group(raster);
+  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
   face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) { tally.add(p); });
   const std::vector<GroupSizes> groups = tally.groups(1, 1);
   ASSERT_EQ(sampled.size(), groups.size());

@@ -1,0 +1,69 @@
+// A binary tree of boxes: what lies near a point is found without looking at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace st {
+
+/// Squared distance from a point to a box; 0 inside.
+inline double distance2(Vec3 x, const Box3& box) {
+  const auto gap = [](double at, double lo, double hi) { return at < lo ? lo - at : at > hi ? at - hi : 0.0; };
+  return norm2({gap(x.x, box.lo.x, box.hi.x), gap(x.y, box.lo.y, box.hi.y), gap(x.z, box.lo.z, box.hi.z)});
+}
+
+/// Depends on the boxes and their order alone. O(n log n) to build.
+class BoxTree {
+ public:
+  struct Node {
+    Box3 box;
+    std::int32_t begin = 0, end = 0;  ///< its items are items()[begin, end)
+    std::int32_t right = 0;           ///< second child; the first one follows the node. 0: a leaf
+  };
+
+  BoxTree() = default;
+  explicit BoxTree(std::span<const Box3> boxes);
+
+  bool is_empty() const { return nodes_.empty(); }
+  /// Parents stand before their children; the root is the first.
+  std::span<const Node> nodes() const { return nodes_; }
+  std::span<const std::int32_t> items() const { return items_; }
+
+  /// Calls visit(item) for the items of all leaves of which, as of all nodes above, matters(node, squared distance from
+  /// x) holds when their turn comes; nearer nodes come first.
+  template <class Matters, class Visit>
+  void visit_near(Vec3 x, const Matters& matters, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::pair<std::int32_t, double>, kDeepest> stack;
+    std::size_t n = 0;
+    stack[n++] = {0, distance2(x, nodes_[0].box)};
+    while (n > 0) {
+      const auto [at, d2] = stack[--n];
+      if (!matters(at, d2)) continue;
+      const Node& node = nodes_[at];
+      if (node.right == 0) {
+        for (std::int32_t i = node.begin; i < node.end; ++i) visit(items_[i]);
+        continue;
+      }
+      std::pair<std::int32_t, double> a{at + 1, distance2(x, nodes_[at + 1].box)},
+          b{node.right, distance2(x, nodes_[node.right].box)};
+      if (b.second < a.second) std::swap(a, b);
+      stack[n++] = b;
+      stack[n++] = a;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kDeepest = 80;  // halved until few are left: 2 per level of at most 31 levels
+  void build(std::span<const Box3> boxes, std::int32_t begin, std::int32_t end);
+
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> items_;
+};
+
+}  // namespace st

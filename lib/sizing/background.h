@@ -1,0 +1,37 @@
+// Background meshes: lengths at the nodes of tetrahedra, as solvers and other meshers store them.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "base/similarity.h"
+#include "sizing/source.h"
+
+namespace st {
+
+/// Lengths are linear in each tetrahedron. There one direction may have a longer length: the one along which its nodes
+/// together are stretched most.
+struct BackgroundMesh {
+  std::vector<Vec3> node_xyz;
+  std::vector<LocalSize> node_size;
+  std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
+};
+
+/// Takes the smallest length in all directions; the number of nodes that had a longer one.
+std::int64_t remove_stretch(BackgroundMesh& mesh);
+
+void transform(const Similarity& motion, BackgroundMesh& mesh);
+
+/// Appends the nodes and tetrahedra of another mesh.
+void append(const BackgroundMesh& other, BackgroundMesh& mesh);
+
+/// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`. The smallest length of a tetrahedron
+/// stays. The number of nodes that were lowered.
+std::int64_t limit_growth(double slope, BackgroundMesh& mesh);
+
+/// In the mesh the smallest of what the tetrahedra there ask for, to rounding; flat ones are passed over. Elsewhere the
+/// lengths of its border, growing by the slope. Precondition: limit_growth().
+std::unique_ptr<SizeSource> make_background(BackgroundMesh mesh, double slope);
+
+}  // namespace st

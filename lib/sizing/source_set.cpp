@@ -1,0 +1,20 @@
+#include "sizing/source_set.h"
+
+#include <utility>
+
+#include "sizing/octree.h"
+
+namespace st {
+
+std::shared_ptr<const SourceTree> SourceSet::tree() const {
+  if (is_empty()) return nullptr;
+  std::vector<SourceTree::Entry> entries;
+  for (const SourceSpec& spec : sources)
+    entries.push_back(
+        {make_source(spec, slope), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(entries.size()))});
+  if (!background.tets.empty())
+    entries.push_back({make_background(background, slope), pack_cause(CauseKind::kOther, 0)});
+  return std::make_shared<SourceTree>(std::move(entries));
+}
+
+}  // namespace st

@@ -1,0 +1,123 @@
+#include "sizing/source_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace st {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What asks for no more than either.
+SourceSpacing least_of(const SourceSpacing& a, const SourceSpacing& b) {
+  const double radius = std::max(a.radius, b.radius), width = std::max(a.doubling - a.radius, b.doubling - b.radius);
+  return {std::min(a.length, b.length), radius, radius + width};
+}
+
+std::vector<Box3> cores_of(const std::vector<SourceTree::Entry>& entries) {
+  std::vector<Box3> cores;
+  for (const SourceTree::Entry& e : entries) cores.push_back(e.source->growth().core);
+  return cores;
+}
+
+}  // namespace
+
+SourceTree::SourceTree(std::vector<Entry> entries) : entries_(std::move(entries)), tree_(cores_of(entries_)) {
+  min_size_ = kInfinity;
+  for (const Entry& e : entries_) {
+    min_size_ = std::min(min_size_, e.source->min_size());
+    max_aspect_ = std::max(max_aspect_, e.source->max_aspect());
+    slope_ = std::max(slope_, e.source->slope());
+  }
+  for (const BoxTree::Node& node : tree_.nodes()) {
+    SourceSpacing least = entries_[tree_.items()[node.begin]].source->growth().spacing;
+    for (std::int32_t i = node.begin + 1; i < node.end; ++i)
+      least = least_of(least, entries_[tree_.items()[i]].source->growth().spacing);
+    least_.push_back(least);
+  }
+}
+
+inline bool SourceTree::reaches(std::int32_t node, double distance2, double best) const {
+  const SourceSpacing& s = least_[node];
+  const double room = best - s.length;
+  if (!(room >= 0)) return false;
+  // never steeper than the slope
+  const bool is_plain = s.doubling <= s.radius;
+  const double far = s.radius + room / slope_;
+  if (distance2 <= far * far) return true;
+  return !is_plain && grown_length(s, slope_, std::sqrt(distance2)) <= best;
+}
+
+double SourceTree::size_below(Vec3 x, double upper, std::int32_t* winner) const {
+  double best = upper;
+  std::int32_t by = kNone;
+  tree_.visit_near(
+      x, [&](std::int32_t node, double d2) { return reaches(node, d2, best); },
+      [&](std::int32_t i) {
+        const double length = entries_[i].source->size_below(x, std::nextafter(best, kInfinity));
+        if (length < best || (length == best && by != kNone && i < by)) {
+          best = length;
+          by = i;
+        }
+      });
+  if (winner) *winner = by;
+  return best;
+}
+
+LocalSize SourceTree::local_below(Vec3 x, const LocalSize& upper) const {
+  std::int32_t winner = kNone;
+  const double length = size_below(x, upper.length, &winner);
+  if (max_aspect_ <= 1 && upper.along <= upper.length) return {length, length, {}};
+  int hint = 0;
+  LocalSize least = winner == kNone ? upper : entries_[winner].source->local(x, hint);
+  if (!(least.along > least.length)) return {length, length, {}};
+  if (winner != kNone) least.along = std::min(least.along, upper.in(least.direction));
+  tree_.visit_near(
+      x, [&](std::int32_t node, double d2) { return reaches(node, d2, least.along); },
+      [&](std::int32_t i) {
+        least.along = std::min(least.along, entries_[i].source->local(x, hint).in(least.direction));
+      });
+  least.length = length;
+  least.along = std::max(least.along, length);
+  return least;
+}
+
+double SourceTree::least_near(Vec3 x, double radius, double upper) const {
+  double best = upper;
+  const double drop = slope_ * radius;
+  tree_.visit_near(
+      x, [&](std::int32_t node, double d2) { return least_[node].length < best && reaches(node, d2, best + drop); },
+      [&](std::int32_t i) {
+        const SizeSource& source = *entries_[i].source;
+        best = std::min(best, std::max(source.min_size(), source.size_below(x, best + drop) - drop));
+      });
+  return best;
+}
+
+bool SourceTree::tells(Vec3 x, double length) const {
+  const double above = std::nextafter(length, kInfinity);
+  return size_below(x, above) < above;
+}
+
+Vec3 SourceTree::gradient(std::int32_t source, Vec3 x) const {
+  const SizeSource& s = *entries_[source].source;
+  const double step = 1e-4 * s.size(x);
+  const auto change = [&](Vec3 d) { return (s.size(x + d) - s.size(x - d)) / (2 * step); };
+  return {change({step, 0, 0}), change({0, step, 0}), change({0, 0, step})};
+}
+
+Vec3 SourceTree::origin(std::int32_t source, Vec3 x) const {
+  constexpr int kMostSteps = 50;
+  const SizeSource& s = *entries_[source].source;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Vec3 g = gradient(source, x);
+    const double rise = s.size(x) - s.min_size();
+    if (!(rise > 1e-6 * s.min_size()) || !(norm2(g) > 1e-12)) break;
+    x = x - (rise / norm2(g)) * g;
+  }
+  return x;
+}
+
+}  // namespace st

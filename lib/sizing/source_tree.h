@@ -1,0 +1,51 @@
+// All sources of a size specification together: the smallest of what they ask for, found by a search tree.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "base/ids.h"
+#include "sizing/source.h"
+
+namespace st {
+
+/// Sources and background meshes, each with the cause that its lengths get (pack_cause). Immutable.
+class SourceTree {
+ public:
+  struct Entry {
+    std::unique_ptr<SizeSource> source;
+    std::int32_t cause = kNone;
+  };
+  explicit SourceTree(std::vector<Entry> entries);
+
+  const Entry& entry(std::int32_t i) const { return entries_[i]; }
+
+  /// The smallest of `upper` and of what the sources ask for at x. `winner` (may be null) becomes the one that asks for
+  /// less, the first of equal ones; kNone: none.
+  double size_below(Vec3 x, double upper, std::int32_t* winner = nullptr) const;
+  /// As size_below, of what is requested in each direction: the smallest length; along its direction, where it is
+  /// stretched, no more than any source and `upper` allow.
+  LocalSize local_below(Vec3 x, const LocalSize& upper) const;
+  /// A bound: no source asks for less than it, or `upper`, within `radius` of x.
+  double least_near(Vec3 x, double radius, double upper) const;
+  /// Whether a source asks for no more than `length` at x.
+  bool tells(Vec3 x, double length) const;
+  /// The gradient of a source's lengths at x, by differences.
+  Vec3 gradient(std::int32_t source, Vec3 x) const;
+  /// The place from which a source's length at x grows: down its gradient to its smallest length.
+  Vec3 origin(std::int32_t source, Vec3 x) const;
+  double min_size() const { return min_size_; }
+  double max_aspect() const { return max_aspect_; }
+
+ private:
+  /// Whether a source below a node of the tree may ask for `best` or less at a squared distance from its box.
+  bool reaches(std::int32_t node, double distance2, double best) const;
+
+  std::vector<Entry> entries_;
+  BoxTree tree_;
+  std::vector<SourceSpacing> least_;  // [nodes of the tree] smallest length, largest radius, slowest growth below
+  double slope_ = 0, min_size_ = 0, max_aspect_ = 1;
+};
+
+}  // namespace st
