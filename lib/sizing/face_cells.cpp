@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/assert.h"
+#include "base/threads.h"
 #include "sizing/patch_walk.h"
 
 namespace st {
@@ -90,15 +91,18 @@ struct AreaPoint {
 class PlanePoints {
  public:
   static constexpr int kLargest = 48;  // squares per axis before sources are looked at
-  explicit PlanePoints(const OctreeField& field) : field_(field) {}
+  /// `octree`: without the sources.
+  PlanePoints(const OctreeField& octree, const SourceTree* sources) : octree_(octree), sources_(sources) {}
 
   /// `n` squares per axis.
-  const std::vector<AreaPoint>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n) {
+  const std::vector<AreaPoint>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n,
+                                     bool has_sources) {
     points_.clear();
     center_ = origin + Vec3{plane.center[0], plane.center[1], plane.center[2]};
     normal_ = {plane.normal[0], plane.normal[1], plane.normal[2]};
     middle_ = middle;
     edge_ = edge;
+    has_sources_ = has_sources;
     steepest_ = std::max({std::abs(normal_.x), std::abs(normal_.y), std::abs(normal_.z)});
     if (steepest_ > 0)
       for (int b = 0; b < n; ++b)
@@ -116,7 +120,7 @@ class PlanePoints {
   void add(double a, double b, double side) {
     double height = 0;
     const Vec3 x = on_plane(a, b, height);
-    if (field_.data().sources && is_coarse(x, a, b, side)) {
+    if (has_sources_ && is_coarse(x, a, b, side)) {
       for (const double v : {-0.25, 0.25})
         for (const double u : {-0.25, 0.25}) add(a + u * side, b + v * side, 0.5 * side);
       return;
@@ -147,26 +151,38 @@ class PlanePoints {
     constexpr double kLeastShare = 0.8;  // of the least in the largest: 1.5 % of the triangles around a point source
     constexpr double kSmallest = 1e-4;   // of the cell's edge
     if (side < kSmallest) return false;
-    const SourceTree& sources = *field_.data().sources;
-    const double radius = std::sqrt(0.5) * side * edge_ / steepest_, length = length_at(x),
-                 least = sources.least_near(x, radius, length);
+    std::int32_t winner = kNone;
+    const double radius = std::sqrt(0.5) * side * edge_ / steepest_, length = length_at(x, winner),
+                 least = sources_->least_near(x, radius, length);
     if (2 * radius <= least) return false;
     if (least < kLeastShare * length) return true;
-    if (!sources.tells(x, length)) return false;
+    if (winner == kNone) return false;
     double height = 0;
     for (const double v : {-0.5, 0.5})
       for (const double u : {-0.5, 0.5})
-        if (kLeastShare * length_at(on_plane(a + u * side, b + v * side, height)) > length) return true;
+        if (kLeastShare * length_at(on_plane(a + u * side, b + v * side, height), winner) > length) return true;
     return false;
   }
-  double length_at(Vec3 x) { return field_.OctreeField::size(x, hint_) / field_.data().scale; }
+  double length_at(Vec3 x, std::int32_t& winner) {
+    return sources_->size_below(x, octree_.OctreeField::size(x, hint_) / octree_.data().scale, &winner);
+  }
 
-  const OctreeField& field_;
+  const OctreeField& octree_;
+  const SourceTree* sources_;
   int hint_ = 0;
+  bool has_sources_ = false;
   Vec3 center_, normal_, middle_;
   double edge_ = 0, steepest_ = 0, total_ = 0;
   std::vector<AreaPoint> points_;
 };
+
+/// Whether a source asks for less than the octree somewhere in a leaf of it.
+bool sources_reach(const OctreeFieldData& data, std::int32_t leaf) {
+  if (!data.sources) return false;
+  const double radius = 0.5 * std::sqrt(3.0) * data.octree.cell_edge(data.octree.leaf_levels[leaf]),
+               upper = std::abs(static_cast<double>(data.cells[leaf].upper));
+  return data.sources->least_near(data.octree.leaf_center(leaf), radius, upper) < upper;
+}
 
 /// Points per axis for a cell of the raster: 2, times the cells that the field has along it.
 int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeView& fine) {
@@ -187,11 +203,10 @@ double area_share(const LocalSize& local, Vec3 normal) {
 /// Unites points of one cell that follow each other and have one cause.
 class PartCollector {
  public:
-  PartCollector(FaceId face, const std::function<void(const SizedPart&)>& visit) : visit_(visit), face_(face) {}
+  PartCollector(FaceId face, std::vector<SizedPart>& parts) : parts_(parts), face_(face) {}
 
   /// A point of length `h` that stands for `area`; its weight is that of a unit area, without kTrianglesPerGradient.
   void add(std::int32_t cause, double h, double area, const FaceWeight& weight) {
-    if (!visit_) return;
     if (part_.area > 0 && cause != part_.cause) finish();
     if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}};
     part_.area += area;
@@ -201,14 +216,73 @@ class PartCollector {
   }
 
   void finish() {
-    if (part_.area > 0) visit_(part_);
+    if (part_.area > 0) parts_.push_back(part_);
     part_ = {};
   }
 
  private:
-  const std::function<void(const SizedPart&)>& visit_;
+  std::vector<SizedPart>& parts_;
   FaceId face_;
   SizedPart part_;
+};
+
+/// What some cells of faces weigh. One for each thread.
+class CellWeigher {
+ public:
+  /// `octree`: `field` without its sources.
+  CellWeigher(const FaceCells& faces, const OctreeView& raster, const OctreeField& field, const OctreeField& octree)
+      : faces_(faces), raster_(raster), field_(field), octree_(octree), points_(octree, field.data().sources) {}
+
+  /// Row `i` of the cells of `face`; its parts are appended.
+  FaceWeight weigh(FaceId face, std::size_t i, std::vector<SizedPart>& parts) {
+    const std::int32_t leaf = faces_.leaf[i];
+    const float* n = faces_.plane[i].normal;
+    const Vec3 normal{n[0], n[1], n[2]};
+    const bool has_sources = sources_reach(field_.data(), leaf);
+    const OctreeField& asked = has_sources ? field_ : octree_;
+    const int n_points = points_per_axis(raster_, leaf, field_.data().octree);
+    const auto& on_plane = points_.make(faces_.plane[i], faces_.origin, raster_.leaf_center(leaf),
+                                        raster_.cell_edge(raster_.leaf_levels[leaf]), n_points, has_sources);
+    FaceWeight sum;
+    PartCollector collector(face, parts);
+    const double unit = static_cast<double>(faces_.area[i]) / points_.total();
+    for (const auto& [x, weight] : on_plane) {
+      Vec3 gradient;
+      std::int32_t cause = kNone;
+      const double h = asked.size_and_gradient(x, hint_, gradient, cause);
+      const double share = asked.is_stretched() ? area_share(asked.OctreeField::local(x, hint_), normal) : 1;
+      const FaceWeight at_point{share / (h * h), share * norm(gradient - dot(gradient, normal) * normal) / (h * h)};
+      sum.uniform += weight * at_point.uniform;
+      sum.graded += weight * at_point.graded;
+      collector.add(cause, h, unit * weight, at_point);
+    }
+    collector.finish();
+    return {unit * sum.uniform, kTrianglesPerGradient * unit * sum.graded};
+  }
+
+ private:
+  const FaceCells& faces_;
+  const OctreeView& raster_;
+  const OctreeField &field_, &octree_;
+  PlanePoints points_;
+  int hint_ = 0;
+};
+
+/// The face of each row from `begin` on: rows are asked for in ascending order.
+class FaceOfRow {
+ public:
+  FaceOfRow(const FaceCells& faces, std::size_t begin)
+      : offsets_(faces.offsets),
+        face_(std::upper_bound(offsets_.begin(), offsets_.end(), static_cast<std::int64_t>(begin)) - offsets_.begin() -
+              1) {}
+  FaceId operator()(std::size_t row) {
+    while (offsets_[static_cast<std::size_t>(face_) + 1] <= static_cast<std::int64_t>(row)) ++face_;
+    return static_cast<FaceId>(face_);
+  }
+
+ private:
+  const std::vector<std::int64_t>& offsets_;
+  std::ptrdiff_t face_;
 };
 
 }  // namespace
@@ -236,35 +310,31 @@ double SizedPart::length() const { return std::max(least, std::sqrt(area / weigh
 
 std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& raster, const OctreeField& field,
                                      const std::function<void(const SizedPart&)>& visit) {
+  constexpr std::size_t kBlock = 1 << 18, kPiece = 512;  // rows whose parts are held at once; of a task
   std::vector<FaceWeight> weights(static_cast<std::size_t>(faces.n_faces()));
-  PlanePoints points(field);
-  int hint = 0;
-  for (std::size_t f = 0; f < weights.size(); ++f)
-    for (std::int64_t k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k) {
-      const std::size_t i = static_cast<std::size_t>(k);
-      const std::int32_t leaf = faces.leaf[i];
-      const float* n = faces.plane[i].normal;
-      const Vec3 normal{n[0], n[1], n[2]};
-      const int n_points = points_per_axis(raster, leaf, field.data().octree);
-      const auto& on_plane = points.make(faces.plane[i], faces.origin, raster.leaf_center(leaf),
-                                         raster.cell_edge(raster.leaf_levels[leaf]), n_points);
-      double uniform = 0, graded = 0;
-      PartCollector parts(static_cast<FaceId>(f), visit);
-      const double unit = static_cast<double>(faces.area[i]) / points.total();
-      for (const auto& [x, weight] : on_plane) {
-        Vec3 gradient;
-        std::int32_t cause = kNone;
-        const double h = field.size_and_gradient(x, hint, gradient, cause);
-        const double share = field.is_stretched() ? area_share(field.OctreeField::local(x, hint), normal) : 1;
-        const FaceWeight at_point{share / (h * h), share * norm(gradient - dot(gradient, normal) * normal) / (h * h)};
-        uniform += weight * at_point.uniform;
-        graded += weight * at_point.graded;
-        parts.add(cause, h, unit * weight, at_point);
-      }
-      parts.finish();
-      weights[f].uniform += unit * uniform;
-      weights[f].graded += kTrianglesPerGradient * unit * graded;
+  OctreeFieldData without = field.data();
+  without.sources = nullptr;
+  const OctreeField octree(without, nullptr, field.OctreeField::min_size() / without.scale);
+  for (std::size_t first = 0; first < faces.leaf.size(); first += kBlock) {
+    const std::size_t n = std::min(kBlock, faces.leaf.size() - first);
+    std::vector<FaceWeight> of_row(n);
+    std::vector<std::vector<SizedPart>> parts((n + kPiece - 1) / kPiece);
+    parallel_for(n, kPiece, [&](std::size_t begin, std::size_t end) {
+      CellWeigher weigher(faces, raster, field, octree);
+      FaceOfRow face_of(faces, first + begin);
+      for (std::size_t i = begin; i < end; ++i)
+        of_row[i] = weigher.weigh(face_of(first + i), first + i, parts[begin / kPiece]);
+    });
+    FaceOfRow face_of(faces, first);
+    for (std::size_t i = 0; i < n; ++i) {
+      FaceWeight& weight = weights[static_cast<std::size_t>(face_of(first + i))];
+      weight.uniform += of_row[i].uniform;
+      weight.graded += of_row[i].graded;
     }
+    if (!visit) continue;
+    for (const std::vector<SizedPart>& piece : parts)
+      for (const SizedPart& part : piece) visit(part);
+  }
   return weights;
 }
 

@@ -51,12 +51,14 @@ inline bool SourceTree::reaches(std::int32_t node, double distance2, double best
 }
 
 double SourceTree::size_below(Vec3 x, double upper, std::int32_t* winner) const {
+  // asked for by all: lengths a little above the best, so that one that equals it is seen
+  constexpr double kAbove = 1 + 1e-15;
   double best = upper;
   std::int32_t by = kNone;
   tree_.visit_near(
       x, [&](std::int32_t node, double d2) { return reaches(node, d2, best); },
       [&](std::int32_t i) {
-        const double length = entries_[i].source->size_below(x, std::nextafter(best, kInfinity));
+        const double length = entries_[i].source->size_below(x, kAbove * best);
         if (length < best || (length == best && by != kNone && i < by)) {
           best = length;
           by = i;

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "base/threads.h"
 #include "geometry/shape/analytic.h"
 #include "sizing/prolong.h"
 #include "unit/sizing/cases.h"
@@ -137,6 +138,34 @@ TEST(FaceCells, weigh_sources_smaller_than_their_cells) {
         face_weights(faces, raster.shape.view(), field, [&](const SizedPart& part) { area += part.area; })[0];
     EXPECT_NEAR(w.uniform / expected, 1, 0.02) << least;
     EXPECT_NEAR(area / area_of_cell, 1, 1e-6);
+  }
+}
+
+TEST(FaceCells, weigh_the_same_on_any_number_of_threads) {
+  const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
+  const ProlongedLengths lengths =
+      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {0.2, 1});
+  const OctreeField field = field_on(raster, lengths, 1);
+  FaceCells faces;
+  for (const double z : {0.1, 0.5, 0.9}) {
+    faces.append_face({});
+    faces.append_face(locate_face(PlaneSurface({{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 1, 0, 1), {},
+                                  raster.shape.view(), 1));
+  }
+  const auto weigh = [&](int threads, std::vector<double>& areas) {
+    set_thread_count(threads);
+    const auto visit = [&](const SizedPart& part) { areas.push_back(part.area + part.face); };
+    const std::vector<FaceWeight> weights = face_weights(faces, raster.shape.view(), field, visit);
+    set_thread_count(1);
+    return weights;
+  };
+  std::vector<double> areas, others;
+  const std::vector<FaceWeight> one = weigh(1, areas), three = weigh(3, others);
+  EXPECT_EQ(areas, others);
+  EXPECT_GT(faces.leaf.size(), 1000u);
+  for (std::size_t f = 0; f < one.size(); ++f) {
+    EXPECT_EQ(one[f].uniform, three[f].uniform);
+    EXPECT_EQ(one[f].uniform > 0, f % 2 == 1);
   }
 }
 
