@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -11,6 +14,22 @@
 #include "sizing/sample_seeds.h"
 
 namespace st {
+
+/// Four numbers that are computed with at once.
+using Float4 [[gnu::vector_size(16)]] = float;
+
+/// A place from the lower corner of the root as two numbers of single precision for each coordinate, so that
+/// differences to other places are exact to single precision. The last of the four is zero.
+struct SplitPlace {
+  Float4 high, low;
+
+  explicit SplitPlace(Vec3 from_lo)
+      : high{static_cast<float>(from_lo.x), static_cast<float>(from_lo.y), static_cast<float>(from_lo.z), 0},
+        low{rest(from_lo.x), rest(from_lo.y), rest(from_lo.z), 0} {}
+
+ private:
+  static float rest(double x) { return static_cast<float>(x - static_cast<double>(static_cast<float>(x))); }
+};
 
 /// A sample asks for `length` on a rectangle around its place; from there lengths grow by its slope in all directions.
 struct Cone {
@@ -35,6 +54,31 @@ struct Cone {
   }
   /// Model unit.
   double length_at(Vec3 to) const { return length + slope * norm(way_to(to)); }
+  /// Likewise in single precision, 1e-6 of the result.
+  float length_at(const SplitPlace& to) const {
+    Float4 way = in_space((to.high - load(offsetof(Cone, x))) + to.low);
+    for (int k = 0; k < 2; ++k) {
+      const Float4 e = load(offsetof(Cone, side) + static_cast<std::size_t>(k) * sizeof side[0]), along = sum(way * e),
+                   most = half[k] - Float4{};
+      const Float4 below = along < most ? along : most;
+      way = in_space(way - (below > -most ? below : -most) * e);
+    }
+    return length + slope * std::sqrt(sum(way * way)[0]);
+  }
+
+ private:
+  /// Four of its numbers; three of them are those of a vector.
+  Float4 load(std::size_t offset) const {
+    Float4 four;
+    std::memcpy(&four, reinterpret_cast<const char*>(this) + offset, sizeof four);
+    return four;
+  }
+  static Float4 in_space(Float4 v) { return __builtin_shufflevector(v, Float4{}, 0, 1, 2, 4); }
+  /// In each of the four.
+  static Float4 sum(Float4 v) {
+    v += __builtin_shufflevector(v, v, 2, 3, 0, 1);
+    return v + __builtin_shufflevector(v, v, 1, 0, 3, 2);
+  }
 };
 
 /// The cones of an octree, and which of them tell the length in each site.

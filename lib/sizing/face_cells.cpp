@@ -176,14 +176,6 @@ class PlanePoints {
   std::vector<AreaPoint> points_;
 };
 
-/// Whether a source asks for less than the octree somewhere in a leaf of it.
-bool sources_reach(const OctreeFieldData& data, std::int32_t leaf) {
-  if (!data.sources) return false;
-  const double radius = 0.5 * std::sqrt(3.0) * data.octree.cell_edge(data.octree.leaf_levels[leaf]),
-               upper = std::abs(static_cast<double>(data.cells[leaf].upper));
-  return data.sources->least_near(data.octree.leaf_center(leaf), radius, upper) < upper;
-}
-
 /// Points per axis for a cell of the raster: 2, times the cells that the field has along it.
 int points_per_axis(const OctreeView& raster, std::int32_t leaf, const OctreeView& fine) {
   const int level = raster.leaf_levels[leaf];
@@ -238,7 +230,7 @@ class CellWeigher {
     const std::int32_t leaf = faces_.leaf[i];
     const float* n = faces_.plane[i].normal;
     const Vec3 normal{n[0], n[1], n[2]};
-    const bool has_sources = sources_reach(field_.data(), leaf);
+    const bool has_sources = field_.has_sources_in(leaf);
     const OctreeField& asked = has_sources ? field_ : octree_;
     const int n_points = points_per_axis(raster_, leaf, field_.data().octree);
     const auto& on_plane = points_.make(faces_.plane[i], faces_.origin, raster_.leaf_center(leaf),

@@ -21,6 +21,10 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
   }
   if (data_.sources) min_length = std::min(min_length, data_.sources->min_size());
   min_size_ = min_length * data_.scale;
+  if (!data_.split_leaf.empty()) is_split_.resize(data_.cells.size() / 64 + 1);
+  for (const std::int32_t leaf : data_.split_leaf)
+    is_split_[static_cast<std::size_t>(leaf) / 64] |= std::uint64_t{1} << (leaf % 64);
+  if (data_.sources) reach_ = std::make_unique<std::atomic<std::uint8_t>[]>(data_.cells.size());
   top_.resize(std::size_t{1} << (3 * kTopLevel));
   fill_top(data.octree.node_children.empty() ? ~0 : 0, 0, 0);
 }
@@ -61,29 +65,27 @@ inline OctreeField::Place OctreeField::locate(Vec3 xyz, int& hint) const {
 }
 
 double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
-  double least = data_.max_length;
+  const SplitPlace place(x.from_lo);
+  auto least = static_cast<float>(data_.max_length);
   std::int32_t by = kNone;
-  for (std::int32_t k = data_.first_cone[site]; k < data_.first_cone[site + 1]; ++k) {
-    const Cone& cone = data_.cones[data_.site_cones[k]];
-    const double room = least - cone.length;
-    if (!(room > 0)) break;  // shorter ones come first
-    const double slope = cone.slope, nearer = room + slope * (cone.half[0] + cone.half[1]);
-    // its rectangle is no closer than its place less half its sides
-    if (!(slope * slope * norm2(x.from_lo - Vec3{cone.x[0], cone.x[1], cone.x[2]}) < nearer * nearer)) continue;
-    const double distance2 = norm2(cone.way_to(x.from_lo));
-    if (!(slope * slope * distance2 < room * room)) continue;
-    least = cone.length + slope * std::sqrt(distance2);
-    by = data_.site_cones[k];
+  const std::int32_t end = data_.first_cone[site + 1];
+  for (std::int32_t k = data_.first_cone[site]; k < end; ++k) {
+    const std::int32_t i = data_.site_cones[k];
+    const Cone& cone = data_.cones[i];
+    if (!(cone.length < least)) break;           // shorter ones come first
+    const float length = cone.length_at(place);  // of each: most guesses of who is nearer would be wrong
+    by = length < least ? i : by;
+    least = std::min(least, length);
   }
   if (winner) *winner = by;
-  return least;
+  return static_cast<double>(least);
 }
 
 inline std::int32_t OctreeField::find_site(std::int32_t leaf, const Place& x) const {
-  if (!(data_.cells[leaf].upper < 0)) [[likely]]
+  const auto bit = static_cast<std::size_t>(leaf);
+  if (is_split_.empty() || !(is_split_[bit / 64] >> (bit % 64) & 1)) [[likely]]
     return leaf;
   const auto it = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
-  if (it == data_.split_leaf.end() || *it != leaf) return leaf;
   const auto k = static_cast<std::int32_t>(it - data_.split_leaf.begin());
   const std::int32_t second = data_.octree.n_leaves() + k;
   const CellSplit& s = data_.split[k];
@@ -93,10 +95,33 @@ inline std::int32_t OctreeField::find_site(std::int32_t leaf, const Place& x) co
   return length_at(second, x) < length_at(leaf, x) ? second : leaf;
 }
 
+bool OctreeField::has_sources_in(std::int32_t leaf) const {
+  if (!data_.sources) return false;
+  std::uint8_t reach = reach_[leaf].load(std::memory_order_relaxed);
+  if (reach == 0) {  // whoever finds out, finds the same
+    const double radius = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
+    double upper = std::abs(static_cast<double>(data_.cells[leaf].upper));
+    const auto split = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
+    if (split != data_.split_leaf.end() && *split == leaf)
+      upper = std::max<double>(upper, std::abs(data_.second_cells[split - data_.split_leaf.begin()].upper));
+    if (!data_.along.empty()) upper *= data_.max_aspect;
+    const double least = data_.sources->least_near(data_.octree.leaf_center(leaf), radius, upper);
+    reach = least < upper ? 2 : 1;
+    reach_[leaf].store(reach, std::memory_order_relaxed);
+  }
+  return reach == 2;
+}
+
+inline bool OctreeField::may_reach(std::int32_t leaf, const Place& x) const {
+  const double edge = data_.octree.edge;
+  const bool is_inside = std::min({x.from_lo.x, x.from_lo.y, x.from_lo.z}) >= 0 &&
+                         std::max({x.from_lo.x, x.from_lo.y, x.from_lo.z}) <= edge;
+  return !is_inside || has_sources_in(leaf);
+}
+
 double OctreeField::size(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
-  const double length = length_at(find_site(hint, x), x);
-  return scaled(data_.sources ? data_.sources->size_below(xyz, length) : length);
+  return scaled(source_length(hint, x, length_at(find_site(hint, x), x)));
 }
 
 LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
@@ -111,7 +136,7 @@ LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
 LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
   const LocalSize own = local_in(find_site(hint, x), x);
-  if (!data_.sources) return own;
+  if (!data_.sources || !may_reach(hint, x)) return own;
   const LocalSize least =
       data_.sources->local_below(xyz, {own.length / data_.scale, own.along / data_.scale, own.direction});
   return {scaled(least.length), scaled(least.along), least.direction};
@@ -121,7 +146,8 @@ OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) co
   Answer answer;
   const double length =
       data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x, &answer.cone);
-  const double least = data_.sources ? data_.sources->size_below(x.xyz, length, &answer.source) : length;
+  const std::int32_t n = data_.octree.n_leaves(), leaf = site < n ? site : data_.split_leaf[site - n];
+  const double least = source_length(leaf, x, length, &answer.source);
   answer.length = scaled(least);
   if (answer.source != kNone) {
     answer.cone = kNone;
@@ -132,7 +158,6 @@ OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) co
     answer.cause = data_.cone_cause[answer.cone];
     answer.gradient = data_.scale * c.slope * normalized(c.way_to(x.from_lo));
   } else if (data_.first_cone.empty()) {
-    const std::int32_t n = data_.octree.n_leaves();
     const CellLength& c = cell_of(site);
     answer.cause = site < n ? data_.cause[site] : data_.second_cause[site - n];
     const bool is_cut_off = length >= std::abs(static_cast<double>(c.upper)) || data_.scale * length <= min_size_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -92,6 +93,8 @@ class OctreeField : public SizeField {
   /// asked.
   virtual Similarity frame() const { return {}; }
   virtual SizeExplanation explain(Vec3 xyz) const;
+  /// Whether a source may tell a length somewhere in a leaf.
+  bool has_sources_in(std::int32_t leaf) const;
   /// Likewise size() in the octree's own frame, its gradient and its cause.
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const;
 
@@ -132,6 +135,11 @@ class OctreeField : public SizeField {
   friend ProlongedLengths lengths_at_centers(OctreeFieldData data);
   CellLength at_center(std::int32_t site, std::int32_t& cause) const;
   Answer answer_at(std::int32_t site, const Place& x) const;
+  /// Before scale: the smallest of `length` at x in a leaf and of what sources ask for there; see SourceTree.
+  double source_length(std::int32_t leaf, const Place& x, double length, std::int32_t* winner = nullptr) const {
+    return data_.sources && may_reach(leaf, x) ? data_.sources->size_below(x.xyz, length, winner) : length;
+  }
+  bool may_reach(std::int32_t leaf, const Place& x) const;
   void fill_top(std::int32_t node, int level, std::size_t first);
   /// As OctreeView::find_leaf, by way of the table.
   std::int32_t find_leaf(std::uint64_t key, int& level) const {
@@ -149,6 +157,9 @@ class OctreeField : public SizeField {
   static constexpr int kTopLevel = 5;
   OctreeFieldData data_;
   std::vector<std::int32_t> top_;  // [8^kTopLevel] node of that level, or ~leaf: the first steps of every search in one
+  std::vector<std::uint64_t> is_split_;  // a bit for each leaf, smaller than looking into `cells`; empty: none is
+  /// [n_leaves] where there are sources, whether one may tell a length in the leaf: 0 not known yet, 1 no, 2 yes.
+  std::unique_ptr<std::atomic<std::uint8_t>[]> reach_;
   std::shared_ptr<const void> owner_;
   double unit_;     // edge of a grid cell
   double to_grid_;  // 1 / unit_

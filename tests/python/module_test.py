@@ -106,7 +106,7 @@ class Module(unittest.TestCase):
         inner = mesh.point_data("entity_dim") == 2
         self.assertGreater(inner.sum(), 100)
         found, stored = sizing.size(mesh.points[inner]), mesh.size[inner]
-        self.assertLess(numpy.abs(found / stored - 1).max(), 1e-9)
+        self.assertLess(numpy.abs(found / stored - 1).max(), 1e-6)  # stored by single precision
 
     def test_sizes_are_those_that_the_mesh_was_made_for(self):
         self.check_sizes(st.read(WORK / "sizing.hdf"), st.read(WORK / "mesh.hdf"))
@@ -129,7 +129,7 @@ class Module(unittest.TestCase):
                 x = centre[leaf[k]] + way * edge[leaf[k]] * plane[k, :3] / numpy.abs(plane[k, :3]).max()
                 said = st.run("st-info", sizing, at=",".join(map(repr, x.tolist())))["length"]
                 sides.append(said)
-                self.assertAlmostEqual(field.size(x)[0] / said, 1, places=9)
+                self.assertAlmostEqual(field.size(x)[0] / said, 1, places=6)
         self.assertGreater(max(sides[k + 1] / sides[k] for k in range(0, 8, 2)), 1.02, sides)
 
     def test_sizes_of_sources_and_a_background_are_those_of_st_prolong(self):
