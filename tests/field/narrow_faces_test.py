@@ -1,5 +1,6 @@
 """Faces narrower than the CAD is exact, and faces that lie on each other: merged or named, and never refined without
 end."""
+import os
 import sys
 import unittest
 from pathlib import Path
@@ -8,6 +9,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, make_chain, must  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+FIELD = Path(os.environ.get("ST_CORPUS", ROOT.parent / "shared" / "corpus")).parent / "field"
 
 
 class NarrowFaces(ToolTest):
@@ -40,6 +43,24 @@ class NarrowFaces(ToolTest):
         folder = make_chain(model, self.folder / "sliver")
         check = self.check(folder)
         self.assertEqual(check.code, OK, check)
+
+    def test_edges_of_a_sliver_that_run_back_beside_the_neighbours_become_one(self):
+        folder = make_chain(MODELS / "wall_twice.brep", self.folder / "wall")
+        check = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                    folder / "sizing.hdf", "--json")
+        self.assertEqual(check.code, OK, check)
+        self.assertAlmostEqual(check.json()["volume"], 30, delta=0.003)
+        self.assertAlmostEqual(check.json()["area"], 140, delta=0.01)
+        self.assertEqual(check.json()["boundary_edges"], 0)
+
+    def test_the_edge_of_a_tail_is_covered_once(self):
+        model = FIELD / "red_tail_2_3.brep"
+        if not model.exists():
+            self.skipTest(f"{model} is not there")
+        folder = make_chain(model, self.folder / "tail")
+        check = self.check(folder)
+        self.assertEqual(check.code, OK, check)
+        self.assertIn("merged into face 1", must("st-import", model, "-o", self.folder / "tail.hdf").err)
 
     def test_a_face_folded_back_onto_its_neighbour_is_named_and_not_refined_without_end(self):
         model = MODELS / "folded_flap.brep"

@@ -54,6 +54,7 @@
 #include "broken/broken_shapes.h"
 #include "broken/damaged_shapes.h"
 #include "broken/kinked_shapes.h"
+#include "broken/narrow_shapes.h"
 #include "support/shapes.h"
 
 namespace {
@@ -287,6 +288,7 @@ void write_all(const fs::path& dir) {
                             "no_curve_lost", "twisted_band", "bumped_seam", "folded_offset"})
     st::test::write_damaged(shape, dir / (std::string(shape) + ".brep"));
   for (const std::string& shape : st::test::kinked_shapes()) st::test::write_kinked(shape, dir / (shape + ".brep"));
+  for (const std::string& shape : st::test::narrow_shapes()) st::test::write_narrow(shape, dir / (shape + ".brep"));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());

@@ -15,6 +15,7 @@
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -22,9 +23,9 @@
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
-#include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/wire_walk.h"
+#include "geometry/import/edge_spurs.h"
 #include "geometry/model/cad_tolerance.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
@@ -97,13 +98,20 @@ std::vector<Chain> rings_of(Chain left) {
   return rings;
 }
 
+/// What becomes of a sliver and its neighbour.
+struct Merge {
+  std::map<FaceId, TopoDS_Face> faces;                     ///< oriented forward: the neighbour with the sliver in it,
+                                                           ///< and others at edges that became one
+  std::vector<std::pair<TopoDS_Edge, TopoDS_Edge>> rests;  ///< edges that were cut, and what is left of them
+};
+
 class SliverMerger {
  public:
   SliverMerger(const ImportedShape& model, const ModelTables& t)
       : model_(model), t_(t), least_(kSamePlace * t.box().diagonal()) {}
 
-  /// The neighbour with the sliver in it, oriented forward; nullopt where that cannot be.
-  std::optional<TopoDS_Face> merge(FaceId sliver, FaceId neighbour) const {
+  /// nullopt where that cannot be.
+  std::optional<Merge> merge(FaceId sliver, FaceId neighbour) const {
     const TopoDS_Face a = forward(sliver), b = forward(neighbour);
     const double on = kOn * std::max({least_, cad_tolerance(t_, sliver), cad_tolerance(t_, neighbour)});
     UvBounds bounds{};
@@ -116,10 +124,20 @@ class SliverMerger {
       for (TopoDS_Edge& e : slivers[0]) e.Reverse();
     for (Chain& chain : own)
       if (const auto sum = sum_of(chain, slivers[0])) {
-        if (!runs_clear(*sum, slivers[0], on)) return std::nullopt;
         chain = *sum;
-        return face_of(b, own, slivers[0], *surface, t_.face_area[neighbour] - t_.face_area[sliver],
-                       kSameArea * t_.face_area[sliver]);
+        for (const TopoDS_Edge& e : slivers[0])
+          if (is_of(chain, e) && !add_pcurve(e, b, on)) return std::nullopt;
+        Merge merge;
+        while (const auto spur = find_spur(chain, slivers[0], on)) {
+          chain = without_spur(chain, *spur);
+          if (!share(*spur, {sliver, neighbour}, merge)) return std::nullopt;
+        }
+        if (!runs_clear(chain, slivers[0], on)) return std::nullopt;
+        const double area = t_.face_area[neighbour] - t_.face_area[sliver];
+        const auto face = face_of(b, own, area, kSameArea * t_.face_area[sliver]);
+        if (!face) return std::nullopt;
+        merge.faces.insert({neighbour, *face});
+        return merge;
       }
     return std::nullopt;
   }
@@ -181,13 +199,26 @@ class SliverMerger {
     return true;
   }
 
-  /// `chains` on the surface of `b`, where the edges of `added` get trimming curves.
-  static std::optional<TopoDS_Face> face_of(const TopoDS_Face& b, const std::vector<Chain>& chains, const Chain& added,
-                                            const Surface& surface, double area, double room) {
-    for (const TopoDS_Edge& e : added) {
-      double t0, t1;
-      if (BRep_Tool::CurveOnSurface(e, b, t0, t1).IsNull() && !add_pcurve(e, b, surface)) return std::nullopt;
+  /// All faces at the longer edge of a spur, but for `own`, get the shorter one in its place.
+  bool share(const EdgeSpur& spur, const std::pair<FaceId, FaceId>& own, Merge& merge) const {
+    for (FaceId f = 0; f < t_.n_faces(); ++f) {
+      if (f == own.first || f == own.second) continue;
+      const auto it = merge.faces.find(f);
+      const TopoDS_Face face = it == merge.faces.end() ? forward(f) : it->second;
+      int n_uses = 0;
+      for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) n_uses += e.Current().IsSame(spur.longer);
+      if (n_uses == 0) continue;
+      const auto changed = n_uses == 1 ? with_common_edge(face, spur) : std::nullopt;
+      if (!changed) return false;
+      merge.faces[f] = *changed;
     }
+    if (!spur.rest.IsNull()) merge.rests.emplace_back(spur.longer, spur.rest);
+    return true;
+  }
+
+  /// `chains` on the surface of `b`.
+  static std::optional<TopoDS_Face> face_of(const TopoDS_Face& b, const std::vector<Chain>& chains, double area,
+                                            double room) {
     BRep_Builder builder;
     TopoDS_Face face = TopoDS::Face(b.EmptyCopied());
     for (const Chain& chain : chains)
@@ -202,28 +233,6 @@ class SliverMerger {
     if (!TopoDS_Iterator(face).More()) return std::nullopt;
     const double left = std::abs(integrate_face(make_domain(face), {}).area);
     return std::abs(left - area) <= room ? std::optional(face) : std::nullopt;
-  }
-
-  static bool add_pcurve(const TopoDS_Edge& edge, const TopoDS_Face& b, const Surface& surface) {
-    double t0, t1;
-    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
-    const double tolerance = BRep_Tool::Tolerance(edge);
-    const Handle(Geom2d_Curve) pcurve = fit_pcurve(
-        {curve, t0, t1}, surface, [&](double t) { return closest_point(surface, vec(curve->Value(t))).uv; },
-        0.5 * tolerance);
-    if (pcurve.IsNull()) return false;
-    double gap = 0;
-    for (int k = 0; k <= kAlong; ++k) {
-      const double t = t0 + (t1 - t0) * k / kAlong;
-      const gp_Pnt2d uv = pcurve->Value(t);
-      gap = std::max(gap, distance(vec(curve->Value(t)), surface.point({uv.X(), uv.Y()})));
-    }
-    BRep_Builder builder;
-    builder.UpdateEdge(edge, pcurve, b, std::max(tolerance, gap));
-    builder.Range(edge, b, t0, t1);
-    for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next())
-      builder.UpdateVertex(TopoDS::Vertex(v.Current()), gap);
-    return true;
   }
 
   const ImportedShape& model_;
@@ -261,11 +270,18 @@ bool merge_folded_slivers(ImportedShape& model, const ModelTables& t, const std:
   std::vector<ImportFinding> merged;
   for (const Fold& fold : folds_of(t, found, merger)) try {
       if (changed.contains(fold.sliver) || changed.contains(fold.neighbour)) continue;
-      const auto face = merger.merge(fold.sliver, fold.neighbour);
-      if (!face) continue;
+      const auto merge = merger.merge(fold.sliver, fold.neighbour);
+      const auto is_changed = [&](const auto& face) { return changed.contains(face.first); };
+      if (!merge || std::any_of(merge->faces.begin(), merge->faces.end(), is_changed)) continue;
       reshape->Remove(model.faces(fold.sliver + 1));
-      reshape->Replace(model.faces(fold.neighbour + 1).Oriented(TopAbs_FORWARD), *face);
-      changed.insert({fold.sliver, fold.neighbour});
+      changed.insert(fold.sliver);
+      for (const auto& [f, face] : merge->faces) {
+        reshape->Replace(model.faces(f + 1).Oriented(TopAbs_FORWARD), face);
+        changed.insert(f);
+      }
+      for (const auto& [whole, rest] : merge->rests)
+        for (auto& [edge, name] : model.edge_names)
+          if (edge.IsSame(whole)) edge = rest;
       merged.push_back({FindingKind::kMergedSliver, t.face_label(fold.sliver), fold.xyz,
                         t.face_box[fold.sliver].diagonal(), true, t.face_label(fold.neighbour)});
     } catch (const Standard_Failure&) {  // stays as it is

@@ -8,6 +8,7 @@
 
 #include "broken/broken_shapes.h"
 #include "broken/damaged_shapes.h"
+#include "broken/narrow_shapes.h"
 #include "geometry/import/import.h"
 #include "geometry/model/model.h"
 #include "unit/io/temporary_directory.h"
@@ -23,6 +24,12 @@ inline ImportResult import_broken(const std::string& shape, const ImportOptions&
 inline ImportResult import_damaged(const std::string& shape, const ImportOptions& options = {}) {
   const TemporaryDirectory dir;
   write_damaged(shape, dir / "model.brep");
+  return import_model(dir / "model.brep", options);
+}
+
+inline ImportResult import_narrow(const std::string& shape, const ImportOptions& options = {}) {
+  const TemporaryDirectory dir;
+  write_narrow(shape, dir / "model.brep");
   return import_model(dir / "model.brep", options);
 }
 

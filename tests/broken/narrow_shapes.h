@@ -1,0 +1,19 @@
+// Closed B-Reps with faces as narrow as the CAD is exact.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace st::test {
+
+/// Names of all, for write_narrow().
+/// - wall_twice: an L of two blocks, 5 x 10 x 0.5 and 5 x 2 x 0.5, whose wall is drawn 2 too long, and back by a face
+/// of
+///   its own that crosses it, 0.002 beside it at most: tolerances are 0.001. Volume 30, area of what is outside 140.
+/// - wall_apart: the same, 0.02 beside it.
+std::vector<std::string> narrow_shapes();
+
+/// Writes one as BREP. Throws std::runtime_error for an unknown name.
+void write_narrow(const std::string& name, const std::string& path);
+
+}  // namespace st::test
