@@ -6,6 +6,18 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <Geom2dAPI_Interpolate.hxx>
+#include <Geom2d_BSplineCurve.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_Array1OfPnt2d.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -15,6 +27,8 @@
 #include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gp_Pln.hxx>
 #include <map>
@@ -32,10 +46,28 @@ class Polyhedron {
     BRep_Builder().MakeShell(shell_);
   }
 
-  /// The edge between two vertices is an arc through `middle`.
-  void bend(int a, int b, gp_Pnt middle) {
-    const auto arc = GC_MakeArcOfCircle(places_[a], middle, places_[b]).Value();
-    edges_[{a, b}] = BRepBuilderAPI_MakeEdge(arc, vertices_[a], vertices_[b]).Edge();
+  /// The edge between two vertices.
+  void bend(int a, int b, const Handle(Geom_Curve) & curve) {
+    edges_[{a, b}] = BRepBuilderAPI_MakeEdge(curve, vertices_[a], vertices_[b]).Edge();
+  }
+
+  /// Of any form; the trimming curve of each side, with the edge's parameters. From a vertex to itself: a pole.
+  void add_face(const Handle(Geom_Surface) & surface,
+                const std::vector<std::pair<std::pair<int, int>, Handle(Geom2d_Curve)>>& sides) {
+    BRep_Builder builder;
+    TopoDS_Face face;
+    TopoDS_Wire wire;
+    builder.MakeFace(face, surface, 1e-7);
+    builder.MakeWire(wire);
+    for (const auto& [ends, curve] : sides) {
+      const TopoDS_Edge side = ends.first == ends.second ? pole(ends.first) : edge(ends.first, ends.second);
+      builder.UpdateEdge(side, curve, face, 1e-7);
+      builder.Range(side, face, curve->FirstParameter(), curve->LastParameter());
+      builder.Add(wire, side);
+    }
+    wire.Closed(true);
+    builder.Add(face, wire);
+    builder.Add(shell_, face);
   }
 
   /// Counter-clockwise as seen from outside; the first three places give the plane.
@@ -70,6 +102,15 @@ class Polyhedron {
     return edges_[{a, b}];
   }
 
+  TopoDS_Edge pole(int a) {
+    TopoDS_Edge result;
+    BRep_Builder().MakeEdge(result);
+    BRep_Builder().Degenerated(result, true);
+    BRep_Builder().Add(result, vertices_[a].Oriented(TopAbs_FORWARD));
+    BRep_Builder().Add(result, vertices_[a].Oriented(TopAbs_REVERSED));
+    return result;
+  }
+
   std::vector<gp_Pnt> places_;
   std::vector<TopoDS_Vertex> vertices_;
   std::map<std::pair<int, int>, TopoDS_Edge> edges_;
@@ -85,7 +126,7 @@ TopoDS_Shape wall_twice(double far) {
       places.emplace_back(x, y, z);
   }
   Polyhedron solid(places);
-  solid.bend(2, 9, {0, 9.8, 0.5 * kHeight});
+  solid.bend(2, 9, GC_MakeArcOfCircle(places[2], gp_Pnt(0, 9.8, 0.5 * kHeight), places[9]).Value());
   solid.add_face({0, 3, 2, 1});
   solid.add_face({4, 2, 6, 5});
   solid.add_face({7, 8, 9, 10});
@@ -100,10 +141,102 @@ TopoDS_Shape wall_twice(double far) {
   return solid.solid(0.001);
 }
 
+constexpr double kLength = 40, kDepth = 20, kTop = 10;
+
+/// The corner of a block of 40 x 20 x 10 along x, cut off between v = 0 (y = 0) and v = 1 (z = 10); so wide at the
+/// start and at the end.
+Handle(Geom_BSplineSurface) blend_surface(double start, double end) {
+  TColgp_Array2OfPnt poles(1, 2, 1, 2);
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const double width = i == 0 ? start : end, v = j == 0 ? -2 : 3;
+      poles(i + 1, j + 1) = gp_Pnt(kLength * i, v * width, kTop + (v - 1) * width);
+    }
+  TColStd_Array1OfReal u_knots(1, 2), v_knots(1, 2);
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  u_knots(1) = 0, u_knots(2) = kLength, v_knots(1) = -2, v_knots(2) = 3;
+  multiplicities.Init(2);
+  return new Geom_BSplineSurface(poles, u_knots, v_knots, multiplicities, multiplicities, 1, 1);
+}
+
+/// v = at + off sin(6 pi x / 40) for u = x.
+Handle(Geom2d_BSplineCurve) wave(double at, double off) {
+  constexpr int kPoints = 96;
+  const Handle(TColgp_HArray1OfPnt2d) points = new TColgp_HArray1OfPnt2d(1, kPoints + 1);
+  const Handle(TColStd_HArray1OfReal) x = new TColStd_HArray1OfReal(1, kPoints + 1);
+  for (int i = 0; i <= kPoints; ++i) {
+    x->SetValue(i + 1, kLength * i / kPoints);
+    points->SetValue(i + 1, {x->Value(i + 1), at + off * std::sin(6 * M_PI * (i % kPoints) / kPoints)});
+  }
+  Geom2dAPI_Interpolate maker(points, x, false, 1e-12);
+  maker.Perform();
+  return maker.Curve();
+}
+
+/// On the surface, by the same parameters.
+Handle(Geom_BSplineCurve) lifted(const Handle(Geom_Surface) & surface, const Handle(Geom2d_Curve) & curve) {
+  constexpr int kPoints = 192;
+  const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kPoints + 1);
+  const Handle(TColStd_HArray1OfReal) x = new TColStd_HArray1OfReal(1, kPoints + 1);
+  for (int i = 0; i <= kPoints; ++i) {
+    x->SetValue(i + 1, kLength * i / kPoints);
+    const gp_Pnt2d uv = curve->Value(x->Value(i + 1));
+    points->SetValue(i + 1, surface->Value(uv.X(), uv.Y()));
+  }
+  GeomAPI_Interpolate maker(points, x, false, 1e-9);
+  maker.Perform();
+  return maker.Curve();
+}
+
+/// Across the surface at `x`, from one v to another, for parameters from 0 to `length`.
+Handle(Geom2d_Curve) across(double x, double from, double to, double length) {
+  TColgp_Array1OfPnt2d poles(1, 2);
+  TColStd_Array1OfReal knots(1, 2);
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  poles(1) = gp_Pnt2d(x, from), poles(2) = gp_Pnt2d(x, to);
+  knots(1) = 0, knots(2) = length;
+  multiplicities.Init(2);
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
+}
+
+enum class Crossing { kTrimmingCurves, kEdges };
+
+TopoDS_Shape blend(Crossing crossing, double start, double end) {
+  const double off = 0.6, tolerance = 0.6 * M_SQRT2 * std::max(start, end);
+  const Handle(Geom_BSplineSurface) surface = blend_surface(start, end);
+  const bool has_tip = end == 0;
+  const Handle(Geom2d_Curve) upper = wave(1, off), lower = wave(0, -off);
+  std::vector<gp_Pnt> places;
+  for (const double x : {0., kLength})
+    for (const auto& [y, z] : {std::pair{0., 0.}, {kDepth, 0.}, {kDepth, kTop}}) places.emplace_back(x, y, z);
+  for (const auto& [x, width] : {std::pair{0., start}, {kLength, end}})
+    for (const double v : {0., 1.}) places.emplace_back(x, v * width, kTop + (v - 1) * width);
+  const int low = has_tip ? 9 : 8;  // the lower edge's end: the tip
+  Polyhedron solid(places);
+  const auto edge_on = [&](const Handle(Geom2d_Curve) & wavy, double at) {
+    return lifted(surface, crossing == Crossing::kEdges ? wavy : wave(at, 0));
+  };
+  solid.bend(7, 9, edge_on(upper, 1));
+  solid.bend(6, low, edge_on(lower, 0));
+  const Handle(Geom2d_Curve) first = across(0, 1, 0, M_SQRT2 * start),
+                             last = across(kLength, 0, 1, has_tip ? 1 : M_SQRT2 * end);
+  solid.add_face(surface, {{{6, low}, lower}, {{low, 9}, last}, {{9, 7}, upper}, {{7, 6}, first}});
+  solid.add_face({0, 1, 4, 3});
+  solid.add_face({4, 1, 2, 5});
+  solid.add_face({0, 3, low, 6});
+  solid.add_face({7, 9, 5, 2});
+  solid.add_face({1, 0, 6, 7, 2});
+  solid.add_face(has_tip ? std::vector<int>{3, 4, 5, 9} : std::vector<int>{3, 4, 5, 9, 8});
+  return solid.solid(tolerance);
+}
+
 using Makers = std::map<std::string, std::function<TopoDS_Shape()>>;
 
 Makers makers() {
   return {
+      {"blend_curves", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0.04); }},
+      {"blend_edges", [] { return blend(Crossing::kEdges, 0.04, 0.04); }},
+      {"blend_tip", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0); }},
       {"wall_apart", [] { return wall_twice(0.02); }},
       {"wall_twice", [] { return wall_twice(0.002); }},
   };

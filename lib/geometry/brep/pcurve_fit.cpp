@@ -73,7 +73,10 @@ Handle(Geom2d_Curve) fit_pcurve(const CurveRange& range, const Surface& surface,
   Points points;
   const auto add = [&](double t) {
     const gp_Pnt p = range.curve->Value(t);
-    const auto uv = project_near(surface, {p.X(), p.Y(), p.Z()}, guess(t));
+    const Vec3 x{p.X(), p.Y(), p.Z()};
+    const Vec2 near = guess(t);
+    auto uv = project_near(surface, x, near);
+    if (!uv && distance(surface.point(near), x) <= target) uv = near;  // at a pole no direction is better
     if (uv) points[t] = *uv;
     return uv.has_value();
   };

@@ -341,6 +341,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   progress.step("topology and areas", 0.6);
   occt::ModelOfFile tables = occt::make_tables(model, path);
   if (occt::leave_out_faces(model, tables.tables, result.findings, path)) tables = occt::make_tables(model, path);
+  if (occt::repair_crossing_loops(model, tables, result.findings)) tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   relate_bodies(model, tables, options, result.findings, path, progress);
   progress.step("far field and symmetry", 0.7);

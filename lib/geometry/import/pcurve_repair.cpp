@@ -16,6 +16,7 @@
 
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
+#include "geometry/brep/loop_crossing.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
@@ -29,6 +30,11 @@ constexpr double kExcess = 2.0;                       // of the tolerance: reade
 constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
 constexpr double kWide = 1e-3;  // of the diagonal: what st-check accepts of nodes at most; more is no tolerance
 constexpr double kFar = 0.01;   // of the edge: a curve that moves by less leaves its face in shape
+
+constexpr double kRoom = 3;         // times the length of the edge times its gap: what moving a curve changes at most
+constexpr double kMeasured = 1e-3;  // of the area: ways of measuring differ
+constexpr double kFit = 0.1;        // of what is harmless: how exactly curves of loops that cross are projected
+constexpr double kMuchLess = 0.1;   // of the part that a crossing of loops cuts off: what may be left of it
 
 /// A use of an edge by a face, with what is needed to compare its curves.
 struct Use {
@@ -138,8 +144,7 @@ double chord_length(const Use& use) {
 /// A curve that moves by a distance sweeps this area at most, with room for bends: a face that changes by more has got
 /// another shape.
 bool keeps_shape(const Use& use, double area_before, double moved) {
-  constexpr double kRoom = 3, kRounding = 1e-3;
-  return std::abs(area_of(use.face) - area_before) <= kRoom * moved * chord_length(use) + kRounding * area_before;
+  return std::abs(area_of(use.face) - area_before) <= kRoom * moved * chord_length(use) + kMeasured * area_before;
 }
 
 void repair(const Use& use, const Handle(Geom2d_Curve) & old, double diagonal, const std::string& name,
@@ -182,7 +187,71 @@ void repair(const Use& use, const Handle(Geom2d_Curve) & old, double diagonal, c
   if (!is_wide && left > BRep_Tool::Tolerance(use.edge)) raise_tolerance(use.edge, 1.01 * left);
 }
 
+/// A trimming curve and the one that may take its place.
+struct Change {
+  Use use;
+  Handle(Geom2d_Curve) old, projected;
+  Gap gap;  ///< of the old one
+};
+
+/// Curves of the face that leave their edges by more than `exact`, projected again.
+std::vector<Change> changes_of(const TopoDS_Face& face, double exact) {
+  std::vector<Change> changes;
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    Change c;
+    double p0 = 0, p1 = 0;
+    c.use.edge = TopoDS::Edge(e.Current()), c.use.face = face, c.use.surface = BRep_Tool::Surface(face);
+    if (BRep_Tool::Degenerated(c.use.edge) || BRep_Tool::IsClosed(c.use.edge, face)) continue;
+    c.old = BRep_Tool::CurveOnSurface(c.use.edge, face, p0, p1);
+    c.use.curve = BRep_Tool::Curve(c.use.edge, c.use.t0, c.use.t1);
+    if (c.old.IsNull() || c.use.curve.IsNull()) continue;
+    c.gap = largest_gap(c.use, c.old, kManySamples);
+    if (c.gap.distance <= exact) continue;
+    c.projected = resampled(c.use, c.old, kFit * exact);
+    if (!c.projected.IsNull() && largest_gap(c.use, c.projected, kManySamples).distance < 0.5 * c.gap.distance)
+      changes.push_back(c);
+  }
+  return changes;
+}
+
+double crossing_of(const TopoDS_Face& face, double exact) {
+  const auto crossing = find_loop_crossing(make_domain(face), exact);
+  return crossing ? crossing->size : 0;
+}
+
+/// Whether the face's loops, changed, cross nearly no more and bound what they did.
+bool uncross(const TopoDS_Face& face, const std::vector<Change>& changes, double exact) {
+  const double size = crossing_of(face, exact), area = area_of(face);
+  double room = kMeasured * area;
+  for (const Change& c : changes) {
+    set_pcurve(c.use, c.projected);
+    room += kRoom * c.gap.distance * chord_length(c.use);
+  }
+  if (crossing_of(face, exact) < kMuchLess * size && std::abs(area_of(face) - area) <= room) return true;
+  for (const Change& c : changes) set_pcurve(c.use, c.old);
+  return false;
+}
+
 }  // namespace
+
+bool repair_crossing_loops(ImportedShape& model, const ModelOfFile& tables, std::vector<ImportFinding>& findings) {
+  const double exact = kHarmless * tables.tables.box().diagonal();
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  bool is_changed = false;
+  for (int f = 1; f <= model.faces.Extent(); ++f) {
+    if (!tables.measures.crossing[f - 1]) continue;
+    const TopoDS_Face face = TopoDS::Face(model.faces(f).Oriented(TopAbs_FORWARD));
+    const std::vector<Change> changes = changes_of(face, exact);
+    if (changes.empty() || !uncross(face, changes, exact)) continue;
+    is_changed = true;
+    for (const Change& c : changes)
+      findings.push_back({FindingKind::kProjectedCurve, entity(edges.FindIndex(c.use.edge), f), c.gap.xyz,
+                          c.gap.distance, true,
+                          format_number(largest_gap(c.use, c.projected, kManySamples).distance / c.gap.distance)});
+  }
+  return is_changed;
+}
 
 void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const double diagonal = rough_box(model.shape).diagonal(), harmless = kHarmless * diagonal;

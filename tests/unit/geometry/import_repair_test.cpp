@@ -247,5 +247,22 @@ TEST(ImportRepair, joins_by_a_tolerance_only_edges_of_two_faces_that_have_it) {
   EXPECT_TRUE(import_broken("gappy_box", options).is_closed) << "a group's tolerance does not keep --sew from joining";
 }
 
+TEST(ImportRepair, projects_trimming_curves_that_cross_within_the_tolerance_of_their_edges) {
+  for (const auto& [shape, area] : {std::pair{"blend_curves", 1.6 * std::sqrt(2)}, {"blend_tip", 0.8 * std::sqrt(2)}}) {
+    ImportResult r = test::import_narrow(shape);
+    EXPECT_EQ(findings_of(r, "trimming curve off its edge, projected again").size(), 2u) << shape;
+    EXPECT_TRUE(findings_of(r, "loop crosses itself").empty()) << shape;
+    EXPECT_NEAR(r.tables.face_area[0], area, 1e-4 * area) << shape;
+    const Model model(std::move(r.tables), std::move(r.brep));
+    EXPECT_LT(test::largest_gap(model, 0), 1e-6) << shape;
+  }
+}
+
+TEST(ImportRepair, keeps_trimming_curves_whose_edges_cross_in_space) {
+  const ImportResult r = test::import_narrow("blend_edges");
+  EXPECT_TRUE(findings_of(r, "trimming curve off its edge").empty());
+  EXPECT_EQ(findings_of(r, "loop crosses itself").size(), 1u);
+}
+
 }  // namespace
 }  // namespace st
