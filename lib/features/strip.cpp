@@ -16,6 +16,8 @@ constexpr int kMinStations = 32;  // intervals of a strip
 constexpr int kMaxStations = 2048;
 constexpr double kStationTurning = radians(10);  // of a strip's edge, between two stations
 constexpr int kTurningSamples = 512;             // of an edge
+constexpr int kCrossingStations = 512;           // where edges are nearer than they are exact
+constexpr double kRounding = 1e-6;               // of the length: a smaller overlap is none
 constexpr double kNarrow = 0.25;                 // of its length: wider faces are no strips
 constexpr double kAlike = 0.2;                   // of its length: how much longer or shorter what lies across may be
 constexpr double kEnd = 4;                       // widths: shorter edges are ends of a strip
@@ -69,21 +71,61 @@ Vec3 way_across(Vec3 x, const Curve& other, double t) {
   return norm2(straight) < norm2(facing) ? straight : facing;
 }
 
+/// At `n` equal shares of the lengths.
+std::vector<Strip::Station> stations_of(const Curve& kept, const Curve& closed, bool is_opposed, int n) {
+  const ArcTable a(kept), b(closed);
+  std::vector<Strip::Station> stations;
+  for (int i = 0; i <= n; ++i) {
+    const double share = static_cast<double>(i) / n;
+    const Vec3 x = kept.point(a.parameter_at(share));
+    stations.push_back({x, way_across(x, closed, b.parameter_at(is_opposed ? 1 - share : share))});
+  }
+  return stations;
+}
+
+/// The largest width on the smaller side, where the edges cross: there the way across points back.
+double largest_overlap(const std::vector<Strip::Station>& stations) {
+  double largest[2] = {0, 0}, area[2] = {0, 0};
+  int side = 0;
+  Vec3 last{};
+  for (const Strip::Station& s : stations) {
+    if (!(s.width() > 0)) continue;
+    if (dot(last, s.across) < 0) side = 1 - side;
+    last = s.across;
+    largest[side] = std::max(largest[side], s.width());
+    area[side] += s.width();
+  }
+  return largest[area[0] > area[1]];
+}
+
+/// Edges that cross are one where they are no further apart than both are exact. What is more than that the wrong way
+/// round is a fault of its own.
+void measure_crossing(const ModelTables& t, const Curve& kept, const Curve& closed, Strip& strip) {
+  const double tolerance = t.edge_tolerance[strip.edges[0]] + t.edge_tolerance[strip.edges[1]];
+  const auto is_exact = [&](const Strip::Station& s) { return s.width() > tolerance; };
+  if (std::all_of(strip.stations.begin(), strip.stations.end(), is_exact)) return;
+  std::vector<Strip::Station> fine =
+      stations_of(kept, closed, strip.is_opposed, std::max(kCrossingStations, static_cast<int>(strip.stations.size())));
+  const double overlap = largest_overlap(fine);
+  if (overlap <= kRounding * strip.length || overlap > tolerance) return;
+  strip.exact = tolerance;
+  strip.stations = std::move(fine);
+}
+
+void measure_widths(const Model& model, Strip& strip) {
+  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
+  strip.stations = stations_of(*kept, *closed, strip.is_opposed, count_stations(*kept));
+  measure_crossing(model.tables(), *kept, *closed, strip);
+}
+
 void measure_strip(const Model& model, Strip& strip) {
   const ModelTables& t = model.tables();
-  const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
   const auto end = [&](EdgeId e, int k) { return t.vertex_xyz[t.edge_vertices[2 * e + k]]; };
   strip.is_opposed = distance(end(strip.edges[0], 0), end(strip.edges[1], 1)) +
                          distance(end(strip.edges[0], 1), end(strip.edges[1], 0)) <
                      distance(end(strip.edges[0], 0), end(strip.edges[1], 0)) +
                          distance(end(strip.edges[0], 1), end(strip.edges[1], 1));
-  const ArcTable a(*kept), b(*closed);
-  const int n = count_stations(*kept);
-  for (int i = 0; i <= n; ++i) {
-    const double share = static_cast<double>(i) / n;
-    const Vec3 x = kept->point(a.parameter_at(share));
-    strip.stations.push_back({x, way_across(x, *closed, b.parameter_at(strip.is_opposed ? 1 - share : share))});
-  }
+  measure_widths(model, strip);
 }
 
 /// The coedges of a loop after `single`, without short ones at both ends.
@@ -138,6 +180,15 @@ std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (StripSides strip; find_sides(tables, f, uses, strip)) strips.push_back(std::move(strip));
   return strips;
+}
+
+double strip_exactness(const Model& model, EdgeId first, EdgeId second, bool is_opposed) {
+  Strip strip;
+  strip.edges[0] = first, strip.edges[1] = second;
+  strip.is_opposed = is_opposed;
+  strip.length = model.tables().edge_length[first];
+  measure_widths(model, strip);
+  return strip.exact;
 }
 
 std::vector<Strip> find_strips(const Model& model) {

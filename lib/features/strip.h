@@ -15,6 +15,7 @@ struct Strip {
   EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
   bool is_opposed = false;           ///< they run against each other
   double length = 0;                 ///< of the first, model unit
+  double exact = 0;  ///< model unit; above 0: its edges cross, so that where they are nearer they are one
   struct Station {
     Vec3 x;       ///< on the first edge
     Vec3 across;  ///< from there to the other edge
@@ -30,6 +31,9 @@ struct Strip {
 /// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer
 /// than the face is wide on average, ascending. Local.
 std::vector<Strip> find_strips(const Model& model);
+
+/// Strip::exact of the strip between two edges, the lower id first. Local.
+double strip_exactness(const Model& model, EdgeId first, EdgeId second, bool is_opposed);
 
 /// The two sides of a face with one loop: one edge, and across from it one or several end to end.
 struct StripSides {

@@ -54,7 +54,7 @@ class NarrowFaces(ToolTest):
         self.assertEqual(check.json()["boundary_edges"], 0)
 
     def test_narrow_blends_whose_loops_cross_within_their_tolerance_are_sound(self):
-        for name, volume in (("blend_curves", 7999.968), ("blend_tip", 7999.9893)):
+        for name, volume in (("blend_curves", 7999.968), ("blend_tip", 7999.9893), ("blend_edges", 7999.968)):
             with self.subTest(name):
                 folder = make_chain(MODELS / f"{name}.brep", self.folder / name)
                 check = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",

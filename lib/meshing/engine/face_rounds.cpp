@@ -17,6 +17,7 @@
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
+#include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/engine/dirty_parts.h"
@@ -521,7 +522,8 @@ EdgeMesh FaceRounds::make_edge(EdgeId e) const {
 EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const {
   const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
   const bool is_ring = tables_.edge_vertices[2 * strip.kept] == tables_.edge_vertices[2 * strip.kept + 1];
-  const double exact = is_ring ? cad_tolerance(tables_, strip.face) : 0;
+  const double exact = is_ring ? cad_tolerance(tables_, strip.face)
+                               : strip_exactness(model_, strip.kept, strip.closed, strip.is_opposed);
   EdgeMesh nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
                                 {options_.merge_below, tolerance, exact});
   end_at_vertices(strip.closed, nodes);

@@ -233,9 +233,11 @@ std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
   std::erase_if(strips, [&](const Strip& strip) {
     bool is_narrow = false;
     double width = 0, length = 0;  // sums over the stations
+    MergeLimit limit = face_limit[strip.face];
+    limit.exact = strip.exact;
     for (const Strip::Station& s : strip.stations) {
       const double h = field.size(s.x, hint);
-      is_narrow |= s.width() < face_limit[strip.face].at(h);
+      is_narrow |= s.width() < limit.at(h);
       width += s.width();
       length += h;
     }

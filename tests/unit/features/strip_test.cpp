@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "support/tapered_strip.h"
+#include "unit/geometry/broken_import.h"
 
 namespace st {
 namespace {
@@ -27,6 +28,21 @@ StripSides sides_of_band(const Model& model) {
   for (const StripSides& s : find_strip_sides(model.tables()))
     if (model.tables().face_type[s.face] == SurfaceType::kCylinder && s.width < 0.01) return s;
   return {};
+}
+
+TEST(Strip, has_edges_that_are_one_where_they_cross_within_their_tolerance) {
+  const auto strip_of = [](const char* shape) {
+    ImportResult r = test::import_narrow(shape);
+    const Model model(std::move(r.tables), std::move(r.brep));
+    const std::vector<Strip> strips = find_strips(model);
+    return strips.empty() ? Strip() : strips[0];
+  };
+  const Strip crossing = strip_of("blend_edges"), apart = strip_of("blend_curves");
+  ASSERT_EQ(crossing.face, 0);
+  ASSERT_EQ(apart.face, 0);
+  EXPECT_NEAR(crossing.exact, 2 * 0.6 * std::sqrt(2) * 0.04, 1e-6) << "that of both edges";
+  EXPECT_EQ(apart.exact, 0) << "though the tolerance is no less";
+  EXPECT_EQ(test::tapered_strip().exact, 0);
 }
 
 TEST(StripSides, may_be_one_edge_and_several_end_to_end) {

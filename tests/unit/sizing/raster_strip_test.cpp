@@ -38,6 +38,15 @@ TEST(RasterStrip, asks_for_its_width_within_the_limits_and_for_nothing_where_it_
     EXPECT_LT(x[i] - x[i - 1], 2) << "boxes follow each other at about their lengths";
 }
 
+TEST(RasterStrip, asks_for_nothing_where_its_edges_cross_and_are_one) {
+  Strip strip = test::tapered_strip();
+  strip.exact = 0.2;
+  std::vector<RasterBox> boxes;
+  raster_strip(strip, limits(0.05, 2), 7, boxes);
+  ASSERT_FALSE(boxes.empty());
+  for (const RasterBox& b : boxes) EXPECT_GT(b.length, 1.25 * 0.39);
+}
+
 TEST(RasterStrip, follows_edges_of_many_turns) {
   const Model model = test::make_model("helical_ribbon");
   const std::vector<Strip> strips = find_strips(model);
