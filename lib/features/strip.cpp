@@ -174,6 +174,11 @@ Strip::Station Strip::at(double share) const {
   return {a.x + part * (b.x - a.x), a.across + part * (b.across - a.across)};
 }
 
+bool Strip::is_one_edge() const {
+  return exact > 0 &&
+         std::none_of(stations.begin(), stations.end(), [&](const Station& s) { return tells(s.width()); });
+}
+
 std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
   const std::vector<int> uses = count_uses(tables);
   std::vector<StripSides> strips;

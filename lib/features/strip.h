@@ -11,6 +11,7 @@ namespace st {
 /// A face with one loop of two long edges, measured at equal shares of their lengths, closely enough to follow the
 /// turns of a helix.
 struct Strip {
+  static constexpr double kInexact = 2;
   FaceId face = kNone;
   EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
   bool is_opposed = false;           ///< they run against each other
@@ -26,6 +27,10 @@ struct Strip {
 
   /// Between two stations; `share` of the way, 0 to 1.
   Station at(double share) const;
+  /// Whether a width asks for sizes: not where edges that cross are no further apart than twice `exact`.
+  bool tells(double width) const { return width > kInexact * exact; }
+  /// Whether it tells nowhere.
+  bool is_one_edge() const;
 };
 
 /// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kWidthsPerLength = 1.25;  // of the triangles: right-angled ones have a quality of 0.85, others more
 constexpr double kResolved = 0.17;         // of the smallest length: narrower strips are not worth resolving
-constexpr double kInexact = 2;             // times what is one where edges cross: nodes beside it are clearly apart
 constexpr double kTaper = 0.05;            // width over length; towards a point triangles are as flat at any size
 constexpr double kWorthwhile = 0.9;        // of the largest length: more asks for nothing
 constexpr double kSpacing = 1;             // lengths between two boxes
@@ -27,16 +26,15 @@ bool is_tapered(const Strip& strip, double share) {
 }  // namespace
 
 void raster_strip(const Strip& strip, const SamplingLimits& limits, std::int32_t cause, std::vector<RasterBox>& boxes) {
-  const double least_width = std::max(kResolved * limits.min_length, kInexact * strip.exact);
+  const double least_width = kResolved * limits.min_length;
   double share = 0;
   for (int n = 0; share <= 1 && n < kMaxBoxes; ++n) {
     const Strip::Station station = strip.at(share);
     const double width = station.width();
-    const double least =
-        is_tapered(strip, share) ? limits.min_length : kWidthsPerLength * kResolved * limits.min_length;
+    const double least = is_tapered(strip, share) ? limits.min_length : kWidthsPerLength * least_width;
     const double length = std::clamp(kWidthsPerLength * width, least, limits.max_length);
     const double step = std::max(kSpacing * length / strip.length, 1.0 / kMaxBoxes);
-    if (width > least_width && length < kWorthwhile * limits.max_length)
+    if (width > least_width && strip.tells(width) && length < kWorthwhile * limits.max_length)
       boxes.push_back({station.middle(),
                        static_cast<float>(0.5 * limits.cell_per_length * length),
                        static_cast<float>(length),

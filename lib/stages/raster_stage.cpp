@@ -328,19 +328,26 @@ class RasterTasks {
     const std::size_t n_before = boxes.size();
     std::optional<ChordLimit> chord;
     if (limits_.face_wing[f] != kNone) chord.emplace(limits_.chords, limits_.face_wing[f], *limits->chord_cells);
-    raster_face(*model_.surface(f), loops_[f].emplace(loop_polygons(model_, f, limits_)), *limits,
+    const Strip* strip = strip_of(f);
+    SamplingLimits own = *limits;
+    if (strip && strip->is_one_edge()) own.min_length = own.max_length;  // how it bends across tells nothing either
+    raster_face(*model_.surface(f), loops_[f].emplace(loop_polygons(model_, f, limits_)), own,
                 pack_cause(CauseKind::kFace, f), boxes, limits_.wants_gaps ? &patches : nullptr,
                 chord ? &*chord : nullptr);
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     if (is_reversed != limits_.is_material_ahead)
       for (GapPatch& patch : patches) patch.flip();
-    const auto strip =
-        std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
-    if (strip != strips_.end() && strip->face == f && !limits_.edge_is_ruled[strip->edges[0]] &&
-        !limits_.edge_is_ruled[strip->edges[1]] &&
+    if (strip && !limits_.edge_is_ruled[strip->edges[0]] && !limits_.edge_is_ruled[strip->edges[1]] &&
         !(limits_.is_mere_split(strip->edges[0]) && limits_.is_mere_split(strip->edges[1])))
       raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
+  }
+
+  /// Null where the face is none.
+  const Strip* strip_of(FaceId f) const {
+    const auto strip =
+        std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
+    return strip != strips_.end() && strip->face == f ? &*strip : nullptr;
   }
 
   const Model& model_;

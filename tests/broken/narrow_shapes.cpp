@@ -33,6 +33,7 @@
 #include <gp_Pln.hxx>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace st::test {
@@ -143,20 +144,20 @@ TopoDS_Shape wall_twice(double far) {
 
 constexpr double kLength = 40, kDepth = 20, kTop = 10;
 
-/// The corner of a block of 40 x 20 x 10 along x, cut off between v = 0 (y = 0) and v = 1 (z = 10); so wide at the
-/// start and at the end.
-Handle(Geom_BSplineSurface) blend_surface(double start, double end) {
-  TColgp_Array2OfPnt poles(1, 2, 1, 2);
+/// The corner of a block of 40 x 20 x 10 along x, cut off between v = 0 (y = 0) and v = 1 (z = 10), so wide at the
+/// start and at the end. `bulge`: of the parabola across; at 0.8 nearly an arc that is tangent to both sides.
+Handle(Geom_BSplineSurface) blend_surface(double start, double end, double bulge) {
+  TColgp_Array2OfPnt poles(1, 2, 1, 3);
   for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) {
-      const double width = i == 0 ? start : end, v = j == 0 ? -2 : 3;
-      poles(i + 1, j + 1) = gp_Pnt(kLength * i, v * width, kTop + (v - 1) * width);
+    for (const auto& [j, v, vv] : {std::tuple{1, -2., 4.}, {2, 0.5, -6.}, {3, 3., 9.}}) {  // v and v * v
+      const double width = i == 0 ? start : end, out = bulge * (v - vv);
+      poles(i + 1, j) = gp_Pnt(kLength * i, (v - out) * width, kTop + (v - 1 + out) * width);
     }
   TColStd_Array1OfReal u_knots(1, 2), v_knots(1, 2);
-  TColStd_Array1OfInteger multiplicities(1, 2);
+  TColStd_Array1OfInteger u_multiplicities(1, 2), v_multiplicities(1, 2);
   u_knots(1) = 0, u_knots(2) = kLength, v_knots(1) = -2, v_knots(2) = 3;
-  multiplicities.Init(2);
-  return new Geom_BSplineSurface(poles, u_knots, v_knots, multiplicities, multiplicities, 1, 1);
+  u_multiplicities.Init(2), v_multiplicities.Init(3);
+  return new Geom_BSplineSurface(poles, u_knots, v_knots, u_multiplicities, v_multiplicities, 1, 2);
 }
 
 /// v = at + off sin(6 pi x / 40) for u = x.
@@ -188,22 +189,30 @@ Handle(Geom_BSplineCurve) lifted(const Handle(Geom_Surface) & surface, const Han
   return maker.Curve();
 }
 
-/// Across the surface at `x`, from one v to another, for parameters from 0 to `length`.
-Handle(Geom2d_Curve) across(double x, double from, double to, double length) {
+/// Across the surface at `x`, from one v to another.
+Handle(Geom2d_Curve) across(double x, double from, double to) {
   TColgp_Array1OfPnt2d poles(1, 2);
   TColStd_Array1OfReal knots(1, 2);
   TColStd_Array1OfInteger multiplicities(1, 2);
   poles(1) = gp_Pnt2d(x, from), poles(2) = gp_Pnt2d(x, to);
-  knots(1) = 0, knots(2) = length;
+  knots(1) = 0, knots(2) = 1;
   multiplicities.Init(2);
   return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
 }
 
+/// The line of the surface between v = 0 and 1, its parameter v or the other way round from 0.
+Handle(Geom_BSplineCurve) surface_line(const Handle(Geom_BSplineSurface) & surface, double x, bool is_reversed) {
+  const Handle(Geom_BSplineCurve) line = Handle(Geom_BSplineCurve)::DownCast(surface->UIso(x));
+  line->Segment(0, 1);
+  if (is_reversed) line->Reverse();
+  return line;
+}
+
 enum class Crossing { kTrimmingCurves, kEdges };
 
-TopoDS_Shape blend(Crossing crossing, double start, double end) {
+TopoDS_Shape blend(Crossing crossing, double start, double end, double bulge = 0) {
   const double off = 0.6, tolerance = 0.6 * M_SQRT2 * std::max(start, end);
-  const Handle(Geom_BSplineSurface) surface = blend_surface(start, end);
+  const Handle(Geom_BSplineSurface) surface = blend_surface(start, end, bulge);
   const bool has_tip = end == 0;
   const Handle(Geom2d_Curve) upper = wave(1, off), lower = wave(0, -off);
   std::vector<gp_Pnt> places;
@@ -218,8 +227,9 @@ TopoDS_Shape blend(Crossing crossing, double start, double end) {
   };
   solid.bend(7, 9, edge_on(upper, 1));
   solid.bend(6, low, edge_on(lower, 0));
-  const Handle(Geom2d_Curve) first = across(0, 1, 0, M_SQRT2 * start),
-                             last = across(kLength, 0, 1, has_tip ? 1 : M_SQRT2 * end);
+  const Handle(Geom2d_Curve) first = across(0, 1, 0), last = across(kLength, 0, 1);
+  solid.bend(7, 6, surface_line(surface, 0, true));
+  if (!has_tip) solid.bend(8, 9, surface_line(surface, kLength, false));
   solid.add_face(surface, {{{6, low}, lower}, {{low, 9}, last}, {{9, 7}, upper}, {{7, 6}, first}});
   solid.add_face({0, 1, 4, 3});
   solid.add_face({4, 1, 2, 5});
@@ -236,6 +246,7 @@ Makers makers() {
   return {
       {"blend_curves", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0.04); }},
       {"blend_edges", [] { return blend(Crossing::kEdges, 0.04, 0.04); }},
+      {"blend_round", [] { return blend(Crossing::kEdges, 0.04, 0.04, 0.8); }},
       {"blend_tip", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0); }},
       {"wall_apart", [] { return wall_twice(0.02); }},
       {"wall_twice", [] { return wall_twice(0.002); }},

@@ -54,7 +54,8 @@ class NarrowFaces(ToolTest):
         self.assertEqual(check.json()["boundary_edges"], 0)
 
     def test_narrow_blends_whose_loops_cross_within_their_tolerance_are_sound(self):
-        for name, volume in (("blend_curves", 7999.968), ("blend_tip", 7999.9893), ("blend_edges", 7999.968)):
+        for name, volume in (("blend_curves", 7999.968), ("blend_tip", 7999.9893), ("blend_edges", 7999.968),
+                             ("blend_round", 7999.985)):
             with self.subTest(name):
                 folder = make_chain(MODELS / f"{name}.brep", self.folder / name)
                 check = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
@@ -62,7 +63,7 @@ class NarrowFaces(ToolTest):
                 self.assertEqual(check.code, OK, check)
                 found = check.json()
                 self.assertEqual((found["boundary_edges"], found["folds"], found["crossings"]), (0, 0, 0))
-                self.assertAlmostEqual(found["volume"], volume, delta=0.3)
+                self.assertAlmostEqual(found["volume"], volume, delta=1)
                 self.assertLess(found["triangles"], 1.2 * self.expected(folder))
                 mesh = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "again.hdf",
                             "--json").json()

@@ -41,7 +41,9 @@ TEST(Strip, has_edges_that_are_one_where_they_cross_within_their_tolerance) {
   ASSERT_EQ(crossing.face, 0);
   ASSERT_EQ(apart.face, 0);
   EXPECT_NEAR(crossing.exact, 2 * 0.6 * std::sqrt(2) * 0.04, 1e-6) << "that of both edges";
+  EXPECT_TRUE(crossing.is_one_edge());
   EXPECT_EQ(apart.exact, 0) << "though the tolerance is no less";
+  EXPECT_FALSE(apart.is_one_edge());
   EXPECT_EQ(test::tapered_strip().exact, 0);
 }
 
