@@ -208,10 +208,11 @@ Handle(Geom_BSplineCurve) surface_line(const Handle(Geom_BSplineSurface) & surfa
   return line;
 }
 
-enum class Crossing { kTrimmingCurves, kEdges };
+enum class Crossing { kTrimmingCurves, kEdges, kEdgesBeyondTolerance };
 
 TopoDS_Shape blend(Crossing crossing, double start, double end, double bulge = 0) {
-  const double off = 0.6, tolerance = 0.6 * M_SQRT2 * std::max(start, end);
+  const bool is_beyond = crossing == Crossing::kEdgesBeyondTolerance;
+  const double off = 0.6, tolerance = is_beyond ? 1e-4 : off * M_SQRT2 * std::max(start, end);
   const Handle(Geom_BSplineSurface) surface = blend_surface(start, end, bulge);
   const bool has_tip = end == 0;
   const Handle(Geom2d_Curve) upper = wave(1, off), lower = wave(0, -off);
@@ -223,7 +224,7 @@ TopoDS_Shape blend(Crossing crossing, double start, double end, double bulge = 0
   const int low = has_tip ? 9 : 8;  // the lower edge's end: the tip
   Polyhedron solid(places);
   const auto edge_on = [&](const Handle(Geom2d_Curve) & wavy, double at) {
-    return lifted(surface, crossing == Crossing::kEdges ? wavy : wave(at, 0));
+    return lifted(surface, crossing == Crossing::kTrimmingCurves ? wave(at, 0) : wavy);
   };
   solid.bend(7, 9, edge_on(upper, 1));
   solid.bend(6, low, edge_on(lower, 0));
@@ -244,6 +245,7 @@ using Makers = std::map<std::string, std::function<TopoDS_Shape()>>;
 
 Makers makers() {
   return {
+      {"blend_beyond", [] { return blend(Crossing::kEdgesBeyondTolerance, 0.04, 0.04); }},
       {"blend_curves", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0.04); }},
       {"blend_edges", [] { return blend(Crossing::kEdges, 0.04, 0.04); }},
       {"blend_round", [] { return blend(Crossing::kEdges, 0.04, 0.04, 0.8); }},

@@ -69,6 +69,14 @@ class NarrowFaces(ToolTest):
                             "--json").json()
                 self.assertEqual(mesh["rounds"], 1)
 
+    def test_a_blend_whose_edges_cross_beyond_their_tolerance_fails_within_four_times_its_triangles(self):
+        folder = make_chain(MODELS / "blend_beyond.brep", self.folder / "beyond")
+        check = self.check(folder)
+        self.assertEqual(check.code, INCOMPLETE, check)
+        mesh = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "again.hdf",
+                    "--json").json()
+        self.assertLess(mesh["triangles"], 4 * self.expected(folder))
+
     def test_the_edge_of_a_tail_is_covered_once(self):
         model = FIELD / "red_tail_2_3.brep"
         if not model.exists():

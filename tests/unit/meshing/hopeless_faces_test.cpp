@@ -37,6 +37,20 @@ TEST(HopelessFaces, are_kept_where_little_is_bad_and_little_was_meshed) {
   EXPECT_EQ(given_up_by(333'000, {0, 0, 0, 0}), 0);
 }
 
+TEST(HopelessFaces, are_given_up_at_once_beyond_four_times_their_first_triangles) {
+  const auto given_up_by_second = [](std::int64_t n_first, std::int64_t n_second, std::int64_t n_bad_then) {
+    HopelessFaces faces(1);
+    faces.add_meshed(0, n_first);
+    EXPECT_FALSE(faces.gives_up_folded(0, 20));
+    faces.add_meshed(0, n_second);
+    return faces.gives_up_folded(0, n_bad_then);
+  };
+  EXPECT_TRUE(given_up_by_second(1000, 4001, 20));
+  EXPECT_FALSE(given_up_by_second(1000, 4000, 20));
+  EXPECT_FALSE(given_up_by_second(1000, 9000, 17)) << "it is getting better";
+  EXPECT_FALSE(given_up_by_second(100, 900, 20)) << "few";
+}
+
 TEST(HopelessFaces, begin_anew_where_they_were_sound) {
   EXPECT_EQ(given_up_by(1000, {0, 0, 120, 60, 30}), 0);
   EXPECT_EQ(given_up_by(1000, {120, 0, 120, 120, 120}), 5);
