@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/threads.h"
+#include "geometry/shape/projection.h"
 #include "judge/face_surface.h"
 
 namespace st {
@@ -40,14 +41,28 @@ struct AreaBeside {
   double asked = 0, found = 0;  // see ChordError::area, found_area
 };
 
-/// Area on the surface between a trimming curve and the straight lines in (u,v) through its points at the nodes.
+/// The surface's point closest to the middle of the chord between two of its points; found from the middle in (u,v),
+/// which may lie far beside it.
+Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b) {
+  constexpr double kAside = 1e-3;  // of the chord: not worth a projection
+  const Vec2 uv = 0.5 * (uv_a + uv_b);
+  const Vec3 middle = 0.5 * (a + b);
+  const SurfacePoint p = surface.evaluate(uv);
+  const Vec3 normal = cross(p.du, p.dv), beside = p.x - middle;
+  if (norm(cross(beside, normal)) < kAside * distance(a, b) * norm(normal)) return p.x;
+  if (const auto foot = project_near(surface, middle, uv))
+    if (const Vec3 x = surface.point(*foot); distance(x, middle) < norm(beside)) return x;
+  return descend_from(surface, middle, uv).x;
+}
+
+/// Area on the surface between a trimming curve and its chords at the nodes.
 AreaBeside area_beside_chords(const Surface& surface, const Curve2d& pcurve, const std::vector<EdgeNode>& nodes) {
   AreaBeside area;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const double t0 = nodes[i - 1].t, t1 = nodes[i].t;
     const Vec2 from = pcurve.point(t0), to = pcurve.point(t1), middle = pcurve.point(0.5 * (t0 + t1));
     const Vec3 a = surface.point(from), b = surface.point(to), m = surface.point(middle);
-    const double chord = distance(a, b), sagitta = distance(m, surface.point(0.5 * (from + to)));
+    const double chord = distance(a, b), sagitta = distance(m, foot_of_middle(surface, from, to, a, b));
     const bool is_loop = chord < 1e-3 * sagitta;  // a closed edge of one segment: all that it encloses is missing
     const double beside = is_loop ? sagitta * sagitta : kArcSegment * sagitta * chord;
     area.found += beside;
@@ -160,7 +175,10 @@ void add_chords(const Surface& surface, TriangleOnSurface& t, FacePart& part) {
   for (int k = 0; k < 3; ++k) {
     corner[k] = surface.evaluate(t.uv[k]);
     x[k] = corner[k].x;
-    m[k] = surface.point(0.5 * (t.uv[k] + t.uv[(k + 1) % 3]));
+  }
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    m[k] = foot_of_middle(surface, t.uv[k], t.uv[next], x[k], x[next]);
   }
   std::array<double, 3> heights;
   for (int k = 0; k < 3; ++k) heights[k] = distance_to_line(m[k], x[k], x[(k + 1) % 3]);

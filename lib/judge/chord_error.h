@@ -35,9 +35,9 @@ struct ChordError {
   std::vector<Vec3> stray_place;      ///< [n_faces] where that is
 };
 
-/// Along edges: the segments between trimming curve and chord in (u,v). Inside: triangles against their parts on the
-/// surface halved in (u,v), extrapolated; from the (u,v) alone, so that a misplaced node explains nothing.
-/// Precondition: `mesh` was made on `model`. Local; six surface evaluations per triangle.
+/// Along edges: the segments between trimming curve and chord. Inside: triangles against their parts with corners on the
+/// surface, extrapolated; from the (u,v) of the corners alone, so that a misplaced node explains nothing.
+/// Precondition: `mesh` was made on `model`. Local; some ten surface evaluations per triangle.
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh);
 
 }  // namespace st

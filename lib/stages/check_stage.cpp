@@ -145,13 +145,11 @@ struct AreaChecks {
 };
 
 /// Wrong are faces off by more than the tolerance, what chords explain, and the slack of the CAD. Of a face wider than
-/// two requested lengths only chords of the requested length explain anything; of one that reaches two lengths from its
-/// middle they explain no more than kMostOff of its area. Others beyond that are below the sizes: they look as the
-/// sizes make them.
+/// two requested lengths only chords of the requested length explain anything, and no more than kMostOff of its area.
+/// Others beyond that are below the sizes: they look as the sizes make them.
 AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
   constexpr double kWide = 2;      // requested lengths
-  constexpr double kVeryWide = 4;  // likewise: a disc of 15 sides, 2.9 % of it beside its chords
   AreaChecks c;
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
   const std::vector<double> extent = face_extents(mesh, tables.n_faces());
@@ -162,9 +160,10 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
     if (std::binary_search(mesh.merged.strip_face.begin(), mesh.merged.strip_face.end(), f))
       continue;  // partly or wholly closed
     const double width = std::min(tables.face_width[f], extent[f]), size = chords.size[f];
-    const double explained = width > kWide * size ? chords.area[f] : chords.found_area[f];
+    const bool is_wide = width > kWide * size;
+    const double explained = is_wide ? chords.area[f] : chords.found_area[f];
     double allowed = tolerance * cad + explained + slack_area(tables, f);
-    if (width > kVeryWide * size) allowed = std::min(allowed, std::max(kMostOff, tolerance) * cad);
+    if (is_wide) allowed = std::min(allowed, std::max(kMostOff, tolerance) * cad);
     if (difference > allowed && measure.face_area[f] > 0)
       c.areas.defects.add({place[f], f, kNone});
     else if (difference > kMostOff * cad && measure.face_area[f] > 0)

@@ -247,10 +247,10 @@ TEST_F(CheckCad, fails_a_face_off_by_more_than_3_percent_unless_it_is_below_the_
   const auto below = [](const StageSummary& s) {
     return nlohmann::json::parse(s.json).at("checks").at("below-sizes").at("count").get<int>();
   };
-  const StageSummary wide = check(make_mesh(6, 6));  // chords of 10; the side is 22 wide, 4.5 % off, the caps are 17
-                                                     // wide
+  const StageSummary wide = check(make_mesh(6));  // chords of 10; the side is 22 wide, 4.5 % off, the caps are 17 wide
   EXPECT_EQ(failed_checks(wide), (Names{"areas", "cad-area"})) << wide.line;
-  const StageSummary asked = check(make_mesh(6));
+  EXPECT_EQ(below(wide), 2);
+  const StageSummary asked = check(make_mesh(6, 11.5));
   EXPECT_EQ(failed_checks(asked), Names{"cad-area"}) << asked.line;
   EXPECT_EQ(below(asked), 3);
   const StageSummary narrow = check(make_mesh(3));
@@ -326,7 +326,7 @@ TEST_F(CheckCad, holds_deviations_to_their_thresholds) {
 
 TEST_F(CheckCad, finds_a_face_without_triangles) {
   const FaceId top = face(SurfaceType::kPlane, kHeight);
-  const MeshArtifact whole = make_mesh(12);
+  const MeshArtifact whole = make_mesh(16);
   MeshArtifact a = whole;
   a.mesh.triangles.clear(), a.mesh.triangle_face.clear(), a.mesh.triangle_group.clear(), a.mesh.corner_uv.clear();
   for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t) {
@@ -337,7 +337,7 @@ TEST_F(CheckCad, finds_a_face_without_triangles) {
   const StageSummary s = check(a);
   EXPECT_EQ(s.code, ExitCode::kIncomplete);
   EXPECT_EQ(failed_checks(s), (Names{"closed", "faces"}));
-  EXPECT_EQ(nlohmann::json::parse(s.json).at("boundary_edges"), 12);
+  EXPECT_EQ(nlohmann::json::parse(s.json).at("boundary_edges"), 16);
 }
 
 TEST_F(CheckCad, refuses_a_mesh_of_another_geometry) {
