@@ -38,6 +38,13 @@ class Vsp(ToolTest):
                 label = f"{te}_{tip}_{layout}"
                 self.expect_closed(self.imported(label, [wing], layout), [wing], 1, label)
 
+    def test_open_wings_have_no_faces_without_area(self):
+        wing = vsp.kinked_wing(tip="none", root="none", strips=True)
+        for layout in ("whole", "single"):
+            report = self.imported(layout, [wing], layout)
+            self.assertEqual((report["faces"], report["free_edges"]), (2, 2), "upper and lower skin, root and tip")
+            self.assertAlmostEqual(report["area"] / wing.measures()[0], 1, 4, layout)
+
     def test_wings_of_iges_close(self):
         wing = vsp.kinked_wing(tip="round")
         for layout in ("patches", "single"):

@@ -207,15 +207,23 @@ Grid complete_grid(const Handle(Geom_BSplineSurface) & spline, double size) {
   return grid;
 }
 
-/// Adds the parts of the face that have an area; itself where there is no cut.
-void add_parts(const TopoDS_Face& face, double diagonal, std::vector<TopoDS_Shape>& parts) {
+/// Adds the parts of the face that have an area; itself where there is no cut. Returns whether others were left out.
+bool add_parts(const TopoDS_Face& face, double diagonal, std::vector<TopoDS_Shape>& parts) {
   const Handle(Geom_BSplineSurface) spline = whole_spline(face);
   const Grid grid = spline.IsNull() ? Grid{} : complete_grid(spline, rough_box(face).diagonal());
-  if (!grid.is_cut()) return parts.push_back(face);
+  if (!grid.is_cut()) {
+    parts.push_back(face);
+    return false;
+  }
+  bool has_empty = false;
   for (const Handle(Geom_BSplineSurface) & part : parts_of(spline, grid)) {
     const TopoDS_Face piece = BRepBuilderAPI_MakeFace(part, Precision::Confusion()).Face();
-    if (!empty_box(piece, diagonal)) parts.push_back(piece);
+    if (empty_box(piece, diagonal))
+      has_empty = true;
+    else
+      parts.push_back(piece);
   }
+  return has_empty;
 }
 
 using Parts = std::map<int, std::vector<TopoDS_Shape>>;  // by the number of the face
@@ -241,16 +249,18 @@ TopoDS_Shape with_parts(const TopoDS_Shape& shape, const ImportedShape& model, c
 
 }  // namespace
 
-bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings) {
+DividedSurfaces divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings) {
   Parts parts;
+  DividedSurfaces divided;
   const double diagonal = rough_box(model.shape).diagonal();
   for (TopExp_Explorer f(model.shape, TopAbs_FACE, TopAbs_SOLID); f.More(); f.Next()) {
     const int i = model.faces.FindIndex(f.Current());
     if (!f.Current().Location().IsIdentity() || parts.count(i) > 0) continue;
     try {
       std::vector<TopoDS_Shape> found;
-      add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, found);
-      if (found.size() < 2) continue;
+      const bool has_empty = add_parts(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)), diagonal, found);
+      if (found.size() < (has_empty ? 1 : 2)) continue;
+      divided.has_empty_parts |= has_empty;
       const Box3 box = rough_box(f.Current());
       findings.push_back({FindingKind::kDividedSurface, model.file_label(i), box.center(), box.diagonal(), true,
                           std::to_string(found.size()) + " faces"});
@@ -260,11 +270,12 @@ bool divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& find
       continue;
     }
   }
-  if (parts.empty()) return false;
-  return model.replace(with_parts(model.shape, model, parts), [&](const TopoDS_Shape& face) -> TopoDS_Shape {
-    const auto found = parts.find(model.faces.FindIndex(face));
-    return found == parts.end() ? face : TopoDS_Shape(compound_of(found->second));
-  });
+  divided.any = !parts.empty() &&
+                model.replace(with_parts(model.shape, model, parts), [&](const TopoDS_Shape& face) -> TopoDS_Shape {
+                  const auto found = parts.find(model.faces.FindIndex(face));
+                  return found == parts.end() ? face : TopoDS_Shape(compound_of(found->second));
+                });
+  return divided;
 }
 
 }  // namespace st::occt

@@ -39,7 +39,8 @@ constexpr double kSewRelative[] = {1e-6, 1e-5, 1e-4};  // of the diagonal, first
 constexpr double kToleranceGrowth = 10;  // of the sewing tolerance and of what the file had: edges further apart are no
                                          // partners
 
-constexpr double kLessFree = 0.99;  // of the length of free edges: divided surfaces are taken
+constexpr double kLessFree = 0.99;    // of the length of free edges: divided surfaces are taken
+constexpr double kNoMoreFree = 1.01;  // likewise where parts without area are left out
 
 /// A sewn shape and the images in it of faces (first) and named edges of the original.
 struct Sewn {
@@ -469,11 +470,13 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
   ImportedShape divided = model;
   std::vector<ImportFinding> own, of_divided;
   const Pairs pairs = sew_pairs(model, limits, own);
-  bool is_divided = pairs.now().n_open() > 0 && limits.of_face.empty() && divide_bare_surfaces(divided, of_divided);
-  if (is_divided) {
-    take_pairs(divided, sew_pairs(divided, limits, of_divided), of_divided);
-    is_divided = free_length(divided.shape) < kLessFree * free_length(pairs.now().shape);
-  }
+  bool is_divided = false;
+  if (pairs.now().n_open() > 0 && limits.of_face.empty())
+    if (const DividedSurfaces parts = divide_bare_surfaces(divided, of_divided); parts.any) {
+      take_pairs(divided, sew_pairs(divided, limits, of_divided), of_divided);
+      const double share = parts.has_empty_parts ? kNoMoreFree : kLessFree;
+      is_divided = free_length(divided.shape) < share * free_length(pairs.now().shape);
+    }
   if (is_divided)
     model = divided, own = of_divided;
   else
