@@ -50,6 +50,22 @@ class ManyFiles(ToolTest):
         done, rows = self.run_script(["box.brep"], "--judge", self.program('{"folds": 2, "self_intersections": 0}'))
         self.assertEqual((done.returncode, rows[0]["silent"]), (1, "folds"), done)
 
+    def test_faces_that_the_import_divides_or_merges_are_compared_as_the_file_has_them(self):
+        models = ["kink_notch.brep", "kink_prism.brep", "folded_sliver.brep", "rod_hole_no_seam.brep"]
+        done, rows = self.run_script(models)
+        self.assertEqual(done.returncode, 0, done)
+        rows = {Path(r["file"]).name: r for r in rows}
+        self.assertEqual([rows[m]["faces off"] for m in models], ["0", "0", "1", "0"], rows)
+        self.assertLess(abs(float(rows["kink_prism.brep"]["area %"])), 0.1, "its faces are not smooth")
+        self.assertLess(abs(float(rows["rod_hole_no_seam.brep"]["volume %"])), 0.5, "as OpenCASCADE repairs it")
+
+    def test_folds_of_the_cad_are_none_of_the_mesh(self):
+        done, rows = self.run_script(["fan.brep"], "--judge", self.program('{"folds": 1}'))
+        self.assertEqual((done.returncode, rows[0]["silent"]), (0, ""), "its surface meets itself at a sharp seam")
+        (self.folder / "table.tsv").unlink()
+        done, rows = self.run_script(["fan.brep"], "--judge", self.program('{"folds": 1000}'))
+        self.assertEqual((done.returncode, rows[0]["silent"]), (1, "folds"), done)
+
     def test_goes_on_after_a_file_that_cannot_be_meshed(self):
         (self.folder / "empty.step").touch()
         done, rows = self.run_script([os.path.relpath(self.folder / "empty.step", MODELS), "box.brep"])

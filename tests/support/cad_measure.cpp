@@ -1,11 +1,15 @@
-// Compares a mesh with its CAD file as OpenCASCADE reads it, without a line of the project: cad_measure CAD MESH.hdf
+// Compares a mesh with its CAD file as OpenCASCADE reads it, without a line of the project:
+// cad_measure CAD MESH.hdf [GEOMETRY.hdf]
 //
 // Prints one JSON object. Areas and volume of the CAD are those of BRepGProp on the shape as read; faces and solids
 // that are there twice count once or twice, whichever is nearer to the mesh. Faces of mesh and CAD are paired by area
-// and centroid. Where something differs, OpenCASCADE's own fine triangulation is asked, too, since BRepGProp is
-// sometimes wrong. Exit 0: compared; 1: a file cannot be read, or holds nothing.
+// and centroid, the parts of a divided face together where GEOMETRY tells them. Where something differs, OpenCASCADE
+// is asked again: BRepGProp is sometimes wrong, so its own fine triangulation; the shape as ShapeFix repairs it; the
+// faces without what lies on others. Folds of the CAD itself, at the seam of one face, are counted apart. Exit 0:
+// compared; 1: a file cannot be read, or holds nothing.
 #include <hdf5.h>
 
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -24,11 +28,15 @@
 #include <Message_PrinterOStream.hxx>
 #include <Poly_Triangulation.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_Surface.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeUpgrade_ShapeDivideContinuity.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
@@ -52,6 +60,7 @@ namespace {
 
 struct Patch {
   double area = 0;  // of a solid: its volume
+  bool is_inside_out = false;
   gp_XYZ centroid{0, 0, 0};
   TopoDS_Face face;  // of the CAD; none of a mesh
 };
@@ -59,7 +68,7 @@ struct Patch {
 struct Measured {
   std::vector<Patch> faces;
   double area = 0, diagonal = 0;  // diagonal: of the CAD, about
-  double area_of_all = 0;         // with duplicates
+  std::vector<double> areas;      // of the CAD, found in several ways; first: with duplicates
   std::vector<double> volumes;    // of what is closed, found in several ways; none: open
   std::size_t n_duplicates = 0;   // faces left out
 };
@@ -87,7 +96,7 @@ TopoDS_Shape read_cad(const std::string& path) {
 Patch measure_face(const TopoDS_Face& face) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);
-  return {std::fabs(properties.Mass()), properties.CentreOfMass().XYZ(), face};
+  return {std::fabs(properties.Mass()), properties.Mass() < 0, properties.CentreOfMass().XYZ(), face};
 }
 
 bool are_same(const Patch& a, const Patch& b, double diagonal) {
@@ -155,9 +164,9 @@ std::vector<Patch> measure_volume(const TopoDS_Shape& shape, double diagonal) {
   BRepGProp::VolumeProperties(shape, plain);
   BRepGProp::VolumeProperties(shape, adaptive, kError);
   const gp_XYZ centre = plain.CentreOfMass().XYZ();
-  return {{std::fabs(plain.Mass()), centre, {}},
-          {std::fabs(adaptive.Mass()), centre, {}},
-          {triangulated_volume(shape, diagonal), centre, {}}};
+  return {{std::fabs(plain.Mass()), false, centre, {}},
+          {std::fabs(adaptive.Mass()), false, centre, {}},
+          {triangulated_volume(shape, diagonal), false, centre, {}}};
 }
 
 /// In each way, of all and without those that are there twice.
@@ -226,19 +235,40 @@ Measured measure_cad(const TopoDS_Shape& shape) {
   if (faces.IsEmpty()) throw std::runtime_error("no face in the CAD file");
   cad.diagonal = diagonal_of(shape);
   bool is_loose = false;
+  cad.areas.push_back(0);
   for (int i = 1; i <= faces.Extent(); ++i) {
     cad.faces.push_back(measure_face(TopoDS::Face(faces(i))));
-    cad.area_of_all += cad.faces.back().area;
+    cad.areas[0] += cad.faces.back().area;
   }
   cad.faces = without_duplicates(std::move(cad.faces), cad.diagonal);
   cad.n_duplicates = static_cast<std::size_t>(faces.Extent()) - cad.faces.size();
   for (const Patch& p : cad.faces) cad.area += p.area;
+  cad.areas.push_back(cad.area);
   TopTools_IndexedDataMapOfShapeListOfShape solids;
   TopExp::MapShapesAndAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids);
   for (int i = 1; i <= solids.Extent(); ++i) is_loose = is_loose || solids(i).IsEmpty();
   if (!is_loose) cad.volumes = solid_volumes(shape, cad.diagonal);
   if (is_loose && faces.Extent() <= kMostSewn) cad.volumes = sewn_volumes(shape, cad.diagonal);
   return cad;
+}
+
+/// The face divided where its surface is not smooth: BRepGProp, triangles and projections go wrong across kinks.
+std::vector<Patch> smooth_parts(const TopoDS_Face& face, double area) {
+  constexpr double kTolerance = 1e-6;  // of the root of the area
+  ShapeUpgrade_ShapeDivideContinuity divide(BRepBuilderAPI_Copy(face).Shape());
+  divide.SetSurfaceCriterion(GeomAbs_C1);
+  divide.SetTolerance(kTolerance * std::sqrt(area));
+  divide.Perform();
+  std::vector<Patch> parts;
+  for (TopExp_Explorer it(divide.Result(), TopAbs_FACE); it.More(); it.Next())
+    parts.push_back(measure_face(TopoDS::Face(it.Current())));
+  return parts;
+}
+
+double divided_area(const TopoDS_Face& face, double area) {
+  double sum = 0;
+  for (const Patch& part : smooth_parts(face, area)) sum += part.area;
+  return sum;
 }
 
 /// Area of OpenCASCADE's own fine triangulation; 0: it has none.
@@ -260,7 +290,61 @@ double triangulated_area(const TopoDS_Face& face, double area) {
   return sum * std::pow(place.Transformation().ScaleFactor(), 2);
 }
 
+/// The faces cut at each other, what several have in common once; 0: it takes too long.
+double area_without_overlaps(const Measured& cad) {
+  constexpr std::size_t kMostFaces = 300;
+  if (cad.faces.size() > kMostFaces) return 0;
+  TopTools_ListOfShape faces;
+  for (const Patch& p : cad.faces) faces.Append(p.face);
+  BRepAlgoAPI_BuilderAlgo fuse;
+  fuse.SetArguments(faces);
+  fuse.Build();
+  if (!fuse.IsDone()) return 0;
+  TopTools_IndexedMapOfShape parts;
+  TopExp::MapShapes(fuse.Shape(), TopAbs_FACE, parts);
+  double area = 0;
+  for (int i = 1; i <= parts.Extent(); ++i) area += measure_face(TopoDS::Face(parts(i))).area;
+  return area;
+}
+
+Measured measure_repaired(const TopoDS_Shape& shape) {
+  ShapeFix_Shape fix(BRepBuilderAPI_Copy(shape).Shape());
+  fix.Perform();
+  return measure_cad(fix.Shape());
+}
+
+/// Faces of which OpenCASCADE cannot tell the area, and so not that of the whole.
+std::size_t n_inside_out(const Measured& cad) {
+  return std::count_if(cad.faces.begin(), cad.faces.end(), [](const Patch& p) { return p.is_inside_out; });
+}
+
+/// Other answers of OpenCASCADE, for a mesh that none of the first ones agrees with.
+void ask_again(const TopoDS_Shape& shape, Measured& cad) {
+  double by_triangles = 0, divided = 0;
+  for (const Patch& p : cad.faces) {
+    const double area = triangulated_area(p.face, p.area);
+    by_triangles += area > 0 ? area : p.area;
+    divided += divided_area(p.face, p.area);
+  }
+  cad.areas.push_back(by_triangles);
+  cad.areas.push_back(divided);
+  cad.areas.push_back(area_without_overlaps(cad));
+  const Measured fixed = measure_repaired(shape);
+  cad.areas.push_back(fixed.area);
+  cad.volumes.insert(cad.volumes.end(), fixed.volumes.begin(), fixed.volumes.end());
+}
+
 // --- the mesh ---
+
+struct Hdf {
+  explicit Hdf(const std::string& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
+    if (file < 0) throw std::runtime_error("cannot read " + path);
+  }
+  ~Hdf() { H5Fclose(file); }
+  Hdf(const Hdf&) = delete;
+  Hdf& operator=(const Hdf&) = delete;
+  hid_t file;
+};
 
 template <class T>
 std::vector<T> read_column(hid_t file, const char* name, hid_t type) {
@@ -285,8 +369,8 @@ struct Triangles {
 };
 
 Triangles read_mesh(const std::string& path) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) throw std::runtime_error("cannot read " + path);
+  const Hdf hdf(path);
+  const hid_t file = hdf.file;
   Triangles mesh;
   mesh.x = read_column<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE);
   const auto nodes = read_column<std::int64_t>(file, "/VTKHDF/Connectivity", H5T_NATIVE_INT64);
@@ -299,8 +383,21 @@ Triangles read_mesh(const std::string& path) {
     for (int k = 0; k < 3; ++k) mesh.node.push_back(nodes[static_cast<std::size_t>(offsets[i]) + k]);
     mesh.face.push_back(faces[i]);
   }
-  H5Fclose(file);
   return mesh;
+}
+
+/// Of each face of the mesh the first that comes from the same face of the file, from 1. Empty: each is its own.
+std::vector<std::int64_t> first_of_same_face(const std::string& geometry) {
+  const Hdf hdf(geometry);
+  if (H5Lexists(hdf.file, "/st/face/previous_id", H5P_DEFAULT) <= 0) return {};
+  const auto previous = read_column<std::int64_t>(hdf.file, "/st/face/previous_id", H5T_NATIVE_INT64);
+  std::vector<std::int64_t> first;
+  std::map<std::int64_t, std::int64_t> seen;
+  for (std::size_t i = 0; 2 * i < previous.size(); ++i) {
+    const auto own = static_cast<std::int64_t>(i + 1);
+    first.push_back(previous[2 * i] < 0 ? own : seen.emplace(previous[2 * i], own).first->second);
+  }
+  return first;
 }
 
 /// Each side is used once in each direction.
@@ -316,7 +413,7 @@ bool is_closed(const Triangles& mesh) {
   return sides == turned && std::adjacent_find(sides.begin(), sides.end()) == sides.end();
 }
 
-Measured measure_mesh(const Triangles& mesh) {
+Measured measure_mesh(const Triangles& mesh, const std::vector<std::int64_t>& first_of_same) {
   Measured result;
   std::map<std::int64_t, Patch> faces;
   double volume = 0;
@@ -324,7 +421,7 @@ Measured measure_mesh(const Triangles& mesh) {
   for (std::size_t t = 0; t < mesh.face.size(); ++t) {
     const gp_XYZ a = mesh.at(3 * t), b = mesh.at(3 * t + 1), c = mesh.at(3 * t + 2);
     const double area = 0.5 * (b - a).Crossed(c - a).Modulus();
-    Patch& patch = faces[mesh.face[t]];
+    Patch& patch = faces[first_of_same.empty() ? mesh.face[t] : first_of_same[mesh.face[t] - 1]];
     patch.area += area;
     patch.centroid += area / 3 * (a + b + c);
     result.area += area;
@@ -344,7 +441,7 @@ Measured measure_mesh(const Triangles& mesh) {
 /// roots.
 double unit_ratio(const Measured& cad, const Measured& mesh) {
   double best = 1;
-  const double ratio = std::sqrt(mesh.area / cad.area_of_all);
+  const double ratio = std::sqrt(mesh.area / cad.areas[0]);
   for (const double unit_in_mm : {1.0, 10.0, 1000.0, 25.4, 304.8, 1e6, 1e-3, 0.0254})
     if (std::fabs(std::log(ratio * unit_in_mm)) < std::fabs(std::log(ratio / best))) best = 1 / unit_in_mm;
   return best;
@@ -362,6 +459,14 @@ std::size_t nearest(const Patch& patch, const std::vector<Patch>& others) {
     if (u < least) least = u, best = k;
   }
   return best;
+}
+
+/// The relative difference that is nearest to none.
+double least_error(double found, const std::vector<double>& expected) {
+  double least = 1e300;
+  for (const double e : expected)
+    if (e > 0 && std::fabs(found / e - 1) < std::fabs(least)) least = found / e - 1;
+  return least;
 }
 
 struct FaceErrors {
@@ -383,8 +488,9 @@ FaceErrors compare_faces(const std::vector<Patch>& cad, const std::vector<Patch>
     }
     double error = std::fabs(mesh[i].area / of_cad.area - 1);
     if (error > kWrong) {  // is it BRepGProp that is wrong?
-      const double second = triangulated_area(of_cad.face, of_cad.area / (scale * scale)) * scale * scale;
-      const double other = second > 0 ? std::fabs(mesh[i].area / second - 1) : error;
+      const double area = of_cad.area / (scale * scale), found = mesh[i].area / (scale * scale);
+      const double other =
+          std::fabs(least_error(found, {triangulated_area(of_cad.face, area), divided_area(of_cad.face, area)}));
       if (other <= kWrong) ++errors.n_unsure;
       error = std::min(error, other);
     }
@@ -394,33 +500,126 @@ FaceErrors compare_faces(const std::vector<Patch>& cad, const std::vector<Patch>
   return errors;
 }
 
-/// The relative difference that is nearest to none.
-double least_error(double found, const std::vector<double>& expected) {
-  double least = 1e300;
-  for (const double e : expected)
-    if (e > 0 && std::fabs(found / e - 1) < std::fabs(least)) least = found / e - 1;
-  return least;
+struct WholeErrors {
+  double area = 0, volume = 0;
+  bool has_volume = false;
+};
+
+WholeErrors compare_wholes(const Measured& cad, const Measured& mesh, double scale) {
+  WholeErrors errors;
+  errors.area = least_error(mesh.area / (scale * scale), cad.areas);
+  errors.has_volume = !cad.volumes.empty() && !mesh.volumes.empty();
+  if (errors.has_volume) errors.volume = least_error(mesh.volumes[0] / (scale * scale * scale), cad.volumes);
+  return errors;
 }
 
-void print_comparison(Measured cad, const Measured& mesh) {
+/// A triangle, and the CAD's normal where it is nearest to the middle of it.
+struct OnCad {
+  gp_XYZ normal, of_cad{0, 0, 0};
+  std::size_t face = 0;
+};
+
+/// A smooth part of a face of the CAD.
+struct PartOfFace {
+  std::size_t face = 0;
+  Handle(ShapeAnalysis_Surface) surface;
+};
+
+std::vector<PartOfFace> parts_with_area(const std::vector<Patch>& faces) {
+  constexpr double kNoArea = 1e-9;  // of the face
+  std::vector<PartOfFace> parts;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const Patch& part : smooth_parts(faces[f].face, faces[f].area))
+      if (part.area > kNoArea * faces[f].area)
+        parts.push_back({f, new ShapeAnalysis_Surface(BRep_Tool::Surface(part.face))});
+  return parts;
+}
+
+OnCad nearest_on_cad(const std::vector<PartOfFace>& parts, const Triangles& mesh, std::size_t t, double scale) {
+  constexpr double kPrecision = 1e-7;  // of the CAD's lengths
+  const gp_XYZ a = mesh.at(3 * t), b = mesh.at(3 * t + 1), c = mesh.at(3 * t + 2);
+  const gp_Pnt middle((a + b + c) / (3 * scale));
+  OnCad result{(b - a).Crossed(c - a).Normalized()};
+  double least = std::numeric_limits<double>::infinity();
+  for (const PartOfFace& part : parts) {
+    const gp_Pnt2d uv = part.surface->ValueOfUV(middle, kPrecision);
+    if (part.surface->Gap() >= least) continue;
+    least = part.surface->Gap();
+    result.face = part.face;
+    gp_Pnt x;
+    gp_Vec du, dv;
+    part.surface->Surface()->D1(uv.X(), uv.Y(), x, du, dv);
+    const gp_Vec normal = du.Crossed(dv);
+    result.of_cad = normal.Magnitude() > 0 ? normal.Normalized().XYZ() : gp_XYZ(0, 0, 0);
+  }
+  return result;
+}
+
+/// Pairs of triangles with one face's id, turned back on each other.
+std::vector<std::array<std::size_t, 2>> folds_of(const Triangles& mesh) {
+  constexpr double kFold = -0.85;  // cosine, as the judge
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> owner;
+  std::vector<std::array<std::size_t, 2>> folds;
+  const auto normal = [&](std::size_t t) {
+    return (mesh.at(3 * t + 1) - mesh.at(3 * t)).Crossed(mesh.at(3 * t + 2) - mesh.at(3 * t));
+  };
+  for (std::size_t c = 0; c < mesh.node.size(); ++c) {
+    const std::size_t t = c / 3, next = c % 3 == 2 ? c - 2 : c + 1;
+    const auto [place, is_new] = owner.emplace(std::minmax(mesh.node[c], mesh.node[next]), t);
+    if (is_new || mesh.face[place->second] != mesh.face[t]) continue;
+    const gp_XYZ a = normal(t), b = normal(place->second);
+    if (a.Dot(b) < kFold * a.Modulus() * b.Modulus()) folds.push_back({t, place->second});
+  }
+  return folds;
+}
+
+/// How many folds the CAD has itself, where a face meets itself at a sharp seam: there both triangles lie as it does.
+std::size_t folds_of_cad(const std::vector<Patch>& cad, const Triangles& mesh, double scale) {
+  constexpr std::size_t kMost = 40;  // to look at
+  constexpr double kAlong = 0.8;     // cosine
+  const auto folds = folds_of(mesh);
+  if (folds.empty()) return 0;
+  const std::vector<PartOfFace> parts = parts_with_area(cad);
+  const std::size_t step = folds.size() / kMost + 1;
+  std::size_t n_seen = 0, n_of_cad = 0;
+  for (std::size_t i = 0; i < folds.size(); i += step, ++n_seen) {
+    const OnCad a = nearest_on_cad(parts, mesh, folds[i][0], scale),
+                b = nearest_on_cad(parts, mesh, folds[i][1], scale);
+    const double along_a = a.normal.Dot(a.of_cad), along_b = b.normal.Dot(b.of_cad);
+    const bool is_same_side = a.face != b.face || along_a * along_b > 0;
+    n_of_cad += is_same_side && std::min(std::fabs(along_a), std::fabs(along_b)) > kAlong;
+  }
+  return n_of_cad == n_seen ? folds.size() : n_of_cad;
+}
+
+void print_comparison(const TopoDS_Shape& shape, const Triangles& triangles, const Measured& mesh) {
   constexpr double kNoArea = 1e-12;  // of the whole
+  constexpr double kLook = 0.005;    // a difference worth another way to measure
+  Measured cad = measure_cad(shape);
+  if (n_inside_out(cad) > 0)
+    if (Measured fixed = measure_repaired(shape); n_inside_out(fixed) == 0) cad = std::move(fixed);
   const double scale = unit_ratio(cad, mesh);
-  cad.area *= scale * scale;
-  cad.area_of_all *= scale * scale;
-  for (double& volume : cad.volumes) volume *= scale * scale * scale;
+  WholeErrors whole = compare_wholes(cad, mesh, scale);
+  if (std::max(std::fabs(whole.area), std::fabs(whole.volume)) > kLook) {
+    ask_again(shape, cad);
+    whole = compare_wholes(cad, mesh, scale);
+  }
+  const std::size_t n_folds = folds_of_cad(cad.faces, triangles, scale);
   std::vector<Patch> faces;
   for (Patch& p : cad.faces) {
     p.area *= scale * scale, p.centroid *= scale;
-    if (p.area > kNoArea * cad.area) faces.push_back(p);
+    if (p.area > kNoArea * mesh.area) faces.push_back(p);
   }
   const FaceErrors errors = compare_faces(faces, mesh.faces, scale);
-  std::printf("{\"faces\":%zu,\"duplicates\":%zu,\"mesh_faces\":%zu,\"scale\":%.9g,", faces.size(), cad.n_duplicates,
-              mesh.faces.size(), scale);
-  std::printf("\"area\":%.9g,\"mesh_area\":%.9g,\"area_error\":%.6g,", cad.area, mesh.area,
-              least_error(mesh.area, {cad.area, cad.area_of_all}));
-  if (!cad.volumes.empty() && !mesh.volumes.empty())
-    std::printf("\"volume\":%.9g,\"mesh_volume\":%.9g,\"volume_error\":%.6g,", cad.volumes.back(), mesh.volumes[0],
-                least_error(mesh.volumes[0], cad.volumes));
+  std::printf("{\"faces\":%zu,\"duplicates\":%zu,\"mesh_faces\":%zu,\"scale\":%.9g,\"cad_folds\":%zu,", faces.size(),
+              cad.n_duplicates, mesh.faces.size(), scale, n_folds);
+  const std::size_t n_untold = n_inside_out(cad);
+  std::printf("\"inside_out_faces\":%zu,\"area\":%.9g,\"mesh_area\":%.9g,", n_untold, cad.area * scale * scale,
+              mesh.area);
+  if (n_untold == 0) std::printf("\"area_error\":%.6g,", whole.area);
+  if (n_untold == 0 && whole.has_volume)
+    std::printf("\"volume\":%.9g,\"mesh_volume\":%.9g,\"volume_error\":%.6g,", cad.volumes[0] * scale * scale * scale,
+                mesh.volumes[0], whole.volume);
   std::printf("\"face_error\":%.6g,\"worst_face\":%zu,\"worst_area\":%.6g,", errors.worst, errors.worst_face + 1,
               errors.worst_area);
   std::printf("\"wrong_faces\":%zu,\"unsure_faces\":%zu,\"unpaired_faces\":%zu}\n", errors.n_wrong, errors.n_unsure,
@@ -430,15 +629,17 @@ void print_comparison(Measured cad, const Measured& mesh) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: cad_measure CAD MESH.hdf\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: cad_measure CAD MESH.hdf [GEOMETRY.hdf]\n");
     return 2;
   }
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
-    const Measured mesh = measure_mesh(read_mesh(argv[2]));
+    const Triangles triangles = read_mesh(argv[2]);
+    const Measured mesh =
+        measure_mesh(triangles, argc == 4 ? first_of_same_face(argv[3]) : std::vector<std::int64_t>{});
     if (mesh.faces.empty()) throw std::runtime_error("no triangle in the mesh");
-    print_comparison(measure_cad(read_cad(argv[1])), mesh);
+    print_comparison(read_cad(argv[1]), triangles, mesh);
   } catch (const Standard_Failure& e) {
     std::fprintf(stderr, "cad_measure: error: %s\n", e.GetMessageString());
     return 1;
