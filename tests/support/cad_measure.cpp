@@ -22,6 +22,7 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -265,7 +266,35 @@ std::vector<Patch> smooth_parts(const TopoDS_Face& face, double area) {
   return parts;
 }
 
+/// Area of a whole spline surface, span by span; 0: the face is trimmed, or of another kind.
+double untrimmed_area(const TopoDS_Face& face) {
+  const auto spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
+  int n_edges = 0;
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) ++n_edges;
+  if (spline.IsNull() || n_edges > 4) return 0;
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0, a0 = 0, a1 = 0, b0 = 0, b1 = 0;
+  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  spline->Bounds(a0, a1, b0, b1);
+  if (std::fabs(u1 - u0 - a1 + a0) > 1e-9 * (a1 - a0) || std::fabs(v1 - v0 - b1 + b0) > 1e-9 * (b1 - b0)) return 0;
+  constexpr int kPerSpan = 20;  // midpoints each way
+  double area = 0;
+  for (int i = 1; i < spline->NbUKnots(); ++i)
+    for (int j = 1; j < spline->NbVKnots(); ++j) {
+      const double du = (spline->UKnot(i + 1) - spline->UKnot(i)) / kPerSpan;
+      const double dv = (spline->VKnot(j + 1) - spline->VKnot(j)) / kPerSpan;
+      for (int k = 0; k < kPerSpan * kPerSpan; ++k) {
+        gp_Pnt x;
+        gp_Vec along_u, along_v;
+        spline->D1(spline->UKnot(i) + (k % kPerSpan + 0.5) * du, spline->VKnot(j) + (k / kPerSpan + 0.5) * dv, x,
+                   along_u, along_v);
+        area += along_u.Crossed(along_v).Magnitude() * du * dv;
+      }
+    }
+  return area;
+}
+
 double divided_area(const TopoDS_Face& face, double area) {
+  if (const double untrimmed = untrimmed_area(face); untrimmed > 0) return untrimmed;
   double sum = 0;
   for (const Patch& part : smooth_parts(face, area)) sum += part.area;
   return sum;
