@@ -120,8 +120,8 @@ class Chain:
                 self.row[column] = f"{100 * found[key]:.2f}"
         self.row["faces off"] = found["wrong_faces"]
         self.cad_folds = found.get("cad_folds", 0)
-        notes = [f"{found[k]} {k.replace('_', ' ')}"
-                 for k in ("unsure_faces", "unpaired_faces", "inside_out_faces", "duplicates", "cad_folds") if found.get(k)]
+        kinds = ("unsure_faces", "unpaired_faces", "inside_out_faces", "duplicates", "cad_folds")
+        notes = [f"{found[k]} {k.replace('_', ' ')}" for k in kinds if found.get(k)]
         if found["wrong_faces"]:
             notes.insert(0, f"worst face {found['worst_face']} of area {found['worst_area']:.3g}")
         self.words += notes

@@ -35,8 +35,8 @@ struct ChordError {
   std::vector<Vec3> stray_place;      ///< [n_faces] where that is
 };
 
-/// Along edges: the segments between trimming curve and chord. Inside: triangles against their parts with corners on the
-/// surface, extrapolated; from the (u,v) of the corners alone, so that a misplaced node explains nothing.
+/// Along edges: the segments between trimming curve and chord. Inside: triangles against their parts with corners on
+/// the surface, extrapolated; from the (u,v) of the corners alone, so that a misplaced node explains nothing.
 /// Precondition: `mesh` was made on `model`. Local; some ten surface evaluations per triangle.
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh);
 

@@ -149,7 +149,7 @@ struct AreaChecks {
 /// Others beyond that are below the sizes: they look as the sizes make them.
 AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
-  constexpr double kWide = 2;      // requested lengths
+  constexpr double kWide = 2;  // requested lengths
   AreaChecks c;
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
   const std::vector<double> extent = face_extents(mesh, tables.n_faces());
