@@ -101,6 +101,8 @@ class BadInput(ToolTest):
             if tool in ("st-info", "st-diff", "st-export", "st-report"):  # these take every kind
                 continue
             for wrong in set(ARTIFACTS) - {paths[position].name}:
+                if (tool, wrong) == ("st-prolong", "sizing.hdf"):  # changes the sources of a finished field
+                    continue
                 changed = list(paths)
                 changed[position] = self.good / wrong
                 self.expect_error(INPUT, tool, *changed, *output(tool, self.out),
