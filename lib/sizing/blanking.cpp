@@ -294,16 +294,41 @@ class Blanker {
         largest[1] = g;
       }
     }
+    std::array<Vec3, kSamples> outlook;
+    if (std::any_of(group.begin(), group.end(),
+                    [&](int g) { return vote[g] > 0 && g != largest[0] && g != largest[1]; }))
+      outlook = outlooks(cell, group, pieces);
+    const auto is_second = [&](int g) {  // further groups go with those that see the surface from the same side
+      if (largest[1] == kNone || g == largest[0]) return false;
+      return g == largest[1] || dot(outlook[g], outlook[largest[1]]) > dot(outlook[g], outlook[largest[0]]);
+    };
     CellParts parts;
     for (int s = 0; s < kSamples; ++s) {
       const int g = group[s];
-      parts.part[s] = vote[g] <= 0 ? kNoFlow : g == largest[1] ? 1 : 0;
+      parts.part[s] = vote[g] <= 0 ? kNoFlow : is_second(g) ? 1 : 0;
     }
     if (largest[0] == kNone)
       set_spare(cell, find_largest_piece(pieces, [](const Piece&) { return true; }), 0, parts);
     else if (largest[1] == kNone && !is_sheet(i))
       set_hidden_part(cell, pieces, parts);
     return parts;
+  }
+
+  static const Piece* nearest_piece(Vec3 x, const std::vector<Piece>& pieces) {
+    const Piece* nearest = nullptr;
+    for (const Piece& piece : pieces)
+      if (!nearest || norm2(piece.middle - x) < norm2(nearest->middle - x)) nearest = &piece;
+    return nearest;
+  }
+
+  /// Of each group of samples, unit: the normal of the pieces of the surface that are nearest to them, into the flow.
+  static std::array<Vec3, kSamples> outlooks(const Cube& cell, const std::array<int, kSamples>& group,
+                                             const std::vector<Piece>& pieces) {
+    std::array<Vec3, kSamples> sum;
+    for (int s = 0; s < kSamples; ++s)
+      if (const Piece* nearest = nearest_piece(cell.sample(s), pieces)) sum[group[s]] += normalized(nearest->area);
+    for (Vec3& v : sum) v = normalized(v);
+    return sum;
   }
 
   /// Triangles of the cell, cut off at its sides.
@@ -341,9 +366,7 @@ class Blanker {
   /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface
   /// decides.
   int sign_at(Vec3 x, const std::vector<Piece>& pieces) const {
-    const Piece* nearest = nullptr;
-    for (const Piece& piece : pieces)
-      if (!nearest || norm2(piece.middle - x) < norm2(nearest->middle - x)) nearest = &piece;
+    const Piece* nearest = nearest_piece(x, pieces);
     if (!nearest) return 0;
     double first = std::numeric_limits<double>::infinity();
     int sign = 0;

@@ -156,6 +156,7 @@ class ConeSpread {
       for (std::size_t i = 0; i < buckets_[now_].size(); ++i) pass_on(buckets_[now_][i]);
       std::vector<Event>().swap(buckets_[now_]);
     }
+    fill_rest();
   }
 
   ConeTable take() {
@@ -194,6 +195,38 @@ class ConeSpread {
     const Vec3 c = octree_.leaf_center(leaf) - octree_.lo;
     return {{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
             static_cast<float>(0.5 * octree_.cell_edge(octree_.leaf_levels[leaf]))};
+  }
+
+  /// Parts of cut cells that no sample came to across a face are given what is known where links lead. A part that the
+  /// surface leaves no way to is given what is known around it on either side: lengths that are too small do no harm
+  /// there, too large ones do.
+  void fill_rest() {
+    if (!blanking_) return;
+    const std::int32_t n_leaves = octree_.n_leaves();
+    std::vector<std::pair<std::int32_t, std::int32_t>> found;  // site, sample
+    for (std::int32_t site = 0; site < blanking_->n_sites(); ++site) {
+      const bool is_cut = site >= n_leaves || blanking_->colour[site] == CellColour::kCut;
+      if (!is_cut || head_[site] != kNone) continue;
+      const auto take = [&](std::int32_t from) {
+        for (std::int32_t k = head_[from]; k != kNone; k = entries_[k].next)
+          found.push_back({site, entries_[k].sample});
+      };
+      bool has_way = false;
+      for_each_link(blanking_, neighbours_, site, [&](std::int32_t to, const CellStep&) {
+        has_way = true;
+        take(to);
+      });
+      if (has_way) continue;
+      const auto take_parts = [&](std::int32_t leaf) {
+        take(leaf);
+        if (const std::int32_t split = blanking_->find_split(leaf); split != kNone) take(n_leaves + split);
+      };
+      const std::int32_t leaf = site < n_leaves ? site : blanking_->split_leaf[site - n_leaves];
+      take_parts(leaf);
+      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { take_parts(other); });
+    }
+    float least = 0;
+    for (const auto& [site, sample] : found) offer(site, sample, least);
   }
 
   void pass_on(const Event e) {

@@ -150,14 +150,15 @@ void warn_of_place(const std::string& path, const SurfaceMesh& mesh, const Raste
 
 Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const Similarity& to_octree) {
   if (o.no_blank) return {};
-  if (o.blank.empty()) {
-    const double along = raster.surface.side == BlankSide::kInside ? 1 : -1;
-    return {std::move(raster.surface), along, {}};
-  }
+  const double along = raster.surface.side == BlankSide::kInside ? 1 : -1;
+  if (o.blank.empty()) return {std::move(raster.surface), along, {}};
   BlankInput blank = read_blank(o.blank, o.blank_side);
   if (to_octree != Similarity()) transform(to_octree, blank.mesh);
   warn_of_place(o.blank, blank.mesh, raster);
-  return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side}, 0, {blank.file}};
+  const bool is_closed = !raster.surface.triangles.empty();  // then normals of faces tell sides, whatever blanks
+  return {{std::move(blank.mesh.node_xyz), std::move(blank.mesh.triangles), blank.side},
+          is_closed ? along : 0,
+          {blank.file}};
 }
 
 /// Where lengths may pass; the stored lengths get second parts.
