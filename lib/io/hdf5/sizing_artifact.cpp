@@ -180,6 +180,14 @@ bool is_rectangle(const Cone& c) {
 }
 
 /// Cones have lengths, sites name cones that exist.
+/// The cones of each site ascend by length: a query ends at the first that is too long.
+void require_ascending_lengths(const Hdf5Reader& file, const OctreeFieldData& data) {
+  for (std::size_t site = 0; site + 1 < data.first_cone.size(); ++site)
+    for (std::int32_t k = data.first_cone[site] + 1; k < data.first_cone[site + 1]; ++k)
+      if (data.cones[data.site_cones[k]].length < data.cones[data.site_cones[k - 1]].length)
+        file.fail(kSiteCones, "row " + std::to_string(k) + " names a shorter cone than the row before");
+}
+
 void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
   const std::size_t n_sites = data.cells.size() + data.split_leaf.size();
   require_rows_to_be(file, kCone, data.cones, "a place with a length and a slope > 0", [](const Cone& c) {
@@ -190,6 +198,7 @@ void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
   if (data.first_cone.size() != n_sites + 1) file.fail(kFirstCone, "does not fit the number of cells");
   require_offsets(file, kFirstCone, data.first_cone, data.site_cones.size());
   require_ids(file, kSiteCones, data.site_cones, data.cones.size());
+  require_ascending_lengths(file, data);
 }
 
 /// Slope and scale of a sizing.

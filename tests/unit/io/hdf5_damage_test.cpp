@@ -274,7 +274,7 @@ SizingArtifact split_sizing() {
   return sizing;
 }
 
-/// Likewise, with two cones, one of them in each site.
+/// Likewise, with two cones, one of them in each site, both in the last.
 SizingArtifact cone_sizing() {
   SizingArtifact sizing = split_sizing();
   const auto n_sites = static_cast<std::int32_t>(sizing.stretched.along.size());
@@ -282,7 +282,9 @@ SizingArtifact cone_sizing() {
                        Cone({{0.5, 0.2, 0.3}, 0.03F}, 0.1F, {})};
   sizing.cones.cause = {kNone, kNone};
   for (std::int32_t site = 0; site <= n_sites; ++site) sizing.cones.first.push_back(site);
-  sizing.cones.of_site.assign(n_sites, 1);
+  sizing.cones.of_site.assign(n_sites - 1, 1);
+  sizing.cones.of_site.insert(sizing.cones.of_site.end(), {0, 1});
+  ++sizing.cones.first.back();
   return sizing;
 }
 
@@ -326,6 +328,8 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
   const std::string path = dir / "a.hdf";
   write_sizing(path, cone_sizing());
   const SizingArtifact read = read_sizing(path);
+  const std::string unordered =
+      "/st/cone/of_site: row " + std::to_string(read.cones.of_site.size() - 1) + " names a shorter cone";
   EXPECT_EQ(read.cones.of_site, cone_sizing().cones.of_site);
   EXPECT_EQ(read.cones.cone[1].slope, 0.1F);
   const MappedSizing mapped = map_sizing(path);
@@ -344,7 +348,9 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
       {"/st/cone/cause: does not fit the number of cones", [](auto& s) { s.cones.cause.pop_back(); }},
       {"/st/cone/first: does not fit the number of cells", [](auto& s) { s.cones.first.pop_back(); }},
       {"/st/cone/first", [](auto& s) { s.cones.first[2] = 1'000'000; }},
-      {"/st/cone/of_site: row 1 names entity 2 of", [](auto& s) { s.cones.of_site[1] = 2; }}};
+      {"/st/cone/of_site: row 1 names entity 2 of", [](auto& s) { s.cones.of_site[1] = 2; }},
+      {unordered.c_str(),
+       [](auto& s) { std::swap(s.cones.of_site.back(), s.cones.of_site[s.cones.of_site.size() - 2]); }}};
   expect_refused_by_both(path, cone_sizing(), breaks);
 }
 
