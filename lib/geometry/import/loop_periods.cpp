@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 
+#include "base/boxes.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/shape/loop_polygons.h"
@@ -39,7 +40,7 @@ constexpr double kFarBelow = 0.01;  // of the surface's extent: a tolerance that
 struct Loop {
   TopoDS_Wire wire;
   std::vector<LoopSide> sides;
-  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
+  Box2 box;
   Vec2 winding;     ///< from its start to its end: 0 when it is closed
   double area = 0;  ///< signed
 };
@@ -100,8 +101,7 @@ void add_edge(Loop& loop, const TopoDS_Edge& edge, const TopoDS_Face& face, int 
     const double s = static_cast<double>(is_reversed ? n_sides - k : k) / n_sides;
     const gp_Pnt2d p = pcurve->Value(t0 + (t1 - t0) * s);
     const Vec2 uv{p.X(), p.Y()};
-    loop.lo = {std::min(loop.lo.x, uv.x), std::min(loop.lo.y, uv.y)};
-    loop.hi = {std::max(loop.hi.x, uv.x), std::max(loop.hi.y, uv.y)};
+    loop.box.add(uv);
     if (k > 0) {
       loop.sides.push_back({last, uv});
       loop.winding = loop.winding + (uv - last);
@@ -165,8 +165,8 @@ std::pair<int, int> periods_onto(double lo, double hi, double to_lo, double to_h
 
 /// The shift that brings a hole inside the outer loops; nullopt: none does.
 std::optional<Vec2> shift_into(const Loop& hole, const Loop& outer, const LoopPolygons& polygons, const Closing& c) {
-  const auto [i0, i1] = periods_onto(hole.lo.x, hole.hi.x, outer.lo.x, outer.hi.x, c.period.x);
-  const auto [j0, j1] = periods_onto(hole.lo.y, hole.hi.y, outer.lo.y, outer.hi.y, c.period.y);
+  const auto [i0, i1] = periods_onto(hole.box.lo.x, hole.box.hi.x, outer.box.lo.x, outer.box.hi.x, c.period.x);
+  const auto [j0, j1] = periods_onto(hole.box.lo.y, hole.box.hi.y, outer.box.lo.y, outer.box.hi.y, c.period.y);
   for (int i = i0; i <= i1; ++i)
     for (int j = j0; j <= j1; ++j)
       if (const Vec2 shift{i * c.period.x, j * c.period.y}; is_inside(hole, shift, polygons)) return shift;
@@ -196,8 +196,7 @@ void move_loop(Loop& loop, const TopoDS_Face& face, Vec2 shift) {
   for (TopExp_Explorer e(loop.wire, TopAbs_EDGE); e.More(); e.Next())
     if (seen.Add(e.Current())) move_edge(TopoDS::Edge(e.Current()), face, {shift.x, shift.y});
   for (LoopSide& s : loop.sides) s = {s.a + shift, s.b + shift};
-  loop.lo = loop.lo + shift;
-  loop.hi = loop.hi + shift;
+  loop.box = {loop.box.lo + shift, loop.box.hi + shift};
 }
 
 /// "1 period in u, -2 in v".
@@ -236,8 +235,8 @@ void move_face(const NamedFace& f, std::vector<Loop>& loops, const Loop& outer, 
   const auto shift_of = [](double lo, double hi, double from, double to, double period) {
     return period == 0 ? 0.0 : -period * std::floor((0.5 * (lo + hi) - from) / (to - from));
   };
-  const Vec2 shift{c.is_u_periodic ? 0 : shift_of(outer.lo.x, outer.hi.x, c.lo.x, c.hi.x, c.period.x),
-                   c.is_v_periodic ? 0 : shift_of(outer.lo.y, outer.hi.y, c.lo.y, c.hi.y, c.period.y)};
+  const Vec2 shift{c.is_u_periodic ? 0 : shift_of(outer.box.lo.x, outer.box.hi.x, c.lo.x, c.hi.x, c.period.x),
+                   c.is_v_periodic ? 0 : shift_of(outer.box.lo.y, outer.box.hi.y, c.lo.y, c.hi.y, c.period.y)};
   if (shift.x == 0 && shift.y == 0) return;
   say(FindingKind::kMovedLoop, f, outer.wire, words(shift, c.period), findings);
   for (Loop& loop : loops) move_loop(loop, f.face, shift);

@@ -1,4 +1,5 @@
 #include "geometry/import/loop_repair.h"
+#include "base/boxes.h"
 
 #include <BRep_Builder.hxx>
 #include <BRep_TEdge.hxx>
@@ -200,15 +201,10 @@ double signed_area(const LoopOfUses& loop) {
   return area;
 }
 
-struct UvBox {
-  Vec2 lo{1e300, 1e300}, hi{-1e300, -1e300};
-  void add(const LoopOfUses& loop) {
-    for (const Use& use : loop)
-      for (const Vec2& p : use.uv)
-        lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)}, hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
-  }
-  Vec2 middle() const { return 0.5 * (lo + hi); }
-};
+void add_to(Box2& box, const LoopOfUses& loop) {
+  for (const Use& use : loop)
+    for (const Vec2& p : use.uv) box.add(p);
+}
 
 UvBounds natural_bounds(const Face& f, double extent) {
   UvBounds b{};
@@ -221,16 +217,16 @@ UvBounds natural_bounds(const Face& f, double extent) {
 /// the outer one.
 bool place_loops(Face& f, const UvBounds& bounds) {
   std::size_t n_outer = 0;
-  UvBox outer;
+  Box2 outer;
   for (const LoopOfUses& loop : f.loops)
-    if (signed_area(loop) > 0) ++n_outer, outer.add(loop);
+    if (signed_area(loop) > 0) ++n_outer, add_to(outer, loop);
   if (n_outer != 1) return false;
   const Vec2 middle{0.5 * (bounds.u_min + bounds.u_max), 0.5 * (bounds.v_min + bounds.v_max)};
-  const Vec2 target = outer.middle() + periods_to(outer.middle(), middle, f.period);
+  const Vec2 target = outer.center() + periods_to(outer.center(), middle, f.period);
   for (LoopOfUses& loop : f.loops) {
-    UvBox box;
-    box.add(loop);
-    const Vec2 shift = periods_to(box.middle(), target, f.period);
+    Box2 box;
+    add_to(box, loop);
+    const Vec2 shift = periods_to(box.center(), target, f.period);
     for (Use& use : loop)
       for (Vec2& uv : use.uv) uv = uv + shift;
   }
@@ -239,8 +235,8 @@ bool place_loops(Face& f, const UvBounds& bounds) {
 
 /// Trimming curves through the samples. False when one cannot be made.
 bool fit(Face& f, double tolerance) {
-  UvBox box;
-  for (const LoopOfUses& loop : f.loops) box.add(loop);
+  Box2 box;
+  for (const LoopOfUses& loop : f.loops) add_to(box, loop);
   const auto surface = make_surface(f.surface, {box.lo.x, box.hi.x, box.lo.y, box.hi.y});
   for (LoopOfUses& loop : f.loops)
     for (Use& use : loop) {
