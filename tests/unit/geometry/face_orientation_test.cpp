@@ -18,23 +18,35 @@
 namespace st {
 namespace {
 
+/// A shape with its faces anew in `whole`, an empty compound or shell, as `change(face, number)` makes them.
+template <class Change>
+void add_faces(const std::string& shape, const Change& change, TopoDS_Shape& whole) {
+  const TemporaryDirectory dir;
+  test::write_brep(shape, dir / "a.brep");
+  TopoDS_Shape original;
+  BRep_Builder builder;
+  BRepTools::Read(original, (dir / "a.brep").c_str(), builder);
+  int n = 0;
+  for (TopExp_Explorer e(original, TopAbs_FACE); e.More(); e.Next()) builder.Add(whole, change(e.Current(), n++));
+}
+
+ImportResult import_brep(const TopoDS_Shape& shape) {
+  const TemporaryDirectory dir;
+  BRepTools::Write(shape, (dir / "b.brep").c_str());
+  return import_model(dir / "b.brep", {});
+}
+
 /// The faces of a shape in no shell, each a copy of its own or not, turned over where `is_turned(number)`.
 template <class IsTurned>
 ImportResult import_loose(const std::string& shape, const IsTurned& is_turned, bool is_copied = true) {
-  const TemporaryDirectory dir;
-  test::write_brep(shape, dir / "a.brep");
-  TopoDS_Shape whole;
-  BRep_Builder builder;
-  BRepTools::Read(whole, (dir / "a.brep").c_str(), builder);
   TopoDS_Compound loose;
-  builder.MakeCompound(loose);
-  int n = 0;
-  for (TopExp_Explorer e(whole, TopAbs_FACE); e.More(); e.Next()) {
-    const TopoDS_Shape face = is_copied ? BRepBuilderAPI_Copy(e.Current()).Shape() : e.Current();
-    builder.Add(loose, is_turned(n++) ? face.Reversed() : face);
-  }
-  BRepTools::Write(loose, (dir / "b.brep").c_str());
-  return import_model(dir / "b.brep", {});
+  BRep_Builder().MakeCompound(loose);
+  const auto change = [&](const TopoDS_Shape& original, int n) {
+    const TopoDS_Shape face = is_copied ? BRepBuilderAPI_Copy(original).Shape() : original;
+    return is_turned(n) ? face.Reversed() : face;
+  };
+  add_faces(shape, change, loose);
+  return import_brep(loose);
 }
 
 std::ptrdiff_t n_turned(const ImportResult& r) {
@@ -70,29 +82,24 @@ TEST(FaceOrientation, of_a_sheet_stays_as_it_is) {
   }
 }
 
-/// A solid of the shape's first shell, with one face turned.
-ImportResult import_with_turned_face(const std::string& shape, int turned) {
-  const TemporaryDirectory dir;
-  test::write_brep(shape, dir / "a.brep");
-  TopoDS_Shape whole;
-  BRep_Builder builder;
-  BRepTools::Read(whole, (dir / "a.brep").c_str(), builder);
+/// A solid of the shape's faces, some of them turned.
+template <class IsTurned>
+ImportResult import_solid(const std::string& shape, const IsTurned& is_turned) {
   TopoDS_Shell shell;
+  BRep_Builder builder;
   builder.MakeShell(shell);
-  int n = 0;
-  for (TopExp_Explorer e(whole, TopAbs_FACE); e.More(); e.Next())
-    builder.Add(shell, n++ == turned ? e.Current().Reversed() : e.Current());
+  add_faces(
+      shape, [&](const TopoDS_Shape& face, int n) { return is_turned(n) ? face.Reversed() : face; }, shell);
   TopoDS_Solid solid;
   builder.MakeSolid(solid);
   builder.Add(solid, shell);
-  BRepTools::Write(solid, (dir / "b.brep").c_str());
-  return import_model(dir / "b.brep", {});
+  return import_brep(solid);
 }
 
 TEST(FaceOrientation, of_a_solid_is_that_of_most_of_its_faces) {
   for (const char* shape : {"box", "drilled_block"})
     for (const int turned : {0, 1, 3}) {
-      const ImportResult right = test::import_shape(shape), r = import_with_turned_face(shape, turned);
+      const ImportResult right = test::import_shape(shape), r = import_solid(shape, [&](int i) { return i == turned; });
       EXPECT_TRUE(r.is_closed) << shape;
       EXPECT_NEAR(r.volume, right.volume, 1e-9 * right.volume) << shape << turned;
       EXPECT_EQ(std::ranges::count_if(
