@@ -274,7 +274,7 @@ void say_what_touches(const ImportedShape& model, const ModelTables& t, const st
 void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
                    std::vector<ImportFinding>& findings, const std::string& path, Progress& progress) {
   progress.step("uniting bodies", 0.65);
-  if (options.unite) occt::unite_solids(model, tables, findings, path);
+  if (options.unite) occt::unite_solids(model, tables, options.unite_seconds, findings, path);
   progress.step("bodies that cross", 0.67);
   const occt::CrossingBodies crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
   if (crossings.n_not_compared > 0)

@@ -20,6 +20,7 @@ struct ImportOptions {
   std::string farfield;     ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
   bool join_touching = false;     ///< solids that touch get common faces and edges
   bool unite = false;             ///< bodies that overlap become one, before that
+  double unite_seconds = 60;      ///< no union begins later
   bool require_closed = false;    ///< Error(kGeometry) for a model that is open after repairs
   std::vector<GroupRule> groups;  ///< empty: those of the file
 };

@@ -23,7 +23,6 @@ namespace {
 constexpr double kFuzzy[] = {0, 1e-6, 1e-5, 1e-4};  // of the diagonal of both, the first that gives a sound union
 constexpr double kVolume = 1e-4;                    // relative slack of volumes
 constexpr double kCpuSeconds = 15;                  // for one attempt
-constexpr double kAllSeconds = 60;                  // from the first to the last
 
 /// Solids that are one by now.
 struct Body {
@@ -81,7 +80,8 @@ BooleanResult fuse(const Body& a, const Body& b, const std::vector<TopoDS_Shape>
 /// All unions, and what becomes of faces and named edges on the way.
 class Unions {
  public:
-  Unions(const ImportedShape& model, const ModelTables& t) : tolerance_(1e-6 * t.box().diagonal()) {
+  Unions(const ImportedShape& model, const ModelTables& t, double seconds)
+      : seconds_(seconds), tolerance_(1e-6 * t.box().diagonal()) {
     TopTools_IndexedMapOfShape solids;
     TopExp::MapShapes(model.shape, TopAbs_SOLID, solids);
     for (int i = 1; i <= solids.Extent(); ++i) {
@@ -126,7 +126,7 @@ class Unions {
     std::string failure;
     for (const double fuzzy : kFuzzy) {
       const double left = seconds_left();
-      if (left <= 0 && failure.empty()) failure = "the unions before took " + format_number(kAllSeconds) + " s";
+      if (left <= 0 && failure.empty()) failure = "the unions before took " + format_number(seconds_) + " s";
       if (left <= 0) break;
       const BooleanAttempt done =
           run_boolean([&] { return fuse(a, b, tracked, fuzzy * box.diagonal()); }, std::min(kCpuSeconds, left));
@@ -167,10 +167,11 @@ class Unions {
 
   double seconds_left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return kAllSeconds - elapsed.count();
+    return seconds_ - elapsed.count();
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double seconds_;  // for all
   double tolerance_;
   std::vector<Body> bodies_;
   std::vector<std::vector<TopoDS_Shape>> images_;  ///< of faces, then of named edges
@@ -188,10 +189,10 @@ TopoDS_Shape with_unions(const TopoDS_Shape& shape, const std::vector<Body>& bod
 
 }  // namespace
 
-void unite_solids(ImportedShape& model, ModelOfFile& tables, std::vector<ImportFinding>& findings,
+void unite_solids(ImportedShape& model, ModelOfFile& tables, double seconds, std::vector<ImportFinding>& findings,
                   const std::string& path) {
   if (tables.tables.n_solids < 2) return;
-  Unions unions(model, tables.tables);
+  Unions unions(model, tables.tables, seconds);
   unions.unite(findings);
   if (unions.n_united() == 0) return;
   const TopTools_IndexedMapOfShape originals = model.faces;

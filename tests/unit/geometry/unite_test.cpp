@@ -51,6 +51,17 @@ TEST(Unite, takes_a_body_inside_another_one_away) {
 
 TEST(Unite, leaves_bodies_that_only_share_an_edge_two) { EXPECT_EQ(united("boxes_along_edge").tables.n_solids, 2); }
 
+TEST(Unite, ends_after_its_time_and_says_what_stays_apart) {
+  ImportOptions options;
+  options.unite = true;
+  options.unite_seconds = 0;
+  const ImportResult r = test::import_broken("crossing_boxes", options);
+  EXPECT_EQ(r.tables.n_solids, 2);
+  const auto found = findings_of(r, "bodies that overlap not united");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].what().find("the unions before took 0 s"), std::string::npos) << found[0].what();
+}
+
 TEST(Unite, is_done_only_where_asked) { EXPECT_EQ(test::import_broken("crossing_boxes").tables.n_solids, 2); }
 
 }  // namespace
