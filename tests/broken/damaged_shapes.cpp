@@ -103,6 +103,18 @@ TopoDS_Shape stray_hole() {
   return face.Face();
 }
 
+/// A disc with a hole so near to its rim that it lies outside the polygon of 24 sides.
+TopoDS_Shape rim_hole() {
+  const double angle = M_PI / 24;
+  const gp_Pnt middle(9.95 * std::cos(angle), 9.95 * std::sin(angle), 0);
+  const auto circle = [](const gp_Pnt& p, double radius) {
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(p, gp::DZ()), radius)).Edge()).Wire();
+  };
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp::XOY()), circle(gp::Origin(), 10));
+  face.Add(TopoDS::Wire(circle(middle, 0.02).Reversed()));
+  return face.Face();
+}
+
 /// A hole in the plane of a box's top, beside the box. `has_tube`: another face begins at it.
 TopoDS_Shape box_with_stray_hole(bool has_tube) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(60, 40, 20).Shape();
@@ -487,6 +499,7 @@ Makers makers() {
       {"rod_hole_no_seam", [] { return without_seam(rod_hole()); }},
       {"rod_hole_no_seam_p1", [] { return without_seam(with_moved_loop(rod_hole(), 0, 1, 0)); }},
       {"stray_hole", stray_hole},
+      {"rim_hole", rim_hole},
       {"box_stray_hole", [] { return box_with_stray_hole(false); }},
       {"box_stray_tube", [] { return box_with_stray_hole(true); }},
       {"turned_hole", [] { return drilled_box_turned(false); }},

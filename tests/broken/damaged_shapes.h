@@ -23,6 +23,7 @@ namespace st::test {
 ///   rod_hole_no_seam_p1 (without the seam; the hole a turn off).
 /// - stray_hole: a quarter of a tube's side, with a hole in what is not there; box_stray_hole: a hole in the plane of a
 ///   box's top, beside it; box_stray_tube: likewise, and another face begins there.
+/// - rim_hole: a disc of radius 10 with a hole of radius 0.02, between its rim and a polygon of 24 sides.
 /// - A box of 60 x 40 x 20 with a hole of radius 8 through it: turned_hole, turned_outer (one loop of the top runs the
 ///   wrong way).
 /// - A torus of radii 40 and 10 with a radial hole: torus_hole, torus_hole_off (in u and v).

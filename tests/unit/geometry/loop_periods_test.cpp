@@ -61,6 +61,12 @@ TEST(LoopPeriods, a_hole_that_no_period_brings_into_its_face_is_left_out) {
   EXPECT_EQ(r.tables.n_edges(), 4);
 }
 
+TEST(LoopPeriods, a_hole_at_the_rim_of_a_disc_stays) {
+  const ImportResult r = import_damaged("rim_hole");
+  EXPECT_TRUE(findings_of(r, "hole outside its face").empty());
+  EXPECT_EQ(r.tables.n_edges(), 2);
+}
+
 TEST(LoopPeriods, a_hole_beside_a_plane_face_is_left_out) {
   const ImportResult r = import_damaged("box_stray_hole");
   ASSERT_EQ(findings_of(r, "hole outside its face").size(), 1u);

@@ -271,6 +271,20 @@ TEST_F(CheckCad, fails_nodes_off_their_face_whatever_the_tolerances_of_the_cad) 
   EXPECT_EQ(failed_checks(s), Names{"off-surface"}) << s.line;
 }
 
+TEST_F(CheckCad, fails_nodes_that_lie_elsewhere_on_their_face_whatever_the_tolerances_of_the_cad) {
+  for (double& t : geometry_.tables.edge_tolerance) t = 5;
+  geometry_hash_ = write_geometry(path("geometry.hdf"), geometry_);
+  MeshArtifact a = make_mesh(40);
+  const FaceId side = face(SurfaceType::kCylinder);
+  const auto t = static_cast<std::size_t>(std::ranges::find(a.mesh.triangle_face, side) - a.mesh.triangle_face.begin());
+  double& v = a.mesh.corner_uv[3 * t].y;
+  v += v < 1 ? 0.5 : -0.5;  // a quarter of the requested length is 0.39, twice 0.05 of it 0.16
+  EXPECT_EQ(check(a).code, ExitCode::kOk);
+  v += v < 1 ? 0.1 : -0.1;
+  const StageSummary s = check(a);
+  EXPECT_EQ(failed_checks(s), Names{"off-surface"}) << s.line;
+}
+
 TEST_F(CheckCad, finds_a_face_whose_area_and_a_mesh_whose_volume_is_wrong) {
   MeshArtifact a = make_mesh(40);
   for (std::size_t n = 40; n < 80; ++n) a.mesh.node_xyz[n].z -= 0.6;  // 2 % of the height
