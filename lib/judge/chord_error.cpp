@@ -41,17 +41,16 @@ struct AreaBeside {
   double asked = 0, found = 0;  // see ChordError::area, found_area
 };
 
-/// The surface's point closest to the middle of the chord between two of its points; found from the middle in (u,v),
-/// which may lie far beside it.
-Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b) {
-  constexpr double kAside = 1e-3;  // of the chord: not worth a projection
+/// The surface's point closest to the middle of the chord between two of its points, found from the middle in (u,v),
+/// which may lie far beside it. `normal`: about that of the surface, of any length.
+Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b, Vec3 normal) {
+  constexpr double kAside = 0.02;  // of the chord: along the normal from the middle is near enough
   const Vec2 uv = 0.5 * (uv_a + uv_b);
-  const Vec3 middle = 0.5 * (a + b);
-  const SurfacePoint p = surface.evaluate(uv);
-  const Vec3 normal = cross(p.du, p.dv), beside = p.x - middle;
-  if (norm(cross(beside, normal)) < kAside * distance(a, b) * norm(normal)) return p.x;
+  const Vec3 middle = 0.5 * (a + b), x = surface.point(uv), beside = x - middle;
+  const Vec3 above = dot(beside, normal) / std::max(norm2(normal), 1e-300) * normal;
+  if (distance(beside, above) < kAside * distance(a, b)) return middle + above;
   if (const auto foot = project_near(surface, middle, uv))
-    if (const Vec3 x = surface.point(*foot); distance(x, middle) < norm(beside)) return x;
+    if (const Vec3 y = surface.point(*foot); distance(y, middle) < norm(beside)) return y;
   return descend_from(surface, middle, uv).x;
 }
 
@@ -62,7 +61,8 @@ AreaBeside area_beside_chords(const Surface& surface, const Curve2d& pcurve, con
     const double t0 = nodes[i - 1].t, t1 = nodes[i].t;
     const Vec2 from = pcurve.point(t0), to = pcurve.point(t1), middle = pcurve.point(0.5 * (t0 + t1));
     const Vec3 a = surface.point(from), b = surface.point(to), m = surface.point(middle);
-    const double chord = distance(a, b), sagitta = distance(m, foot_of_middle(surface, from, to, a, b));
+    const Vec3 normal = surface_normal(surface, 0.5 * (from + to));
+    const double chord = distance(a, b), sagitta = distance(m, foot_of_middle(surface, from, to, a, b, normal));
     const bool is_loop = chord < 1e-3 * sagitta;  // a closed edge of one segment: all that it encloses is missing
     const double beside = is_loop ? sagitta * sagitta : kArcSegment * sagitta * chord;
     area.found += beside;
@@ -176,9 +176,10 @@ void add_chords(const Surface& surface, TriangleOnSurface& t, FacePart& part) {
     corner[k] = surface.evaluate(t.uv[k]);
     x[k] = corner[k].x;
   }
+  const Vec3 normal = cross(x[1] - x[0], x[2] - x[0]);
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
-    m[k] = foot_of_middle(surface, t.uv[k], t.uv[next], x[k], x[next]);
+    m[k] = foot_of_middle(surface, t.uv[k], t.uv[next], x[k], x[next], normal);
   }
   std::array<double, 3> heights;
   for (int k = 0; k < 3; ++k) heights[k] = distance_to_line(m[k], x[k], x[(k + 1) % 3]);
