@@ -1,4 +1,7 @@
 """Blanking on whole models: what one side of a thin wall asks for stays on that side, in the field and in the mesh."""
+import csv
+import math
+import random
 import struct
 import sys
 import unittest
@@ -12,6 +15,60 @@ def triangles(path):
     """Corners of the triangles of a binary STL file."""
     for x in struct.iter_unpack("<12f2x", path.read_bytes()[84:]):
         yield x[3:6], x[6:9], x[9:12]
+
+
+def turned(x, y, z, axis=(1, 0.4, 0.2), angle=0.6):
+    """Of turned_tube in tests/support/make_models.cpp."""
+    size = math.hypot(*axis)
+    k = [a / size for a in axis]
+    along = (1 - math.cos(angle)) * (k[0] * x + k[1] * y + k[2] * z)
+    cross = (k[1] * z - k[2] * y, k[2] * x - k[0] * z, k[0] * y - k[1] * x)
+    return [v * math.cos(angle) + c * math.sin(angle) + along * e for v, c, e in zip((x, y, z), cross, k)]
+
+
+class ThinWall(ToolTest):
+    """A tube whose wall is thinner than the cells, fine inside."""
+
+    FINE = 0.02
+
+    def sizes_at(self, name, points, artifact, *options):
+        (self.folder / "p.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in points))
+        must("st-prolong", artifact, "-o", self.folder / f"{name}.hdf", *options, "--sample", self.folder / "p.csv",
+             "--sample-output", self.folder / "o.csv")
+        return [float(row["length"]) for row in csv.DictReader((self.folder / "o.csv").read_text().splitlines())]
+
+    def setUp(self):
+        super().setUp()
+        self.geometry, self.fine = artifacts_of("turned_tube") / "geometry.hdf", self.folder / "fine.hdf"
+        (self.folder / "fine.toml").write_text(f'[[size]]\nfaces = 4\nlmin = {self.FINE}\nlmax = {self.FINE}\n')
+        must("st-raster", self.geometry, "-o", self.folder / "plain.hdf", "--lmax", "0.1")
+        must("st-raster", self.geometry, "-o", self.fine, "--lmax", "0.1", "--sizes", self.folder / "fine.toml")
+        random.seed(4)
+        # the way around a rim gives the outside no more than its own lengths there
+        places = [(random.uniform(0, 2 * math.pi), random.uniform(-0.5, 0.5)) for _ in range(20000)]
+        self.outside, self.inside = ([turned(r * math.cos(a), r * math.sin(a), z) for a, z in places]
+                                     for r in (1.0, 0.97))
+
+    def check_sides(self, *options):
+        plain = self.sizes_at("plain_sizes", self.outside, self.folder / "plain.hdf")
+        sizes = self.sizes_at("fine_sizes", self.outside + self.inside, self.fine, *options)
+        outside, inside = sizes[:len(plain)], sizes[len(plain):]
+        n_kept = sum(abs(h / p - 1) < 0.05 for h, p in zip(outside, plain))
+        self.assertGreater(n_kept, 0.99 * len(plain))
+        self.assertLess(max(inside), 1.1 * self.FINE)
+
+    def test_the_outside_keeps_its_lengths_in_one_pass(self):
+        self.check_sides()
+
+    def test_the_outside_keeps_its_lengths_in_two_passes(self):
+        must("st-prolong", self.fine, "-o", self.folder / "open.hdf", "--no-blank")
+        must("st-mesh", self.geometry, self.folder / "open.hdf", "-o", self.folder / "patches.hdf")
+        must("st-merge", self.folder / "patches.hdf", "-o", self.folder / "mesh.hdf")
+        self.check_sides("--blank", self.folder / "mesh.hdf")
+
+    def test_without_blanking_the_wall_is_no_barrier(self):
+        sizes = self.sizes_at("fine_sizes", self.outside, self.fine, "--no-blank")
+        self.assertLess(max(sizes), self.FINE + 0.2 * 0.03 + 0.02)
 
 
 class Blanking(ToolTest):

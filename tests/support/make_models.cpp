@@ -128,6 +128,17 @@ TopoDS_Shape tube_with_rod() {
   return with_rod(BRepAlgoAPI_Cut(outer, inner).Shape(), gp_Pnt(8.9, 0, 17), gp_Dir(0, 0, 1), 6);
 }
 
+/// A tube of wall 0.03 and radius 1, 2 long, that lies across the axes.
+TopoDS_Shape turned_tube() {
+  const gp_Ax2 axis(gp_Pnt(0, 0, -1), gp_Dir(0, 0, 1));
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0.4, 0.2)), 0.6);
+  const TopoDS_Shape tube =
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 1, 2).Shape(), BRepPrimAPI_MakeCylinder(axis, 0.97, 2).Shape())
+          .Shape();
+  return BRepBuilderAPI_Transform(tube, turn).Shape();
+}
+
 /// A block with a slot 0.6 wide along an arc of radius 15, open at both ends, that ends 4 above the ground.
 TopoDS_Shape curved_slot() {
   const gp_Ax2 axis(gp_Pnt(20, -5, 4), gp_Dir(0, 0, 1));
@@ -271,6 +282,7 @@ void write_all(const fs::path& dir) {
   write_step(dir / "block_with_hole.step", block_with_hole(), "MM");
   write_brep(dir / "thin_plate.brep", box(100, 60, 0.2));
   write_brep(dir / "tube_with_rod.brep", tube_with_rod());
+  write_brep(dir / "turned_tube.brep", turned_tube());
   write_brep(dir / "plate_with_rod.brep", with_rod(box(100, 60, 0.2), gp_Pnt(47, 30, 1.2), gp_Dir(1, 0, 0), 6));
   write_step(dir / "two_boxes.step", two_boxes_apart(), "MM");
   write_assembly(dir / "assembly.step");
