@@ -35,6 +35,10 @@ class LocalLengths {
   const WingSizes& sizes_;
 };
 
+void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {
+  if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;
+}
+
 class WingRaster {
  public:
   WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
@@ -75,6 +79,8 @@ class WingRaster {
     });
   }
 
+  const std::optional<RaisedLength>& most_raised() const { return most_raised_; }
+
  private:
   struct Place {
     Vec3 x;
@@ -88,9 +94,14 @@ class WingRaster {
   /// Boxes one length apart; `place_at` takes a share of the way.
   template <class PlaceAt>
   void walk(double way, std::int32_t cause, const PlaceAt& place_at) {
+    const double least = sizes_.given.of(cause);
     double share = 0;
     for (int n = 0; n < kMaxBoxes; ++n) {
-      const Place place = place_at(std::min(share, 1.0));
+      Place place = place_at(std::min(share, 1.0));
+      if (place.length < least) {
+        note_raised({place.length, least}, most_raised_);
+        place.length = least;
+      }
       const double step = std::max(place.length / way, 1.0 / kMaxBoxes);
       boxes_.push_back({place.x,
                         static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
@@ -122,12 +133,14 @@ class WingRaster {
   const LiftingSurface& wing_;
   const WingSizes& sizes_;
   std::vector<RasterBox>& boxes_;
+  std::optional<RaisedLength> most_raised_;  // by a rule
 };
 
 }  // namespace
 
-void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::span<const Strip> strips,
-                 std::span<const std::uint8_t> is_left_out, std::vector<RasterBox>& boxes) {
+std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes,
+                                        std::span<const Strip> strips, std::span<const std::uint8_t> is_left_out,
+                                        std::vector<RasterBox>& boxes) {
   const auto is_ruled = [&](EdgeId e) { return is_left_out[e] != 0; };
   const bool has_noses = std::none_of(wing.leading.begin(), wing.leading.end(), is_ruled);
   WingRaster raster(model, wing, sizes, boxes);
@@ -140,6 +153,7 @@ void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes
     if (has_noses && !is_second) raster.add_noses(trailing);
     if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
   }
+  return raster.most_raised();
 }
 
 std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSizes& sizes) {
@@ -148,8 +162,7 @@ std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSi
   for (const TrailingEdge& trailing : wing.trailing)
     for (const ChordStation& s : trailing.stations) {
       if (!s.is_measured) continue;
-      const RaisedLength own{lengths.asked(s.chord), lengths.floor(s.chord)};
-      if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;
+      note_raised({lengths.asked(s.chord), lengths.floor(s.chord)}, most);
     }
   return most;
 }

@@ -15,6 +15,16 @@
 
 namespace st {
 
+/// Least lengths that somebody asked for, model unit; 0: none.
+struct GivenFloors {
+  std::vector<double> face, edge;  ///< [n_faces], [n_edges]; empty: none at all
+
+  double of(std::int32_t cause) const {
+    const std::vector<double>& all = cause_kind(cause) == CauseKind::kEdge ? edge : face;
+    return all.empty() ? 0 : all[static_cast<std::size_t>(cause_id(cause))];
+  }
+};
+
 /// What is asked for.
 struct WingSizes {
   LengthSpec edge_size;       ///< along trailing edges and noses; chord and span are local
@@ -23,18 +33,20 @@ struct WingSizes {
   std::optional<LengthSpec> least;  ///< nothing is finer; nullopt: no floor
   double cell_per_length = 2;       ///< edge of a raster box over its length
   StretchLimits stretch = {};       ///< along edge, nose and base
+  GivenFloors given = {};           ///< by rules: likewise nothing is finer there
 };
-
-/// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
-/// Edges and bases in `is_left_out` ([n_edges] 1: a rule says what they get) are passed over; with one of the leading
-/// edges all noses are. Local. Throws Error(kUsage).
-void raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::span<const Strip> strips,
-                 std::span<const std::uint8_t> is_left_out, std::vector<RasterBox>& boxes);
 
 /// A length that the floor makes larger.
 struct RaisedLength {
   double asked = 0, floor = 0;  ///< model unit
 };
+
+/// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
+/// Edges and bases in `is_left_out` ([n_edges] 1: a rule says what they get) are passed over; with one of the leading
+/// edges all noses are. Where `given` raises lengths, the place where it does so most. Local. Throws Error(kUsage).
+std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes,
+                                        std::span<const Strip> strips, std::span<const std::uint8_t> is_left_out,
+                                        std::vector<RasterBox>& boxes);
 
 /// Where `least` makes lengths along edges and noses of a lifting surface larger than `edge_size`, the station where
 /// it does so most; nullopt: nowhere. Local. Throws Error(kUsage).

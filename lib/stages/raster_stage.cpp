@@ -180,41 +180,33 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
                     o.lmin, o.edge_size, n_raised, surfaces.size(), most.floor, most.asked));
 }
 
-/// Where what noses and trailing edges ask for is below the lmin of a rule.
-void warn_of_rule_floors(const std::vector<SizeRule>& rules, const ModelTables& t, std::span<const WingEdge> wing_edges,
-                         const ModelLimits& limits, std::span<const RasterBox> boxes) {
-  constexpr double kRounding = 0.999;
-  std::vector<std::uint8_t> face_has_floor(t.n_faces(), 0), edge_has_floor(t.n_edges(), 0);
+/// The least lengths that rules give, and --lmin where it is given.
+GivenFloors find_floors(const std::vector<SizeRule>& rules, bool everywhere, const ModelTables& t,
+                        std::span<const WingEdge> wing_edges, const ModelLimits& limits) {
+  GivenFloors floors{std::vector<double>(t.n_faces(), 0), std::vector<double>(t.n_edges(), 0)};
+  const auto set_edge = [&](EdgeId e) {
+    if (limits.edge[e]) floors.edge[e] = limits.edge[e]->min_length;
+  };
+  const auto set_face = [&](FaceId f) {
+    if (limits.face[f]) floors.face[f] = limits.face[f]->min_length;
+    for (const EdgeId e : t.edges_of(f)) set_edge(e);
+  };
+  if (everywhere)
+    for (FaceId f = 0; f < t.n_faces(); ++f) set_face(f);
   for (const SizeRule& rule : rules) {
     if (!rule.lmin) continue;
     const RuleTargets targets = find_targets(rule, t, wing_edges);
-    for (const EdgeId e : targets.edges) edge_has_floor[e] = 1;
-    for (FaceId f = 0; f < t.n_faces(); ++f) {
-      if (rule.has_selection() && !std::binary_search(targets.faces.begin(), targets.faces.end(), f)) continue;
-      face_has_floor[f] = 1;
-      for (const EdgeId e : t.edges_of(f)) edge_has_floor[e] = 1;
-    }
+    for (const EdgeId e : targets.edges) set_edge(e);
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      if (!rule.has_selection() || std::binary_search(targets.faces.begin(), targets.faces.end(), f)) set_face(f);
   }
-  std::size_t n_below = 0;
-  double least = 0;
-  for (const RasterBox& box : boxes) {
-    const auto id = static_cast<std::size_t>(cause_id(box.cause));
-    const bool is_edge = cause_kind(box.cause) == CauseKind::kEdge;
-    if (!(is_edge ? edge_has_floor : face_has_floor)[id]) continue;
-    const std::optional<SamplingLimits>& own = is_edge ? limits.edge[id] : limits.face[id];
-    if (!own || box.length >= kRounding * own->min_length) continue;
-    least = n_below++ == 0 ? box.length : std::min<double>(least, box.length);
-  }
-  if (n_below > 0)
-    log_warning(
-        fmt::format("{} samples of noses and trailing edges are below the lmin of rules, down to {:.4g}: "
-                    "--edge-size asks for them; give a larger --edge-size, or \"none\"",
-                    n_below, least));
+  return floors;
 }
 
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
-void sample_wings(const RasterStageOptions& o, const Model& model, std::span<const Strip> strips, double diagonal,
-                  double max_length, ModelLimits& limits, Wings& wings) {
+void sample_wings(const RasterStageOptions& o, const Model& model, const std::vector<SizeRule>& rules,
+                  std::span<const Strip> strips, double diagonal, double max_length, ModelLimits& limits,
+                  Wings& wings) {
   const std::optional<LengthSpec> size = edge_size(o);
   if (!size || wings.aircraft.wings.empty()) return;
   std::vector<std::uint8_t> is_left_out = limits.edge_is_ruled;
@@ -222,10 +214,57 @@ void sample_wings(const RasterStageOptions& o, const Model& model, std::span<con
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
   sizes.stretch = {o.max_aspect, max_length, radians(o.alpha_deg)};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
+  sizes.given = find_floors(rules, false, model.tables(), wings.edges, limits);
   warn_of_floor(o, wings.aircraft.wings, sizes);
-  for (const LiftingSurface& wing : wings.aircraft.wings)
-    raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
+  std::optional<RaisedLength> most;
+  for (const LiftingSurface& wing : wings.aircraft.wings) {
+    const std::optional<RaisedLength> own = raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
+    if (own && (!most || own->floor * most->asked > most->floor * own->asked)) most = own;
+  }
+  if (most)
+    log_warning(
+        fmt::format("the lmin of a rule is larger than what --edge-size {} asks for: {:.4g} instead of {:.4g} "
+                    "where it matters most; give a smaller lmin there, or leave it out",
+                    o.edge_size, most->floor, most->asked));
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
+}
+
+/// Samples that are shorter than the least length given for them.
+struct BelowFloor {
+  std::size_t n = 0;
+  float least = std::numeric_limits<float>::infinity();
+  std::vector<Vec3> places;  ///< the first
+};
+
+BelowFloor find_below_floor(std::span<const LengthSample> samples, const GivenFloors& floors) {
+  constexpr double kRounding = 0.999;
+  constexpr std::size_t kPlaces = 3;
+  BelowFloor below;
+  for (const LengthSample& s : samples) {
+    if (s.length >= kRounding * floors.of(s.cause)) continue;
+    ++below.n;
+    below.least = std::min(below.least, s.length);
+    if (below.places.size() < kPlaces) below.places.push_back(s.xyz);
+  }
+  return below;
+}
+
+void report_below_floor(const BelowFloor& below, std::size_t n_samples) {
+  if (below.n == 0) return;
+  std::string places;
+  for (const Vec3 x : below.places)
+    places += fmt::format("{}({:.5g}, {:.5g}, {:.5g})", places.empty() ? "" : ", ", x.x, x.y, x.z);
+  log_report(
+      fmt::format("  {} of {} samples are below the lmin given for them, down to {:.4g}, on strips narrower "
+                  "than it: near {}{}",
+                  below.n, n_samples, below.least, places, below.n > below.places.size() ? ", ..." : ""));
+}
+
+nlohmann::ordered_json below_floor_json(const BelowFloor& below) {
+  if (below.n == 0) return nullptr;
+  nlohmann::ordered_json places = nlohmann::ordered_json::array();
+  for (const Vec3 x : below.places) places.push_back({x.x, x.y, x.z});
+  return {{"samples", below.n}, {"least", below.least}, {"places", places}};
 }
 
 /// Loops of the faces that this rank sampled: they are asked for twice.
@@ -641,8 +680,7 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
-  sample_wings(o, model, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);
-  warn_of_rule_floors(asked.rules, model.tables(), wings.edges, limits, wings.boxes);
+  sample_wings(o, model, asked.rules, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);
   return limits;
 }
 
@@ -660,7 +698,7 @@ ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts,
                        std::size_t n_rules, const Wings& wings, const std::vector<GroupSizes>& groups,
-                       const PhaseTimes& times) {
+                       const BelowFloor& below, const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
@@ -684,6 +722,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                                   {"gap_samples", counts.n_gap_boxes},
                                                   {"not_sampled", counts.n_failures},
                                                   {"beyond_depth", depth_json(counts.depth)},
+                                                  {"below_lmin", below_floor_json(below)},
                                                   {"groups", sampled_json(groups, a.cause_names())},
                                                   {"hash", a.header.content_hash},
                                                   {"seconds", seconds},
@@ -779,7 +818,10 @@ class RasterRun {
     report_wings(o_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
     for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
-    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
+    const BelowFloor below = find_below_floor(
+        artifact_.samples, find_floors(rules_, !o_.lmin.empty(), model_.tables(), wings_.edges, limits_));
+    report_below_floor(below, artifact_.samples.size());
+    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, below, times_);
   }
 
   const RasterStageOptions& o_;

@@ -157,6 +157,30 @@ class LiftingSurfaces(ToolTest):
         for options in (["--lmin", 0.05], ["--lmin", 0.1, "--edge-size", "1%chord"], []):
             self.assertNotIn("warning", must("st-raster", g, "-o", self.folder / "r.hdf", *options).err)
 
+    def test_the_smallest_length_of_a_rule_holds_as_that_of_the_option_does(self):
+        g, rule = self.folder / "g.hdf", self.folder / "rule.toml"
+        must("st-import", MODELS / "wing_with_flap.step", "-o", g)
+        rule.write_text("[[size]]\nlmin = 0.1\n")
+        runs = [must("st-raster", g, "-o", self.folder / "r.hdf", *options, "--json")
+                for options in (["--lmin", 0.1], ["--sizes", rule])]
+        said = [{key: run.json()[key] for key in ("samples", "cells", "groups", "below_lmin")} for run in runs]
+        self.assertEqual(*said)
+        self.assertIn("the lmin of a rule is larger than what --edge-size 0.3%chord asks for: 0.1 instead of 0.05",
+                      runs[1].err)
+
+    def test_strips_below_a_smallest_length_are_counted(self):
+        g = self.folder / "g.hdf"
+        must("st-import", MODELS / "thin_plate.brep", "-o", g)
+        run = must("st-raster", g, "-o", self.folder / "r.hdf", "--lmin", 0.3, "--json")
+        below = run.json()["below_lmin"]
+        self.assertAlmostEqual(below["least"], 1.25 * 0.2, delta=1e-3)  # the sides of the plate are 0.2 wide
+        self.assertEqual(len(below["places"]), 3)
+        for place in below["places"]:
+            self.assertAlmostEqual(place[2], 0.1, delta=1e-3)
+        self.assertIn(f"{below['samples']} of {run.json()['samples']} samples are below the lmin given for them",
+                      run.err)
+        self.assertIsNone(must("st-raster", g, "-o", self.folder / "r.hdf", "--json").json()["below_lmin"])
+
     def test_do_not_depend_on_the_number_of_ranks(self):
         self.assertEqual(len({self.sizes("--np", n)[0]["hash"] for n in (1, 2, 3)}), 1)
 
