@@ -140,6 +140,13 @@ length = 0.01
             self.assertEqual(self.prolong(self.folder / "plain.hdf", "again.hdf", "--sources", self.sources), fresh)
             self.assertEqual(self.prolong(self.folder / "again.hdf", "none.hdf"), plain)
 
+    def test_several_files_may_follow_one_flag(self):
+        (self.folder / "wake.toml").write_text(SOURCE)
+        both = [self.sources, self.folder / "wake.toml"]
+        apart = self.prolong(self.raster, "apart.hdf", "--sources", both[0], "--sources", both[1])
+        self.assertEqual(self.prolong(self.raster, "both.hdf", "--sources", *both), apart)
+        must("st-prolong", "--sources", both[0], self.raster, "-o", self.folder / "one.hdf")  # the raster comes last
+
     def test_what_the_octree_tells_is_not_changed_silently(self):
         for options in (["--slope", "0.1"], ["--no-blank"], ["--slope-of", "side=0.1"]):
             self.expect_error(USAGE, "st-prolong", self.sizing, "-o", self.folder / "s.hdf", *options,

@@ -200,6 +200,26 @@ void ToolMain::optional_input(const std::string& flag, std::string& path, const 
 void ToolMain::optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
   input_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
   file_options_.push_back(input_options_.back());
+  repeated_flags_.push_back(flag);
+}
+
+/// The arguments, the last one first; "--sources A B" becomes "--sources A --sources B". Only where the positional
+/// arguments stand before: after them B may be one.
+std::vector<std::string> ToolMain::reversed_arguments(int argc, char** argv) const {
+  std::vector<std::string> arguments;
+  const auto is_flag = [](const std::string& a) { return a.starts_with("-"); };
+  const bool is_led = argc > 1 && !is_flag(argv[1]);
+  for (int i = 1; i < argc; ++i) {
+    const std::string flag = argv[i];
+    arguments.push_back(flag);
+    if (!is_led || std::find(repeated_flags_.begin(), repeated_flags_.end(), flag) == repeated_flags_.end()) continue;
+    for (bool is_first = true; i + 1 < argc && !is_flag(argv[i + 1]); is_first = false) {
+      if (!is_first) arguments.push_back(flag);
+      arguments.push_back(argv[++i]);
+    }
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
 }
 
 void ToolMain::optional_array(const std::string& flag, std::string& value, const std::string& help) {
@@ -292,7 +312,8 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   if (lists_inputs)
     for (CLI::Option* option : app_.get_options()) option->required(false);
   try {
-    app_.parse(argc, argv);
+    std::vector<std::string> arguments = reversed_arguments(argc, argv);
+    app_.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     return app_.help();
   } catch (const CLI::CallForVersion& e) {

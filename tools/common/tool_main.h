@@ -37,7 +37,7 @@ class ToolMain {
   void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
   /// An optional input file; `flag` with its dashes, as in all functions below.
   void optional_input(const std::string& flag, std::string& path, const std::string& help);
-  /// The same, repeatable.
+  /// The same, repeatable, and with several files after one flag where the positional inputs stand first.
   void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
   /// An optional array in an input file: "FILE:ARRAY".
   void optional_array(const std::string& flag, std::string& value, const std::string& help);
@@ -55,7 +55,7 @@ class ToolMain {
   void unit(const std::string& flag, std::string& value, const std::string& help);
   /// Free text, shown as `type` in --help.
   void text(const std::string& flag, std::string& value, const std::string& type, const std::string& help);
-  /// The same, repeatable.
+  /// The same, repeatable, and with several files after one flag where the positional inputs stand first.
   void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
              const std::string& help);
   /// A number, bound to the field that `option` describes: double, int or std::optional of them.
@@ -90,6 +90,7 @@ class ToolMain {
   /// Command line, then option file. Returns the text of --help, --version or --print-... when asked for. Throws
   /// Error(kUsage).
   std::optional<std::string> parse(int argc, char** argv);
+  std::vector<std::string> reversed_arguments(int argc, char** argv) const;
   struct OutputPaths {
     std::vector<std::string> named, defaults;
   };
@@ -127,6 +128,7 @@ class ToolMain {
   bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false, replaces_own_ = false;
   std::vector<CLI::Option*> input_options_, output_options_;
   std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage
+  std::vector<std::string> repeated_flags_;       // that may be followed by several files
 };
 
 }  // namespace st
