@@ -9,7 +9,7 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2;
+constexpr double kBackgroundSlope = 0.2;
 
 BackgroundMesh one_tet(const std::array<double, 4>& lengths) {
   BackgroundMesh mesh;
@@ -43,18 +43,18 @@ BackgroundMesh cube_of_tets(int n, const Length& length) {
   return mesh;
 }
 
-Vec3 random_point(std::mt19937& random, double lo, double hi) {
+Vec3 random_background_point(std::mt19937& random, double lo, double hi) {
   std::uniform_real_distribution<double> uniform(lo, hi);
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-double size_at(const SizeField& field, Vec3 x) { return field.size(x); }
+double background_at(const SizeField& field, Vec3 x) { return field.size(x); }
 
 TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   BackgroundMesh mesh = one_tet({});
   const Vec3 t = normalized(Vec3{1, 2, 0});
   mesh.node_size = {{0.1, 0.8, t}, {0.1, 0.4, -t}, {0.2, 0.2, {}}, {0.1, 0.6, t}};
-  const auto field = make_background(mesh, kSlope);
+  const auto field = make_background(mesh, kBackgroundSlope);
   int hint = 0;
   const LocalSize first = field->local({0, 0, 0}, hint), middle = field->local({0.25, 0.25, 0.25}, hint);
   EXPECT_NEAR(first.in(t), 0.8, 1e-9);
@@ -62,31 +62,32 @@ TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   EXPECT_NEAR(middle.length, 0.125, 1e-12);
   EXPECT_NEAR(field->max_aspect(), 8, 1e-9);
   EXPECT_EQ(remove_stretch(mesh), 3);
-  EXPECT_EQ(make_background(mesh, kSlope)->local({0, 0, 0}, hint).in(t), 0.1);
+  EXPECT_EQ(make_background(mesh, kBackgroundSlope)->local({0, 0, 0}, hint).in(t), 0.1);
 }
 
 TEST(BackgroundMesh, passes_over_flat_tetrahedra) {
   BackgroundMesh mesh = one_tet({0.1, 0.12, 0.13, 0.14});
   mesh.tets.push_back({0, 1, 2, 2});
-  EXPECT_NEAR(size_at(*make_background(mesh, kSlope), {0.2, 0.3, 0.1}), 0.1 + 0.004 + 0.009 + 0.004, 1e-15);
+  EXPECT_NEAR(background_at(*make_background(mesh, kBackgroundSlope), {0.2, 0.3, 0.1}), 0.1 + 0.004 + 0.009 + 0.004,
+              1e-15);
 }
 
 TEST(BackgroundMesh, is_reproduced_to_rounding_where_it_is_flatter_than_the_slope) {
   const auto linear = [](Vec3 x) { return 0.1 + 0.11 * x.x - 0.03 * x.y + 0.13 * x.z; };
   BackgroundMesh mesh = cube_of_tets(5, linear);
-  EXPECT_EQ(limit_growth(kSlope, mesh), 0);
-  const auto field = make_background(mesh, kSlope);
+  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
+  const auto field = make_background(mesh, kBackgroundSlope);
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 x = random_point(random, 0, 1);
-    ASSERT_NEAR(size_at(*field, x) / linear(x), 1, 1e-9);
+    const Vec3 x = random_background_point(random, 0, 1);
+    ASSERT_NEAR(background_at(*field, x) / linear(x), 1, 1e-9);
   }
 }
 
 TEST(BackgroundMesh, grows_from_its_border_outside) {
-  const auto field = make_background(cube_of_tets(3, [](Vec3) { return 0.1; }), kSlope);
-  EXPECT_NEAR(size_at(*field, {2, 0.5, 0.3}), 0.1 + kSlope, 1e-12);
-  EXPECT_NEAR(size_at(*field, {-3, -4, 0.3}), 0.1 + 5 * kSlope, 1e-12);
+  const auto field = make_background(cube_of_tets(3, [](Vec3) { return 0.1; }), kBackgroundSlope);
+  EXPECT_NEAR(background_at(*field, {2, 0.5, 0.3}), 0.1 + kBackgroundSlope, 1e-12);
+  EXPECT_NEAR(background_at(*field, {-3, -4, 0.3}), 0.1 + 5 * kBackgroundSlope, 1e-12);
 }
 
 TEST(BackgroundMesh, of_any_lengths_is_limited_to_the_slope_and_keeps_its_least) {
@@ -95,26 +96,26 @@ TEST(BackgroundMesh, of_any_lengths_is_limited_to_the_slope_and_keeps_its_least)
   BackgroundMesh mesh = cube_of_tets(6, [&](Vec3) { return uniform(random); });
   const BackgroundMesh before = mesh;
   const auto shorter = [](const LocalSize& a, const LocalSize& b) { return a.length < b.length; };
-  EXPECT_GT(limit_growth(kSlope, mesh), 100);
+  EXPECT_GT(limit_growth(kBackgroundSlope, mesh), 100);
   EXPECT_EQ(std::min_element(mesh.node_size.begin(), mesh.node_size.end(), shorter)->length,
             std::min_element(before.node_size.begin(), before.node_size.end(), shorter)->length);
   for (std::size_t i = 0; i < mesh.node_size.size(); ++i)
     ASSERT_LE(mesh.node_size[i].length, before.node_size[i].length);
-  const auto field = make_background(mesh, kSlope);
+  const auto field = make_background(mesh, kBackgroundSlope);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 a = random_point(random, -0.2, 1.2), b = a + 0.2 * random_point(random, -1, 1);
-    ASSERT_LE(size_at(*field, a) - size_at(*field, b), kSlope * distance(a, b) * (1 + 1e-6));
+    const Vec3 a = random_background_point(random, -0.2, 1.2), b = a + 0.2 * random_background_point(random, -1, 1);
+    ASSERT_LE(background_at(*field, a) - background_at(*field, b), kBackgroundSlope * distance(a, b) * (1 + 1e-6));
   }
-  EXPECT_EQ(limit_growth(kSlope, mesh), 0);
+  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
 }
 
 TEST(BackgroundMesh, says_below_a_bound_what_it_says_without) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(0.1, 0.12);
-  const auto field = make_background(cube_of_tets(4, [&](Vec3) { return uniform(random); }), kSlope);
+  const auto field = make_background(cube_of_tets(4, [&](Vec3) { return uniform(random); }), kBackgroundSlope);
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 x = random_point(random, -1, 2);
-    const double h = size_at(*field, x);
+    const Vec3 x = random_background_point(random, -1, 2);
+    const double h = background_at(*field, x);
     ASSERT_EQ(field->size_below(x, 0.15), std::min(h, 0.15));
   }
 }

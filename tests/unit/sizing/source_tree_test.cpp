@@ -15,9 +15,9 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTreeSlope = 0.2, kEndless = std::numeric_limits<double>::infinity();
 
-Vec3 random_point(std::mt19937& random, double lo = -0.5, double hi = 1.5) {
+Vec3 random_place(std::mt19937& random, double lo = -0.5, double hi = 1.5) {
   std::uniform_real_distribution<double> uniform(lo, hi);
   return {uniform(random), uniform(random), uniform(random)};
 }
@@ -30,8 +30,8 @@ std::vector<SourceSpec> random_sources(int n, unsigned seed = 1) {
   for (int i = 0; i < n; ++i) {
     SourceSpec s;
     s.kind = static_cast<SourceKind>(i % 7);
-    const Vec3 at = random_point(random, 0, 1);
-    for (Vec3& p : s.point) p = at + 0.2 * random_point(random, -1, 1);
+    const Vec3 at = random_place(random, 0, 1);
+    for (Vec3& p : s.point) p = at + 0.2 * random_place(random, -1, 1);
     for (SourceSpacing& d : s.spacing)
       d = {0.01 + 0.05 * uniform(random), i % 3 ? 0.1 * uniform(random) : 0, i % 2 ? 0.4 * uniform(random) : 0};
     s.half_axis = {{{0.1, 0.05, 0}, {-0.05, 0.1, 0}, {0, 0, 0.08}}};
@@ -45,23 +45,23 @@ SourceTree tree_of(const std::vector<SourceSpec>& sources) {
   std::vector<SourceTree::Entry> entries;
   for (const SourceSpec& s : sources)
     entries.push_back(
-        {make_source(s, kSlope), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(entries.size()))});
+        {make_source(s, kTreeSlope), pack_cause(CauseKind::kSource, static_cast<std::int32_t>(entries.size()))});
   return SourceTree(std::move(entries));
 }
 
-double size_at(const SizeField& field, Vec3 x) { return field.size(x); }
+double asked_at(const SizeField& field, Vec3 x) { return field.size(x); }
 
 TEST(SourceTree, takes_the_smallest_of_all_and_names_it) {
   const SourceTree tree = tree_of(random_sources(200));
   std::mt19937 random(7);
   for (int i = 0; i < 3000; ++i) {
-    const Vec3 x = random_point(random);
-    double least = kInfinity;
+    const Vec3 x = random_place(random);
+    double least = kEndless;
     std::int32_t first = kNone;
     for (std::int32_t k = 0; k < 200; ++k)
-      if (const double h = size_at(*tree.entry(k).source, x); h < least) least = h, first = k;
+      if (const double h = asked_at(*tree.entry(k).source, x); h < least) least = h, first = k;
     std::int32_t winner = kNone;
-    ASSERT_EQ(tree.size_below(x, kInfinity, &winner), least);
+    ASSERT_EQ(tree.size_below(x, kEndless, &winner), least);
     ASSERT_EQ(winner, first);
     ASSERT_EQ(tree.size_below(x, 0.5 * least, &winner), 0.5 * least);
     ASSERT_EQ(winner, kNone);
@@ -73,10 +73,10 @@ TEST(SourceTree, bounds_what_is_asked_for_nearby) {
   const SourceTree tree = tree_of(random_sources(60, 3));
   std::mt19937 random(8);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 x = random_point(random);
-    const double radius = 0.001 * std::pow(300, random_point(random, 0, 1).x), bound = tree.least_near(x, radius, 0.3);
+    const Vec3 x = random_place(random);
+    const double radius = 0.001 * std::pow(300, random_place(random, 0, 1).x), bound = tree.least_near(x, radius, 0.3);
     for (int k = 0; k < 20; ++k) {
-      const Vec3 d = random_point(random, -1, 1);
+      const Vec3 d = random_place(random, -1, 1);
       const double share = std::min(1.0, 1 / norm(d));  // moved into the ball
       ASSERT_GE(tree.size_below(x + radius * share * d, 0.3), bound * (1 - 1e-6));
     }
@@ -87,10 +87,10 @@ TEST(SourceTree, bounds_what_is_asked_for_nearby) {
 TEST(SourceTree, grows_by_the_slope_at_most_from_sources_of_any_kind) {
   std::mt19937 random(9);
   for (const SourceSpec& spec : random_sources(42, 5)) {
-    const auto source = make_source(spec, kSlope);
+    const auto source = make_source(spec, kTreeSlope);
     for (int i = 0; i < 500; ++i) {
-      const Vec3 a = random_point(random), b = a + 0.1 * random_point(random, -1, 1);
-      ASSERT_LE(std::abs(size_at(*source, a) - size_at(*source, b)), kSlope * distance(a, b) * (1 + 1e-4) + 1e-6);
+      const Vec3 a = random_place(random), b = a + 0.1 * random_place(random, -1, 1);
+      ASSERT_LE(std::abs(asked_at(*source, a) - asked_at(*source, b)), kTreeSlope * distance(a, b) * (1 + 1e-4) + 1e-6);
     }
   }
 }
@@ -100,20 +100,20 @@ TEST(Source, asks_for_the_least_over_all_its_points) {
   std::mt19937 random(10);
   for (const SourceSpec& spec : random_sources(70, 6)) {
     if (spec.kind != SourceKind::kLine) continue;
-    const auto source = make_source(spec, kSlope);
+    const auto source = make_source(spec, kTreeSlope);
     for (int i = 0; i < 100; ++i) {
-      const Vec3 x = random_point(random);
-      double least = kInfinity;
+      const Vec3 x = random_place(random);
+      double least = kEndless;
       for (int k = 0; k <= 2000; ++k) {
         const double t = k / 2000.0;
         const auto mix = [t](double a, double b) { return a + t * (b - a); };
         const SourceSpacing &a = spec.spacing[0], &b = spec.spacing[1];
         const SourceSpacing at{mix(a.length, b.length), mix(a.radius, b.radius), mix(a.doubling, b.doubling)};
         const Vec3 p = spec.point[0] + t * (spec.point[1] - spec.point[0]);
-        least = std::min(least, grown_length(at, kSlope, distance(x, p)));
+        least = std::min(least, grown_length(at, kTreeSlope, distance(x, p)));
       }
-      ASSERT_NEAR(size_at(*source, x), least, 3e-4 * least);
-      ASSERT_LE(size_at(*source, x), least * (1 + 1e-9));
+      ASSERT_NEAR(asked_at(*source, x), least, 3e-4 * least);
+      ASSERT_LE(asked_at(*source, x), least * (1 + 1e-9));
     }
   }
 }
@@ -121,24 +121,24 @@ TEST(Source, asks_for_the_least_over_all_its_points) {
 /// The two methods of the paper are all that a new type of source needs.
 class WallSource final : public SizeSource {
  public:
-  WallSource() : SizeSource(kSlope) {}
+  WallSource() : SizeSource(kTreeSlope) {}
   using SizeSource::size;
   double min_size() const override { return 0.03; }
-  double size(Vec3 x, int&) const override { return 0.03 + kSlope * std::abs(x.z - 0.5); }
+  double size(Vec3 x, int&) const override { return 0.03 + kTreeSlope * std::abs(x.z - 0.5); }
 };
 
 TEST(SourceTree, takes_a_source_of_another_type) {
   std::vector<SourceTree::Entry> entries;
-  for (const SourceSpec& s : random_sources(20)) entries.push_back({make_source(s, kSlope), 4});
+  for (const SourceSpec& s : random_sources(20)) entries.push_back({make_source(s, kTreeSlope), 4});
   entries.push_back({std::make_unique<WallSource>(), 40});
   const SourceTree with(std::move(entries)), without = tree_of(random_sources(20));
   std::mt19937 random(11);
   int n_walls = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 x = random_point(random, -5, 5);
+    const Vec3 x = random_place(random, -5, 5);
     std::int32_t winner = kNone;
-    const double wall = 0.03 + kSlope * std::abs(x.z - 0.5), other = without.size_below(x, kInfinity);
-    ASSERT_EQ(with.size_below(x, kInfinity, &winner), std::min(wall, other));
+    const double wall = 0.03 + kTreeSlope * std::abs(x.z - 0.5), other = without.size_below(x, kEndless);
+    ASSERT_EQ(with.size_below(x, kEndless, &winner), std::min(wall, other));
     n_walls += winner == 20;
   }
   EXPECT_GT(n_walls, 50);
@@ -174,34 +174,34 @@ TEST(SourceTree, knows_where_a_length_comes_from) {
     const SourceTree tree = tree_of({point});
     EXPECT_LT(distance(tree.origin(0, {0.9, 0.1, 0.8}), point.point[0]), spacing.radius + 1e-3);
   }
-  EXPECT_NEAR(norm(tree_of({point}).gradient(0, {5, 5, 5})), kSlope, 1e-6);
+  EXPECT_NEAR(norm(tree_of({point}).gradient(0, {5, 5, 5})), kTreeSlope, 1e-6);
 }
 
 /// Sources count in the field exactly and everywhere: beside its cells, also outside the root cube.
 TEST(OctreeField, takes_the_smaller_of_octree_and_sources_everywhere) {
   const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(500));
   const ProlongedLengths lengths =
-      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kSlope, 0.1});
+      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kTreeSlope, 0.1});
   const SourceTree tree = tree_of(random_sources(100));
-  OctreeFieldData data{raster.shape.view(), lengths.cells, lengths.cause, kSlope, 3};
+  OctreeFieldData data{raster.shape.view(), lengths.cells, lengths.cause, kTreeSlope, 3};
   const OctreeField plain(data, nullptr);
   data.sources = &tree;
   const OctreeField field(data, nullptr);
   std::mt19937 random(12);
   int n_sources = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 x = random_point(random);
-    const double other = size_at(plain, x), asked = 3 * tree.size_below(x, kInfinity);
-    ASSERT_DOUBLE_EQ(size_at(field, x), std::min(other, asked));
+    const Vec3 x = random_place(random);
+    const double other = asked_at(plain, x), asked = 3 * tree.size_below(x, kEndless);
+    ASSERT_DOUBLE_EQ(asked_at(field, x), std::min(other, asked));
     Vec3 gradient;
     std::int32_t cause = kNone;
     int hint = 0;
-    ASSERT_EQ(field.size_and_gradient(x, hint, gradient, cause), size_at(field, x));
+    ASSERT_EQ(field.size_and_gradient(x, hint, gradient, cause), asked_at(field, x));
     n_sources += asked < other;
     if (asked < other) {
       ASSERT_EQ(cause_kind(cause), CauseKind::kSource);
       ASSERT_EQ(field.explain(x).cause, cause);
-      ASSERT_LE(norm(gradient), 3 * kSlope * (1 + 1e-3));
+      ASSERT_LE(norm(gradient), 3 * kTreeSlope * (1 + 1e-3));
     }
   }
   EXPECT_GT(n_sources, 500);
