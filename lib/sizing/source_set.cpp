@@ -1,10 +1,21 @@
 #include "sizing/source_set.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "sizing/octree.h"
 
 namespace st {
+
+double SourceSet::min_size() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SourceSpec& s : sources)
+    for (int k = 0; k < n_spacings(s.kind); ++k) least = std::min(least, s.spacing[k].length);
+  if (!background.tets.empty())
+    for (const LocalSize& s : background.node_size) least = std::min(least, s.length);
+  return least;
+}
 
 std::shared_ptr<const SourceTree> SourceSet::tree() const {
   if (is_empty()) return nullptr;

@@ -16,6 +16,8 @@ struct SourceSet {
   double slope = 0;                 ///< by which their lengths grow, > 0 where there are any
 
   bool is_empty() const { return sources.empty() && background.tets.empty(); }
+  /// Smallest length that any of them asks for; infinity where it is empty. That of the tree, without making one.
+  double min_size() const;
   /// Null where it is empty.
   std::shared_ptr<const SourceTree> tree() const;
 };

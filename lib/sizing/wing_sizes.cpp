@@ -35,10 +35,6 @@ class LocalLengths {
   const WingSizes& sizes_;
 };
 
-void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {
-  if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;
-}
-
 class WingRaster {
  public:
   WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
@@ -137,6 +133,10 @@ class WingRaster {
 };
 
 }  // namespace
+
+void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {
+  if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;
+}
 
 std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes,
                                         std::span<const Strip> strips, std::span<const std::uint8_t> is_left_out,

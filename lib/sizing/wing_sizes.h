@@ -41,6 +41,9 @@ struct RaisedLength {
   double asked = 0, floor = 0;  ///< model unit
 };
 
+/// `most` becomes `own` where that is raised, and by the larger factor.
+void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most);
+
 /// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
 /// Edges and bases in `is_left_out` ([n_edges] 1: a rule says what they get) are passed over; with one of the leading
 /// edges all noses are. Where `given` raises lengths, the place where it does so most. Local. Throws Error(kUsage).

@@ -349,10 +349,8 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
       std::minmax_element(sizing.lengths.cells.begin(), sizing.lengths.cells.end(),
                           [](const CellLength& a, const CellLength& b) { return a.at_centre() < b.at_centre(); });
   const double scale = sizing.scale * sizing.frame.scale;
-  const auto tree = sizing.sources.tree();
-  const double least = tree ? tree->min_size() : smallest->at_centre();
-  const double lo = scale * std::min<double>(smallest->at_centre(), least), hi = scale * largest->at_centre(),
-               n = expected_triangles(sizing.face_weight);
+  const double lo = scale * std::min<double>(smallest->at_centre(), sizing.sources.min_size()),
+               hi = scale * largest->at_centre(), n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
   const std::string sources =
       sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());

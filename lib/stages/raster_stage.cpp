@@ -166,18 +166,18 @@ struct Wings {
 /// Where --lmin undoes --edge-size.
 void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface>& surfaces, const WingSizes& sizes) {
   std::size_t n_raised = 0;
-  RaisedLength most{1, 0};
+  std::optional<RaisedLength> most;
   for (const LiftingSurface& wing : surfaces) {
     const std::optional<RaisedLength> own = most_raised(wing, sizes);
     if (!own) continue;
     ++n_raised;
-    if (own->floor * most.asked > most.floor * own->asked) most = *own;
+    note_raised(*own, most);
   }
-  if (n_raised > 0)
+  if (most)
     log_warning(
         fmt::format("--lmin {} is larger than --edge-size {} on {} of {} lifting surfaces: {:.4g} instead of {:.4g} "
                     "where it matters most; give a smaller --lmin, or leave it out",
-                    o.lmin, o.edge_size, n_raised, surfaces.size(), most.floor, most.asked));
+                    o.lmin, o.edge_size, n_raised, surfaces.size(), most->floor, most->asked));
 }
 
 /// The least lengths that rules give, and --lmin where it is given.
@@ -219,7 +219,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   std::optional<RaisedLength> most;
   for (const LiftingSurface& wing : wings.aircraft.wings) {
     const std::optional<RaisedLength> own = raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
-    if (own && (!most || own->floor * most->asked > most->floor * own->asked)) most = own;
+    if (own) note_raised(*own, most);
   }
   if (most)
     log_warning(

@@ -665,7 +665,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   double smallest = sizing.numbers.far_length;
   for (const CellLength& c : sizing.lengths.cells) smallest = std::min<double>(smallest, c.at_centre());
   for (const Cone& c : sizing.cones.cone) smallest = std::min<double>(smallest, c.length);
-  if (const auto tree = sizing.sources.tree()) smallest = std::min(smallest, tree->min_size());
+  smallest = std::min(smallest, sizing.sources.min_size());
   file.set_attribute(kSizing, "slope", sizing.slope);
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);

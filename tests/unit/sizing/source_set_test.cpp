@@ -29,6 +29,7 @@ TEST(SourceSet, makes_one_tree_of_sources_and_background_with_their_causes) {
   EXPECT_EQ(cause_at({0.1, 5.1, 0.1}), pack_cause(CauseKind::kOther, 0));
   EXPECT_EQ(cause_at({99, 0, 0}), kNone);
   EXPECT_EQ(tree->min_size(), 0.1);
+  EXPECT_EQ(set.min_size(), 0.1);
 }
 
 }  // namespace
