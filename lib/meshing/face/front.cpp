@@ -20,14 +20,14 @@ constexpr int kPrev[3] = {2, 0, 1};
 
 // Rules: docs/design/kernel.md; where each number comes from: docs/design/heuristics.md.
 constexpr double kFinishedRadius = 0.68;  // circumradius over requested length; equilateral: 0.577
-constexpr double kNearNode = 0.65;        // of the side: a new node nearer than this to another is not made
+constexpr double kNearNode = 0.76;        // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;     // of the side: nor nearer than this to a boundary segment
-constexpr double kGrowth = 1.25;          // size of a new node over its base side
-constexpr double kVeryLong = 1.7;         // times the size: an edge so long is split even closer to other nodes
+constexpr double kGrowth = 1.4;           // size of a new node over its base side
+constexpr double kVeryLong = 1.5;         // times the size: an edge so long is split even closer to other nodes
 constexpr double kCloseSplit = 0.55;      // the distances kept then
 constexpr double kShortBase = 0.8;  // of the size at its ends: a shorter base does not hold back the growth any more
 constexpr double kTurningFloor = 0.25;  // of the requested length: turning shortens sides no further
-constexpr double kTooLarge = 0.95;      // circumradius over requested length that is split when the front has ended
+constexpr double kTooLarge = 0.80;      // circumradius over requested length that is split when the front has ended
 
 constexpr double kRowRadius = 0.9;  // circumradius over requested length where sizes are stretched; square: 0.707
 constexpr double kRowMiss = 0.003;  // of its length, by which a point of a row may miss its place
@@ -420,7 +420,7 @@ class Front {
         p.p = attempt == 0 ? middle : centre;
         w_.evaluate(p);
         w_.ask_sizes(p);
-        if (insert(p, i, closeness * r, h * 1.25)) return true;
+        if (insert(p, i, closeness * r, kGrowth * h)) return true;
       }
     return false;
   }

@@ -37,6 +37,10 @@ struct FaceWork {
   /// for each triangle it is compiled twice: where no sizes are stretched, the terms for that cost nothing.
   template <bool kStretched>
   double edge_length2(std::int32_t a, std::int32_t b) const;
+  /// Along the surface from a to b, by chords: the derivatives at the ends do not tell it, as at a boundary the
+  /// parametrisation may be ten times as fast as a little inside.
+  template <bool kStretched>
+  double way_along(const MeshNode& a, const MeshNode& b) const;
   /// Square of the circumradius of triangle t in space, from the squares of its edges v0-v1, v1-v2, v2-v0; large where
   /// it does not resolve the surface (seam twins, sheets).
   template <bool kStretched>
@@ -55,7 +59,27 @@ double FaceWork::edge_length2(std::int32_t ia, std::int32_t ib) const {
   const double chord2 = mean_length2<kStretched>(b.x - a.x, a, b);
   const Vec2 e = 0.5 * (b.p - a.p);
   const double along2 = mean_length2<kStretched>(e.x * (a.du + b.du) + e.y * (a.dv + b.dv), a, b);
-  return along2 > 4 * chord2 && !are_one_pole(a, b) ? along2 : chord2;
+  if (!(along2 > 4 * chord2) || are_one_pole(a, b)) return chord2;
+  const double way = way_along<kStretched>(a, b);
+  return way * way > 4 * chord2 ? way * way : chord2;
+}
+
+template <bool kStretched>
+double FaceWork::way_along(const MeshNode& a, const MeshNode& b) const {
+  constexpr int kChords = 4;
+  double way = 0;
+  MeshNode from = a, to = b;
+  for (int i = 1; i <= kChords; ++i) {
+    to.p = a.p + static_cast<double>(i) / kChords * (b.p - a.p);
+    if (i < kChords) {
+      evaluate(to);
+    } else {
+      to.x = b.x;
+    }
+    way += std::sqrt(mean_length2<kStretched>(to.x - from.x, a, b));
+    from.x = to.x;
+  }
+  return way;
 }
 
 template <bool kStretched>

@@ -65,7 +65,7 @@ TEST_P(FrontOnFace, spaces_its_nodes_as_a_graded_field_asks) {
   advance_front(p.work);
   const FaceMesh mesh = p.mesh();
   const MeshView view{face.boundary, mesh};
-  EXPECT_GE(view.conformity(field), 0.85);
+  EXPECT_GE(view.conformity(field), 0.91);
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
     const std::int32_t a = mesh.corners[i], b = mesh.corners[i % 3 == 2 ? i - 2 : i + 1];
     if (std::max(a, b) < view.n_boundary()) continue;
@@ -203,7 +203,7 @@ TEST(Front, makes_rings_of_three_where_a_face_closes_on_itself_with_little_room)
 }
 
 TEST(Front, grows_from_a_short_side_layer_by_layer) {
-  // a side of 0.1 in a field of 5: the next nodes are no more than a quarter farther than their base
+  // a side of 0.1 in a field of 5: the next nodes are no more than 1.4 times as far as their base is long
   std::vector<Vec2> loop;
   for (int i = 0; i < 100; ++i) loop.push_back({0.1 * i, 0});
   for (const Vec2 corner : {Vec2{10, 0}, Vec2{10, 10}, Vec2{0, 10}}) loop.push_back(corner);
@@ -215,7 +215,7 @@ TEST(Front, grows_from_a_short_side_layer_by_layer) {
   const FaceMesh mesh = p.mesh();
   int n_first_layer = 0;
   for (const auto& n : mesh.inner) n_first_layer += n.x.y < 0.2;
-  EXPECT_GT(n_first_layer, 60) << "of 100 sides";
+  EXPECT_GT(n_first_layer, 50) << "of 100 sides";
   const MeshView view{b, mesh};
   EXPECT_GT(view.mean_quality(), 0.8);
 }
@@ -251,6 +251,15 @@ TEST(FaceWork, measures_between_seam_twins_along_the_surface) {
             << "around the tube, not through the air";
       }
   EXPECT_GT(n_twins, 2);
+}
+
+TEST(FaceWork, an_edge_where_the_parametrisation_is_fast_at_its_end_only_is_short) {
+  const UniformField field(1);
+  const FaceBoundary b = polygons({{{0, 0}, {3, 0}, {3, 4}, {0, 4}}}, 1);
+  Prepared p(kPlane, b, field);
+  p.work.mesh.nodes[0].du = 10 * p.work.mesh.nodes[0].du;
+  EXPECT_NEAR(std::sqrt(p.work.edge_length2<false>(0, 1)), 3, 1e-12);
+  EXPECT_NEAR(std::sqrt(p.work.edge_length2<true>(0, 1)), 3, 1e-12);
 }
 
 TEST(Metric, of_two_derivatives_is_their_first_fundamental_form) {

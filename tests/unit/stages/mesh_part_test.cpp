@@ -113,7 +113,7 @@ TEST_F(MeshShares, hold_a_part_of_the_nodes_only) {
   const SurfaceMesh whole = read_mesh(mesh_path()).mesh;
   std::int64_t n = 0;
   for (int k = 0; k < 3; ++k) n += read_mesh_part(mesh_path(), k, 3).artifact.mesh.n_nodes();
-  EXPECT_LT(n, 2 * whole.n_nodes());
+  EXPECT_LT(4 * n, 9 * whole.n_nodes()) << "three parts with a few rings around each of a small mesh";
 }
 
 TEST_F(MeshShares, mark_what_one_rank_marks) {
