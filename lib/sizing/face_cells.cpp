@@ -197,14 +197,13 @@ class PartCollector {
  public:
   PartCollector(FaceId face, std::vector<SizedPart>& parts) : parts_(parts), face_(face) {}
 
-  /// A point of length `h` that stands for `area`; its weight is that of a unit area, without kTrianglesPerGradient.
+  /// A point of length `h` that stands for `area`; its weight is that of a unit area.
   void add(std::int32_t cause, double h, double area, const FaceWeight& weight) {
     if (part_.area > 0 && cause != part_.cause) finish();
     if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}};
     part_.area += area;
     part_.least = std::min(part_.least, h);
-    part_.weight.uniform += area * weight.uniform;
-    part_.weight.graded += kTrianglesPerGradient * area * weight.graded;
+    part_.weight.add(weight, area);
   }
 
   void finish() {
@@ -243,13 +242,15 @@ class CellWeigher {
       std::int32_t cause = kNone;
       const double h = asked.size_and_gradient(x, hint_, gradient, cause);
       const double share = asked.is_stretched() ? area_share(asked.OctreeField::local(x, hint_), normal) : 1;
-      const FaceWeight at_point{share / (h * h), share * norm(gradient - dot(gradient, normal) * normal) / (h * h)};
-      sum.uniform += weight * at_point.uniform;
-      sum.graded += weight * at_point.graded;
+      const double uniform = share / (h * h), g = norm(gradient - dot(gradient, normal) * normal);
+      const FaceWeight at_point{uniform, g * uniform, g * g * uniform};
+      sum.add(at_point, weight);
       collector.add(cause, h, unit * weight, at_point);
     }
     collector.finish();
-    return {unit * sum.uniform, kTrianglesPerGradient * unit * sum.graded};
+    FaceWeight of_cell;
+    of_cell.add(sum, unit);
+    return of_cell;
   }
 
  private:
@@ -318,11 +319,7 @@ std::vector<FaceWeight> face_weights(const FaceCells& faces, const OctreeView& r
         of_row[i] = weigher.weigh(face_of(first + i), first + i, parts[begin / kPiece]);
     });
     FaceOfRow face_of(faces, first);
-    for (std::size_t i = 0; i < n; ++i) {
-      FaceWeight& weight = weights[static_cast<std::size_t>(face_of(first + i))];
-      weight.uniform += of_row[i].uniform;
-      weight.graded += of_row[i].graded;
-    }
+    for (std::size_t i = 0; i < n; ++i) weights[static_cast<std::size_t>(face_of(first + i))].add(of_row[i]);
     if (!visit) continue;
     for (const std::vector<SizedPart>& piece : parts)
       for (const SizedPart& part : piece) visit(part);

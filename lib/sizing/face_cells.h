@@ -44,18 +44,26 @@ struct FaceCells {
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
                                   double face_area, Vec3 origin = {});
 
-/// How much meshing a face is, as a function of a scale of all lengths.
+/// Where lengths change, advancing fronts make more triangles than 1/h^2. Measured on ten models of the corpus, scaled
+/// by 0.5 to 4 with their slopes: within 4 % on most, 10 % on all where edges are longer than the lengths.
+inline constexpr double kTrianglesPerGradient = 0.3, kTrianglesPerGradient2 = 0.7;
+
+/// How much meshing a face is, as a function of a scale of all lengths. g: tangential gradient of h.
 struct FaceWeight {
   double uniform = 0;  ///< integral of 1/h^2
-  double graded = 0;   ///< integral of |tangential gradient of h|/h^2, times kTrianglesPerGradient
+  double graded = 0;   ///< integral of |g|/h^2
+  double steep = 0;    ///< integral of g^2/h^2
 
-  /// Number of triangles, times sqrt(3)/4, when all lengths are multiplied by `scale`.
-  double at(double scale) const { return uniform / (scale * scale) + graded / scale; }
+  void add(const FaceWeight& other, double times = 1) {
+    uniform += times * other.uniform;
+    graded += times * other.graded;
+    steep += times * other.steep;
+  }
+  /// Number of triangles, times sqrt(3)/4, when all lengths, and so the gradients, are multiplied by `scale`.
+  double at(double scale) const {
+    return (uniform / scale + kTrianglesPerGradient * graded) / scale + kTrianglesPerGradient2 * steep;
+  }
 };
-
-/// Where lengths change, advancing fronts make more triangles than 1/h^2: measured, wings and bodies with slopes up to
-/// 0.2.
-inline constexpr double kTrianglesPerGradient = 0.6;
 
 /// Part of a face in one cell of the raster whose length has one cause.
 struct SizedPart {

@@ -77,14 +77,14 @@ std::string options_json(Json json, const ProlongStageOptions& o, double scale) 
   return json_text(json);
 }
 
-/// The scale of all lengths that gives this many triangles: N(s) = a/s^2 + b/s, solved for 1/s.
+/// The scale of all lengths that gives this many triangles: N(s) = a/s^2 + b/s + c, solved for 1/s. c is what steep
+/// gradients cost at any scale; at least half of the triangles are left for the rest.
 double scale_to(int target_triangles, const std::vector<FaceWeight>& weights) {
-  double a = 0, b = 0;
-  for (const FaceWeight& w : weights) {
-    a += kTrianglesPerWeight * w.uniform;
-    b += kTrianglesPerWeight * w.graded;
-  }
-  return 2 * a / (std::sqrt(b * b + 4 * a * target_triangles) - b);
+  FaceWeight all;
+  for (const FaceWeight& w : weights) all.add(w, kTrianglesPerWeight);
+  const double a = all.uniform, b = kTrianglesPerGradient * all.graded,
+               rest = std::max(target_triangles - kTrianglesPerGradient2 * all.steep, 0.5 * target_triangles);
+  return 2 * a / (std::sqrt(b * b + 4 * a * rest) - b);
 }
 
 void require_complete(const ProlongStageOptions& o, const RasterArtifact& raster) {

@@ -46,8 +46,7 @@ void SizeTally::add(const SizedPart& part) {
   if (g == kNone) return;
   Group& group = groups_[g];
   Share& share = group.causes.try_emplace(part.cause, Share{{}, part.least}).first->second;
-  share.weight.uniform += part.weight.uniform;
-  share.weight.graded += part.weight.graded;
+  share.weight.add(part.weight);
   share.least = std::min(share.least, part.least);
   group.lengths.push_back({static_cast<float>(part.length()), static_cast<float>(part.area)});
 }

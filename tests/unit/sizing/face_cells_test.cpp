@@ -176,7 +176,13 @@ TEST(FaceCells, weigh_gradients_along_the_face_only) {
   FaceCells faces;
   faces.append_face(std::vector<CellArea>{{0, 1, {0.5F, 0.5F, 0.5F}, {0, 0, 1}}});
   const FaceWeight w = face_weights(faces, raster.shape.view(), field)[0];
-  EXPECT_NEAR(w.graded / w.uniform, 0.1 * kTrianglesPerGradient, 1e-6);
+  EXPECT_NEAR(w.graded / w.uniform, 0.1, 1e-6);
+  EXPECT_NEAR(w.steep / w.uniform, 0.01, 1e-6);
+  for (const double scale : {0.5, 1.0, 3.0}) {  // the gradient is 0.1 * scale
+    const double g = 0.1 * scale;
+    EXPECT_NEAR(w.at(scale) * scale * scale / w.uniform, 1 + kTrianglesPerGradient * g + kTrianglesPerGradient2 * g * g,
+                1e-6);
+  }
 }
 
 }  // namespace
