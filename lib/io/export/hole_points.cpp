@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kTriedTriangles = 12;
 constexpr double kDeepest = 2, kShallowest = 1e-3;  // of the size of the triangle above
+constexpr double kAround[] = {1, 0.8, 1.25};        // of the depth: so the point does not lie on the other side
 
 /// A connected part of the mesh.
 struct Component {
@@ -58,7 +59,7 @@ std::vector<Component> find_components(const SurfaceMesh& mesh) {
   return components;
 }
 
-/// A point that the closed component winds around.
+/// A point that the closed component winds around, and not one on its surface.
 std::optional<Vec3> point_inside(std::span<const Vec3> nodes, const Component& c) {
   const SurfaceView surface{nodes, c.triangles};
   std::vector<TriangleId> order(c.triangles.size());
@@ -73,8 +74,10 @@ std::optional<Vec3> point_inside(std::span<const Vec3> nodes, const Component& c
     for (std::size_t i = 0; i < n; ++i) {
       const TriangleId t = order[i];
       if (!(area[t] > 0)) continue;
-      const Vec3 x = middle_of(surface, t) + inward * depth / std::sqrt(area[t]) * area_vector(surface, t);
-      if (winding_number(surface, x) != 0) return x;
+      const Vec3 down = inward * depth / std::sqrt(area[t]) * area_vector(surface, t), from = middle_of(surface, t);
+      if (std::all_of(std::begin(kAround), std::end(kAround),
+                      [&](double share) { return winding_number(surface, from + share * down) != 0; }))
+        return from + down;
     }
   return std::nullopt;
 }

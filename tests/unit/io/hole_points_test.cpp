@@ -24,6 +24,29 @@ void add_cube(Vec3 centre, double half, double outward, std::int32_t group, Surf
     }
 }
 
+/// Each pair of triangles, which is a side of a cube, as four about the side's middle.
+void split_sides(std::size_t first, SurfaceMesh& mesh) {
+  for (std::size_t t = first, n = mesh.triangles.size(); t < n; t += 2) {
+    const Triangle a = mesh.triangles[t], b = mesh.triangles[t + 1];
+    const auto apart = [](const Triangle& own, const Triangle& other) {  // the corner that the other one has not
+      int k = 0;
+      while (std::count(std::begin(other.n), std::end(other.n), own.n[k]) != 0) ++k;
+      return k;
+    };
+    const int k = apart(a, b);
+    const NodeId around[4] = {a.n[k], a.n[(k + 1) % 3], b.n[apart(b, a)], a.n[(k + 2) % 3]};
+    const auto middle = static_cast<NodeId>(mesh.node_xyz.size());
+    mesh.node_xyz.push_back(0.5 * (mesh.node_xyz[around[1]] + mesh.node_xyz[around[3]]));
+    mesh.triangles[t] = {{around[0], around[1], middle}};
+    mesh.triangles[t + 1] = {{around[1], around[2], middle}};
+    for (const int i : {2, 3}) {
+      mesh.triangles.push_back({{around[i], around[(i + 1) % 4], middle}});
+      mesh.triangle_group.push_back(mesh.triangle_group[t]);
+      mesh.triangle_face.push_back(mesh.triangle_face[t]);
+    }
+  }
+}
+
 SurfaceMesh with_groups() {
   SurfaceMesh mesh;
   mesh.labels.group_name = {"farfield", "body"};
@@ -54,6 +77,17 @@ TEST(HolePoints, bodies_within_the_far_field_get_one_each) {
   ASSERT_EQ(holes.points.size(), 2U);
   EXPECT_TRUE(is_in_cube(holes.points[0], {3, 1, 2}, 1));
   EXPECT_TRUE(is_in_cube(holes.points[1], {-4, 0, 0}, 0.5));
+}
+
+TEST(HolePoints, lie_inside_where_the_other_side_is_just_as_deep_as_is_tried) {
+  SurfaceMesh mesh = with_groups();
+  add_cube({0, 0, 0}, 10, 1, 0, mesh);
+  const std::size_t first = mesh.triangles.size();
+  add_cube({3, 1, 2}, 1, 1, 1, mesh);
+  split_sides(first, mesh);
+  const HolePoints holes = find_hole_points(mesh);
+  ASSERT_EQ(holes.points.size(), 1U);
+  EXPECT_TRUE(is_in_cube(holes.points[0], {3, 1, 2}, 0.99));
 }
 
 TEST(HolePoints, parts_without_a_far_field_and_one_part_alone_have_none) {
