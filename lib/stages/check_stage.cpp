@@ -301,6 +301,24 @@ double volume_of_tolerances(const ModelTables& tables, const ChordError& chords,
   return volume;
 }
 
+/// What sewn edges leave open of the CAD's own volume, the sum of its faces' cones from one point: a strip along each
+/// edge, as wide as its faces are apart there and as given tolerances allow.
+double volume_of_gaps(const ModelTables& tables, const std::vector<double>& given) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  tables.edge_faces(offsets, faces);
+  const Vec3 apex = tables.box().center();
+  double volume = 0;
+  for (EdgeId e = 0; e < tables.n_edges(); ++e) {
+    double gap = tables.edge_tolerance[e];
+    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) gap = std::min(gap, given[faces[i]]);
+    const double height = std::max(distance(tables.vertex_xyz[tables.edge_vertices[2 * e]], apex),
+                                   distance(tables.vertex_xyz[tables.edge_vertices[2 * e + 1]], apex));
+    volume += gap * tables.edge_length[e] * height / 3;
+  }
+  return volume;
+}
+
 /// Difference of area and volume of the whole mesh from the CAD's. Volumes only where both have one.
 void compare_wholes(const ModelTables& tables, Findings& f) {
   double area = 0;
@@ -322,7 +340,7 @@ Check check_cad_area(const Findings& f, bool has_all_faces, double tolerance) {
 }
 
 /// The volume enclosed against the CAD's: beyond the tolerance there is what chords of the requested length cut off,
-/// and what tolerances move.
+/// what tolerances move, and what gaps that were sewn leave open.
 Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const std::vector<double>& given,
                        const Findings& f) {
   constexpr double kTolerance = 0.005;  // relative
@@ -332,12 +350,14 @@ Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const
     return c;
   }
   const ChordError& chords = *f.chords;
-  double explained = volume_at_strips(mesh, tables) + volume_of_tolerances(tables, chords, given);
+  double explained =
+      volume_at_strips(mesh, tables) + volume_of_tolerances(tables, chords, given) + volume_of_gaps(tables, given);
   for (const double volume : chords.volume) explained += volume;
   explained /= std::fabs(*tables.volume);
   if (std::fabs(*f.volume_difference) > kTolerance + explained) c.defects.add({});
-  c.note = fmt::format("mesh volume / CAD volume {:.6f} (chords of the sizes, closed strips, tolerances: {:.3g} %)",
-                       1 + *f.volume_difference, 100 * explained);
+  c.note =
+      fmt::format("mesh volume / CAD volume {:.6f} (chords of the sizes, closed strips, tolerances, gaps: {:.3g} %)",
+                  1 + *f.volume_difference, 100 * explained);
   return c;
 }
 

@@ -1,5 +1,6 @@
 """Groups, parts and names from the CAD file and a groups file to the mesh and the exports."""
 import os
+import re
 import sys
 import unittest
 from collections import Counter
@@ -470,8 +471,8 @@ class Tolerances(ToolTest):
                    self.folder / "groups.toml", "--json", *options)
         return run.json()
 
-    def meshed(self, *check_options):
-        must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "raster.hdf", "--lmin", "2", "--lmax", "10")
+    def meshed(self, *check_options, lengths=("--lmin", "2", "--lmax", "10")):
+        must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "raster.hdf", *lengths)
         must("st-prolong", self.folder / "raster.hdf", "-o", self.folder / "sizing.hdf")
         must("st-mesh", self.folder / "geometry.hdf", self.folder / "sizing.hdf", "-o", self.folder / "patches.hdf")
         must("st-merge", self.folder / "patches.hdf", "-o", self.folder / "mesh.hdf")
@@ -493,6 +494,19 @@ class Tolerances(ToolTest):
         self.assertEqual(run.json()["failed"], ["group-tolerance"])
         self.imported(0, "--sew", "1")
         self.assertEqual(self.meshed().code, OK)
+
+    def test_explains_the_volume_that_sewn_gaps_change(self):
+        (self.folder / "groups.toml").write_text('[[group]]\nname = "all"\ntouching = [-1, -1, -1, 2, 2, 2]\n'
+                                                 'tolerance = 0.05\n')
+        for options in (["--groups", self.folder / "groups.toml"], ["--sew", "0.05"]):
+            run = must("st-import", MODELS / "gappy_cube.brep", "-o", self.folder / "geometry.hdf", "--json", *options)
+            self.assertEqual(run.json()["free_edges"], 0)
+            check = self.meshed(lengths=("--lmax", "0.1"))
+            self.assertEqual(check.code, OK, check)
+            self.assertGreater(check.json()["volume_difference"], 0.008, "the top is 0.02 above the sides")
+            text = must("st-check", self.folder / "mesh.hdf", "--geometry", self.folder / "geometry.hdf").out
+            explained = re.search(r"mesh volume / CAD volume .* (\S+) %", text)
+            self.assertLess(float(explained[1]), 3, "no more than the gaps leave open")
 
     def test_refuses_a_group_by_numbers_that_repairs_changed(self):
         (self.folder / "groups.toml").write_text('[[group]]\nname = "far field"\nfaces = "7-12"\ntolerance = 1\n')

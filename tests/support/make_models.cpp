@@ -249,6 +249,17 @@ TopoDS_Shape loose_box_and_sphere() {
   return all;
 }
 
+/// The faces of a box, its top moved up by the gap.
+void add_loose_faces(const TopoDS_Shape& box, double top_gap, TopoDS_Compound& all) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(box, TopAbs_FACE, faces);
+  for (int i = 1; i <= 6; ++i) {
+    gp_Trsf gap;
+    gap.SetTranslation(gp_Vec(0, 0, i == 6 ? top_gap : 0));
+    BRep_Builder().Add(all, BRepBuilderAPI_Transform(BRepBuilderAPI_Copy(faces(i)).Shape(), gap, true).Shape());
+  }
+}
+
 TopoDS_Shape gappy_boxes() {
   TopoDS_Compound all;
   BRep_Builder builder;
@@ -256,14 +267,17 @@ TopoDS_Shape gappy_boxes() {
   for (const double size : {10.0, 100.0}) {
     gp_Trsf middle;
     middle.SetTranslation(gp_Vec(-0.5 * size, -0.5 * size, -0.5 * size));
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(BRepBuilderAPI_Transform(box(size, size, size), middle, true).Shape(), TopAbs_FACE, faces);
-    for (int i = 1; i <= 6; ++i) {
-      gp_Trsf gap;
-      gap.SetTranslation(gp_Vec(0, 0, i == 6 ? 0.005 * size : 0));
-      builder.Add(all, BRepBuilderAPI_Transform(BRepBuilderAPI_Copy(faces(i)).Shape(), gap, true).Shape());
-    }
+    add_loose_faces(BRepBuilderAPI_Transform(box(size, size, size), middle, true).Shape(), 0.005 * size, all);
   }
+  return all;
+}
+
+/// A cube of 1, of loose faces; the top is 0.02 above the sides.
+TopoDS_Shape gappy_cube() {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  add_loose_faces(box(1, 1, 1), 0.02, all);
   return all;
 }
 
@@ -304,6 +318,7 @@ void write_all(const fs::path& dir) {
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());
+  write_brep(dir / "gappy_cube.brep", gappy_cube());
   write_brep(dir / "loose_box_and_sphere.brep", loose_box_and_sphere());
 }
 
