@@ -188,9 +188,13 @@ int processor_count() { return std::max(1, static_cast<int>(std::thread::hardwar
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {
   static Pool pool;
-  LoopTimer timer;
   grain = std::max<std::size_t>(grain, 1);
-  if (thread_count() == 1 || n <= grain) {
+  if (n <= grain) {  // no more threads speed it up, and asking for the time costs more than a small one
+    if (n > 0) body(0, n);
+    return;
+  }
+  LoopTimer timer;
+  if (thread_count() == 1) {
     for (std::size_t begin = 0; begin < n; begin += grain, timer.end_piece()) body(begin, std::min(n, begin + grain));
     return;
   }

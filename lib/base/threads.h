@@ -23,7 +23,7 @@ void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Processor seconds that this thread has spent in calls of parallel_for that stand in no other one: what more threads
-/// speed up. In a piece of a loop: in those that stand in this piece.
+/// speed up. In a piece of a loop: in those that stand in this piece. A loop of one piece does not count as one.
 struct LoopSeconds {
   double all = 0;
   double longest = 0;  ///< of the longest piece of each, of which loops in it count likewise: more threads cannot speed

@@ -140,6 +140,18 @@ TEST(SecondsInLoops, count_the_outermost_loop_of_this_thread) {
   }
 }
 
+TEST(SecondsInLoops, do_not_count_loops_of_one_piece_but_those_within) {
+  const auto busy = [](std::size_t, std::size_t) {
+    for (const double begin = thread_seconds(); thread_seconds() - begin < 0.005;) continue;
+  };
+  const double before = seconds_in_loops().all;
+  parallel_for(1, 1, busy);
+  parallel_for(3, 3, busy);
+  EXPECT_EQ(seconds_in_loops().all, before);
+  parallel_for(1, 1, [&](std::size_t, std::size_t) { parallel_for(2, 1, busy); });
+  EXPECT_GE(seconds_in_loops().all - before, 0.01);
+}
+
 TEST(RunJobs, runs_each_once) {
   for (const int n_threads : {1, 3}) {
     const Threads threads(n_threads);
