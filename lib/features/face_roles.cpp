@@ -122,13 +122,16 @@ FaceRoles roles_along(OwnAxes own, const ModelTables& t, RoleGuess guess) {
 
 }  // namespace
 
-FaceRoles face_roles(const Model& model, RoleGuess guess) {
+FaceRoles face_roles(const Model& model, RoleGuess guess, const Executor& executor) {
   FaceRoles in_space = face_roles(model.tables(), guess);
-  OwnAxes own = find_own_axes(model);
+  OwnAxes own = find_own_axes(model, executor);
   if (own.axis == in_space.own.axis) return in_space;
   FaceRoles along = roles_along(std::move(own), model.tables(), guess);
   const double change = std::abs(along.reference_diagonal - in_space.reference_diagonal);
-  return change <= kNearlySame * in_space.reference_diagonal ? in_space : along;
+  if (change > kNearlySame * in_space.reference_diagonal) return along;
+  in_space.own.facets = std::move(along.own.facets);
+  in_space.own.deflection = along.own.deflection;
+  return in_space;
 }
 
 FaceRoles face_roles(const ModelTables& t, RoleGuess guess) {

@@ -27,8 +27,9 @@ enum class RoleGuess : unsigned char { kAllowed, kForbidden };
 /// large ones are the outer boundary. Those that share an edge with the body count as symmetry planes - they have to be
 /// planes, no two of them opposite - the others as far field. Larger bodies: find_flow_domain().
 /// Boxes lie along the model's own axes, but along those of space where the walls' box there has nearly the same
-/// diagonal: a model that was drawn along the axes of space is measured along them.
-FaceRoles face_roles(const Model& model, RoleGuess guess = RoleGuess::kAllowed);
+/// diagonal: a model that was drawn along the axes of space is measured along them. Collective.
+FaceRoles face_roles(const Model& model, RoleGuess guess = RoleGuess::kAllowed,
+                     const Executor& executor = SerialExecutor());
 /// Likewise, along the axes of space.
 FaceRoles face_roles(const ModelTables& tables, RoleGuess guess = RoleGuess::kAllowed);
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/share.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
 #include "features/profile.h"
@@ -380,6 +381,18 @@ Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_pl
   return facets;
 }
 
+std::vector<std::uint8_t> are_walls(const FaceRoles& roles) {
+  std::vector<std::uint8_t> is_wall;
+  for (const FaceRole role : roles.role) is_wall.push_back(role == FaceRole::kWall);
+  return is_wall;
+}
+
+/// The same on every rank.
+bool has_wall_facets(const FaceRoles& roles, double deflection) {
+  return roles.own.deflection == deflection &&
+         std::ranges::all_of(roles.role, [](FaceRole role) { return role == FaceRole::kWall; });
+}
+
 /// The plane of symmetry on which a chain lies; kNone: on none.
 FaceId mirror_of(const std::vector<WingEdge>& chain) {
   for (const WingEdge& w : chain)
@@ -409,14 +422,19 @@ NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
 }
 
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
-                                                  std::span<const WingEdge> edges) {
-  const std::vector<std::vector<WingEdge>> chains = trailing_chains(model.tables(), edges);
+                                                  std::span<const WingEdge> edges, const Executor& executor) {
+  std::vector<std::vector<WingEdge>> chains;
+  if (executor.is_root()) chains = trailing_chains(model.tables(), edges);
   std::vector<LiftingSurface> surfaces;
-  if (chains.empty()) return surfaces;
-  std::vector<std::uint8_t> is_wall;
-  for (const FaceRole role : roles.role) is_wall.push_back(role == FaceRole::kWall);
+  bool has_chains = !chains.empty();
+  share(executor, has_chains);
+  if (!has_chains) return surfaces;
   const double deflection = kDeflection * roles.reference_diagonal;
-  const Facets facets = make_facets(model, is_wall, {.deflection = deflection});
+  Facets own;
+  if (!has_wall_facets(roles, deflection))
+    own = make_facets(model, are_walls(roles), {.deflection = deflection}, executor);
+  if (!executor.is_root()) return surfaces;
+  const Facets& facets = has_wall_facets(roles, deflection) ? roles.own.facets : own;
   std::map<FaceId, Facets> whole;  // by symmetry plane
   std::vector<std::uint8_t> is_concave;
   for (const auto& chain : chains) {

@@ -52,9 +52,11 @@ struct LiftingSurface {
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
 /// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord, and
 /// whose base is at most 6 per cent of it. Profiles are cut square to an axis of the model, and square to the edge
-/// where that shows none or clearly fewer. By first edge. Local. Cost: a coarse triangulation of the walls where there
-/// are any trailing edges.
+/// where that shows none or clearly fewer. By first edge. Collective; `edges` and what is returned are of rank 0. Cost:
+/// a coarse triangulation of the walls, as tasks, where there are any trailing edges and `roles` has none; the rest is
+/// rank 0's.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
-                                                  std::span<const WingEdge> edges);
+                                                  std::span<const WingEdge> edges,
+                                                  const Executor& executor = SerialExecutor());
 
 }  // namespace st

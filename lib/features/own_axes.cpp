@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/eigen.h"
+#include "base/share.h"
 #include "geometry/model/facets.h"
 
 namespace st {
@@ -137,12 +138,9 @@ bool are_of_space(const Axes& axes) {
 }
 
 /// Boxes of the faces along the axes: of facets; of what has none, the corners of the box in space.
-std::vector<Box3> boxes_along(const Axes& axes, const Model& model) {
-  const ModelTables& t = model.tables();
+std::vector<Box3> boxes_along(const Axes& axes, const ModelTables& t, const Facets& facets) {
   const auto along = [&](Vec3 x) { return Vec3{dot(axes[0], x), dot(axes[1], x), dot(axes[2], x)}; };
-  const std::vector<std::uint8_t> all(static_cast<std::size_t>(t.n_faces()), 1);
-  const Facets facets = make_facets(model, all, {.deflection = kDeflection * t.box().diagonal()});
-  std::vector<Box3> boxes(all.size());
+  std::vector<Box3> boxes(static_cast<std::size_t>(t.n_faces()));
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
     for (const std::int32_t n : facets.triangle[i]) boxes[facets.face[i]].add(along(facets.xyz[n]));
   for (std::size_t f = 0; f < boxes.size(); ++f) {
@@ -157,10 +155,21 @@ std::vector<Box3> boxes_along(const Axes& axes, const Model& model) {
 
 }  // namespace
 
-OwnAxes find_own_axes(const Model& model) {
-  const Axes axes = EdgeDirections(model).best();
-  if (are_of_space(axes)) return {OwnAxes().axis, model.tables().face_box};
-  return {axes, boxes_along(axes, model)};
+OwnAxes find_own_axes(const Model& model, const Executor& executor) {
+  const ModelTables& t = model.tables();
+  OwnAxes own;
+  own.face_box = t.face_box;
+  Axes axes = own.axis;
+  if (executor.is_root()) axes = EdgeDirections(model).best();
+  share(executor, axes);
+  if (are_of_space(axes)) return own;
+  own.axis = axes;
+  own.deflection = kDeflection * t.box().diagonal();
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(t.n_faces()), 1);
+  own.facets = make_facets(model, all, {.deflection = own.deflection}, executor);
+  if (executor.is_root()) own.face_box = boxes_along(axes, t, own.facets);
+  share(executor, own.face_box);
+  return own;
 }
 
 }  // namespace st

@@ -4,7 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <unordered_set>
 #include <utility>
+
+#include "base/box_tree.h"
 
 namespace st {
 namespace {
@@ -15,6 +19,7 @@ constexpr double kThinnest = 0.01, kThickest = 0.35;   // largest thickness over
 constexpr double kSharpNose = 0.15, kFlatNose = 0.85;  // thickness at the first place: a wedge has 0.06, a plate 1
 constexpr double kThickEnd = 0.5;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
+constexpr std::size_t kFacetsPerBlock = 64;
 constexpr double kBehind = 0.02;  // of the chord: nothing lies further behind the edge
 
 /// Thickness across the chord at a place; nullopt unless the profile has two sides there.
@@ -32,75 +37,96 @@ std::optional<double> thickness_at(const Segments& segments, Vec3 trailing_edge,
   return std::abs(heights[1] - heights[0]);
 }
 
-}  // namespace
-
-ProfileCutter::ProfileCutter(const Facets& facets) : facets_(facets) {}
-
-std::vector<ProfileCutter::Segment> ProfileCutter::all_segments(Vec3 origin, Vec3 normal) const {
-  std::vector<double> height;
-  height.reserve(facets_.xyz.size());
-  for (const Vec3& x : facets_.xyz) height.push_back(dot(x - origin, normal));
-  std::vector<Segment> segments;
-  for (std::size_t i = 0; i < facets_.triangle.size(); ++i) {
-    const auto& t = facets_.triangle[i];
-    const bool above[3] = {height[t[0]] >= 0, height[t[1]] >= 0, height[t[2]] >= 0};
-    if (above[0] == above[1] && above[1] == above[2]) continue;
-    Segment s{{}, {}, facets_.face[i]};
-    for (std::size_t k = 0, n = 0; k < 3; ++k) {
-      const std::int32_t a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
-      if ((height[a] >= 0) == (height[b] >= 0)) continue;
-      const double share = height[a] / (height[a] - height[b]);
-      s.end[n] = facets_.xyz[a] + share * (facets_.xyz[b] - facets_.xyz[a]);
-      s.side[n++] = (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint64_t>(b);
-    }
-    segments.push_back(s);
-  }
-  return segments;
+/// Rounding counts as near.
+bool is_near(const Box3& box, Vec3 x, double reach) {
+  constexpr double kRounding = 1e-9;
+  const double most = reach + kRounding * (box.diagonal() + distance(box.center(), x));
+  return distance2(x, box) <= most * most;
 }
 
-std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, double reach,
-                                                           std::vector<Segment> segments) const {
-  std::vector<std::pair<std::uint64_t, std::size_t>> of_side;
-  std::size_t first = segments.size();
-  double nearest = reach;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    for (const std::uint64_t side : segments[i].side) of_side.emplace_back(side, i);
-    const double d = segment_distance(origin, segments[i].end[0], segments[i].end[1]);
-    if (d > nearest || (first < segments.size() && d == nearest)) continue;
-    nearest = d;
-    first = i;
+}  // namespace
+
+ProfileCutter::ProfileCutter(const Facets& facets) : facets_(facets) {
+  block_.resize((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
+  node_begin_.resize(facets.xyz.size() + 1, 0);
+  for (std::size_t i = 0; i < facets.triangle.size(); ++i)
+    for (const std::int32_t n : facets.triangle[i]) {
+      block_[i / kFacetsPerBlock].add(facets.xyz[n]);
+      ++node_begin_[n + 1];
+    }
+  std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
+  facet_.resize(3 * facets.triangle.size());
+  std::vector<std::int32_t> next = node_begin_;
+  for (std::size_t i = 0; i < facets.triangle.size(); ++i)
+    for (const std::int32_t n : facets.triangle[i]) facet_[next[n]++] = static_cast<std::int32_t>(i);
+}
+
+std::optional<ProfileCutter::Segment> ProfileCutter::segment_of(std::int32_t facet, Vec3 origin, Vec3 normal) const {
+  std::array<std::pair<std::int32_t, double>, 3> corner;  // node and height
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t n = facets_.triangle[facet][k];
+    corner[k] = {n, dot(facets_.xyz[n] - origin, normal)};
   }
-  std::vector<Segment> part;
-  if (first == segments.size()) return part;
-  std::sort(of_side.begin(), of_side.end());
-  std::vector<bool> is_taken(segments.size(), false);
-  std::vector<std::size_t> todo{first};
-  is_taken[first] = true;
+  const auto is_above = [](const std::pair<std::int32_t, double>& c) { return c.second >= 0; };
+  if (is_above(corner[0]) == is_above(corner[1]) && is_above(corner[1]) == is_above(corner[2])) return std::nullopt;
+  Segment s{{}, {}, facet};
+  for (std::size_t k = 0, n = 0; k < 3; ++k) {
+    const auto& [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
+    if (is_above(low) == is_above(high)) continue;
+    const double share = low.second / (low.second - high.second);
+    s.end[n] = facets_.xyz[low.first] + share * (facets_.xyz[high.first] - facets_.xyz[low.first]);
+    s.side[n++] = {low.first, high.first};
+  }
+  return s;
+}
+
+/// The first one of those that are equally near.
+std::optional<ProfileCutter::Segment> ProfileCutter::nearest_segment(Vec3 origin, Vec3 normal, double reach) const {
+  std::optional<Segment> first;
+  double nearest = reach;
+  for (std::size_t block = 0; block < block_.size(); ++block) {
+    if (!is_near(block_[block], origin, reach)) continue;
+    const std::size_t end = std::min(facets_.triangle.size(), (block + 1) * kFacetsPerBlock);
+    for (std::size_t i = block * kFacetsPerBlock; i < end; ++i) {
+      const std::optional<Segment> s = segment_of(static_cast<std::int32_t>(i), origin, normal);
+      if (!s) continue;
+      const double d = segment_distance(origin, s->end[0], s->end[1]);
+      if (d > nearest || (first && d == nearest)) continue;
+      nearest = d;
+      first = s;
+    }
+  }
+  return first;
+}
+
+std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach) const {
+  std::vector<Segment> part, todo;
+  std::unordered_set<std::int32_t> taken;
+  const auto take = [&](const std::optional<Segment>& s) {
+    if (s && taken.insert(s->facet).second) todo.push_back(*s);
+  };
+  take(nearest_segment(origin, normal, reach));
   while (!todo.empty()) {
-    const Segment& s = segments[todo.back()];
+    const Segment s = todo.back();
     todo.pop_back();
     part.push_back(s);
-    for (const std::uint64_t side : s.side)
-      for (auto next = std::lower_bound(of_side.begin(), of_side.end(), std::pair(side, std::size_t{0}));
-           next != of_side.end() && next->first == side; ++next)
-        if (!is_taken[next->second]) {
-          is_taken[next->second] = true;
-          todo.push_back(next->second);
-        }
+    for (const auto& [a, b] : s.side)
+      for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i)
+        if (std::ranges::count(facets_.triangle[facet_[i]], b) > 0) take(segment_of(facet_[i], origin, normal));
   }
   return part;
 }
 
 std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, double reach) const {
-  const std::vector<Segment> part = part_at(trailing_edge, reach, all_segments(trailing_edge, normal));
+  const std::vector<Segment> part = part_at(trailing_edge, normal, reach);
   Profile profile;
   for (const Segment& s : part) {
-    profile.faces.push_back(s.face);
+    profile.faces.push_back(facets_.face[s.facet]);
     for (const Vec3& x : s.end) {
       if (distance(x, trailing_edge) <= profile.chord) continue;
       profile.chord = distance(x, trailing_edge);
       profile.nose = x;
-      profile.nose_face = s.face;
+      profile.nose_face = facets_.face[s.facet];
     }
   }
   if (!(profile.chord > 0)) return std::nullopt;

@@ -1,6 +1,8 @@
 // The profile of a wing: where a plane cuts it, from the trailing edge to the nose.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,20 +28,25 @@ class ProfileCutter {
   /// The part of the cut by the plane through `trailing_edge` with this unit normal that hangs together with the point,
   /// if it is the profile of a lifting surface: two sides at every station along the chord, 1 to 35 per cent thick,
   /// thickest in the middle, thin towards the trailing edge, with a rounded nose; else nullopt. `reach`: how far from
-  /// the point the cut may begin, model unit. Cost: linear in the facets.
+  /// the point the cut may begin, model unit. Cost: linear in the blocks of facets, and in facets of those that are
+  /// cut.
   std::optional<Profile> cut(Vec3 trailing_edge, Vec3 normal, double reach) const;
 
  private:
   /// Where the plane crosses a facet, from one of its sides to another one.
   struct Segment {
     Vec3 end[2];
-    std::uint64_t side[2];  ///< of the mesh: equal ones hang together
-    FaceId face;
+    std::array<std::int32_t, 2> side[2];  ///< nodes of the mesh, ascending
+    std::int32_t facet;
   };
-  std::vector<Segment> all_segments(Vec3 origin, Vec3 normal) const;
-  std::vector<Segment> part_at(Vec3 origin, double reach, std::vector<Segment> segments) const;
+  /// Nothing where the plane does not cross it.
+  std::optional<Segment> segment_of(std::int32_t facet, Vec3 origin, Vec3 normal) const;
+  std::optional<Segment> nearest_segment(Vec3 origin, Vec3 normal, double reach) const;
+  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const;
 
   const Facets& facets_;
+  std::vector<Box3> block_;                       ///< boxes of kFacetsPerBlock facets each
+  std::vector<std::int32_t> node_begin_, facet_;  ///< facets of each node, ascending
 };
 
 }  // namespace st

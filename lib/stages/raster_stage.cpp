@@ -672,11 +672,9 @@ struct AskedLimits {
   const std::vector<SizeRule>& rules;
 };
 
-/// On rank 0: finds lifting surfaces, samples them, and sets the limits of all else.
+/// On rank 0, which knows lifting surfaces: samples them, and sets the limits of all else.
 ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const FaceRoles& roles,
                         std::span<const Strip> strips, const AskedLimits& asked, Wings& wings) {
-  wings.edges = find_wing_edges(model, roles, strips);
-  wings.aircraft.wings = find_lifting_surfaces(model, roles, wings.edges);
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   limits.edge_is_smooth = find_smooth_edges(model);
@@ -747,12 +745,11 @@ class RasterRun {
         geometry_(read_geometry(o.geometry)),
         sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
         rules_(all_rules(o, sizes_, geometry_.tables)),
-        model_(stored_model(geometry_, o.geometry)),
-        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed)),
+        model_(same_model(comm)),
+        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed, comm)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
         strips_(find_strips(model_)) {
     if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
-    require_same_inputs(comm, {{o.geometry, geometry_.header.content_hash}, {o.sizes, sizes_.hash}});
   }
 
   StageSummary run() {
@@ -779,7 +776,14 @@ class RasterRun {
   }
 
  private:
+  Model same_model(const Communicator& comm) {
+    require_same_inputs(comm, {{o_.geometry, geometry_.header.content_hash}, {o_.sizes, sizes_.hash}});
+    return stored_model(geometry_, o_.geometry);
+  }
+
   void set_limits() {
+    if (comm_.is_root()) wings_.edges = find_wing_edges(model_, roles_, strips_);
+    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, comm_);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
     share_limits(comm_, limits_);
     require_places(o_, limits_);

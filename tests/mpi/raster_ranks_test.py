@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import ToolTest, artifacts_of, must  # noqa: E402
+from chain import MODELS, ToolTest, artifacts_of, must  # noqa: E402
 
 
 class RasterRanks(ToolTest):
@@ -21,6 +21,19 @@ class RasterRanks(ToolTest):
 
     def test_a_face_for_one_rank_of_eight_is_enough(self):
         self.assertEqual(len(self.hashes("torus", ranks=(1, 8))), 1)
+
+    def test_a_turned_model_of_many_faces_is_measured_by_all_ranks(self):
+        boxes = []
+        for i in range(12):  # 72 faces: more than one task of facets
+            must("st-import", MODELS / "box.step", "-o", self.folder / "box.hdf")
+            boxes.append(self.folder / f"{i}.hdf")
+            must("st-edit", self.folder / "box.hdf", "-o", boxes[-1], "--transform", f"translate {i * 70} 0 0")
+        must("st-edit", *boxes, "--as", ",".join(f"b{i}" for i in range(12)), "-o", self.folder / "row.hdf")
+        must("st-edit", self.folder / "row.hdf", "-o", self.folder / "turned.hdf", "--transform", "rotate 30 1 2 3")
+        runs = [must("st-raster", self.folder / name, "-o", self.folder / "r.hdf", "--np", n, "--json").json()
+                for name, n in (("row.hdf", 1), ("turned.hdf", 1), ("turned.hdf", 3))]
+        self.assertEqual(runs[1]["hash"], runs[2]["hash"])
+        self.assertAlmostEqual(runs[1]["lmax"], runs[0]["lmax"], delta=1e-3 * runs[0]["lmax"])
 
     def test_large_cells_are_fewer_and_their_lengths_hold(self):
         geometry, counts, triangles = artifacts_of("assembly") / "geometry.hdf", [], []

@@ -734,6 +734,17 @@ Model make_model(const std::string& shape) {
   return Model(std::move(r.tables), std::move(r.brep));
 }
 
+Model make_row_of_cubes(int n) {
+  TopoDS_Compound row;
+  BRep_Builder builder;
+  builder.MakeCompound(row);
+  for (int i = 0; i < n; ++i) builder.Add(row, BRepPrimAPI_MakeBox(gp_Pnt(2 * i, 0, 0), 1, 1, 1).Shape());
+  const TemporaryFile file(".brep");
+  require(BRepTools::Write(row, file.path.c_str()), file.path);
+  ImportResult r = import_model(file.path, {});
+  return Model(std::move(r.tables), std::move(r.brep));
+}
+
 struct Oracle::Impl {
   TopTools_IndexedMapOfShape faces, edges;
 };

@@ -45,6 +45,8 @@ void write_named_assembly(const std::string& path);
 /// The shape through a BREP file and import_model().
 ImportResult import_shape(const std::string& shape);
 Model make_model(const std::string& shape);
+/// Cubes of 1 that stand apart: any number of faces.
+Model make_row_of_cubes(int n);
 
 /// The same B-Rep evaluated by OpenCASCADE itself, without caches.
 class Oracle {

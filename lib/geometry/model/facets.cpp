@@ -10,8 +10,11 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "base/assert.h"
+#include "base/packer.h"
 #include "geometry/brep/compound.h"
 #include "geometry/model/model_editor.h"
 
@@ -19,6 +22,7 @@ namespace st {
 namespace {
 
 constexpr double kSame = 1e-7;  // of the box of all nodes: nearer ones are one
+constexpr std::size_t kFacesPerTask = 64;
 
 void add_face(const TopoDS_Face& face, FaceId id, Facets& facets) {
   TopLoc_Location location;
@@ -57,28 +61,52 @@ void weld(Facets& facets) {
     for (std::int32_t& node : triangle) node = one[node];
 }
 
-}  // namespace
-
-Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits) {
-  ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
-  const Model::Impl& brep = ModelEditor::brep(model);
+/// Those of some faces, not welded.
+Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const FacetLimits& limits) {
   Facets facets;
   try {
     std::vector<TopoDS_Shape> faces;
-    for (std::size_t f = 0; f < is_wanted.size(); ++f)
-      if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1));
+    for (const FaceId f : ids) faces.push_back(brep.faces(f + 1));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
     IMeshTools_Parameters parameters;
     parameters.Deflection = limits.deflection;
     parameters.Angle = limits.angle;
     parameters.ControlSurfaceDeflection = false;  // nodes between knots are enough, and come at half the cost
     BRepMesh_IncrementalMesh(copy.Shape(), parameters);
-    for (std::size_t f = 0; f < is_wanted.size(); ++f)
-      if (is_wanted[f])
-        add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(static_cast<int>(f) + 1))), static_cast<FaceId>(f), facets);
+    for (const FaceId f : ids) add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(f + 1))), f, facets);
   } catch (const Standard_Failure&) {
     return {};
   }
+  return facets;
+}
+
+void append(Facets&& part, Facets& all) {
+  const auto first = static_cast<std::int32_t>(all.xyz.size());
+  all.xyz.insert(all.xyz.end(), part.xyz.begin(), part.xyz.end());
+  for (const auto& t : part.triangle) all.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+  all.face.insert(all.face.end(), part.face.begin(), part.face.end());
+}
+
+}  // namespace
+
+Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                   const Executor& executor) {
+  ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
+  const Model::Impl& brep = ModelEditor::brep(model);
+  std::vector<FaceId> ids;
+  for (std::size_t f = 0; f < is_wanted.size(); ++f)
+    if (is_wanted[f]) ids.push_back(static_cast<FaceId>(f));
+  const auto n_tasks = static_cast<std::int32_t>((ids.size() + kFacesPerTask - 1) / kFacesPerTask);
+  std::vector<Facets> parts(static_cast<std::size_t>(n_tasks));
+  executor.run_tasks(
+      n_tasks, heaviest_first(std::vector<double>(parts.size(), 1)),
+      [&](std::int32_t task) {
+        const std::span<const FaceId> all(ids), rest = all.subspan(kFacesPerTask * static_cast<std::size_t>(task));
+        return packed(facets_of(brep, rest.first(std::min(rest.size(), kFacesPerTask)), limits));
+      },
+      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  Facets facets;
+  for (Facets& part : parts) append(std::move(part), facets);
   weld(facets);
   return facets;
 }

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
+#include "base/executor.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -20,10 +22,13 @@ struct Facets {
   std::vector<Vec3> xyz;                              ///< [n_nodes] model unit
   std::vector<std::array<std::int32_t, 3>> triangle;  ///< [n_triangles] nodes, in no certain orientation
   std::vector<FaceId> face;                           ///< [n_triangles] ascending
+
+  static auto fields(auto& f) { return std::tie(f.xyz, f.triangle, f.face); }
 };
 
-/// Facets of the faces with `is_wanted` ([n_faces] 1: yes), by OpenCASCADE's BRepMesh, one thread. Faces that it cannot
-/// do are left out. Local. Cost: some microseconds per facet.
-Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits);
+/// Collective. Facets of the faces with `is_wanted` ([n_faces] 1: yes), by OpenCASCADE's BRepMesh, complete on rank 0,
+/// empty elsewhere; some faces are a task. Faces that it cannot do are left out. Cost: some microseconds per facet.
+Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                   const Executor& executor = SerialExecutor());
 
 }  // namespace st

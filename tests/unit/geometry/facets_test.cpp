@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "support/backward_executor.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -19,6 +20,22 @@ TEST(Facets, of_neighbours_share_their_nodes) {
   for (const auto& t : facets.triangle) nodes.insert(nodes.end(), t.begin(), t.end());
   std::sort(nodes.begin(), nodes.end());
   EXPECT_EQ(std::unique(nodes.begin(), nodes.end()) - nodes.begin(), 8);
+}
+
+TEST(Facets, of_many_faces_are_the_same_in_whatever_order_tasks_arrive) {
+  constexpr int kCubes = 40;  // 240 faces
+  const Model model = test::make_row_of_cubes(kCubes);
+  std::vector<std::uint8_t> wanted(6 * kCubes, 1);
+  wanted[7] = 0;
+  const Facets facets = make_facets(model, wanted, {.deflection = 0.1});
+  EXPECT_EQ(facets.triangle.size(), 12u * kCubes - 2);
+  EXPECT_TRUE(std::is_sorted(facets.face.begin(), facets.face.end()));
+  const test::BackwardExecutor backward;
+  const Facets other = make_facets(model, wanted, {.deflection = 0.1}, backward);
+  EXPECT_GT(backward.n_tasks, 1u);
+  EXPECT_EQ(facets.face, other.face);
+  EXPECT_EQ(facets.triangle, other.triangle);
+  EXPECT_EQ(facets.xyz, other.xyz);
 }
 
 }  // namespace
