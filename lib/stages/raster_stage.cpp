@@ -42,6 +42,7 @@
 #include "stages/same_inputs.h"
 #include "stages/size_tally.h"
 #include "stages/stored_model.h"
+#include "stages/task_trace.h"
 
 namespace st {
 namespace {
@@ -413,7 +414,7 @@ void append_locked(const std::vector<RasterBox>& boxes, std::mutex& mutex, std::
 }
 
 /// Collective. Throws TooManyCells beyond `max_samples`.
-Samples sample_model(const RasterTasks& tasks, std::uint64_t max_samples, const Communicator& comm) {
+Samples sample_model(const RasterTasks& tasks, std::uint64_t max_samples, const Executor& comm) {
   Samples samples;
   const auto n = static_cast<std::size_t>(tasks.count());
   samples.n_boxes.resize(n);
@@ -451,7 +452,7 @@ void limit_samples(std::uint64_t max_samples, ModelLimits& limits) {
 }
 
 /// Collective. The patches of all faces on every rank, by task.
-std::vector<GapPatch> share_patches(const Samples& samples, const Communicator& comm) {
+std::vector<GapPatch> share_patches(const Samples& samples, const Executor& comm) {
   std::vector<GapPatch> all;
   for (const std::vector<GapPatch>& p : samples.patches) all.insert(all.end(), p.begin(), p.end());
   share(comm, all);
@@ -460,7 +461,7 @@ std::vector<GapPatch> share_patches(const Samples& samples, const Communicator& 
 
 /// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0. Throws
 /// TooManyCells beyond `max_samples`.
-std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t max_samples, const Communicator& comm) {
+std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t max_samples, const Executor& comm) {
   const std::vector<GapPatch> patches = share_patches(samples, comm);
   const GapFinder finder(patches, cell_per_length);
   require_countable(patches.size(), "samples that look for gaps");
@@ -543,7 +544,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
 /// `seconds`: for each face; one that takes longer is in no cell, warned of and counted in `n_failures`.
 FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
-                       double seconds, const Communicator& comm, std::size_t& n_failures) {
+                       double seconds, const Executor& comm, std::size_t& n_failures) {
   const ModelTables& t = model.tables();
   const Vec3 origin = origin_of_places(t.box());
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
@@ -730,7 +731,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
 }
 
 /// Gives every rank what rank 0 decided.
-void share_limits(const Communicator& comm, ModelLimits& l) {
+void share_limits(const Executor& comm, ModelLimits& l) {
   share(comm, l.face, l.edge, l.vertex, l.edge_is_ruled, l.edge_is_smooth, l.face_wing, l.chords, l.far, l.min_length,
         l.wants_gaps, l.is_material_ahead, l.far_length, l.max_aspect);
 }
@@ -741,12 +742,13 @@ class RasterRun {
   RasterRun(const RasterStageOptions& o, const Communicator& comm, Progress& progress)
       : o_(o),
         comm_(comm),
+        trace_(comm, o.trace),
         progress_(progress),
         geometry_(read_geometry(o.geometry)),
         sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
         rules_(all_rules(o, sizes_, geometry_.tables)),
         model_(same_model(comm)),
-        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed, comm)),
+        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed, trace_)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
         strips_(find_strips(model_)) {
     if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
@@ -756,21 +758,27 @@ class RasterRun {
     progress_.step("lifting surfaces and limits", 0.1);
     set_limits();
     times_.end("opening");
+    trace_.begin_phase("samples");
     progress_.step("samples", 0.2);
     sample();
     artifact_.faces =
-        locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, comm_, counts_.n_failures);
+        locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, trace_, counts_.n_failures);
     times_.end("faces");
+    trace_.begin_phase("surface");
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
     progress_.step("surface", 0.7);
-    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, o_.time_limit, comm_);
+    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, o_.time_limit, trace_);
     times_.end("surface");
+    trace_.begin_phase("write");
     times_.gather(comm_);
+    if (comm_.is_root()) {
+      progress_.step("writing", 0.9);
+      warn_of_depth(counts_.depth);
+      write();
+    }
+    trace_.write();
     if (!comm_.is_root()) return {};
-    progress_.step("writing", 0.9);
-    warn_of_depth(counts_.depth);
-    write();
     times_.end("writing");
     return report();
   }
@@ -783,9 +791,9 @@ class RasterRun {
 
   void set_limits() {
     if (comm_.is_root()) wings_.edges = find_wing_edges(model_, roles_, strips_);
-    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, comm_);
+    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
-    share_limits(comm_, limits_);
+    share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
     require_cells(least_cells(model_.tables(), limits_), budget_.max_cells);
@@ -795,14 +803,15 @@ class RasterRun {
   void sample() {
     loops_.resize(static_cast<std::size_t>(model_.tables().n_faces()));
     Samples samples =
-        sample_model(RasterTasks(model_, limits_, strips_, o_.time_limit, loops_), budget_.max_samples, comm_);
+        sample_model(RasterTasks(model_, limits_, strips_, o_.time_limit, loops_), budget_.max_samples, trace_);
     times_.end("sampling");
     if (comm_.is_root()) counts_ = report_samples(samples);
     counts_.n_boxes += wings_.boxes.size();
     std::vector<RasterBox>& boxes = samples.own_boxes;
     boxes.insert(boxes.end(), wings_.boxes.begin(), wings_.boxes.end());
-    if (limits_.wants_gaps) counts_.n_gap_boxes = sample_gaps(samples, o_.cell_per_length, budget_.max_samples, comm_);
+    if (limits_.wants_gaps) counts_.n_gap_boxes = sample_gaps(samples, o_.cell_per_length, budget_.max_samples, trace_);
     times_.end("gaps");
+    trace_.begin_phase("octree");
     const Box3 box = model_.tables().box();
     artifact_.octree = build_common_octree(box, boxes, budget_.max_cells, comm_);
     counts_.depth = gather_depth_limit(find_depth_limit(box, boxes), comm_);
@@ -830,6 +839,7 @@ class RasterRun {
 
   const RasterStageOptions& o_;
   const Communicator& comm_;
+  TaskTrace trace_;
   Progress& progress_;
   PhaseTimes times_;
   GeometryArtifact geometry_;  // without the model
@@ -853,6 +863,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
   require_valid(o);
   if (comm.is_root()) require_writable(o.output);
+  if (comm.is_root() && !o.trace.empty()) require_writable(o.trace);
   Progress progress("st-raster", 1);
   progress.step("reading", 0);
   return RasterRun(o, comm, progress).run();

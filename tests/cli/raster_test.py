@@ -11,7 +11,7 @@ class Rules(ToolTest):
     def raster(self, text, *options, name="assembly", by="--sizes", output="r.hdf"):
         (self.folder / "sizes.toml").write_text(text)
         return must("st-raster", artifacts_of(name) / "geometry.hdf", "-o", self.folder / output, by,
-                    self.folder / "sizes.toml", *options, "--json").json()
+                    self.folder / "sizes.toml", *options, "--json", cwd=self.folder).json()
 
     def refuse(self, text, *says):
         (self.folder / "sizes.toml").write_text(text)
@@ -33,6 +33,14 @@ class Rules(ToolTest):
         rule = '[[size]]\nfaces = "pin_*"\nlmax = "0.3%"\nchord = "0.01%"\n[[size]]\nfor = "curves"\nsample = false\n'
         hashes = {self.raster(rule, "--np", n, output=f"r{n}.hdf")["hash"] for n in (1, 2, 3)}
         self.assertEqual(len(hashes), 1)
+
+    def test_a_trace_has_the_tasks_and_changes_nothing(self):
+        plain, traced = (self.raster('[[size]]\nlmax = "2%"\n', *options) for options in ((), ("--trace", "trace.csv")))
+        self.assertEqual(plain["hash"], traced["hash"])
+        rows = (self.folder / "trace.csv").read_text().splitlines()
+        self.assertEqual(rows[0].split(",")[:2], ["event", "name"])
+        names = {tuple(row.split(",")[:2]) for row in rows}
+        self.assertLessEqual({("task", "task"), ("task", "face"), ("serial", "octree"), ("serial", "surface")}, names)
 
     def test_a_chord_error_makes_lengths_shorter(self):
         geometry = artifacts_of("assembly") / "geometry.hdf"
