@@ -1,6 +1,8 @@
 """FLITE geometry files: imported, meshed, written, and refused where they are damaged."""
+import math
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -8,9 +10,27 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import INPUT, MODELS, ToolTest, make_chain, must  # noqa: E402
 
+ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("ST_CORPUS", ""))
 CYLINDERS = CORPUS / "flite_zju_cylinders.fli"
 needs_corpus = unittest.skipUnless(CYLINDERS.is_file(), "LOUD: no FLITE file here; set ST_CORPUS")
+
+
+def surfaces_of(path):
+    """Grids of points of a FLITE file."""
+    lines = iter(Path(path).read_text().splitlines())
+    next(lines)
+    n_curves, n_surfaces = map(int, next(lines).split())
+    next(lines)
+    for _ in range(n_curves):
+        next(lines)
+        for _ in range(int(next(lines))):
+            next(lines)
+    next(lines)
+    for _ in range(n_surfaces):
+        next(lines)
+        n, m = map(int, next(lines).split())
+        yield [[tuple(map(float, next(lines).split())) for _ in range(n)] for _ in range(m)]
 
 
 class FliteTest(ToolTest):
@@ -27,6 +47,24 @@ class FliteTest(ToolTest):
     def expect_checked_mesh(self, model):
         folder = make_chain(model, self.folder / "chain")
         must("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing", folder / "sizing.hdf")
+
+
+class Fighter(FliteTest):
+    """The model of bench/paper.sh, with fewer panels."""
+
+    def test_is_closed_in_its_far_field_and_no_panel_is_like_another(self):
+        files = self.folder / "fighter.dat", self.folder / "fighter.toml"
+        subprocess.run([sys.executable, "-B", ROOT / "bench/fighter.py", *files, "--panels", "12x8"], check=True)
+        geometry, report = self.geometry(files[0], "g.hdf", "--groups", files[1], "--unit", "m")
+        self.assertEqual((report["faces"], report["closed"]), (2 * 12 * 8 + 2 + 2 * (10 * 8 + 2) + 6, True), report)
+        info = must("st-info", geometry, "--groups", "--json").json()
+        n_faces = {group["name"]: len(group["faces"]) for group in info["tables"][0]["groups"]}
+        self.assertEqual((n_faces["symmetry"], n_faces["farfield"], n_faces["skin_above"]), (1, 5, 96))
+        sides = [tuple(round(math.dist(a, b), 9) for a, b in ((g[0][0], g[0][-1]), (g[0][0], g[-1][0]),
+                                                              (g[-1][-1], g[0][-1]), (g[-1][-1], g[-1][0])))
+                 for g in surfaces_of(files[0]) if len(g) > 2]
+        self.assertEqual(len(sides), 2 * 12 * 8 + 2 * 10 * 8)
+        self.assertEqual(len(set(sides)), len(sides))
 
 
 class Import(FliteTest):
