@@ -2,7 +2,8 @@
 # The two cases of the paper: processor time of each stage with one thread, and st-raster and st-mesh replayed on more.
 # usage: bench/paper.sh [BIN_DIR] [OUT_DIR]
 #   aircraft: the bundled one in its far field, 237 faces, with paper_aircraft.toml (the paper: 346 surfaces, 322,204)
-#   fighter:  2,988 faces by fighter.py in a far field, 1.6 million triangles (the paper: 2,749 surfaces, 1.6 million)
+#   fighter:  2,988 faces by examples/store/fighter.py, in a far field, 1.6 million triangles (the paper: 2,749 surfaces
+#             and as many triangles)
 # Each is meshed in two passes: the second one's sizes do not pass through the mesh of the first (st-prolong --blank).
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -59,7 +60,7 @@ case_of() { # name prolong-options raster-options...: out/name.geometry.hdf is t
 echo "st-import: $(processor_seconds "$bin/st-import" "$out/aircraft.step" -o "$out/aircraft.geometry.hdf" -q) s"
 case_of aircraft "" --alpha 10 --lmin 0.0075 --edge-size none --sizes "$here/bench/paper_aircraft.toml"
 
-python3 -B "$here/bench/fighter.py" "$out/fighter.dat" "$out/fighter.toml"
+python3 -B "$here/examples/store/fighter.py" "$out/fighter.dat" "$out/fighter.toml"
 echo "st-import: $(processor_seconds "$bin/st-import" "$out/fighter.dat" -o "$out/fighter.geometry.hdf" --unit m \
   --groups "$out/fighter.toml" -q) s"
 case_of fighter "--target-triangles 1600000"

@@ -1,6 +1,7 @@
 """st-edit on real geometries: what it makes is meshed, followed by meshes, and moves its raster along."""
 import csv
 import math
+import os
 import re
 import subprocess
 import sys
@@ -9,10 +10,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import (  # noqa: E402
-    BIN, GEOMETRY, INPUT, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, artifacts_of, content_hash, must,
+    BIN, GEOMETRY, INCOMPLETE, INPUT, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, artifacts_of, content_hash, must,
 )
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "flap" / "turn_flap.sh"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 BOX_AREA, BOX_VOLUME = 8800, 48000
 
 
@@ -179,8 +180,8 @@ class Move(EditTest):
         self.edit(box, "--transform", "translate 9e8 0 0", "--transform", "scale 100")
 
     def test_a_flap_turns_about_its_hinge_and_the_mesh_follows(self):
-        done = subprocess.run([EXAMPLE, MODELS / "wing_with_flap.step", self.folder, BIN], capture_output=True,
-                              text=True, timeout=300)
+        done = subprocess.run([EXAMPLES / "flap" / "turn_flap.sh", MODELS / "wing_with_flap.step", self.folder, BIN],
+                              capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, OK, done)
         self.assertNotIn("warning", done.stderr)
         before, after = [must("st-check", self.folder / m, "--json").json() for m in ("mesh.hdf", "turned_mesh.hdf")]
@@ -190,6 +191,25 @@ class Move(EditTest):
         self.assertLess(facts["triangles_redone"], 0.6 * facts["triangles_before"])
         self.expect_error(MISMATCH, "st-check", self.folder / "turned_mesh.hdf", "--geometry",
                           self.folder / "geometry.hdf")
+
+
+    def separated(self, **environment):
+        return subprocess.run([EXAMPLES / "store" / "separate.sh", self.folder, BIN], capture_output=True, text=True,
+                              timeout=300, env=os.environ | {"STEPS": "2", "PANELS": "8x6"} | environment)
+
+    def test_a_store_separates_and_the_mesh_away_from_it_stays_the_same(self):
+        if subprocess.run(["/usr/bin/python3", "-c", "import h5py"], capture_output=True).returncode != 0:
+            self.skipTest("LOUD: /usr/bin/python3 has no h5py, nobody can compare the meshes")
+        done = self.separated()
+        self.assertEqual(done.returncode, OK, done)
+        steps = re.findall(r"step (\d+): \S+ s, (\d+) triangles on walls, (\d+) away from the store, 0 of these",
+                           done.stdout)
+        self.assertEqual([step[0] for step in steps], ["01", "02"])
+        for _, n_walls, n_away in steps:
+            self.assertGreater(int(n_away), 0.2 * int(n_walls))
+        mesh = must("st-info", self.folder / "02.mesh.hdf", "--json").json()
+        self.assertEqual(mesh["properties"]["is_complete"], True)
+        self.assertEqual(self.separated(STEPS="1", AWAY="0.1").returncode, INCOMPLETE, "the store itself moved")
 
 
 class Raster(EditTest):

@@ -54,7 +54,8 @@ class Fighter(FliteTest):
 
     def test_is_closed_in_its_far_field_and_no_panel_is_like_another(self):
         files = self.folder / "fighter.dat", self.folder / "fighter.toml"
-        subprocess.run([sys.executable, "-B", ROOT / "bench/fighter.py", *files, "--panels", "12x8"], check=True)
+        subprocess.run([sys.executable, "-B", ROOT / "examples/store/fighter.py", *files, "--panels", "12x8"],
+                       check=True)
         geometry, report = self.geometry(files[0], "g.hdf", "--groups", files[1], "--unit", "m")
         self.assertEqual((report["faces"], report["closed"]), (2 * 12 * 8 + 2 + 2 * (10 * 8 + 2) + 6, True), report)
         info = must("st-info", geometry, "--groups", "--json").json()

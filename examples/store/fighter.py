@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a fighter in a box of air as a FLITE file, of a few thousand faces, no two of them alike.
 
-usage: bench/fighter.py OUT.dat GROUPS.toml [--panels 44x32]
+usage: fighter.py OUT.dat GROUPS.toml [--panels 44x32]
 
 The right half of a blended body with a diamond wing, two stores below the wing, a symmetry plane and a far field; in
 metres. The skin is divided into panels whose corners are moved about, by a fixed seed: 44 x 32 of them above and as
