@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -160,30 +161,46 @@ struct CrossingSearch::Search {
     return packed(near(s, PatchBlocks(std::move(boxes)), is_of_one_face));
   }
 
-  /// What of `s` is near `other`, a section of this rank, whoever has `s`.
-  PatchPart near_own(std::int32_t s, const StoredPatch& other, bool is_of_one_face) const {
-    const PatchPlace& place = sections[s].place;
-    PatchPart part;
-    if (store.is_own(place)) {
-      part = near(s, other.blocks, is_of_one_face);
-      executor.has_own(PackedSize::of(part));
-      return part;
+  /// Of the two sections of a job, the one on this rank, and the other one.
+  std::array<std::int32_t, 2> here_and_there(const Job& job) const {
+    return store.is_own(sections[job.a].place) ? std::array{job.a, job.b} : std::array{job.b, job.a};
+  }
+  bool is_of_one_face(const Job& job) const { return sections[job.a].face == sections[job.b].face; }
+
+  /// For each job what of the other section is near that of this rank, whoever has it. All others are asked at once:
+  /// where faces are small, most of the time would go into waiting for one answer after the other.
+  std::vector<PatchPart> near_others(const std::vector<Job>& jobs) const {
+    std::vector<PatchPart> parts(jobs.size());
+    std::vector<Request> requests;
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      if (jobs[i].a == jobs[i].b) continue;
+      const auto [here, there] = here_and_there(jobs[i]);
+      const PatchPlace& place = sections[there].place;
+      const auto other = own(here);
+      if (store.is_own(place)) {
+        parts[i] = near(there, other->blocks, is_of_one_face(jobs[i]));
+        executor.has_own(PackedSize::of(parts[i]));
+        continue;
+      }
+      std::vector<Box3> boxes;
+      for (const PatchBlocks::Meeting& m : other->blocks.meeting(place.box)) boxes.push_back(other->blocks[m.block]);
+      if (boxes.empty()) continue;
+      requests.push_back({place.rank, packed(std::vector<Facet>(), there, boxes, is_of_one_face(jobs[i]))});
+      asked.push_back(i);
     }
-    std::vector<Box3> boxes;
-    for (const PatchBlocks::Meeting& m : other.blocks.meeting(place.box)) boxes.push_back(other.blocks[m.block]);
-    if (!boxes.empty())
-      unpack(executor.ask({{place.rank, packed(std::vector<Facet>(), s, boxes, is_of_one_face)}})[0], part);
-    return part;
+    const std::vector<Bytes> answers = executor.ask(requests);
+    for (std::size_t k = 0; k < asked.size(); ++k) unpack(answers[k], parts[asked[k]]);
+    return parts;
   }
 
-  Found between(const Job& job) const {
-    const bool has_a = store.is_own(sections[job.a].place);
-    const std::int32_t here = has_a ? job.a : job.b, there = has_a ? job.b : job.a;
-    const bool is_of_one_face = sections[job.a].face == sections[job.b].face;
-    const PatchPart other = near_own(there, *own(here), is_of_one_face);
+  /// `other`: of near_others().
+  Found between(const Job& job, const PatchPart& other) const {
+    const auto [here, there] = here_and_there(job);
+    const bool has_a = here == job.a;
     Found found;
     if (other.triangle.empty()) return found;
-    const PatchPart near_here = near(here, PatchBlocks(other.boxes), is_of_one_face);
+    const PatchPart near_here = near(here, PatchBlocks(other.boxes), is_of_one_face(job));
     const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
     const TwoParts both = join_parts(a, b);
     const auto n_first = static_cast<std::int32_t>(a.triangle.size());
@@ -193,8 +210,8 @@ struct CrossingSearch::Search {
     if (was_ended) found.ended.push_back({sections[job.a].face, sections[job.b].face});
     return found;
   }
-  Found find(const Job& job) const {
-    Found found = job.a == job.b ? within(job.a) : between(job);
+  Found find(const Job& job, const PatchPart& other) const {
+    Found found = job.a == job.b ? within(job.a) : between(job, other);
     if (!found.ended.empty())
       for (FacetPair& p : found.pairs) p.factor = kHopeless;
     return found;
@@ -332,9 +349,12 @@ void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<F
       tasks,
       [&](std::int32_t task) {
         Found all;
-        for (const std::size_t i : batches[task].jobs) {
-          Found found = search.find(jobs[i]);
-          measure_whole_faces(jobs[i], search, found);
+        std::vector<Job> own;
+        for (const std::size_t i : batches[task].jobs) own.push_back(jobs[i]);
+        const std::vector<PatchPart> others = search.near_others(own);
+        for (std::size_t i = 0; i < own.size(); ++i) {
+          Found found = search.find(own[i], others[i]);
+          measure_whole_faces(own[i], search, found);
           all.pairs.insert(all.pairs.end(), found.pairs.begin(), found.pairs.end());
           all.chords.insert(all.chords.end(), found.chords.begin(), found.chords.end());
           all.touching.insert(all.touching.end(), found.touching.begin(), found.touching.end());
