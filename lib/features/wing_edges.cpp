@@ -6,11 +6,14 @@
 #include <numeric>
 #include <optional>
 
+#include "base/packer.h"
+#include "base/share.h"
 #include "features/strip.h"
 
 namespace st {
 namespace {
 
+constexpr std::size_t kEdgesPerTask = 128;
 constexpr int kStations = 9;
 constexpr int kAgreeing = 6;                                         // of the stations
 constexpr double kSharpest = radians(60);                            // material of a sharp trailing edge at most
@@ -52,24 +55,52 @@ class WingEdgeFinder {
         for (const CoedgeId c : t_.loop_coedges(l)) uses_[t_.coedge_edge[c]].push_back({f, c});
   }
 
-  std::vector<WingEdge> run() {
-    std::vector<WingEdge> found = find();
-    if (!found.empty() || t_.volume) return found;
+  std::vector<WingEdge> run(const Executor& executor) {
+    std::vector<WingEdge> found = find(executor);
+    bool is_done = !found.empty() || t_.volume.has_value();
+    share(executor, is_done);
+    if (is_done) return found;
     is_turned_ = !is_turned_;  // nothing tells on which side of an open surface the material is
-    return find();
+    return find(executor);
   }
 
  private:
-  std::vector<WingEdge> find() {
+  std::vector<WingEdge> find(const Executor& executor) {
     std::vector<std::optional<WingEdge>> found(uses_.size());
-    for (const Strip& strip : strips_) try_blunt(strip, found);
-    for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (!found[e] && is_candidate(e)) found[e] = classify(e);
-    drop_short_chains(found);
+    std::vector<EdgeId> candidates;
+    if (executor.is_root()) {
+      for (const Strip& strip : strips_) try_blunt(strip, found);
+      for (EdgeId e = 0; e < t_.n_edges(); ++e)
+        if (!found[e] && is_candidate(e)) candidates.push_back(e);
+    }
+    share(executor, candidates);
+    classify_all(candidates, executor, found);
     std::vector<WingEdge> result;
+    if (!executor.is_root()) return result;
+    drop_short_chains(found);
     for (const auto& w : found)
       if (w) result.push_back(*w);
     return result;
+  }
+
+  /// `found`: on rank 0.
+  void classify_all(std::span<const EdgeId> edges, const Executor& executor,
+                    std::vector<std::optional<WingEdge>>& found) const {
+    const std::size_t n_tasks = (edges.size() + kEdgesPerTask - 1) / kEdgesPerTask;
+    executor.run_tasks(
+        static_cast<std::int32_t>(n_tasks), heaviest_first(std::vector<double>(n_tasks, 1)),
+        [&](std::int32_t task) {
+          const auto rest = edges.subspan(kEdgesPerTask * static_cast<std::size_t>(task));
+          std::vector<WingEdge> own;
+          for (const EdgeId e : rest.first(std::min(rest.size(), kEdgesPerTask)))
+            if (const std::optional<WingEdge> w = classify(e)) own.push_back(*w);
+          return packed(own);
+        },
+        [&](std::int32_t, Bytes&& bytes) {
+          std::vector<WingEdge> some;
+          unpack(bytes, some);
+          for (const WingEdge& w : some) found[w.edge] = w;
+        });
   }
 
   struct Use {
@@ -317,8 +348,9 @@ const char* name_of(WingEdgeKind kind) {
   }
 }
 
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips) {
-  return WingEdgeFinder(model, roles, strips).run();
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
+                                      const Executor& executor) {
+  return WingEdgeFinder(model, roles, strips).run(executor);
 }
 
 }  // namespace st

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/executor.h"
 #include "features/face_roles.h"
 #include "features/strip.h"
 #include "geometry/model/model.h"
@@ -37,8 +38,9 @@ struct WingEdge {
 /// altogether. A sharp leading edge cannot be told from a trailing edge and counts as one. Material is where the
 /// normals point away from, except in a model with a far field, where it is outside of the domain. Where a plane of
 /// symmetry cuts a fin in two, the other half counts as if it were there; other edges of symmetry planes and those of
-/// far fields are left out. `strips`: those of the model, by find_strips(). Local. Cost: some hundred evaluations per
-/// edge of a nose.
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips);
+/// far fields are left out. `strips`: those of the model, by find_strips(). Collective: some edges are a task; complete
+/// on rank 0, empty elsewhere. Cost: some hundred evaluations per edge of a nose.
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
+                                      const Executor& executor = SerialExecutor());
 
 }  // namespace st

@@ -790,7 +790,7 @@ class RasterRun {
   }
 
   void set_limits() {
-    if (comm_.is_root()) wings_.edges = find_wing_edges(model_, roles_, strips_);
+    wings_.edges = find_wing_edges(model_, roles_, strips_, trace_);
     wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
