@@ -25,7 +25,7 @@ run_st() { # of the whole process: wall time and user + system time
   awk '{ print $1 }' "$out/time" >> "$out/st_wall"
   awk '{ print $2 + $3 }' "$out/time" >> "$out/st_cpu"
 }
-value() { sed -n "s/.*\"$1\":\([-0-9.e+]*\).*/\1/p" "$out/raster.json" | tail -1; }
+value() { grep -o "\"$1\":[-0-9.e+]*" "$out/raster.json" | head -1 | cut -d: -f2; }  # groups have samples, too
 run_gmsh() {
   gmsh -1 -nt 1 "$1" -clcurv 36 -clmin "$(value lmin)" -clmax "$(value lmax)" -format msh22 -o "$out/curves.msh" -v 5 \
     > "$out/gmsh.log" 2>&1
