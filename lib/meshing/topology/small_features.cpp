@@ -182,7 +182,7 @@ class StripMerger {
     t.edge_faces(offsets_, faces_);
     for (EdgeId e = 0; e < t.n_edges(); ++e)
       if (!t.edge_is_degenerate[e] && offsets_[e + 1] - offsets_[e] == 2)
-        add_contact(e, {faces_[offsets_[e]], faces_[offsets_[e] + 1]});
+        for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, {faces_[offsets_[e]], faces_[offsets_[e] + 1]}));
     std::sort(contacts_.begin(), contacts_.end());
   }
 
@@ -198,9 +198,11 @@ class StripMerger {
         if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
     for (const EdgeId e : strip.edges) {
       taken_[e] = 1;
-      add_contact(e, {a, b});
+      for (int k = 0; k < 2; ++k) {
+        const Contact added = contact(e, k, {a, b});
+        contacts_.insert(std::upper_bound(contacts_.begin(), contacts_.end(), added), added);
+      }
     }
-    std::sort(contacts_.begin(), contacts_.end());
     return true;
   }
 
@@ -209,9 +211,6 @@ class StripMerger {
   using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
   Contact contact(EdgeId e, int k, FacePair f) const {
     return {sets_.root(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
-  }
-  void add_contact(EdgeId e, FacePair f) {
-    for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, f));
   }
   FaceId other_face(EdgeId e, FaceId f) const {
     return faces_[offsets_[e]] == f ? faces_[offsets_[e] + 1] : faces_[offsets_[e]];
@@ -222,7 +221,7 @@ class StripMerger {
   std::vector<char> taken_;
   std::vector<std::int32_t> offsets_;
   std::vector<FaceId> faces_;
-  std::vector<Contact> contacts_;
+  std::vector<Contact> contacts_;  // sorted
 };
 
 /// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
