@@ -19,9 +19,9 @@ namespace st {
 using Float4 [[gnu::vector_size(16)]] = float;
 
 /// A place from the lower corner of the root as two numbers of single precision for each coordinate, so that
-/// differences to other places are exact to single precision. The last of the four is zero.
+/// differences to other places are exact to single precision.
 struct SplitPlace {
-  Float4 high, low;
+  Float4 high, low;  // the last of the four is zero
 
   explicit SplitPlace(Vec3 from_lo)
       : high{static_cast<float>(from_lo.x), static_cast<float>(from_lo.y), static_cast<float>(from_lo.z), 0},
@@ -54,32 +54,55 @@ struct Cone {
   }
   /// Model unit.
   double length_at(Vec3 to) const { return length + slope * norm(way_to(to)); }
-  /// Likewise in single precision, 1e-6 of the result.
-  float length_at(const SplitPlace& to) const {
-    Float4 way = in_space((to.high - load(offsetof(Cone, x))) + to.low);
-    for (int k = 0; k < 2; ++k) {
-      const Float4 e = load(offsetof(Cone, side) + static_cast<std::size_t>(k) * sizeof side[0]), along = sum(way * e),
-                   most = half[k] - Float4{};
-      const Float4 below = along < most ? along : most;
-      way = in_space(way - (below > -most ? below : -most) * e);
+};
+
+/// Four cones, asked at once.
+class FourCones {
+ public:
+  FourCones(const Cone& a, const Cone& b, const Cone& c, const Cone& d) {
+    turn(&a.x[0], &b.x[0], &c.x[0], &d.x[0], x_[0], x_[1], x_[2], length_);
+    turn(&a.slope, &b.slope, &c.slope, &d.slope, slope_, side_[0][0], side_[0][1], side_[0][2]);
+    turn(&a.side[1][0], &b.side[1][0], &c.side[1][0], &d.side[1][0], side_[1][0], side_[1][1], side_[1][2], half_[0]);
+    half_[1] = Float4{a.half[1], b.half[1], c.half[1], d.half[1]};
+  }
+  /// Of each the length, 1e-6 of it.
+  Float4 length_at(const SplitPlace& to) const {
+    Float4 way[3];
+    for (int k = 0; k < 3; ++k) way[k] = (to.high[k] - x_[k]) + to.low[k];
+    for (int e = 0; e < 2; ++e) {
+      const Float4 along = dot(way, side_[e]), below = along < half_[e] ? along : half_[e],
+                   within = below > -half_[e] ? below : -half_[e];
+      for (int k = 0; k < 3; ++k) way[k] -= within * side_[e][k];
     }
-    return length + slope * std::sqrt(sum(way * way)[0]);
+    const Float4 square = dot(way, way);
+    Float4 root{};
+    for (int i = 0; i < 4; ++i) root[i] = std::sqrt(square[i]);
+    return length_ + slope_ * root;
   }
 
  private:
-  /// Four of its numbers; three of them are those of a vector.
-  Float4 load(std::size_t offset) const {
-    Float4 four;
-    std::memcpy(&four, reinterpret_cast<const char*>(this) + offset, sizeof four);
-    return four;
+  static Float4 dot(const Float4 (&a)[3], const Float4 (&b)[3]) { return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1]; }
+  /// Four numbers of each of four cones, by number.
+  static void turn(const float* a, const float* b, const float* c, const float* d, Float4& first, Float4& second,
+                   Float4& third, Float4& fourth) {
+    const auto load = [](const float* from) {
+      Float4 four;
+      std::memcpy(&four, from, sizeof four);
+      return four;
+    };
+    const Float4 ab_low = __builtin_shufflevector(load(a), load(b), 0, 4, 1, 5),
+                 ab_high = __builtin_shufflevector(load(a), load(b), 2, 6, 3, 7),
+                 cd_low = __builtin_shufflevector(load(c), load(d), 0, 4, 1, 5),
+                 cd_high = __builtin_shufflevector(load(c), load(d), 2, 6, 3, 7);
+    first = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    second = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    third = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    fourth = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
   }
-  static Float4 in_space(Float4 v) { return __builtin_shufflevector(v, Float4{}, 0, 1, 2, 4); }
-  /// In each of the four.
-  static Float4 sum(Float4 v) {
-    v += __builtin_shufflevector(v, v, 2, 3, 0, 1);
-    return v + __builtin_shufflevector(v, v, 1, 0, 3, 2);
-  }
+
+  Float4 x_[3], length_, slope_, side_[2][3], half_[2];
 };
+static_assert(sizeof(Cone) == 13 * sizeof(float));
 
 /// The cones of an octree, and which of them tell the length in each site.
 struct ConeTable {

@@ -6,6 +6,18 @@
 #include <utility>
 
 namespace st {
+namespace {
+
+float least_of(const Float4& v) {
+  const Float4 other = __builtin_shufflevector(v, v, 2, 3, 0, 1), two = v < other ? v : other,
+               last = __builtin_shufflevector(two, two, 1, 0, 3, 2);
+  return (two < last ? two : last)[0];
+}
+
+/// Of the deepest level, on one axis.
+std::uint32_t cell_at(double on_grid) { return std::min(static_cast<std::uint32_t>(on_grid), kCoordinateEnd - 1); }
+
+}  // namespace
 
 OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length)
     : data_(data),
@@ -24,7 +36,7 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
   if (!data_.split_leaf.empty()) is_split_.resize(data_.cells.size() / 64 + 1);
   for (const std::int32_t leaf : data_.split_leaf)
     is_split_[static_cast<std::size_t>(leaf) / 64] |= std::uint64_t{1} << (leaf % 64);
-  if (data_.sources) reach_ = std::make_unique<std::atomic<std::uint8_t>[]>(data_.cells.size());
+  if (data_.sources) near_ = std::make_unique<std::atomic<std::uint64_t>[]>(data_.cells.size());
   top_.resize(std::size_t{1} << (3 * kTopLevel));
   fill_top(data.octree.node_children.empty() ? ~0 : 0, 0, 0);
 }
@@ -49,94 +61,102 @@ inline OctreeField::Place OctreeField::locate(Vec3 xyz, int& hint) const {
     return g > 0 ? std::min(g, static_cast<double>(kCoordinateEnd)) : 0.0;
   };
   const double gx = to_grid(xyz.x, octree.lo.x), gy = to_grid(xyz.y, octree.lo.y), gz = to_grid(xyz.z, octree.lo.z);
-  const auto cell = [](double g) { return std::min(static_cast<std::uint32_t>(g), kCoordinateEnd - 1); };
-  const GridPoint p{cell(gx), cell(gy), cell(gz)};
-  const std::uint64_t key = morton::encode(p);
+  const std::uint64_t key = morton::encode({cell_at(gx), cell_at(gy), cell_at(gz)});
   int level = 0;
-  if (hint >= 0 && hint < octree.n_leaves() && octree.leaf_contains(hint, key))
-    level = octree.leaf_levels[hint];
-  else
-    hint = find_leaf(key, level);
-  const std::uint32_t extent = morton::cell_extent(level), mask = ~(extent - 1);
-  const double half = 0.5 * extent;
-  return {xyz,
-          xyz - octree.lo,
-          {unit_ * (gx - (p.x & mask) - half), unit_ * (gy - (p.y & mask) - half), unit_ * (gz - (p.z & mask) - half)}};
+  if (hint < 0 || hint >= octree.n_leaves() || !octree.leaf_contains(hint, key)) hint = find_leaf(key, level);
+  return {xyz, xyz - octree.lo, {gx, gy, gz}};
+}
+
+Vec3 OctreeField::from_center(std::int32_t leaf, const Place& x) const {
+  const std::uint32_t extent = morton::cell_extent(data_.octree.leaf_levels[leaf]), mask = ~(extent - 1);
+  const auto from = [&](double g) { return unit_ * (g - (cell_at(g) & mask) - 0.5 * extent); };
+  return {from(x.on_grid.x), from(x.on_grid.y), from(x.on_grid.z)};
 }
 
 double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
+  using Int4 [[gnu::vector_size(16)]] = std::int32_t;
   const SplitPlace place(x.from_lo);
-  auto least = static_cast<float>(data_.max_length);
-  std::int32_t by = kNone;
-  const std::int32_t end = data_.first_cone[site + 1];
-  for (std::int32_t k = data_.first_cone[site]; k < end; ++k) {
-    const std::int32_t i = data_.site_cones[k];
-    const Cone& cone = data_.cones[i];
-    if (!(cone.length < least)) break;           // shorter ones come first
-    const float length = cone.length_at(place);  // of each: most guesses of who is nearer would be wrong
-    by = length < least ? i : by;
-    least = std::min(least, length);
+  const auto largest = static_cast<float>(data_.max_length);
+  Float4 least = largest - Float4{};
+  Int4 by = Int4{} - 1, at{0, 1, 2, 3};  // of the site's cones
+  const std::int32_t* const own = data_.site_cones.data() + data_.first_cone[site];
+  const std::int32_t n = data_.first_cone[site + 1] - data_.first_cone[site], last = n - 1;
+  for (std::int32_t k = 0; k < n; k += 4, at += 4) {
+    const auto cone = [&](std::int32_t i) -> const Cone& { return data_.cones[own[std::min(i, last)]]; };
+    const Cone& shortest = cone(k);  // of those from here on
+    if (k > 0 && !(shortest.length < least_of(least))) break;
+    const Float4 length = FourCones(shortest, cone(k + 1), cone(k + 2), cone(k + 3)).length_at(place);
+    by = length < least ? at : by;
+    least = length < least ? length : least;
   }
-  if (winner) *winner = by;
-  return static_cast<double>(least);
+  const float result = least_of(least);
+  if (winner) {
+    std::int32_t first = n;
+    for (int i = 0; i < 4; ++i)
+      if (least[i] == result && by[i] >= 0) first = std::min({first, by[i], last});
+    *winner = first < n ? own[first] : kNone;
+  }
+  return static_cast<double>(result);
 }
 
-inline std::int32_t OctreeField::find_site(std::int32_t leaf, const Place& x) const {
+/// Which parts of the leaf the place may lie in: one, or the first and the second where that is not certain.
+inline OctreeField::Sites OctreeField::find_sites(std::int32_t leaf, const Place& x) const {
   const auto bit = static_cast<std::size_t>(leaf);
   if (is_split_.empty() || !(is_split_[bit / 64] >> (bit % 64) & 1)) [[likely]]
-    return leaf;
+    return {leaf, kNone};
   const auto it = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
   const auto k = static_cast<std::int32_t>(it - data_.split_leaf.begin());
   const std::int32_t second = data_.octree.n_leaves() + k;
   const CellSplit& s = data_.split[k];
-  const Vec3 d = x.from_center;
+  const Vec3 d = from_center(leaf, x);
   const double height = s.normal[0] * d.x + s.normal[1] * d.y + s.normal[2] * d.z - s.offset;
-  if (std::abs(height) > s.margin) return height > 0 ? leaf : second;
-  return length_at(second, x) < length_at(leaf, x) ? second : leaf;
+  if (std::abs(height) > s.margin) return {height > 0 ? leaf : second, kNone};
+  return {leaf, second};
 }
 
-bool OctreeField::has_sources_in(std::int32_t leaf) const {
-  if (!data_.sources) return false;
-  std::uint8_t reach = reach_[leaf].load(std::memory_order_relaxed);
-  if (reach == 0) {  // whoever finds out, finds the same
-    const double radius = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
-    double upper = std::abs(static_cast<double>(data_.cells[leaf].upper));
-    const auto split = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
-    if (split != data_.split_leaf.end() && *split == leaf)
-      upper = std::max<double>(upper, std::abs(data_.second_cells[split - data_.split_leaf.begin()].upper));
-    if (!data_.along.empty()) upper *= data_.max_aspect;
-    const double least = data_.sources->least_near(data_.octree.leaf_center(leaf), radius, upper);
-    reach = least < upper ? 2 : 1;
-    reach_[leaf].store(reach, std::memory_order_relaxed);
-  }
-  return reach == 2;
+std::int32_t OctreeField::find_site(std::int32_t leaf, const Place& x) const {
+  const auto [first, second] = find_sites(leaf, x);
+  return second != kNone && length_at(second, x) < length_at(first, x) ? second : first;
 }
 
-inline bool OctreeField::may_reach(std::int32_t leaf, const Place& x) const {
-  const double edge = data_.octree.edge;
-  const bool is_inside = std::min({x.from_lo.x, x.from_lo.y, x.from_lo.z}) >= 0 &&
-                         std::max({x.from_lo.x, x.from_lo.y, x.from_lo.z}) <= edge;
-  return !is_inside || has_sources_in(leaf);
+FewSources OctreeField::find_near(std::int32_t leaf) const {
+  const double radius = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
+  double upper = std::abs(static_cast<double>(data_.cells[leaf].upper));
+  const auto split = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
+  if (split != data_.split_leaf.end() && *split == leaf)
+    upper = std::max<double>(upper, std::abs(data_.second_cells[split - data_.split_leaf.begin()].upper));
+  if (!data_.along.empty()) upper *= data_.max_aspect;
+  const FewSources near = data_.sources->find_near(data_.octree.leaf_center(leaf), radius, upper);
+  near_[leaf].store(near.bits(), std::memory_order_relaxed);  // whoever finds out, finds the same
+  return near;
 }
 
 double OctreeField::size(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
-  return scaled(source_length(hint, x, length_at(find_site(hint, x), x)));
+  const auto [first, second] = find_sites(hint, x);
+  double length = length_at(first, x);
+  if (second != kNone) length = std::min(length, length_at(second, x));
+  return scaled(source_length(hint, x, length));
 }
 
 LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
   const double length = scaled(length_at(site, x));
   if (data_.along.empty()) return {length, length, {}};
-  const double along = std::min(scaled(length_in(data_.along[site], x.from_center)), data_.max_aspect * length);
+  const double along =
+      std::min(scaled(length_in(data_.along[site], from_center(leaf_of(site), x))), data_.max_aspect * length);
   const Vec3 direction = normalized(Vec3(data_.direction[site]));
   if (direction == Vec3{} || !(along > length)) return {length, length, {}};
   return {length, along, direction};
 }
 
 LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
+  if (!OctreeField::is_stretched()) {
+    const double length = OctreeField::size(xyz, hint);
+    return {length, length, {}};
+  }
   const Place x = locate(xyz, hint);
   const LocalSize own = local_in(find_site(hint, x), x);
-  if (!data_.sources || !may_reach(hint, x)) return own;
+  if (!data_.sources || (is_inside(x) && sources_near(hint).are_none())) return own;
   const LocalSize least =
       data_.sources->local_below(xyz, {own.length / data_.scale, own.along / data_.scale, own.direction});
   return {scaled(least.length), scaled(least.along), least.direction};
@@ -144,10 +164,10 @@ LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
 
 OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) const {
   Answer answer;
-  const double length =
-      data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x, &answer.cone);
-  const std::int32_t n = data_.octree.n_leaves(), leaf = site < n ? site : data_.split_leaf[site - n];
-  const double least = source_length(leaf, x, length, &answer.source);
+  const double length = data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x, &answer.cone);
+  const std::int32_t n = data_.octree.n_leaves(), leaf = leaf_of(site);
+  const bool may_be_source = data_.sources && (!is_inside(x) || has_sources_in(leaf));
+  const double least = may_be_source ? data_.sources->size_below(x.xyz, length, &answer.source) : length;
   answer.length = scaled(least);
   if (answer.source != kNone) {
     answer.cone = kNone;
@@ -175,7 +195,7 @@ double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::
 }
 
 CellLength OctreeField::at_center(std::int32_t site, std::int32_t& cause) const {
-  const std::int32_t n = data_.octree.n_leaves(), leaf = site < n ? site : data_.split_leaf[site - n];
+  const std::int32_t leaf = leaf_of(site);
   const Vec3 center = data_.octree.leaf_center(leaf);
   const Answer answer = answer_at(site, {center, center - data_.octree.lo, {}});
   cause = answer.cause;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -94,16 +95,15 @@ class OctreeField : public SizeField {
   virtual Similarity frame() const { return {}; }
   virtual SizeExplanation explain(Vec3 xyz) const;
   /// Whether a source may tell a length somewhere in a leaf.
-  bool has_sources_in(std::int32_t leaf) const;
+  bool has_sources_in(std::int32_t leaf) const { return data_.sources && !sources_near(leaf).are_none(); }
   /// Likewise size() in the octree's own frame, its gradient and its cause.
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const;
 
  private:
-  /// A place in space, and in its leaf.
   struct Place {
-    Vec3 xyz;          // in the octree's frame
-    Vec3 from_lo;      // from the lower corner of the root
-    Vec3 from_center;  // of the leaf, moved into the root
+    Vec3 xyz;      // in the octree's frame
+    Vec3 from_lo;  // from the lower corner of the root
+    Vec3 on_grid;  // in units of the deepest cells, moved into the root
   };
   /// What tells the length at a place.
   struct Answer {
@@ -114,6 +114,16 @@ class OctreeField : public SizeField {
   };
 
   Place locate(Vec3 xyz, int& hint) const;
+  Vec3 from_center(std::int32_t leaf, const Place& x) const;
+  /// Of a site.
+  std::int32_t leaf_of(std::int32_t site) const {
+    const std::int32_t n = data_.octree.n_leaves();
+    return site < n ? site : data_.split_leaf[site - n];
+  }
+  struct Sites {
+    std::int32_t first, second;  // second: kNone, or the smaller length of both counts
+  };
+  Sites find_sites(std::int32_t leaf, const Place& x) const;
   /// The leaf, or the second part of one that is split.
   std::int32_t find_site(std::int32_t leaf, const Place& x) const;
   LocalSize local_in(std::int32_t site, const Place& x) const;
@@ -125,21 +135,37 @@ class OctreeField : public SizeField {
     const std::int32_t n = data_.octree.n_leaves();
     return site < n ? data_.cells[site] : data_.second_cells[site - n];
   }
+  double cell_length(std::int32_t site, const Place& x) const {
+    return length_in(cell_of(site), from_center(leaf_of(site), x));
+  }
   /// Before scale. `winner` (may be null): the cone that tells it, or kNone.
   double cone_length(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
   /// Before scale.
   double length_at(std::int32_t site, const Place& x) const {
-    return data_.first_cone.empty() ? length_in(cell_of(site), x.from_center) : cone_length(site, x);
+    return data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x);
   }
   double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
   friend ProlongedLengths lengths_at_centers(OctreeFieldData data);
   CellLength at_center(std::int32_t site, std::int32_t& cause) const;
   Answer answer_at(std::int32_t site, const Place& x) const;
   /// Before scale: the smallest of `length` at x in a leaf and of what sources ask for there; see SourceTree.
-  double source_length(std::int32_t leaf, const Place& x, double length, std::int32_t* winner = nullptr) const {
-    return data_.sources && may_reach(leaf, x) ? data_.sources->size_below(x.xyz, length, winner) : length;
+  double source_length(std::int32_t leaf, const Place& x, double length) const {
+    if (!data_.sources) return length;
+    if (!is_inside(x)) return data_.sources->size_below(x.xyz, length);
+    const FewSources near = sources_near(leaf);
+    return near.are_none() ? length : data_.sources->size_below(x.xyz, length, near);
   }
-  bool may_reach(std::int32_t leaf, const Place& x) const;
+  /// Of the root cube.
+  bool is_inside(const Place& x) const {
+    return std::min({x.from_lo.x, x.from_lo.y, x.from_lo.z}) >= 0 &&
+           std::max({x.from_lo.x, x.from_lo.y, x.from_lo.z}) <= data_.octree.edge;
+  }
+  /// Those that may tell a length somewhere in the leaf. Precondition: there are sources.
+  FewSources sources_near(std::int32_t leaf) const {
+    const auto known = FewSources::from_bits(near_[leaf].load(std::memory_order_relaxed));
+    return known.is_known() ? known : find_near(leaf);
+  }
+  FewSources find_near(std::int32_t leaf) const;
   void fill_top(std::int32_t node, int level, std::size_t first);
   /// As OctreeView::find_leaf, by way of the table.
   std::int32_t find_leaf(std::uint64_t key, int& level) const {
@@ -158,8 +184,7 @@ class OctreeField : public SizeField {
   OctreeFieldData data_;
   std::vector<std::int32_t> top_;  // [8^kTopLevel] node of that level, or ~leaf: the first steps of every search in one
   std::vector<std::uint64_t> is_split_;  // a bit for each leaf, smaller than looking into `cells`; empty: none is
-  /// [n_leaves] where there are sources, whether one may tell a length in the leaf: 0 not known yet, 1 no, 2 yes.
-  std::unique_ptr<std::atomic<std::uint8_t>[]> reach_;
+  std::unique_ptr<std::atomic<std::uint64_t>[]> near_;  // [n_leaves] FewSources, where there are sources
   std::shared_ptr<const void> owner_;
   double unit_;     // edge of a grid cell
   double to_grid_;  // 1 / unit_

@@ -24,6 +24,13 @@ std::vector<Box3> cores_of(const std::vector<SourceTree::Entry>& entries) {
 
 }  // namespace
 
+FewSources::FewSources(const std::int32_t* source, std::size_t n) : bits_(kMost + 2) {
+  if (n > kMost || std::any_of(source, source + n, [](std::int32_t s) { return s >= kEnd; })) return;
+  bits_ = n + 1;
+  for (std::size_t i = 0; i < n; ++i)
+    bits_ |= static_cast<std::uint64_t>(source[i]) << (4 + kBits * static_cast<int>(i));
+}
+
 SourceTree::SourceTree(std::vector<Entry> entries) : entries_(std::move(entries)), tree_(cores_of(entries_)) {
   min_size_ = kInfinity;
   for (const Entry& e : entries_) {
@@ -96,6 +103,27 @@ double SourceTree::least_near(Vec3 x, double radius, double upper) const {
         best = std::min(best, std::max(source.min_size(), source.size_below(x, best + drop) - drop));
       });
   return best;
+}
+
+FewSources SourceTree::find_near(Vec3 x, double radius, double upper) const {
+  constexpr double kClear = 1 + 1e-5;  // what sources ask for is exact to 1e-6
+  const double drop = slope_ * radius;
+  std::vector<std::pair<double, std::int32_t>> found;  // the least that it asks for
+  double bound = upper;
+  tree_.visit_near(
+      x, [&](std::int32_t node, double d2) { return least_[node].length < bound && reaches(node, d2, bound + drop); },
+      [&](std::int32_t i) {
+        const SizeSource& source = *entries_[i].source;
+        const double at_x = source.size_below(x, bound + drop), least = std::max(source.min_size(), at_x - drop);
+        if (!(least < bound)) return;
+        found.push_back({least, i});
+        bound = std::min(bound, kClear * (at_x + drop));
+      });
+  std::vector<std::int32_t> near;
+  for (const auto& [least, i] : found)
+    if (least < bound) near.push_back(i);
+  std::sort(near.begin(), near.end());
+  return {near.data(), near.size()};
 }
 
 bool SourceTree::tells(Vec3 x, double length) const {

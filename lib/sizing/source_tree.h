@@ -1,6 +1,7 @@
 // All sources of a size specification together: the smallest of what they ask for, found by a search tree.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,34 @@
 #include "sizing/source.h"
 
 namespace st {
+
+/// The few sources that count somewhere, as one number: a set of at most kMost, or that there are more.
+class FewSources {
+ public:
+  static constexpr int kMost = 3;
+
+  FewSources() = default;  ///< not known
+  /// `n` of them, ids below 2^20; more than kMost or larger ids: many.
+  FewSources(const std::int32_t* source, std::size_t n);
+  static FewSources from_bits(std::uint64_t bits) {
+    FewSources few;
+    few.bits_ = bits;
+    return few;
+  }
+  std::uint64_t bits() const { return bits_; }
+
+  bool is_known() const { return bits_ != 0; }
+  bool are_none() const { return bits_ == 1; }
+  bool are_many() const { return bits_ == kMost + 2; }
+  /// Precondition: known, not many.
+  int n() const { return static_cast<int>(bits_ & 7) - 1; }
+  std::int32_t operator[](int i) const { return static_cast<std::int32_t>(bits_ >> (4 + kBits * i)) & (kEnd - 1); }
+
+ private:
+  static constexpr int kBits = 20;
+  static constexpr std::int32_t kEnd = 1 << kBits;
+  std::uint64_t bits_ = 0;  // 1 + their number in the lowest, then the ids
+};
 
 /// Sources and background meshes, each with the cause that its lengths get (pack_cause). Immutable.
 class SourceTree {
@@ -24,11 +53,19 @@ class SourceTree {
   /// The smallest of `upper` and of what the sources ask for at x. `winner` (may be null) becomes the one that asks for
   /// less, the first of equal ones; kNone: none.
   double size_below(Vec3 x, double upper, std::int32_t* winner = nullptr) const;
+  /// Likewise, of those of `near` alone.
+  double size_below(Vec3 x, double upper, FewSources near) const {
+    if (near.are_many()) return size_below(x, upper);
+    for (int i = 0; i < near.n(); ++i) upper = entries_[near[i]].source->size_below(x, upper);
+    return upper;
+  }
   /// As size_below, of what is requested in each direction: the smallest length; along its direction, where it is
   /// stretched, no more than any source and `upper` allow.
   LocalSize local_below(Vec3 x, const LocalSize& upper) const;
   /// A bound: no source asks for less than it, or `upper`, within `radius` of x.
   double least_near(Vec3 x, double radius, double upper) const;
+  /// Those that may ask for less than `upper`, and than all others, within `radius` of x.
+  FewSources find_near(Vec3 x, double radius, double upper) const;
   /// Whether a source asks for no more than `length` at x.
   bool tells(Vec3 x, double length) const;
   /// The gradient of a source's lengths at x, by differences.

@@ -168,6 +168,24 @@ TEST(Cones, ask_for_the_length_of_a_sample_all_over_its_rectangle) {
               0.01 + 0.2 * std::hypot(0.09, 0.03), 1e-6);
 }
 
+TEST(Cones, tell_four_at_once_what_each_tells) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 middle = 0.9 * vec() + Vec3{1, 1, 1};  // from the root: far, against the lengths
+    std::vector<Cone> cones;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 u = 1e-4 * vec(), v = 0.5 * cross(u, normalized(vec()));
+      cones.emplace_back(LengthSample{middle + 3e-4 * vec(), 1e-4F, 0, {}, {}, k == 3 ? SampleReach{} : reach_of(u, v)},
+                         0.1F * static_cast<float>(k + 1), Vec3{});
+    }
+    const Vec3 x = middle + 2e-4 * vec();
+    const Float4 length = FourCones(cones[0], cones[1], cones[2], cones[3]).length_at(SplitPlace(x));
+    for (int k = 0; k < 4; ++k) ASSERT_NEAR(length[k], cones[k].length_at(x), 1e-6 * length[k]);
+  }
+}
+
 TEST(Cones, go_on_beyond_the_root) {
   const Case c(4);
   const OctreeField field = c.field();

@@ -84,6 +84,40 @@ TEST(SourceTree, bounds_what_is_asked_for_nearby) {
   }
 }
 
+TEST(SourceTree, names_the_few_that_count_nearby) {
+  const SourceTree tree = tree_of(random_sources(100, 4));
+  std::mt19937 random(12);
+  int n_none = 0, n_few = 0, n_many = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x = random_place(random);
+    const double radius = 0.0003 * std::pow(300, random_place(random, 0, 1).x), upper = 0.02 * (1 + i % 9);
+    const FewSources near = tree.find_near(x, radius, upper);
+    ASSERT_TRUE(near.is_known());
+    (near.are_none() ? n_none : near.are_many() ? n_many : n_few) += 1;
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 d = random_place(random, -1, 1), y = x + radius * std::min(1.0, 1 / norm(d)) * d;
+      ASSERT_EQ(tree.size_below(y, upper, near), tree.size_below(y, upper));
+    }
+  }
+  EXPECT_GT(std::min({n_none, n_few, n_many}), 100);
+}
+
+TEST(FewSources, are_kept_in_one_number) {
+  const std::vector<std::int32_t> ids{5, 0, (1 << 20) - 1, 7};
+  for (std::size_t n = 0; n <= FewSources::kMost; ++n) {
+    const FewSources few = FewSources::from_bits(FewSources(ids.data(), n).bits());
+    EXPECT_TRUE(few.is_known());
+    EXPECT_FALSE(few.are_many());
+    EXPECT_EQ(few.are_none(), n == 0);
+    ASSERT_EQ(few.n(), static_cast<int>(n));
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(few[static_cast<int>(i)], ids[i]);
+  }
+  const std::int32_t too_large = 1 << 20;
+  EXPECT_TRUE(FewSources(ids.data(), 4).are_many());
+  EXPECT_TRUE(FewSources(&too_large, 1).are_many());
+  EXPECT_FALSE(FewSources().is_known());
+}
+
 TEST(SourceTree, grows_by_the_slope_at_most_from_sources_of_any_kind) {
   std::mt19937 random(9);
   for (const SourceSpec& spec : random_sources(42, 5)) {
