@@ -74,8 +74,9 @@ struct LinkRows {
 class Blanker {
  public:
   Blanker(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-          std::span<const Triangle> open_edges)
+          std::span<const Triangle> open_edges, LinkKind kind)
       : open_edges_(open_edges),
+        kind_(kind),
         octree_(neighbours.octree()),
         neighbours_(neighbours),
         surface_(surface),
@@ -452,7 +453,11 @@ class Blanker {
     std::vector<std::uint8_t> is_near(octree_.leaf_keys.size(), 0);
     for (const std::int32_t leaf : cut_.leaf) {
       is_near[leaf] = 1;
-      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { is_near[other] = 1; });
+      const auto mark = [&](std::int32_t other, const CellStep&) { is_near[other] = 1; };
+      if (kind_ == LinkKind::kAll)
+        neighbours_.for_each(leaf, mark);
+      else
+        neighbours_.for_each_across_face(leaf, mark);
     }
     std::vector<std::int32_t> near;
     for (std::int32_t leaf = 0; leaf < n; ++leaf)
@@ -477,19 +482,28 @@ class Blanker {
   }
 
   void add_row(std::int32_t site, std::int32_t leaf, int part, Scratch& scratch, LinkRows& rows) const {
+    OpenLinks open = open_links(leaf, part, kind_, scratch);
+    if (kind_ != LinkKind::kAll && (open.to_first | open.to_second) == 0)
+      open = open_links(leaf, part, LinkKind::kAll, scratch);
+    rows.site.push_back(site);
+    rows.links.push_back(open);
+  }
+
+  OpenLinks open_links(std::int32_t leaf, int part, LinkKind kind, Scratch& scratch) const {
     OpenLinks open;
     std::uint64_t bit = 1;
     std::int32_t last = kNone;
     std::array<bool, 2> last_open{};
-    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
-      if (other != last) last_open = {passes(leaf, part, other, 0, scratch), passes(leaf, part, other, 1, scratch)};
-      last = other;
-      if (last_open[0]) open.to_first |= bit;
-      if (last_open[1]) open.to_second |= bit;
+    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
+      if (kind == LinkKind::kAll || step.is_across_face()) {
+        if (other != last) last_open = {passes(leaf, part, other, 0, scratch), passes(leaf, part, other, 1, scratch)};
+        last = other;
+        if (last_open[0]) open.to_first |= bit;
+        if (last_open[1]) open.to_second |= bit;
+      }
       bit <<= 1;
     });
-    rows.site.push_back(site);
-    rows.links.push_back(open);
+    return open;
   }
 
   bool passes(std::int32_t from, int from_part, std::int32_t to, int to_part, Scratch& scratch) const {
@@ -562,6 +576,7 @@ class Blanker {
   };
 
   const std::span<const Triangle> open_edges_;
+  const LinkKind kind_;
   const OctreeView& octree_;
   const Neighbours& neighbours_;
   const SurfaceView& surface_;
@@ -593,8 +608,8 @@ std::vector<Triangle> find_open_edges(const SurfaceView& surface) {
 }
 
 Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-                     std::span<const Triangle> open_edges) {
-  return Blanker(neighbours, surface, side, open_edges).run();
+                     std::span<const Triangle> open_edges, LinkKind kind) {
+  return Blanker(neighbours, surface, side, open_edges, kind).run();
 }
 
 }  // namespace st

@@ -15,6 +15,12 @@ enum class CellColour : std::uint8_t { kFlow = 0, kCut = 1, kBlanked = 2 };
 /// Which side of a closed surface is no flow.
 enum class BlankSide { kInside, kOutside };
 
+/// Which links of cells are asked for.
+enum class LinkKind {
+  kAll,
+  kAcrossFaces  ///< across faces of cells; across edges and corners, too, where none of these is open
+};
+
 /// A surface that separates flow from no flow, normals out of its inside.
 struct BlankSurface {
   std::vector<Vec3> points;
@@ -59,9 +65,10 @@ struct Blanking {
 /// passes between flow and flow where the surface does not lie between, from flow to what is blanked, never from there
 /// to flow. Where the surface separates the flow in a cell, the cell has two parts (more are taken together).
 /// Precondition: oriented surface (normals out of its inside), closed but for `open_edges`: where these lie cells count
-/// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell.
+/// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell. Where `kind` leaves out
+/// links of a cell with a row of `links`, these are not open.
 Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-                     std::span<const Triangle> open_edges = {});
+                     std::span<const Triangle> open_edges = {}, LinkKind kind = LinkKind::kAll);
 
 /// Edges along which not as many triangles run one way as the other, each as a triangle with a repeated node.
 /// Precondition: triangles that touch have common nodes.

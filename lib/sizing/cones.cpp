@@ -250,7 +250,7 @@ class ConeSpread {
       neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep&) { beside_.push_back(other); });
     else
       for_each_link(blanking_, neighbours_, site, [&](std::int32_t other, const CellStep& step) {
-        if ((std::abs(step.x) > 1) + (std::abs(step.y) > 1) + (std::abs(step.z) > 1) == 1) beside_.push_back(other);
+        if (step.is_across_face()) beside_.push_back(other);
       });
     require_countable(beside_.size(), "cells beside cells");
     last = static_cast<std::int32_t>(beside_.size());

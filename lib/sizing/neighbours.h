@@ -14,6 +14,9 @@ struct CellStep {
   std::int8_t x, y, z;
   std::int8_t length2;      ///< x*x + y*y + z*z: one of 4 8 12 (equals), 11 19 27
   std::uint8_t fine_level;  ///< level of the smaller cell
+
+  /// Otherwise they touch at an edge or a corner.
+  bool is_across_face() const { return (x < -1 || x > 1) + (y < -1 || y > 1) + (z < -1 || z > 1) == 1; }
 };
 
 /// Neighbour tables of a balanced octree: for each node its 27 neighbours of the same size, for each leaf its parent.

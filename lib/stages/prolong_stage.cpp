@@ -162,10 +162,11 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
 }
 
 /// Where lengths may pass; the stored lengths get second parts.
-void blank(const Barrier& barrier, const Neighbours& neighbours, RasterOctree& octree, Blanking& blanking) {
+void blank(const Barrier& barrier, LinkKind kind, const Neighbours& neighbours, RasterOctree& octree,
+           Blanking& blanking) {
   if (barrier.surface.triangles.empty()) return;
-  blanking =
-      blank_cells(neighbours, barrier.surface.view(), barrier.surface.side, find_open_edges(barrier.surface.view()));
+  blanking = blank_cells(neighbours, barrier.surface.view(), barrier.surface.side,
+                         find_open_edges(barrier.surface.view()), kind);
   blanking.flow_along_normals = barrier.flow_along_normals;
   add_second_parts(blanking, octree);
 }
@@ -243,7 +244,7 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
   progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
   progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
-  blank(barrier, neighbours, raster.octree, sizing.blanking);
+  blank(barrier, has_cones ? LinkKind::kAcrossFaces : LinkKind::kAll, neighbours, raster.octree, sizing.blanking);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   progress.step("lengths", 0.4);
   if (has_cones) {

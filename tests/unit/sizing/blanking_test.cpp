@@ -298,6 +298,38 @@ TEST(Blanking, cone_of_a_sample_is_on_its_side_of_a_thin_plate_only) {
   }
 }
 
+/// Links across faces alone are those of all links that lie across faces.
+TEST(Blanking, finds_links_across_faces_alone) {
+  const BlankedSurface box = box_surface({0.21, 0.32, 0.23}, {0.74, 0.81, 0.26}, 7);
+  const RasterOctree raster = build_octree(test::kUnitBox, fine_spot({0.5, 0.5, 0.3}, 0.0625F));
+  const OctreeView octree = raster.shape.view();
+  const Neighbours neighbours(octree);
+  const Blanking all = blank_cells(neighbours, box.view(), BlankSide::kInside),
+                 few = blank_cells(neighbours, box.view(), BlankSide::kInside, {}, LinkKind::kAcrossFaces);
+  ASSERT_EQ(few.n_sites(), all.n_sites());
+  int n_faces = 0, n_others = 0;
+  for (std::int32_t site = 0; site < all.n_sites(); ++site) {
+    std::vector<std::int32_t> across, across_few, around;
+    for_each_link(&all, neighbours, site, [&](std::int32_t to, const CellStep& step) {
+      (step.is_across_face() ? across : around).push_back(to);
+    });
+    bool has_others = false;
+    for_each_link(&few, neighbours, site, [&](std::int32_t to, const CellStep& step) {
+      if (step.is_across_face())
+        across_few.push_back(to);
+      else
+        has_others = true;
+    });
+    ASSERT_EQ(across_few, across) << site;
+    n_faces += static_cast<int>(across.size());
+    if (few.site_links[site] == kNone) continue;  // all are open
+    ASSERT_EQ(has_others, across.empty() && !around.empty()) << site;
+    n_others += static_cast<int>(around.size());
+  }
+  EXPECT_GT(n_faces, 1000);
+  EXPECT_GT(n_others, 1000);
+}
+
 /// Nothing is known at a hole, and nothing is blanked.
 TEST(Blanking, leaves_a_hole_open_and_still_separates_what_is_far_from_it) {
   BlankedSurface plate = box_surface({-0.5, -0.5, 0.4531}, {1.5, 1.5, 0.4591}, 1);
