@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -13,115 +13,117 @@
 namespace st {
 namespace {
 
-constexpr int kCenter = 8;  // after the corners of a cell
-constexpr int kProbes = 9;
-constexpr float kClearly = 0.99F;  // of the length known at a probe: less is no gain
-constexpr float kWide = 0.25F;     // of half the edge: wider rectangles are looked at in two places
-constexpr float kNearby2 = 14;     // squared half edges from the centre: one edge from the closest point
+// Of the length known at a place: less is no gain.
+constexpr float kClearly = 0.99F;
+constexpr float kClearlyNearby = 0.997F;  // where a sample is near: the mesh's nodes are
+constexpr float kWide = 0.25F;            // of half the edge: wider rectangles are looked at in more places
+constexpr float kNearby = 3.75F;          // half edges from the centre: one edge from the closest point
 
-using Lengths = std::array<float, kProbes>;
+using Int4 [[gnu::vector_size(16)]] = std::int32_t;  // of a comparison: -1 where it holds
+
+bool is_any(Int4 v) {
+  std::uint64_t half[2];
+  std::memcpy(half, &v, sizeof half);
+  return (half[0] | half[1]) != 0;
+}
+
+Float4 min_of(Float4 a, Float4 b) { return a < b ? a : b; }
+Float4 max_of(Float4 a, Float4 b) { return a > b ? a : b; }
+
+float least_of(Float4 v) { return std::min({v[0], v[1], v[2], v[3]}); }
+
+Float4 root_of(Float4 v) {
+  Float4 root{};
+  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(v[i]);
+  return root;
+}
+
+Float4 four(float v) { return v - Float4{}; }
+
+/// A cone with each of its numbers four times, to be asked at four places at once.
+class WideCone {
+ public:
+  explicit WideCone(const Cone& cone) : length_(four(cone.length)), slope_(four(cone.slope)) {
+    for (; n_sides_ < 2 && cone.half[n_sides_] > 0; ++n_sides_) {
+      most_[n_sides_] = four(cone.half[n_sides_]);
+      for (int k = 0; k < 3; ++k) side_[n_sides_][k] = four(cone.side[n_sides_][k]);
+    }
+  }
+  /// Distances of places that lie so far from the middle of its rectangle.
+  Float4 distance(Float4 x, Float4 y, Float4 z) const {
+    for (int e = 0; e < n_sides_; ++e) {
+      const Float4(&unit)[3] = side_[e];
+      const Float4 along = max_of(min_of(x * unit[0] + y * unit[1] + z * unit[2], most_[e]), -most_[e]);
+      x -= along * unit[0];
+      y -= along * unit[1];
+      z -= along * unit[2];
+    }
+    return root_of(x * x + y * y + z * z);
+  }
+  Float4 length_at(Float4 distance) const { return length_ + slope_ * distance; }
+
+ private:
+  Float4 length_, slope_, side_[2][3], most_[2];
+  int n_sides_ = 0;
+};
+
+/// Four places, from the lower corner of the root.
+struct FourPlaces {
+  Float4 x[3];
+
+  Float4 distance(const Cone& cone, const WideCone& wide) const {
+    return wide.distance(x[0] - cone.x[0], x[1] - cone.x[1], x[2] - cone.x[2]);
+  }
+  Float4 length(const Cone& cone) const {
+    const WideCone wide(cone);
+    return wide.length_at(distance(cone, wide));
+  }
+};
+
+// Where the lengths in a cell are compared: its corners, the centres of its faces, its own centre (twice).
+constexpr int kGroups = 4;  // of four probes
+constexpr Float4 kProbe[kGroups][3] = {{{-1, 1, -1, 1}, {-1, -1, 1, 1}, {-1, -1, -1, -1}},
+                                       {{-1, 1, -1, 1}, {-1, -1, 1, 1}, {1, 1, 1, 1}},
+                                       {{-1, 1, 0, 0}, {0, 0, -1, 1}, {0, 0, 0, 0}},
+                                       {{0, 0, 0, 0}, {0, 0, 0, 0}, {-1, 1, 0, 0}}};
+using Lengths = std::array<Float4, kGroups>;
+
+float at_center(const Lengths& lengths) { return lengths[kGroups - 1][3]; }
 
 /// A cube in single precision.
 struct Cell {
   float c[3];
   float half;
 
-  /// Squares of the distances of a cone's place from the corners, then from the centre.
-  void distances2(const Cone& cone, Lengths& d2) const {
-    float side[2][3], mid = 0;
+  /// Of a cone at the probes.
+  Lengths lengths(const Cone& cone) const {
+    Lengths result;
+    const WideCone wide(cone);
+    const Float4 x = four(c[0] - cone.x[0]), y = four(c[1] - cone.x[1]), z = four(c[2] - cone.x[2]), h = four(half);
+    for (int g = 0; g < kGroups; ++g)
+      result[g] = wide.length_at(wide.distance(x + h * kProbe[g][0], y + h * kProbe[g][1], z + h * kProbe[g][2]));
+    return result;
+  }
+  /// The places of the cell closest to those `a` and `b` along the sides of a cone's rectangle.
+  FourPlaces closest(const Cone& cone, Float4 a, Float4 b) const {
+    FourPlaces places;
     for (int k = 0; k < 3; ++k) {
-      const float d = c[k] - cone.x[k];
-      side[0][k] = (d - half) * (d - half);
-      side[1][k] = (d + half) * (d + half);
-      mid += d * d;
+      const Float4 lo = four(c[k] - half), hi = four(c[k] + half);
+      places.x[k] = max_of(lo, min_of(hi, cone.x[k] + a * cone.side[0][k] + b * cone.side[1][k]));
     }
-    for (int p = 0; p < 8; ++p) d2[p] = side[p & 1][0] + side[p >> 1 & 1][1] + side[p >> 2][2];
-    d2[kCenter] = mid;
+    return places;
   }
-  /// Takes off what these have along a side of the rectangle, up to half the side.
-  void shorten(const Cone& cone, int e, Lengths& d2) const {
-    const float(&unit)[3] = cone.side[e];
-    const float reach = cone.half[e];
-    float middle = 0, step[3], along[kProbes];
+  /// From the place closest to the middle of a cone's rectangle towards the centre.
+  FourPlaces closest(const Cone& cone) const {
+    constexpr Float4 kTowards{0, 0.25F, 0.5F, 0.75F};
+    FourPlaces places;
     for (int k = 0; k < 3; ++k) {
-      middle += (c[k] - cone.x[k]) * unit[k];
-      step[k] = half * unit[k];
+      const float from = std::clamp(cone.x[k], c[k] - half, c[k] + half);
+      places.x[k] = from + kTowards * (c[k] - from);
     }
-    along[0] = middle - step[0] - step[1];
-    along[1] = middle + step[0] - step[1];
-    along[2] = middle - step[0] + step[1];
-    along[3] = middle + step[0] + step[1];
-    for (int p = 0; p < 4; ++p) {
-      along[p + 4] = along[p] + step[2];
-      along[p] -= step[2];
-    }
-    along[kCenter] = middle;
-    for (int p = 0; p < kProbes; ++p) {
-      const float beyond = std::abs(along[p]) - reach, rest = beyond > 0 ? beyond : 0;
-      const float shorter = d2[p] - along[p] * along[p] + rest * rest;
-      d2[p] = shorter > 0 ? shorter : 0;
-    }
-  }
-  /// From those of its place to those of its rectangle.
-  void shorten(const Cone& cone, Lengths& d2) const {
-    for (int e = 0; e < 2 && cone.half[e] > 0; ++e) shorten(cone, e, d2);
-  }
-  /// The point of the cell closest to a place.
-  void closest(const float (&to)[3], float (&x)[3]) const {
-    for (int k = 0; k < 3; ++k) x[k] = std::clamp(to[k], c[k] - half, c[k] + half);
-  }
-  /// Its place and number.
-  int nearest_corner(const float (&to)[3], float (&x)[3]) const {
-    int p = 0;
-    for (int k = 0; k < 3; ++k) {
-      const bool is_high = to[k] > c[k];
-      p |= is_high << k;
-      x[k] = is_high ? c[k] + half : c[k] - half;
-    }
-    return p;
+    return places;
   }
 };
-
-float distance2_of(const float (&a)[3], const float (&b)[3]) {
-  const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  return x * x + y * y + z * z;
-}
-
-/// Of a place from a cone's rectangle.
-float distance2_of(const float (&x)[3], const Cone& cone) {
-  float d[3], sum = 0;
-  for (int k = 0; k < 3; ++k) d[k] = x[k] - cone.x[k];
-  for (int e = 0; e < 2; ++e) {
-    const float(&unit)[3] = cone.side[e];
-    const float along = std::clamp(d[0] * unit[0] + d[1] * unit[1] + d[2] * unit[2], -cone.half[e], cone.half[e]);
-    for (int k = 0; k < 3; ++k) d[k] -= along * unit[k];
-  }
-  for (int k = 0; k < 3; ++k) sum += d[k] * d[k];
-  return sum;
-}
-
-float length_at(const Cone& c, float distance2) { return c.length + c.slope * std::sqrt(distance2); }
-
-/// Whether the cone asks for less than `limit`; without a root.
-bool is_below(const Cone& c, float distance2, float limit) {
-  const float room = limit - c.length;
-  return (room > 0) & (c.slope * c.slope * distance2 < room * room);
-}
-
-/// The place of a cell closest to that of the cone's rectangle which is closest to the cell, well inside its sides.
-void place_towards(const Cell& cell, const Cone& cone, float (&x)[3]) {
-  constexpr float kInside = 0.8F;
-  float to[3];
-  std::copy(cone.x, cone.x + 3, to);
-  for (int e = 0; e < 2; ++e) {
-    const float(&unit)[3] = cone.side[e];
-    float along = 0;
-    for (int k = 0; k < 3; ++k) along += (cell.c[k] - cone.x[k]) * unit[k];
-    along = std::clamp(along, -kInside * cone.half[e], kInside * cone.half[e]);
-    for (int k = 0; k < 3; ++k) to[k] += along * unit[k];
-  }
-  cell.closest(to, x);
-}
 
 class ConeSpread {
  public:
@@ -140,9 +142,10 @@ class ConeSpread {
     cells_.resize(n);
     for (std::size_t site = 0; site < n; ++site) cells_[site] = cell_of(static_cast<std::int32_t>(site));
     Lengths far;
-    far.fill(largest_);
+    far.fill(four(largest_));
     best_.assign(n, far);
     head_.assign(n, kNone);
+    refused_.assign(n, kNone);
     range_beside_.resize(n);
   }
 
@@ -263,15 +266,6 @@ class ConeSpread {
     buckets_[std::max(b, now_)].push_back(e);
   }
 
-  /// Whether a cone of the site so far asks for at most `limit` at x.
-  bool is_known(std::int32_t site, const float (&x)[3], float limit) const {
-    for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next) {
-      const Cone& c = cones_[entries_[k].sample];
-      if (is_below(c, distance2_of(x, c), limit)) return true;
-    }
-    return false;
-  }
-
   bool has(std::int32_t site, std::int32_t sample) const {
     for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
       if (entries_[k].sample == sample) return true;
@@ -280,111 +274,123 @@ class ConeSpread {
 
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
   bool offer(std::int32_t site, std::int32_t sample, float& least) {
-    const Cell& cell = cells_[site];
-    const Cone& cone = cones_[sample];
+    if (refused_[site] == sample || has(site, sample)) return false;
     Lengths& best = best_[site];
-    Lengths d2;
-    if (has(site, sample) || !may_win(cell, cone, best, d2)) return false;
-    cell.shorten(cone, d2);
-    int n_won = 0;
-    for (int p = 0; p < kProbes; ++p) n_won += is_below(cone, d2[p], kClearly * best[p]);
-    if (n_won == 0 && (d2[kCenter] > kNearby2 * cell.half * cell.half || !wins_nearby(site, cone))) return false;
-    least = largest_;
-    for (int p = 0; p < kProbes; ++p) {
-      const float v = length_at(cone, d2[p]);
-      least = std::min(least, v);
-      best[p] = std::min(best[p], v);
+    const Lengths own = cells_[site].lengths(cones_[sample]);
+    const bool is_near = is_nearby(cells_[site], cones_[sample], own);
+    const float share = is_near ? kClearlyNearby : kClearly;
+    if (!is_below(own, share, best) && !(is_near && wins_nearby(site, sample))) {
+      refused_[site] = sample;
+      return false;
     }
+    Float4 smallest = four(largest_);
+    for (int g = 0; g < kGroups; ++g) {
+      smallest = min_of(smallest, own[g]);
+      best[g] = min_of(best[g], own[g]);
+    }
+    least = least_of(smallest);
     entries_.push_back({sample, head_[site]});
     head_[site] = static_cast<std::int32_t>(entries_.size()) - 1;
     return true;
   }
 
-  /// False where a cone as far away as its rectangle at the nearest wins nowhere. `d2`: of its place from the probes.
-  static bool may_win(const Cell& cell, const Cone& cone, const Lengths& best, Lengths& d2) {
-    constexpr float kOfShorter = 0.4143F;  // the diagonal is no longer than the longer side and this of the shorter
-    cell.distances2(cone, d2);
-    // half[0] is the larger; from a probe to the closest point of the cell, or of the rectangle, lengths change by no
-    // more than this
-    const float lowered = cone.length - cone.slope * (cone.half[0] + kOfShorter * cone.half[1]);
-    int n = 0;
-    for (int p = 0; p < kProbes; ++p) {
-      const float room = kClearly * best[p] - lowered;
-      n += (room > 0) & (cone.slope * cone.slope * d2[p] < room * room);
+  /// Whether lengths are below a share of others at any probe.
+  static bool is_below(const Lengths& lengths, float share, const Lengths& others) {
+    Int4 is_below{};
+    for (int g = 0; g < kGroups; ++g) is_below |= lengths[g] < share * others[g];
+    return is_any(is_below);
+  }
+
+  /// From afar lengths change evenly over a cell.
+  static bool is_nearby(const Cell& cell, const Cone& cone, const Lengths& own) {
+    return at_center(own) <= cone.length + cone.slope * kNearby * cell.half;
+  }
+
+  /// Whether the sample wins where the site is close to it.
+  bool wins_nearby(std::int32_t site, std::int32_t sample) const {
+    return wins_nearby(cells_[site], cones_[sample], [&](const auto& is_beaten_by) {
+      for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
+        if (is_beaten_by(cones_[entries_[k].sample])) return;
+    });
+  }
+
+  /// `visit_known` calls its argument for other cones of the cell, until it is true.
+  template <class VisitKnown>
+  bool wins_nearby(const Cell& cell, const Cone& cone, const VisitKnown& visit_known) const {
+    if (!(cone.half[0] > kWide * cell.half)) return wins_at(cell.closest(cone), cell, cone, visit_known);
+    constexpr float kInside = 0.8F;  // of the sides: further out its neighbours count
+    const float a = kInside * cone.half[0], b = kInside * cone.half[1];
+    float towards[2];  // of the rectangle the place closest to the cell's centre
+    for (int e = 0; e < 2; ++e) {
+      const float(&unit)[3] = cone.side[e];
+      float along = 0;
+      for (int k = 0; k < 3; ++k) along += (cell.c[k] - cone.x[k]) * unit[k];
+      towards[e] = std::clamp(along, -kInside * cone.half[e], kInside * cone.half[e]);
     }
-    return n > 0 || d2[kCenter] < kNearby2 * cell.half * cell.half;
+    return wins_at(cell.closest(cone, Float4{0, a, -a, towards[0]}, Float4{0, 0, 0, towards[1]}), cell, cone,
+                   visit_known) ||
+           wins_at(cell.closest(cone, Float4{a, a, -a, -a}, Float4{b, -b, b, -b}), cell, cone, visit_known);
   }
 
-  /// Whether the sample wins where the site is closest to it. Not from afar, where lengths change evenly over the site.
-  bool wins_nearby(std::int32_t site, const Cone& cone) const {
-    float x[3];
-    cells_[site].closest(cone.x, x);
-    if (wins_at(site, cone, x)) return true;
-    if (!(cone.half[0] > kWide * cells_[site].half)) return false;
-    place_towards(cells_[site], cone, x);
-    return wins_at(site, cone, x);
-  }
-
-  bool wins_at(std::int32_t site, const Cone& cone, const float (&x)[3]) const {
-    const Cell& cell = cells_[site];
-    float corner[3];
-    const float d2 = distance2_of(x, cone);
-    if (d2 > 4 * cell.half * cell.half) return false;
-    const float limit = length_at(cone, d2) / kClearly;
-    // from the nearest corner lengths rise no faster than the slope
-    const int nearest = cell.nearest_corner(x, corner);
-    if (best_[site][nearest] + cone.slope * std::sqrt(distance2_of(x, corner)) < limit) return false;
-    return !is_known(site, x, limit);
+  template <class VisitKnown>
+  bool wins_at(const FourPlaces& places, const Cell& cell, const Cone& cone, const VisitKnown& visit_known) const {
+    const WideCone wide(cone);
+    const Float4 distance = places.distance(cone, wide), limit = (1 / kClearlyNearby) * wide.length_at(distance);
+    Int4 wins = (distance < 2 * cell.half) & (limit < largest_);
+    if (!is_any(wins)) return false;
+    visit_known([&](const Cone& other) {
+      wins &= places.length(other) >= limit;
+      return !is_any(wins);
+    });
+    return is_any(wins);
   }
 
   bool is_still_best(std::int32_t site, std::int32_t sample) const {
     constexpr float kSame = 1.0001F;
-    Lengths d2;
-    cells_[site].distances2(cones_[sample], d2);
-    cells_[site].shorten(cones_[sample], d2);
-    for (int p = 0; p < kProbes; ++p)
-      if (is_below(cones_[sample], d2[p], kSame * best_[site][p])) return true;
-    return wins_nearby(site, cones_[sample]);
+    const Lengths own = cells_[site].lengths(cones_[sample]);
+    if (is_below(own, kSame, best_[site])) return true;
+    if (!is_nearby(cells_[site], cones_[sample], own)) return false;
+    return wins_nearby(cells_[site], cones_[sample], [&](const auto& is_beaten_by) {
+      for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
+        if (entries_[k].sample != sample && is_beaten_by(cones_[entries_[k].sample])) return;
+    });
   }
 
-  /// Those of the site that win at a probe, or clearly where the site is closest to them.
+  /// Those of the site that win at a probe, or clearly where the site is close to them.
   const std::vector<std::int32_t>& pruned(std::int32_t site) {
+    const Cell& cell = cells_[site];
     kept_.clear();
     doubtful_.clear();
     for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next) doubtful_.push_back(entries_[k].sample);
     std::sort(doubtful_.begin(), doubtful_.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
-    std::array<std::int32_t, kProbes> winner;
-    winner.fill(kNone);
-    Lengths least, d2;
-    least.fill(largest_);
+    std::array<Int4, kGroups> winner;
+    winner.fill(Int4{} + kNone);
+    Lengths least;
+    least.fill(four(largest_));
+    own_.clear();
     for (const std::int32_t s : doubtful_) {
-      cells_[site].distances2(cones_[s], d2);
-      cells_[site].shorten(cones_[s], d2);
-      for (int p = 0; p < kProbes; ++p)
-        if (is_below(cones_[s], d2[p], least[p])) least[p] = length_at(cones_[s], d2[p]), winner[p] = s;
+      own_.push_back(cell.lengths(cones_[s]));
+      for (int g = 0; g < kGroups; ++g) {
+        winner[g] = own_.back()[g] < least[g] ? Int4{} + s : winner[g];
+        least[g] = min_of(least[g], own_.back()[g]);
+      }
     }
-    const auto wins = [&](std::int32_t s) { return std::find(winner.begin(), winner.end(), s) != winner.end(); };
-    std::copy_if(doubtful_.begin(), doubtful_.end(), std::back_inserter(kept_), wins);
+    const auto wins = [&](std::int32_t s) {
+      return std::any_of(winner.begin(), winner.end(), [&](Int4 w) { return is_any(w == s); });
+    };
     for (const std::int32_t s : doubtful_)
-      if (!wins(s) && wins_where_closest(site, s)) kept_.push_back(s);
+      if (wins(s)) kept_.push_back(s);
+    for (std::size_t i = 0; i < doubtful_.size(); ++i) {
+      const std::int32_t s = doubtful_[i];
+      const auto visit_kept = [&](const auto& is_beaten_by) {
+        std::any_of(kept_.begin(), kept_.end(), [&](std::int32_t k) { return is_beaten_by(cones_[k]); });
+      };
+      if (!wins(s) && is_nearby(cell, cones_[s], own_[i]) && wins_nearby(cell, cones_[s], visit_kept))
+        kept_.push_back(s);
+    }
     return kept_;
-  }
-
-  bool wins_where_closest(std::int32_t site, std::int32_t s) const {
-    float x[3];
-    cells_[site].closest(cones_[s].x, x);
-    if (is_kept_at(s, x)) return true;
-    if (!(cones_[s].half[0] > kWide * cells_[site].half)) return false;
-    place_towards(cells_[site], cones_[s], x);
-    return is_kept_at(s, x);
-  }
-
-  bool is_kept_at(std::int32_t s, const float (&x)[3]) const {
-    const float limit = length_at(cones_[s], distance2_of(x, cones_[s])) / kClearly;
-    return std::none_of(kept_.begin(), kept_.end(),
-                        [&](std::int32_t k) { return is_below(cones_[k], distance2_of(x, cones_[k]), limit); });
   }
 
   const Neighbours& neighbours_;
@@ -401,7 +407,9 @@ class ConeSpread {
   std::vector<std::int32_t> beside_;
   std::vector<Entry> entries_;
   std::vector<std::vector<Event>> buckets_;
+  std::vector<std::int32_t> refused_;  // [n_sites] the last one, which others may offer again
   std::vector<std::int32_t> kept_, doubtful_;
+  std::vector<Lengths> own_;
   std::size_t now_ = 0;
 };
 

@@ -28,7 +28,7 @@ TOUCHING = {"mech_geouned_tank.stp"}  # solids: walls between them are there onc
 MOST = 0.02  # difference in the number of triangles, relative
 KNOWN = {  # larger differences that were measured; the limits shrink when their causes are mended
     ("mech_geouned_tank.stp", "reordered"): 0.03,
-    ("basic_refine_cone_cone.brep", "tumbled"): 0.03,  # 2.7 %: near the apex cells miss samples between their corners
+    ("basic_refine_cone_cone.brep", "tumbled"): 0.03,  # 2.6 %: other samples; both fields are exact within 0.5 %
 }
 AREA = 2e-3  # likewise: chords run elsewhere
 SCALE = {"scaled": 1e-6}  # of areas
