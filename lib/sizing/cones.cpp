@@ -139,21 +139,16 @@ class ConeSpread {
       smallest_ = std::min(smallest_, samples[i].length);
     }
     const auto n = static_cast<std::size_t>(blanking ? blanking->n_sites() : octree_.n_leaves());
-    cells_.resize(n);
-    for (std::size_t site = 0; site < n; ++site) cells_[site] = cell_of(static_cast<std::int32_t>(site));
-    Lengths far;
-    far.fill(four(largest_));
-    best_.assign(n, far);
-    head_.assign(n, kNone);
-    refused_.assign(n, kNone);
-    range_beside_.resize(n);
+    sites_.resize(n);
+    for (std::size_t site = 0; site < n; ++site) sites_[site].cell = cell_of(static_cast<std::int32_t>(site));
+    for (Site& site : sites_) site.best.fill(four(largest_));
   }
 
   void run() {
     if (!(smallest_ < largest_)) return;
     buckets_.resize(bucket_bits(largest_) - bucket_bits(smallest_) + 1);
     for_each_own_site(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
-      push({site, sample, kNone}, cones_[sample].length);
+      push({site, sample, 0}, cones_[sample].length);
     });
     for (now_ = 0; now_ < buckets_.size(); ++now_) {
       for (std::size_t i = 0; i < buckets_[now_].size(); ++i) pass_on(buckets_[now_][i]);
@@ -166,7 +161,7 @@ class ConeSpread {
     ConeTable table;
     std::vector<std::int32_t> number(cones_.size(), kNone);
     table.first.push_back(0);
-    for (std::size_t site = 0; site < cells_.size(); ++site) {
+    for (std::size_t site = 0; site < sites_.size(); ++site) {
       for (const std::int32_t s : pruned(static_cast<std::int32_t>(site))) {
         if (number[s] == kNone) {
           number[s] = static_cast<std::int32_t>(table.cone.size());
@@ -187,10 +182,22 @@ class ConeSpread {
  private:
   struct Event {
     std::int32_t site, sample;
-    std::int32_t entry;  // kNone: the sample lies there and is not taken yet
+    std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
   };
   struct Entry {
     std::int32_t sample, next;
+  };
+  /// Two lines of the cache: what an offer needs.
+  struct Site {
+    static constexpr std::int32_t kOwn = 7;
+
+    Cell cell;
+    Lengths best;                                  // smallest at the probes
+    std::int32_t n = 0;                            // its samples, in order
+    std::array<std::int32_t, kOwn> own{};          // the first of them
+    std::int32_t more = kNone;                     // the last of the rest, into entries_
+    std::int32_t refused = kNone;                  // the last sample that was, which others may offer again
+    std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
   };
 
   Cell cell_of(std::int32_t site) const {
@@ -209,10 +216,12 @@ class ConeSpread {
     std::vector<std::pair<std::int32_t, std::int32_t>> found;  // site, sample
     for (std::int32_t site = 0; site < blanking_->n_sites(); ++site) {
       const bool is_cut = site >= n_leaves || blanking_->colour[site] == CellColour::kCut;
-      if (!is_cut || head_[site] != kNone) continue;
+      if (!is_cut || sites_[site].n > 0) continue;
       const auto take = [&](std::int32_t from) {
-        for (std::int32_t k = head_[from]; k != kNone; k = entries_[k].next)
-          found.push_back({site, entries_[k].sample});
+        any_sample(from, [&](std::int32_t sample) {
+          found.push_back({site, sample});
+          return false;
+        });
       };
       bool has_way = false;
       for_each_link(blanking_, neighbours_, site, [&](std::int32_t to, const CellStep&) {
@@ -234,19 +243,19 @@ class ConeSpread {
 
   void pass_on(const Event e) {
     float least = 0;
-    if (e.entry == kNone && !offer(e.site, e.sample, least)) return;
-    if (e.entry != kNone && head_[e.site] != e.entry && !is_still_best(e.site, e.sample)) return;
+    if (e.n == 0 && !offer(e.site, e.sample, least)) return;
+    if (e.n != 0 && sites_[e.site].n != e.n && !is_still_best(e.site, e.sample)) return;
     const auto [first, last] = beside(e.site);
     for (std::int32_t k = first; k < last; ++k) {
       const std::int32_t other = beside_[k];
-      if (offer(other, e.sample, least)) push({other, e.sample, head_[other]}, least);
+      if (offer(other, e.sample, least)) push({other, e.sample, sites_[other].n}, least);
     }
   }
 
   /// Where the sites begin and end in `beside_` that lie across the faces of this one: a corner that a sample wins
   /// belongs to those, too. Found when first asked for.
   std::pair<std::int32_t, std::int32_t> beside(std::int32_t site) {
-    auto& [first, last] = range_beside_[site];
+    auto& [first, last] = sites_[site].beside;
     if (last > first) return {first, last};
     first = static_cast<std::int32_t>(beside_.size());
     if (!blanking_ || blanking_->site_links[site] == kNone)
@@ -266,21 +275,31 @@ class ConeSpread {
     buckets_[std::max(b, now_)].push_back(e);
   }
 
-  bool has(std::int32_t site, std::int32_t sample) const {
-    for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
-      if (entries_[k].sample == sample) return true;
+  /// Whether f(sample) is true for any sample of the site.
+  template <class F>
+  bool any_sample(std::int32_t site, const F& f) const {
+    const Site& s = sites_[site];
+    const std::int32_t n_own = std::min(s.n, Site::kOwn);
+    for (std::int32_t i = 0; i < n_own; ++i)
+      if (f(s.own[i])) return true;
+    for (std::int32_t k = s.more; k != kNone; k = entries_[k].next)
+      if (f(entries_[k].sample)) return true;
     return false;
+  }
+
+  bool has(std::int32_t site, std::int32_t sample) const {
+    return any_sample(site, [sample](std::int32_t other) { return other == sample; });
   }
 
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
   bool offer(std::int32_t site, std::int32_t sample, float& least) {
-    if (refused_[site] == sample || has(site, sample)) return false;
-    Lengths& best = best_[site];
-    const Lengths own = cells_[site].lengths(cones_[sample]);
-    const bool is_near = is_nearby(cells_[site], cones_[sample], own);
+    if (sites_[site].refused == sample || has(site, sample)) return false;
+    Lengths& best = sites_[site].best;
+    const Lengths own = sites_[site].cell.lengths(cones_[sample]);
+    const bool is_near = is_nearby(sites_[site].cell, cones_[sample], own);
     const float share = is_near ? kClearlyNearby : kClearly;
     if (!is_below(own, share, best) && !(is_near && wins_nearby(site, sample))) {
-      refused_[site] = sample;
+      sites_[site].refused = sample;
       return false;
     }
     Float4 smallest = four(largest_);
@@ -289,9 +308,19 @@ class ConeSpread {
       best[g] = min_of(best[g], own[g]);
     }
     least = least_of(smallest);
-    entries_.push_back({sample, head_[site]});
-    head_[site] = static_cast<std::int32_t>(entries_.size()) - 1;
+    add_sample(site, sample);
     return true;
+  }
+
+  void add_sample(std::int32_t site, std::int32_t sample) {
+    Site& s = sites_[site];
+    if (s.n < Site::kOwn) {
+      s.own[s.n] = sample;
+    } else {
+      entries_.push_back({sample, s.more});
+      s.more = static_cast<std::int32_t>(entries_.size()) - 1;
+    }
+    ++s.n;
   }
 
   /// Whether lengths are below a share of others at any probe.
@@ -308,9 +337,8 @@ class ConeSpread {
 
   /// Whether the sample wins where the site is close to it.
   bool wins_nearby(std::int32_t site, std::int32_t sample) const {
-    return wins_nearby(cells_[site], cones_[sample], [&](const auto& is_beaten_by) {
-      for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
-        if (is_beaten_by(cones_[entries_[k].sample])) return;
+    return wins_nearby(sites_[site].cell, cones_[sample], [&](const auto& is_beaten_by) {
+      any_sample(site, [&](std::int32_t other) { return is_beaten_by(cones_[other]); });
     });
   }
 
@@ -347,21 +375,23 @@ class ConeSpread {
 
   bool is_still_best(std::int32_t site, std::int32_t sample) const {
     constexpr float kSame = 1.0001F;
-    const Lengths own = cells_[site].lengths(cones_[sample]);
-    if (is_below(own, kSame, best_[site])) return true;
-    if (!is_nearby(cells_[site], cones_[sample], own)) return false;
-    return wins_nearby(cells_[site], cones_[sample], [&](const auto& is_beaten_by) {
-      for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next)
-        if (entries_[k].sample != sample && is_beaten_by(cones_[entries_[k].sample])) return;
+    const Lengths own = sites_[site].cell.lengths(cones_[sample]);
+    if (is_below(own, kSame, sites_[site].best)) return true;
+    if (!is_nearby(sites_[site].cell, cones_[sample], own)) return false;
+    return wins_nearby(sites_[site].cell, cones_[sample], [&](const auto& is_beaten_by) {
+      any_sample(site, [&](std::int32_t other) { return other != sample && is_beaten_by(cones_[other]); });
     });
   }
 
   /// Those of the site that win at a probe, or clearly where the site is close to them.
   const std::vector<std::int32_t>& pruned(std::int32_t site) {
-    const Cell& cell = cells_[site];
+    const Cell& cell = sites_[site].cell;
     kept_.clear();
     doubtful_.clear();
-    for (std::int32_t k = head_[site]; k != kNone; k = entries_[k].next) doubtful_.push_back(entries_[k].sample);
+    any_sample(site, [&](std::int32_t sample) {
+      doubtful_.push_back(sample);
+      return false;
+    });
     std::sort(doubtful_.begin(), doubtful_.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
@@ -400,14 +430,10 @@ class ConeSpread {
   const float largest_;
   float smallest_ = std::numeric_limits<float>::infinity();
   std::vector<Cone> cones_;
-  std::vector<Cell> cells_;                                          // [n_sites]
-  std::vector<Lengths> best_;                                        // [n_sites] smallest at the probes
-  std::vector<std::int32_t> head_;                                   // [n_sites] into entries_
-  std::vector<std::pair<std::int32_t, std::int32_t>> range_beside_;  // [n_sites] first and after the last in beside_
+  std::vector<Site> sites_;  // [n_sites]
   std::vector<std::int32_t> beside_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
-  std::vector<std::int32_t> refused_;  // [n_sites] the last one, which others may offer again
   std::vector<std::int32_t> kept_, doubtful_;
   std::vector<Lengths> own_;
   std::size_t now_ = 0;
