@@ -31,6 +31,16 @@ slices=("$scratch/sizing.vtu" --mesh "$run/mesh.hdf")
 draw render_sizing.py "${slices[@]}"
 draw render_sizing.py "${slices[@]}" --by cause --view sizing_section --as sizing_causes
 draw render_sizing.py "${slices[@]}" --by colour --view sizing_section --as sizing_blanked_cells
+cat > "$scratch/wake.toml" << 'END'
+[[source]]
+name = "wake"
+type = "line"
+points = [[22, 8.2, 0.5], [24, 8.2, 0.9]]
+length = [0.02, 0.08]
+END
+"$bin/st-prolong" "$run/sizing.hdf" --sources "$scratch/wake.toml" -o "$scratch/wake.hdf" -q
+"$bin/st-export" "$scratch/wake.hdf" -o "$scratch/wake.vtu" -q
+draw render_sizing.py "$scratch/wake.vtu" --mesh "$run/mesh.hdf" --field "$scratch/wake.hdf"
 if [ -n "$models" ]; then
   "$here/render_gap.sh" "$bin" "$models/curved_slot.brep" "$images" "${check[@]}" || result=1
   "$here/render_stretched.sh" "$bin" "$images" "${check[@]}" || result=1

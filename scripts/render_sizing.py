@@ -6,6 +6,7 @@ cause of the length (each edge, face and source its own colour; white: the large
 usage: st-export sizing.hdf -o sizing.vtu && render_sizing.py sizing.vtu [--mesh mesh.hdf] [--by size|cause|colour]
 [--suffix TEXT] [--view NAME [--as NAME]] [--check] [-o docs/images]
        [--slice NAME X Y Z HALF]
+--field: colours by the length at each point, as the mesher asks for it, with lines at every 1.25 times of it.
 --slice: a horizontal slice through a point, HALF high to either side. Else with --mesh the slices lie through the parts
 of the bundled example and show the body; without, in the middle of the finest cells.
 Needs python3-vtk9 and, without a display, xvfb.
@@ -17,8 +18,10 @@ import sys
 
 import render_common as common
 from render_common import numpy, vtk, vtk_to_numpy
+from vtk.util import numpy_support
 
 SIZE = (1280, 800)
+EQUAL_LENGTH_STEP = 1.25
 LENGTH_NAMES = ("length", "size", "prolonged_length")
 
 
@@ -77,8 +80,62 @@ def categories(grid, by):
     return table
 
 
-def slice_scene(grid, name, origin, normal, body, half_height, table=None):
+def points_on(origin, normal, half_height, step):
+    """Structured grid of points that fills the picture, `step` pixels apart."""
+    right, up, _ = common.axes(normal)
+    n_right, n_up = SIZE[0] // step + 1, SIZE[1] // step + 1
+    u = numpy.linspace(-1, 1, n_right) * half_height * SIZE[0] / SIZE[1]
+    v = numpy.linspace(-1, 1, n_up) * half_height
+    points = numpy.array(origin) + u[None, :, None] * right + v[:, None, None] * up
+    grid = vtk.vtkStructuredGrid()
+    grid.SetDimensions(n_right, n_up, 1)
+    places = vtk.vtkPoints()
+    places.SetData(numpy_support.numpy_to_vtk(points.reshape(-1, 3), deep=True))
+    grid.SetPoints(places)
+    return grid
+
+
+def field_scene(field, piece, origin, normal, half_height, renderer):
+    """The length at each point, lines of equal length, and the edges of the cells; returns the table of colours."""
+    plane = points_on(origin, normal, half_height, 2)
+    length = field.size(vtk_to_numpy(plane.GetPoints().GetData()))
+    scalars = numpy_support.numpy_to_vtk(length, deep=True)
+    scalars.SetName("length")
+    plane.GetPointData().SetScalars(scalars)
+    table = colours(float(length.min()), float(length.max()))
+    mapper = vtk.vtkDataSetMapper()
+    mapper.SetInputData(plane)
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    coloured = vtk.vtkActor()
+    coloured.SetMapper(mapper)
+    coloured.GetProperty().LightingOff()
+    renderer.AddActor(coloured)
+    lines = vtk.vtkContourFilter()
+    lines.SetInputData(plane)
+    for i in range(int(numpy.log(length.max() / length.min()) / numpy.log(EQUAL_LENGTH_STEP)) + 1):
+        lines.SetValue(i, float(length.min()) * EQUAL_LENGTH_STEP ** i)
+    lines.Update()
+    edges = vtk.vtkExtractEdges()
+    edges.SetInputData(piece)
+    edges.Update()
+    for data, colour, width, height in ((edges.GetOutput(), (0.62, 0.62, 0.62), 0.5, 0.5e-3),
+                                        (lines.GetOutput(), (0.1, 0.1, 0.35), 1.4, 0.7e-3)):
+        actor = common.actor(data, colour=colour, line_width=width * common.SAMPLES)
+        actor.GetProperty().LightingOff()
+        actor.SetPosition(*(height * half_height * numpy.array(normal)))
+        renderer.AddActor(actor)
+    return table
+
+
+def slice_scene(grid, name, origin, normal, body, half_height, table=None, field=None):
     """Coloured slice with cell edges, the section of the body and a scale for the lengths that are in the picture."""
+    if field is not None:
+        renderer = vtk.vtkRenderer()
+        table = field_scene(field, cut(grid, origin, normal), origin, normal, half_height, renderer)
+        add_body(body, origin, normal, half_height, renderer)
+        renderer.AddViewProp(scale_bar(table))
+        return renderer
     piece = cut(grid, origin, normal)
     is_category = table is not None
     if not is_category:
@@ -104,14 +161,20 @@ def slice_scene(grid, name, origin, normal, body, half_height, table=None):
     cells.GetProperty().SetLineWidth(0.7 * common.SAMPLES)
     renderer = vtk.vtkRenderer()
     renderer.AddActor(cells)
-    if body is not None:
-        outline = common.actor(cut(body, origin, normal), colour=(0, 0, 0), line_width=2 * common.SAMPLES)
-        outline.GetProperty().LightingOff()
-        outline.SetPosition(*(1e-3 * half_height * numpy.array(normal)))  # in front of the cells
-        renderer.AddActor(outline)
+    add_body(body, origin, normal, half_height, renderer)
     if not is_category:
         renderer.AddViewProp(scale_bar(table))
     return renderer
+
+
+def add_body(body, origin, normal, half_height, renderer):
+    """Its section, in front of the cells; None: nothing."""
+    if body is None:
+        return
+    outline = common.actor(cut(body, origin, normal), colour=(0, 0, 0), line_width=2 * common.SAMPLES)
+    outline.GetProperty().LightingOff()
+    outline.SetPosition(*(1e-3 * half_height * numpy.array(normal)))
+    renderer.AddActor(outline)
 
 
 def scale_bar(table):
@@ -179,6 +242,16 @@ def slices(grid, name, mesh):
     return result
 
 
+def behind_wing(mesh):
+    """As slices(), for --field: a section through the wing's trailing edge and the wake behind it."""
+    box = mesh.box("wing_te") if mesh else None
+    if box is None:
+        sys.exit("render: error: --field needs --mesh with a group 'wing_te'")
+    y = box[0][1] + 0.4 * (box[1][1] - box[0][1])
+    x, z = (box[0] + 0.4 * (box[1] - box[0]))[[0, 2]]
+    return (float(x), float(y), float(z)), (0, -1, 0), 0.12 * float(numpy.linalg.norm(box[1] - box[0]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("sizing", help="octree exported as .vtu")
@@ -192,6 +265,7 @@ def main():
     parser.add_argument("--as", dest="name", help="with --view or --slice: name of the file")
     parser.add_argument("--check", action="store_true",
                         help="draw nothing; exit code 1 when a picture shows other sizes")
+    parser.add_argument("--field", help="sizing.hdf: colours by the length at each point")
     parser.add_argument("-o", "--output", default="docs/images", help="folder for the PNG files (default: %(default)s)")
     options = parser.parse_args()
     grid = common.read(options.sizing)
@@ -201,12 +275,19 @@ def main():
         from render_mesh import Mesh
         mesh = Mesh(options.mesh)
         body = mesh.surface(~mesh.is_outer())
+    field = None
+    if options.field:
+        sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "python"))
+        import st
+        field = st.Sizing(options.field)
     table = None if options.by == "size" else categories(grid, options.by)
     os.makedirs(options.output, exist_ok=True)
     wanted = slices(grid, name, mesh)
     if options.slice:
         x, y, z, half = map(float, options.slice[1:])
         wanted = {options.slice[0]: ((x, y, z), (0, 0, 1), half)}
+    if options.field:
+        wanted = {"sizing_field": behind_wing(mesh)}
     if options.view:
         wanted = {options.view: wanted[options.view]}
     stale = False
@@ -216,7 +297,7 @@ def main():
         if options.check:
             stale |= not common.is_current(path, shows)
             continue
-        renderer = slice_scene(grid, name, origin, normal, body, half_height, table)
+        renderer = slice_scene(grid, name, origin, normal, body, half_height, table, field)
         window = common.window_of(renderer, SIZE)
         common.look(renderer, origin, normal, half_height)
         common.write_png(window, path, shows)
