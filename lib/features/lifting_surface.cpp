@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "base/share.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
@@ -23,10 +25,10 @@ constexpr double kAlongAxis = 0.5;      // cosine between edge and axis at least
 constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the facets
 constexpr std::size_t kAround = 4;      // stations to either side whose chords are compared
 constexpr double kOutlier = 1.4;        // chord over the median around
-constexpr double kFarOutlier = 4;       // chord over the median of the surface: wings taper less
 constexpr double kClearlyMore = 1.25;   // way with profiles square to the edge over that square to an axis
 constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
+constexpr double kAlongChord = 0.9;     // cosine between a rim and the chord at least
 constexpr double kNearNose = 0.05;      // of the chord: between nose and leading edge at most
 
 /// Trailing edges that hang together at vertices or across their base.
@@ -74,7 +76,7 @@ struct EdgePlace {
 /// A lifting surface that is not finished; see SurfaceMeasurer.
 struct SurfaceDraft {
   LiftingSurface surface;
-  const Vec3* axis = nullptr;  // to which its profiles are square, or else to the edge
+  std::vector<const Vec3*> axis;  // by edge: to which its profiles are square; nullptr: to the edge
 };
 
 /// Of the faces that profiles cross those that no concave edge parts from the trailing edge, and of the stations those
@@ -106,26 +108,41 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
       if (s.is_measured && !is_own[s.nose_face]) s = {s.share, s.trailing};
 }
 
+/// Why there is no lifting surface.
+struct Reason {
+  std::string text;
+  bool may_be_wing = true;
+};
+
 class SurfaceMeasurer {
  public:
   SurfaceMeasurer(const Model& model, const std::array<Vec3, 3>& axes, const ProfileCutter& cutter, double reach)
       : model_(model), axes_(axes), cutter_(cutter), reach_(reach) {}
 
-  /// What profiles show; stations and faces may reach into other bodies yet.
-  std::optional<SurfaceDraft> find(const std::vector<WingEdge>& chain) const {
+  /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
+  /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
+  std::optional<SurfaceDraft> find(const std::vector<WingEdge>& chain, Reason& why) const {
     const std::vector<EdgePlace> places = places_along(chain);
+    why = {"no plane cuts the profile of a wing there"};
     if (!is_promising(places)) return std::nullopt;
-    const Vec3* axis = nullptr;
+    std::vector<const Vec3*> axis;
     std::vector<std::optional<Profile>> profiles = best_profiles(places, axis);
-    drop_outliers(places, profiles);
-    double whole = 0;
-    for (const EdgePlace& place : places) whole += place.way;
-    if (measured_way(places, profiles) < kMeasured * whole) return std::nullopt;
-    if (!is_wing(assemble(chain, places, profiles))) return std::nullopt;
-    for (std::size_t i = 0; i < places.size(); ++i)  // winglets
+    for (std::size_t i = 0; i < places.size(); ++i)  // winglets, and blades along which no axis of the model runs
       if (!profiles[i]) profiles[i] = profile_at(places[i], nullptr);
     drop_outliers(places, profiles);
-    return SurfaceDraft{assemble(chain, places, profiles), axis};
+    const double share = measured_way(places, profiles) / way_of(places);
+    if (share < kMeasured) {
+      why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
+      return find_part(measured_edges(chain, places, profiles));
+    }
+    LiftingSurface surface = assemble(chain, places, profiles);
+    if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
+      why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
+      return find_part(part);
+    }
+    why = {why_no_wing(surface), false};
+    if (!why.text.empty()) return std::nullopt;
+    return SurfaceDraft{std::move(surface), std::move(axis)};
   }
 
   /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest. None where
@@ -134,13 +151,19 @@ class SurfaceMeasurer {
     LiftingSurface& surface = draft.surface;
     keep_own(model_.tables(), is_concave, surface);
     if (!is_measured(surface)) return std::nullopt;
-    for (TrailingEdge& edge : surface.trailing) reach_ends(draft.axis, surface.faces, edge);
+    for (std::size_t k = 0; k < surface.trailing.size(); ++k)
+      reach_ends(draft.axis[k], surface.faces, surface.trailing[k]);
     measure_chords(surface);
     fill_in(surface);
     return std::move(surface);
   }
 
  private:
+  std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part) const {
+    Reason why;
+    return part.empty() ? std::nullopt : find(part, why);
+  }
+
   static bool is_measured(const LiftingSurface& surface) {
     const auto has_station = [](const TrailingEdge& edge) {
       return std::any_of(edge.stations.begin(), edge.stations.end(),
@@ -149,11 +172,18 @@ class SurfaceMeasurer {
     return std::any_of(surface.trailing.begin(), surface.trailing.end(), has_station);
   }
 
-  static bool is_wing(const LiftingSurface& surface) {
-    const bool is_wide = std::any_of(surface.trailing.begin(), surface.trailing.end(), [&](const TrailingEdge& edge) {
-      return edge.base_width > kWidestBase * surface.median_chord;
-    });
-    return !is_wide && surface.span >= kLeastSpan * surface.median_chord && has_moving_noses(surface);
+  /// Without those whose base is too wide for the chord: rims of a thin tip or root, or of a plate.
+  static std::vector<WingEdge> narrow_edges(const std::vector<WingEdge>& chain, const LiftingSurface& surface) {
+    std::vector<WingEdge> part;
+    for (std::size_t k = 0; k < chain.size(); ++k)
+      if (surface.trailing[k].base_width <= kWidestBase * surface.median_chord) part.push_back(chain[k]);
+    return part;
+  }
+
+  /// Empty for a wing.
+  static std::string why_no_wing(const LiftingSurface& surface) {
+    if (surface.span < kLeastSpan * surface.median_chord) return "it is shorter than half of the chord";
+    return has_moving_noses(surface) ? "" : "its profiles have one nose, as a body of revolution has";
   }
 
   std::vector<EdgePlace> places_along(const std::vector<WingEdge>& chain) const {
@@ -188,16 +218,47 @@ class SurfaceMeasurer {
   }
 
   /// How far along the edges profiles were found: in how many pieces they are does not matter.
-  static double measured_way(const std::vector<EdgePlace>& places,
-                             const std::vector<std::optional<Profile>>& profiles) {
+  static double measured_way(std::span<const EdgePlace> places, std::span<const std::optional<Profile>> profiles) {
     double way = 0;
     for (std::size_t i = 0; i < places.size(); ++i) way += profiles[i] ? places[i].way : 0;
     return way;
   }
 
+  /// Each edge by itself: cranked edges of one wing may run along different axes.
+  std::vector<std::optional<Profile>> best_profiles(std::span<const EdgePlace> places,
+                                                    std::vector<const Vec3*>& axes) const {
+    std::vector<std::optional<Profile>> best;
+    while (!places.empty()) {
+      const auto is_other = [&](const EdgePlace& place) { return place.edge != places.front().edge; };
+      const auto n = std::find_if(places.begin(), places.end(), is_other) - places.begin();
+      axes.push_back(nullptr);
+      for (std::optional<Profile>& p : profiles_along(places.first(static_cast<std::size_t>(n)), axes.back()))
+        best.push_back(std::move(p));
+      places = places.subspan(static_cast<std::size_t>(n));
+    }
+    return best;
+  }
+
+  static double way_of(std::span<const EdgePlace> places) {
+    double way = 0;
+    for (const EdgePlace& place : places) way += place.way;
+    return way;
+  }
+
+  /// Edges of a chain with profiles along enough of each.
+  static std::vector<WingEdge> measured_edges(const std::vector<WingEdge>& chain, const std::vector<EdgePlace>& places,
+                                              const std::vector<std::optional<Profile>>& profiles) {
+    std::vector<double> way(chain.size(), 0);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (profiles[i]) way[places[i].edge] += places[i].way;
+    std::vector<WingEdge> part;
+    for (std::size_t k = 0; k < chain.size(); ++k)
+      if (way[k] >= kMeasured * chain[k].length) part.push_back(chain[k]);
+    return part;
+  }
+
   /// Cut square to the axis of the model that shows most; square to the edge only where that shows clearly more.
-  std::vector<std::optional<Profile>> best_profiles(const std::vector<EdgePlace>& places,
-                                                    const Vec3*& best_axis) const {
+  std::vector<std::optional<Profile>> profiles_along(std::span<const EdgePlace> places, const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     double longest = -1;
     for (const Vec3* axis : {axes_.data(), axes_.data() + 1, axes_.data() + 2, static_cast<const Vec3*>(nullptr)}) {
@@ -225,8 +286,7 @@ class SurfaceMeasurer {
       for (std::size_t j = i < kAround ? 0 : i - kAround; j < std::min(i + kAround + 1, profiles.size()); ++j)
         if (profiles[j] && places[j].edge == places[i].edge) around.push_back(profiles[j]->chord);
       const double own = profiles[i]->chord, usual = around.size() > 2 ? median(around) : of_all;
-      if (own > kOutlier * usual || own * kOutlier < usual || own > kFarOutlier * of_all || own * kFarOutlier < of_all)
-        outliers.push_back(i);
+      if (own > kOutlier * usual || own * kOutlier < usual) outliers.push_back(i);
     }
     for (const std::size_t i : outliers) profiles[i].reset();
   }
@@ -341,6 +401,34 @@ class SurfaceMeasurer {
   const double reach_;
 };
 
+/// Whether noses of most stations of `a` lie on the trailing edge of `b`.
+bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
+  std::size_t n = 0, n_near = 0;
+  for (const TrailingEdge& edge : a.trailing)
+    for (const ChordStation& s : edge.stations) {
+      if (!s.is_measured) continue;
+      ++n;
+      bool is_near = false;
+      for (const TrailingEdge& other : b.trailing)
+        for (std::size_t i = 1; i < other.stations.size() && !is_near; ++i)
+          is_near = segment_distance(s.nose, other.stations[i - 1].trailing, other.stations[i].trailing) <
+                    kNearNose * s.chord;
+      n_near += is_near;
+    }
+  return 2 * n_near > n;
+}
+
+/// A wing with a sharp nose was found from both of its edges: one of them is the leading edge.
+void unite_sharp_noses(std::vector<LiftingSurface>& surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t j = surfaces.size() - 1; j > i; --j) {
+      if (!has_nose_on(surfaces[i], surfaces[j]) || !has_nose_on(surfaces[j], surfaces[i])) continue;
+      for (const TrailingEdge& edge : surfaces[j].trailing) surfaces[i].leading.push_back(edge.edge);
+      std::sort(surfaces[i].leading.begin(), surfaces[i].leading.end());
+      surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
 /// Leading edges along the noses of a surface.
 void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface) {
   for (const WingEdge& w : edges) {
@@ -393,6 +481,40 @@ bool has_wall_facets(const FaceRoles& roles, double deflection) {
          std::ranges::all_of(roles.role, [](FaceRole role) { return role == FaceRole::kWall; });
 }
 
+/// Whether an edge runs along the chord of the nearest station: a rim of the tip or the root, in a chain because it
+/// looks like a blunt trailing edge where the profile is thin.
+bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
+  const auto curve = model.curve(e);
+  const Vec3 begin = curve->point(curve->t_min()), end = curve->point(curve->t_max()), middle = 0.5 * (begin + end);
+  const ChordStation* nearest = nullptr;
+  double least = 0;
+  for (const TrailingEdge& edge : surface.trailing)
+    for (const ChordStation& s : edge.stations) {
+      if (!s.is_measured) continue;
+      const double d = segment_distance(middle, s.trailing, s.nose);
+      if (nearest && d >= least) continue;
+      nearest = &s;
+      least = d;
+    }
+  return nearest && std::abs(dot(normalized(end - begin), normalized(nearest->nose - nearest->trailing))) > kAlongChord;
+}
+
+/// Edges of the chain that are none of the surface's trailing edges.
+void note_unused(const Model& model, const std::vector<WingEdge>& chain, const std::optional<LiftingSurface>& surface,
+                 const Reason& why, std::vector<UnusedTrailing>& unused) {
+  UnusedTrailing own{{}, 0, why.text, why.may_be_wing};
+  UnusedTrailing rims{{}, 0, "they are rims of a tip or a root", false};
+  for (const WingEdge& w : chain) {
+    const auto is_same = [&](const TrailingEdge& edge) { return edge.edge == w.edge; };
+    if (surface && std::any_of(surface->trailing.begin(), surface->trailing.end(), is_same)) continue;
+    UnusedTrailing& list = surface && is_rim(model, w.edge, *surface) ? rims : own;
+    list.edges.push_back(w.edge);
+    list.length += w.length;
+  }
+  for (UnusedTrailing* list : {&own, &rims})
+    if (!list->edges.empty()) unused.push_back(std::move(*list));
+}
+
 /// The plane of symmetry on which a chain lies; kNone: on none.
 FaceId mirror_of(const std::vector<WingEdge>& chain) {
   for (const WingEdge& w : chain)
@@ -422,7 +544,8 @@ NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
 }
 
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
-                                                  std::span<const WingEdge> edges, const Executor& executor) {
+                                                  std::span<const WingEdge> edges, const Executor& executor,
+                                                  std::vector<UnusedTrailing>* unused) {
   std::vector<std::vector<WingEdge>> chains;
   if (executor.is_root()) chains = trailing_chains(model.tables(), edges);
   std::vector<LiftingSurface> surfaces;
@@ -443,14 +566,20 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
       whole.emplace(mirror, with_image(model, facets, mirror, kOnPlane * roles.reference_diagonal));
     const ProfileCutter cutter(mirror == kNone ? facets : whole.at(mirror));
     const SurfaceMeasurer measurer(model, roles.own.axis, cutter, 2 * deflection);
-    std::optional<SurfaceDraft> draft = measurer.find(chain);
-    if (!draft) continue;
-    if (is_concave.empty()) is_concave = find_concave_edges(model, roles);
-    std::optional<LiftingSurface> surface = measurer.finish(std::move(*draft), is_concave);
+    Reason why;
+    std::optional<SurfaceDraft> draft = measurer.find(chain, why);
+    std::optional<LiftingSurface> surface;
+    if (draft) {
+      if (is_concave.empty()) is_concave = find_concave_edges(model, roles);
+      surface = measurer.finish(std::move(*draft), is_concave);
+      if (!surface) why = {"its profiles reach into other bodies"};
+    }
+    if (unused) note_unused(model, chain, surface, why, *unused);
     if (!surface) continue;
     surfaces.push_back(std::move(*surface));
     add_leading(model, edges, surfaces.back());
   }
+  unite_sharp_noses(surfaces);
   return surfaces;
 }
 

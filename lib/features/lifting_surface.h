@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "features/wing_edges.h"
@@ -49,6 +50,14 @@ struct LiftingSurface {
   NearestChord nearest_chord(Vec3 x) const;
 };
 
+/// Trailing edges that hang together and make no lifting surface, or are no part of the one that the others make.
+struct UnusedTrailing {
+  std::vector<EdgeId> edges;  ///< ascending
+  double length = 0;          ///< of all, model unit
+  std::string why;            ///< in plain words
+  bool may_be_wing = true;    ///< false: rims, bodies of revolution and what is too short
+};
+
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
 /// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord, and
 /// whose base is at most 6 per cent of it. Profiles are cut square to an axis of the model, and square to the edge
@@ -57,6 +66,7 @@ struct LiftingSurface {
 /// rank 0's.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
-                                                  const Executor& executor = SerialExecutor());
+                                                  const Executor& executor = SerialExecutor(),
+                                                  std::vector<UnusedTrailing>* unused = nullptr);
 
 }  // namespace st

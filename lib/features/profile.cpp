@@ -16,8 +16,9 @@ namespace {
 // Places along the chord, from the nose, and what a profile is like there. Thickness is over the largest one.
 constexpr std::array<double, 11> kPlaces = {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97};
 constexpr double kThinnest = 0.01, kThickest = 0.35;   // largest thickness over the chord
-constexpr double kSharpNose = 0.15, kFlatNose = 0.85;  // thickness at the first place: a wedge has 0.06, a plate 1
-constexpr double kThickEnd = 0.5;                      // thickness at the last place, at most
+constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first place: a double wedge has 0.04, a plate
+                                                       // 1
+constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
 constexpr std::size_t kFacetsPerBlock = 64;
 constexpr double kBehind = 0.02;  // of the chord: nothing lies further behind the edge

@@ -43,6 +43,7 @@
 #include "stages/size_tally.h"
 #include "stages/stored_model.h"
 #include "stages/task_trace.h"
+#include "stages/wing_report.h"
 
 namespace st {
 namespace {
@@ -158,8 +159,11 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
 }
 
 /// What detection found; on rank 0.
+constexpr std::size_t kMostUnused = 20;  // lines about trailing edges without a lifting surface
+
 struct Wings {
   std::vector<WingEdge> edges;
+  std::vector<UnusedTrailing> unused;
   Aircraft aircraft;
   std::vector<RasterBox> boxes;  ///< what they ask for, besides curvature
 };
@@ -636,8 +640,8 @@ nlohmann::json wings_json(const Wings& wings) {
   return list;
 }
 
-/// Options of lifting surfaces that were set, by a preset perhaps, for nothing.
-void say_no_wing(const RasterStageOptions& o) {
+/// Options of lifting surfaces that were set, by a preset perhaps: "--edge-size, --base-cells"; empty: none.
+std::string wing_options(const RasterStageOptions& o) {
   const RasterStageOptions defaults;
   std::string set;
   const auto add = [&](bool is_set, const std::string& flag) {
@@ -646,16 +650,25 @@ void say_no_wing(const RasterStageOptions& o) {
   add(o.edge_size != defaults.edge_size && o.edge_size != "none", "--edge-size");
   add(o.base_cells != defaults.base_cells, "--base-cells");
   add(o.chord_cells != defaults.chord_cells, "--chord-cells");
-  if (set.empty())
-    log_info("no lifting surface found: --edge-size has no effect");
-  else
-    log_report("  no lifting surface found: without effect are " + set);
+  return set;
+}
+
+/// Who asks for lengths at trailing edges is told of those without; with -v they are all listed.
+void report_unused(const RasterStageOptions& o, const Wings& wings, double reference_diagonal) {
+  const bool is_asked = !wing_options(o).empty();
+  for (const std::string& line : unused_lines(wings.unused, kMostUnused)) is_asked ? log_report(line) : log_info(line);
+  if (!is_asked) return;
+  const std::string warning = unused_warning(wings.unused, reference_diagonal);
+  if (!warning.empty()) log_warning(warning);
 }
 
 /// One line for each lifting surface, or one that there is none.
 void report_wings(const RasterStageOptions& o, const Wings& wings) {
   const std::size_t n = wings.aircraft.wings.size();
-  if (n == 0) say_no_wing(o);
+  if (const std::string set = wing_options(o); n == 0 && !set.empty())
+    log_report("  no lifting surface found: without effect are " + set);
+  else if (n == 0)
+    log_info("no lifting surface found: --edge-size has no effect");
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i) {
     const LiftingSurface& wing = wings.aircraft.wings[i];
     log_report(
@@ -718,6 +731,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                                   {"rules", n_rules},
                                                   {"wing_edges", wings.edges.size()},
                                                   {"lifting_surfaces", wings_json(wings)},
+                                                  {"unused_trailing", unused_json(wings.unused)},
                                                   {"gap_samples", counts.n_gap_boxes},
                                                   {"not_sampled", counts.n_failures},
                                                   {"beyond_depth", depth_json(counts.depth)},
@@ -791,7 +805,7 @@ class RasterRun {
 
   void set_limits() {
     wings_.edges = find_wing_edges(model_, roles_, strips_, trace_);
-    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_);
+    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
@@ -829,6 +843,7 @@ class RasterRun {
 
   StageSummary report() const {
     report_wings(o_, wings_);
+    report_unused(o_, wings_, roles_.reference_diagonal);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
     for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
     const BelowFloor below = find_below_floor(

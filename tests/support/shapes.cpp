@@ -323,12 +323,13 @@ TopoDS_Shape helical_ribbon() {
 
 /// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last
 /// coefficient, 0.1036 ends in a point, 0.1015 is 0.0252 thick at the end.
-Handle(Geom_BSplineCurve) aerofoil(double closing) {
+Handle(Geom_BSplineCurve) aerofoil(double closing, double thickness = 0.12) {
   constexpr int kHalf = 30;
   Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 2 * kHalf + 1);
   for (int i = -kHalf; i <= kHalf; ++i) {
     const double x = std::pow(static_cast<double>(i) / kHalf, 2);
-    const double y = 0.6 * (0.2969 * std::sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - closing * x))));
+    const double y =
+        5 * thickness * (0.2969 * std::sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - closing * x))));
     points->SetValue(i + kHalf + 1, gp_Pnt(10 * x, i < 0 ? 10 * y : -10 * y, 0));
   }
   GeomAPI_Interpolate curve(points, false, 1e-9);
@@ -337,8 +338,8 @@ Handle(Geom_BSplineCurve) aerofoil(double closing) {
 }
 
 /// A wing of chord 10 (x) and span 30 (z).
-TopoDS_Shape wing(double closing) {
-  const Handle(Geom_BSplineCurve) curve = aerofoil(closing);
+TopoDS_Shape wing(double closing, double thickness = 0.12) {
+  const Handle(Geom_BSplineCurve) curve = aerofoil(closing, thickness);
   const double nose = GeomAPI_ProjectPointOnCurve(gp_Pnt(0, 0, 0), curve).LowerDistanceParameter();
   const TopoDS_Edge upper = BRepBuilderAPI_MakeEdge(curve, curve->FirstParameter(), nose);
   const TopoDS_Edge lower = BRepBuilderAPI_MakeEdge(curve, nose, curve->LastParameter());
@@ -346,6 +347,28 @@ TopoDS_Shape wing(double closing) {
   const double end = closing > 0.103 ? 0 : 6 * (0.2969 - 0.126 - 0.3516 + 0.2843 - closing);
   if (end > 0) wire.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(10, end, 0), gp_Pnt(10, -end, 0)));
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
+/// Of chord 60, 50, 10 and 6 at z = 0, 6, 12 and 30, its trailing edge along x = 10.
+TopoDS_Shape tapering_wing() {
+  BRepOffsetAPI_ThruSections loft(true, true);
+  for (const auto& [z, share] : {std::pair{0.0, 6.0}, {6.0, 5.0}, {12.0, 1.0}, {30.0, 0.6}}) {
+    gp_Trsf scaling, shift;
+    scaling.SetScale(gp_Pnt(10, 0, 0), share);
+    shift.SetTranslation(gp_Vec(0, 0, z));
+    loft.AddWire(
+        TopoDS::Wire(BRepBuilderAPI_Transform(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(aerofoil(0.1036))).Wire(),
+                                              shift * scaling)
+                         .Shape()));
+  }
+  loft.CheckCompatibility(false);
+  return loft.Shape();
+}
+
+/// A wing of chord 10 and span 30 with a rhombus as profile, 0.8 thick.
+TopoDS_Shape double_wedge() {
+  BRepBuilderAPI_MakePolygon profile(gp_Pnt(0, 0, 0), gp_Pnt(5, -0.4, 0), gp_Pnt(10, 0, 0), gp_Pnt(5, 0.4, 0), true);
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(profile.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
 /// The sharp wing, its root in a box that ends at z = 4.
@@ -513,6 +536,9 @@ const std::map<std::string, Factory>& factories() {
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},
+      {"thin_wing", [] { return wing(0.1036, 0.035); }},
+      {"tapering_wing", tapering_wing},
+      {"double_wedge", double_wedge},
       {"wing_with_pod", wing_with_pod},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},

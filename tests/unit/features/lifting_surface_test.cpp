@@ -89,6 +89,48 @@ TEST(LiftingSurface, is_no_plate_and_no_plain_body) {
     EXPECT_TRUE(wings_of(shape).empty()) << shape;
 }
 
+TEST(LiftingSurface, tapers_as_a_blended_wing_body_does) {
+  const std::vector<LiftingSurface> wings = wings_of("tapering_wing");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_EQ(wings[0].trailing.size(), 3u);
+  EXPECT_NEAR(wings[0].largest_chord, 60, 0.5);
+  EXPECT_NEAR(wings[0].least_chord, 6, 0.1);
+  for (const TrailingEdge& edge : wings[0].trailing)
+    EXPECT_GT(std::ranges::count_if(edge.stations, [](const ChordStation& s) { return s.is_measured; }), 20);
+}
+
+TEST(LiftingSurface, of_a_thin_wing_does_not_take_the_rims_of_its_tips_for_bases) {
+  const Model model = test::make_model("thin_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
+  ASSERT_GT(edges.size(), 4u) << "rims look like blunt trailing edges";
+  std::vector<UnusedTrailing> unused;
+  const std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, edges, SerialExecutor(), &unused);
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_EQ(wings[0].trailing.size(), 1u);
+  EXPECT_NEAR(wings[0].span, 30, 1e-6);
+  ASSERT_EQ(unused.size(), 1u);
+  EXPECT_EQ(unused[0].edges.size(), 4u);
+  EXPECT_FALSE(unused[0].may_be_wing || unused[0].why.empty());
+}
+
+TEST(LiftingSurface, with_a_sharp_nose_is_found_once) {
+  const std::vector<LiftingSurface> wings = wings_of("double_wedge");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_EQ(wings[0].trailing.size(), 1u);
+  EXPECT_EQ(wings[0].leading.size(), 1u);
+  EXPECT_NEAR(wings[0].median_chord, 10, 1e-6);
+}
+
+TEST(LiftingSurface, says_why_a_trailing_edge_has_none) {
+  const Model model = test::make_model("fan");
+  const FaceRoles roles = face_roles(model.tables());
+  std::vector<UnusedTrailing> unused;
+  find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)), SerialExecutor(), &unused);
+  ASSERT_FALSE(unused.empty());
+  for (const UnusedTrailing& u : unused) EXPECT_FALSE(u.why.empty());
+}
+
 TEST(LiftingSurface, knows_the_chord_near_a_place) {
   const std::vector<LiftingSurface> wings = wings_of("sharp_wing");
   ASSERT_EQ(wings.size(), 1u);

@@ -1,0 +1,39 @@
+#include "stages/wing_report.h"
+
+#include <gtest/gtest.h>
+
+namespace st {
+namespace {
+
+const std::vector<UnusedTrailing> kUnusedEdges = {
+    {{6}, 0.4, "it is short"}, {{1, 3}, 9, "no plane cuts it"}, {{4}, 5, "no plane cuts it"}};
+const UnusedTrailing kRim{{7}, 20, "its base is wide", false};
+
+TEST(WingReport, names_the_longest_edges_first_and_says_why) {
+  const std::vector<std::string> lines = unused_lines(kUnusedEdges, 2);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0], "  no lifting surface at trailing edges 2, 4, length 9: no plane cuts it");
+  EXPECT_EQ(lines[1], "  no lifting surface at trailing edge 5, length 5: no plane cuts it");
+  EXPECT_EQ(lines[2], "  and 1 more trailing edges without a lifting surface");
+  EXPECT_EQ(unused_lines(kUnusedEdges, 3).size(), 3U);
+}
+
+TEST(WingReport, warns_of_long_edges_alone_and_names_the_rule) {
+  const std::string text = unused_warning(kUnusedEdges, 100);
+  EXPECT_NE(text.find("3 trailing edges, 14 long"), std::string::npos) << text;
+  EXPECT_NE(text.find("[[size]] edges = [2, 4, 5]"), std::string::npos) << text;
+  EXPECT_EQ(unused_warning(kUnusedEdges, 1000), "");
+  EXPECT_EQ(unused_warning({}, 1), "");
+  EXPECT_EQ(unused_warning({&kRim, 1}, 1), "") << "rims are no wings";
+}
+
+TEST(WingReport, lists_all_in_json) {
+  const nlohmann::json list = unused_json(kUnusedEdges);
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[1]["edges"], (std::vector<int>{2, 4}));
+  EXPECT_EQ(list[1]["length"], 9);
+  EXPECT_EQ(list[0]["reason"], "it is short");
+}
+
+}  // namespace
+}  // namespace st
