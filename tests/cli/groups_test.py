@@ -142,7 +142,8 @@ class Chain(ToolTest):
         tables, _ = groups_of(self.folder / "mesh.hdf")
         self.assertEqual(tables["main"]["some faces"], [1, 3, 4, 5])
         self.assertEqual(len(tables["main"]["wing left"]), len(tables["main"]["wing right"]))
-        self.assertLess(abs(triangles["wing left"] / triangles["wing right"] - 1), 0.2)
+        # lengths are larger than the wings are thick: where triangles fold or cross they are refined, not alike
+        self.assertLess(abs(triangles["wing left"] / triangles["wing right"] - 1), 0.25)
         self.assertGreater(triangles["wing left"], 100)
         self.assertEqual(json["parts"], [])
         for table, groups in groups_of(self.folder / "geometry.hdf")[0].items():
