@@ -54,6 +54,7 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   options.time_limit = seconds;
   options.when_late = WhenLate::kThrow;
   options.parts_bodies = false;
+  options.tells_damage = false;  // nobody sees it: st-mesh tells of the mesh
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};

@@ -579,6 +579,7 @@ void FaceRounds::give_up(bool by_crossings) {
     const std::int64_t n_bad = outcomes_[f].n_folds + n_crossing[f];
     if (!(by_crossings ? hopeless_.gives_up_crossing(f, n_bad) : hopeless_.gives_up_folded(f, n_bad))) continue;
     crossings_.give_up(f);
+    if (!options_.tells_damage) continue;
     log_warning(
         fmt::format("{}: its triangles fold or cross each other {} times, and smaller ones no less: refining there was "
                     "ended; its surface is damaged or crosses itself, so repair it in the CAD system",

@@ -31,6 +31,7 @@ struct MeshOptions {
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
   PatchesGo patches = PatchesGo::kToRoot;
   bool parts_bodies = true;  ///< bodies that the CAD keeps apart are refined where their triangles cross
+  bool tells_damage = true;  ///< warns of faces that refining does not help
 };
 
 /// Where the time went, seconds on rank 0.
