@@ -108,6 +108,23 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
       if (s.is_measured && !is_own[s.nose_face]) s = {s.share, s.trailing};
 }
 
+/// Whether noses of most stations of `a` lie on the trailing edge of `b`.
+bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
+  std::size_t n = 0, n_near = 0;
+  for (const TrailingEdge& edge : a.trailing)
+    for (const ChordStation& s : edge.stations) {
+      if (!s.is_measured) continue;
+      ++n;
+      bool is_near = false;
+      for (const TrailingEdge& other : b.trailing)
+        for (std::size_t i = 1; i < other.stations.size() && !is_near; ++i)
+          is_near = segment_distance(s.nose, other.stations[i - 1].trailing, other.stations[i].trailing) <
+                    kNearNose * s.chord;
+      n_near += is_near;
+    }
+  return 2 * n_near > n;
+}
+
 /// Why there is no lifting surface.
 struct Reason {
   std::string text;
@@ -183,7 +200,8 @@ class SurfaceMeasurer {
   /// Empty for a wing.
   static std::string why_no_wing(const LiftingSurface& surface) {
     if (surface.span < kLeastSpan * surface.median_chord) return "it is shorter than half of the chord";
-    return has_moving_noses(surface) ? "" : "its profiles have one nose, as a body of revolution has";
+    if (!has_moving_noses(surface)) return "its profiles have one nose, as a body of revolution has";
+    return has_nose_on(surface, surface) ? "it is its own nose, as the rim of a lens" : "";
   }
 
   std::vector<EdgePlace> places_along(const std::vector<WingEdge>& chain) const {
@@ -400,23 +418,6 @@ class SurfaceMeasurer {
   const ProfileCutter& cutter_;
   const double reach_;
 };
-
-/// Whether noses of most stations of `a` lie on the trailing edge of `b`.
-bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
-  std::size_t n = 0, n_near = 0;
-  for (const TrailingEdge& edge : a.trailing)
-    for (const ChordStation& s : edge.stations) {
-      if (!s.is_measured) continue;
-      ++n;
-      bool is_near = false;
-      for (const TrailingEdge& other : b.trailing)
-        for (std::size_t i = 1; i < other.stations.size() && !is_near; ++i)
-          is_near = segment_distance(s.nose, other.stations[i - 1].trailing, other.stations[i].trailing) <
-                    kNearNose * s.chord;
-      n_near += is_near;
-    }
-  return 2 * n_near > n;
-}
 
 /// A wing with a sharp nose was found from both of its edges: one of them is the leading edge.
 void unite_sharp_noses(std::vector<LiftingSurface>& surfaces) {

@@ -371,6 +371,13 @@ TopoDS_Shape double_wedge() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(profile.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// What two balls of radius 20 have in common, 2 thick: its rim is sharp all around.
+TopoDS_Shape lens() {
+  return BRepAlgoAPI_Common(moved(BRepPrimAPI_MakeSphere(20).Shape(), 0, 0, 19),
+                            moved(BRepPrimAPI_MakeSphere(20).Shape(), 0, 0, -19))
+      .Shape();
+}
+
 /// The sharp wing, its root in a box that ends at z = 4.
 TopoDS_Shape wing_on_body() { return BRepAlgoAPI_Fuse(wing(0.1036), moved(box(16, 4, 8), -3, -2, -4)).Shape(); }
 
@@ -539,6 +546,7 @@ const std::map<std::string, Factory>& factories() {
       {"thin_wing", [] { return wing(0.1036, 0.035); }},
       {"tapering_wing", tapering_wing},
       {"double_wedge", double_wedge},
+      {"lens", lens},
       {"wing_with_pod", wing_with_pod},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},

@@ -123,12 +123,15 @@ TEST(LiftingSurface, with_a_sharp_nose_is_found_once) {
 }
 
 TEST(LiftingSurface, says_why_a_trailing_edge_has_none) {
-  const Model model = test::make_model("fan");
-  const FaceRoles roles = face_roles(model.tables());
-  std::vector<UnusedTrailing> unused;
-  find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)), SerialExecutor(), &unused);
-  ASSERT_FALSE(unused.empty());
-  for (const UnusedTrailing& u : unused) EXPECT_FALSE(u.why.empty());
+  for (const char* shape : {"fan", "lens"}) {
+    const Model model = test::make_model(shape);
+    const FaceRoles roles = face_roles(model.tables());
+    const std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
+    std::vector<UnusedTrailing> unused;
+    EXPECT_TRUE(find_lifting_surfaces(model, roles, edges, SerialExecutor(), &unused).empty()) << shape;
+    ASSERT_FALSE(unused.empty()) << shape;
+    for (const UnusedTrailing& u : unused) EXPECT_FALSE(u.why.empty()) << shape;
+  }
 }
 
 TEST(LiftingSurface, knows_the_chord_near_a_place) {
