@@ -286,7 +286,7 @@ def main():
     if options.slice:
         x, y, z, half = map(float, options.slice[1:])
         wanted = {options.slice[0]: ((x, y, z), (0, 0, 1), half)}
-    if options.field:
+    elif options.field:
         wanted = {"sizing_field": behind_wing(mesh)}
     if options.view:
         wanted = {options.view: wanted[options.view]}

@@ -487,16 +487,7 @@ bool has_wall_facets(const FaceRoles& roles, double deflection) {
 bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
   const auto curve = model.curve(e);
   const Vec3 begin = curve->point(curve->t_min()), end = curve->point(curve->t_max()), middle = 0.5 * (begin + end);
-  const ChordStation* nearest = nullptr;
-  double least = 0;
-  for (const TrailingEdge& edge : surface.trailing)
-    for (const ChordStation& s : edge.stations) {
-      if (!s.is_measured) continue;
-      const double d = segment_distance(middle, s.trailing, s.nose);
-      if (nearest && d >= least) continue;
-      nearest = &s;
-      least = d;
-    }
+  const ChordStation* nearest = surface.nearest_station(middle);
   return nearest && std::abs(dot(normalized(end - begin), normalized(nearest->nose - nearest->trailing))) > kAlongChord;
 }
 
@@ -533,15 +524,24 @@ double TrailingEdge::chord_at(double share) const {
   return a.chord + part * (b.chord - a.chord);
 }
 
-NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
-  NearestChord nearest{median_chord, -1};
+const ChordStation* LiftingSurface::nearest_station(Vec3 x) const {
+  const ChordStation* nearest = nullptr;
+  double least = 0;
   for (const TrailingEdge& edge : trailing)
     for (const ChordStation& s : edge.stations) {
       if (!s.is_measured) continue;
       const double d = segment_distance(x, s.trailing, s.nose);
-      if (nearest.distance < 0 || d < nearest.distance) nearest = {s.chord, d};
+      if (nearest && d >= least) continue;
+      nearest = &s;
+      least = d;
     }
   return nearest;
+}
+
+NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
+  const ChordStation* nearest = nearest_station(x);
+  if (!nearest) return {median_chord, -1};
+  return {nearest->chord, segment_distance(x, nearest->trailing, nearest->nose)};
 }
 
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,

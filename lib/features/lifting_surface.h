@@ -46,7 +46,10 @@ struct LiftingSurface {
   double span = 0;            ///< along the trailing edge, model unit
   double least_chord = 0, median_chord = 0, largest_chord = 0;  ///< model unit
 
-  /// The chord of the measured station that passes nearest to a place. Cost: linear in stations.
+  /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:
+  /// linear in stations.
+  const ChordStation* nearest_station(Vec3 x) const;
+  /// Its chord, and how far away it runs.
   NearestChord nearest_chord(Vec3 x) const;
 };
 
@@ -59,11 +62,12 @@ struct UnusedTrailing {
 };
 
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
-/// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord, and
-/// whose base is at most 6 per cent of it. Profiles are cut square to an axis of the model, and square to the edge
-/// where that shows none or clearly fewer. By first edge. Collective; `edges` and what is returned are of rank 0. Cost:
-/// a coarse triangulation of the walls, as tasks, where there are any trailing edges and `roles` has none; the rest is
-/// rank 0's.
+/// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord. Of a
+/// chain that shows less, the edges that show as much each; edges with a base above 6 per cent of the chord are left
+/// out. Profiles are cut square to an axis of the model, each edge to its own, and square to the edge where that shows
+/// none or clearly fewer. By first edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the
+/// trailing edges that belong to none. Cost: a coarse triangulation of the walls, as tasks, where there are any
+/// trailing edges and `roles` has none; the rest is rank 0's.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),

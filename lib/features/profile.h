@@ -27,9 +27,9 @@ class ProfileCutter {
 
   /// The part of the cut by the plane through `trailing_edge` with this unit normal that hangs together with the point,
   /// if it is the profile of a lifting surface: two sides at every station along the chord, 1 to 35 per cent thick,
-  /// thickest in the middle, thin towards the trailing edge, with a rounded nose; else nullopt. `reach`: how far from
-  /// the point the cut may begin, model unit. Cost: linear in the blocks of facets, and in facets of those that are
-  /// cut.
+  /// thickest in the middle, thin towards the trailing edge, with a rounded or sharp nose; else nullopt. `reach`: how
+  /// far from the point the cut may begin, model unit. Cost: linear in the blocks of facets, and in facets of those
+  /// that are cut.
   std::optional<Profile> cut(Vec3 trailing_edge, Vec3 normal, double reach) const;
 
  private:

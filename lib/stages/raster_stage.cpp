@@ -158,9 +158,9 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   return limits;
 }
 
-/// What detection found; on rank 0.
 constexpr std::size_t kMostUnused = 20;  // lines about trailing edges without a lifting surface
 
+/// What detection found; on rank 0.
 struct Wings {
   std::vector<WingEdge> edges;
   std::vector<UnusedTrailing> unused;

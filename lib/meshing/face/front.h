@@ -68,16 +68,15 @@ template <bool kStretched>
 double FaceWork::way_along(const MeshNode& a, const MeshNode& b) const {
   constexpr int kChords = 4;
   double way = 0;
-  MeshNode from = a, to = b;
+  Vec3 last = a.x;
   for (int i = 1; i <= kChords; ++i) {
-    to.p = a.p + static_cast<double>(i) / kChords * (b.p - a.p);
+    MeshNode next = b;
     if (i < kChords) {
-      evaluate(to);
-    } else {
-      to.x = b.x;
+      next.p = a.p + static_cast<double>(i) / kChords * (b.p - a.p);
+      evaluate(next);
     }
-    way += std::sqrt(mean_length2<kStretched>(to.x - from.x, a, b));
-    from.x = to.x;
+    way += std::sqrt(mean_length2<kStretched>(next.x - last, a, b));
+    last = next.x;
   }
   return way;
 }
