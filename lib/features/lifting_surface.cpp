@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -12,19 +13,22 @@
 #include "base/share.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
+#include "features/edge_places.h"
 #include "features/profile.h"
+#include "features/thin_surface.h"
 
 namespace st {
 namespace {
 
-constexpr int kStations = 24;           // measured on each edge
+constexpr int kStations = kPlacesPerEdge;
 constexpr double kMeasured = 0.5;       // of the stations of a surface, at least
 constexpr double kLeastSpan = 0.5;      // of the median chord
 constexpr double kWidestBase = 0.06;    // of the median chord
-constexpr double kAlongAxis = 0.5;      // cosine between edge and axis at least, to cut square to the axis
 constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the facets
 constexpr std::size_t kAround = 4;      // stations to either side whose chords are compared
 constexpr double kOutlier = 1.4;        // chord over the median around
+constexpr double kLongBlade = 0.25;     // of the reference diagonal: between the ends of a blade's edge at least
+constexpr double kStraightBlade = 0.7;  // the same over the edge's length
 constexpr double kClearlyMore = 1.25;   // way with profiles square to the edge over that square to an axis
 constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
@@ -60,19 +64,6 @@ std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::sp
   return chains;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
-}
-
-/// A place on an edge, before anything is measured there.
-struct EdgePlace {
-  std::size_t edge;  // of the chain
-  double share;
-  double way;  // along the edge that it stands for, model unit
-  Vec3 x, tangent;
-};
-
 /// A lifting surface that is not finished; see SurfaceMeasurer.
 struct SurfaceDraft {
   LiftingSurface surface;
@@ -95,7 +86,7 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
       todo.push_back(f);
     }
   };
-  for (const TrailingEdge& edge : surface.trailing) take_faces_at(edge.edge);
+  for (const ChordEdge& edge : surface.trailing) take_faces_at(edge.edge);
   while (!todo.empty()) {
     const FaceId f = todo.back();
     todo.pop_back();
@@ -103,7 +94,7 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
       if (!is_concave[e] && !t.edge_is_degenerate[e]) take_faces_at(e);
   }
   std::erase_if(surface.faces, [&](FaceId f) { return !is_own[f]; });
-  for (TrailingEdge& edge : surface.trailing)
+  for (ChordEdge& edge : surface.trailing)
     for (ChordStation& s : edge.stations)
       if (s.is_measured && !is_own[s.nose_face]) s = {s.share, s.trailing};
 }
@@ -111,12 +102,12 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
 /// Whether noses of most stations of `a` lie on the trailing edge of `b`.
 bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
   std::size_t n = 0, n_near = 0;
-  for (const TrailingEdge& edge : a.trailing)
+  for (const ChordEdge& edge : a.trailing)
     for (const ChordStation& s : edge.stations) {
       if (!s.is_measured) continue;
       ++n;
       bool is_near = false;
-      for (const TrailingEdge& other : b.trailing)
+      for (const ChordEdge& other : b.trailing)
         for (std::size_t i = 1; i < other.stations.size() && !is_near; ++i)
           is_near = segment_distance(s.nose, other.stations[i - 1].trailing, other.stations[i].trailing) <
                     kNearNose * s.chord;
@@ -139,7 +130,7 @@ class SurfaceMeasurer {
   /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
   /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
   std::optional<SurfaceDraft> find(const std::vector<WingEdge>& chain, Reason& why) const {
-    const std::vector<EdgePlace> places = places_along(chain);
+    const std::vector<EdgePlace> places = places_along(model_, chain);
     why = {"no plane cuts the profile of a wing there"};
     if (!is_promising(places)) return std::nullopt;
     std::vector<const Vec3*> axis;
@@ -182,7 +173,7 @@ class SurfaceMeasurer {
   }
 
   static bool is_measured(const LiftingSurface& surface) {
-    const auto has_station = [](const TrailingEdge& edge) {
+    const auto has_station = [](const ChordEdge& edge) {
       return std::any_of(edge.stations.begin(), edge.stations.end(),
                          [](const ChordStation& s) { return s.is_measured; });
     };
@@ -202,20 +193,6 @@ class SurfaceMeasurer {
     if (surface.span < kLeastSpan * surface.median_chord) return "it is shorter than half of the chord";
     if (!has_moving_noses(surface)) return "its profiles have one nose, as a body of revolution has";
     return has_nose_on(surface, surface) ? "it is its own nose, as the rim of a lens" : "";
-  }
-
-  std::vector<EdgePlace> places_along(const std::vector<WingEdge>& chain) const {
-    std::vector<EdgePlace> places;
-    for (std::size_t k = 0; k < chain.size(); ++k) {
-      const auto curve = model_.curve(chain[k].edge);
-      const ArcTable arc(*curve);
-      for (int i = 0; i < kStations; ++i) {
-        const double share = (i + 0.5) / kStations;
-        const CurvePoint p = curve->evaluate(arc.parameter_at(share));
-        places.push_back({k, share, chain[k].length / kStations, p.x, normalized(p.d1)});
-      }
-    }
-    return places;
   }
 
   std::optional<Profile> profile_at(const EdgePlace& place, const Vec3* axis) const {
@@ -337,7 +314,7 @@ class SurfaceMeasurer {
 
   static void measure_chords(LiftingSurface& surface) {
     std::vector<double> chords;
-    for (const TrailingEdge& edge : surface.trailing)
+    for (const ChordEdge& edge : surface.trailing)
       for (const ChordStation& s : edge.stations)
         if (s.is_measured) chords.push_back(s.chord);
     if (chords.empty()) return;
@@ -349,7 +326,7 @@ class SurfaceMeasurer {
 
   /// Adds stations where measured ones end: halves the way to the next one, or to the end of the edge. So noses run as
   /// far as there are profiles, and not on into a fuselage.
-  void reach_ends(const Vec3* axis, std::span<const FaceId> own_faces, TrailingEdge& edge) const {
+  void reach_ends(const Vec3* axis, std::span<const FaceId> own_faces, ChordEdge& edge) const {
     constexpr int kHalvings = 4;
     const auto curve = model_.curve(edge.edge);
     const ArcTable arc(*curve);
@@ -382,7 +359,7 @@ class SurfaceMeasurer {
   /// Noses run along the trailing edge: they do not where a body of revolution ends in its apex.
   static bool has_moving_noses(const LiftingSurface& surface) {
     double of_noses = 0, of_edge = 0;
-    for (const TrailingEdge& edge : surface.trailing) {
+    for (const ChordEdge& edge : surface.trailing) {
       const ChordStation* last = nullptr;
       for (const ChordStation& s : edge.stations) {
         if (!s.is_measured) continue;
@@ -396,10 +373,10 @@ class SurfaceMeasurer {
   /// Chords where none was measured: that of the nearest station that was; the ends of edges go on as their neighbours.
   void fill_in(LiftingSurface& surface) const {
     std::vector<ChordStation> measured;
-    for (const TrailingEdge& edge : surface.trailing)
+    for (const ChordEdge& edge : surface.trailing)
       for (const ChordStation& s : edge.stations)
         if (s.is_measured) measured.push_back(s);
-    for (TrailingEdge& edge : surface.trailing) {
+    for (ChordEdge& edge : surface.trailing) {
       const auto curve = model_.curve(edge.edge);
       edge.stations.insert(edge.stations.begin(), {0, curve->point(curve->t_min())});
       edge.stations.push_back({1, curve->point(curve->t_max())});
@@ -424,7 +401,7 @@ void unite_sharp_noses(std::vector<LiftingSurface>& surfaces) {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     for (std::size_t j = surfaces.size() - 1; j > i; --j) {
       if (!has_nose_on(surfaces[i], surfaces[j]) || !has_nose_on(surfaces[j], surfaces[i])) continue;
-      for (const TrailingEdge& edge : surfaces[j].trailing) surfaces[i].leading.push_back(edge.edge);
+      for (const ChordEdge& edge : surfaces[j].trailing) surfaces[i].leading.push_back(edge.edge);
       std::sort(surfaces[i].leading.begin(), surfaces[i].leading.end());
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(j));
     }
@@ -440,7 +417,7 @@ void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSur
     Vec3 last = a.x;
     for (int i = 1; i <= kStations && !is_near; ++i) {
       const Vec3 x = curve->point(curve->t_min() + (curve->t_max() - curve->t_min()) * i / kStations);
-      for (const TrailingEdge& edge : surface.trailing)
+      for (const ChordEdge& edge : surface.trailing)
         for (const ChordStation& s : edge.stations)
           is_near = is_near || (s.is_measured && segment_distance(s.nose, last, x) < kNearNose * s.chord);
       last = x;
@@ -491,20 +468,23 @@ bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
   return nearest && std::abs(dot(normalized(end - begin), normalized(nearest->nose - nearest->trailing))) > kAlongChord;
 }
 
+/// Edges of a chain that are no part of a surface with noses.
+struct Rest {
+  std::vector<WingEdge> edges;
+  Reason why;
+};
+
 /// Edges of the chain that are none of the surface's trailing edges.
-void note_unused(const Model& model, const std::vector<WingEdge>& chain, const std::optional<LiftingSurface>& surface,
-                 const Reason& why, std::vector<UnusedTrailing>& unused) {
-  UnusedTrailing own{{}, 0, why.text, why.may_be_wing};
-  UnusedTrailing rims{{}, 0, "they are rims of a tip or a root", false};
+void note_rest(const Model& model, const std::vector<WingEdge>& chain, const std::optional<LiftingSurface>& surface,
+               const Reason& why, std::vector<Rest>& rest) {
+  Rest own{{}, why}, rims{{}, {"they are rims of a tip or a root", false}};
   for (const WingEdge& w : chain) {
-    const auto is_same = [&](const TrailingEdge& edge) { return edge.edge == w.edge; };
+    const auto is_same = [&](const ChordEdge& edge) { return edge.edge == w.edge; };
     if (surface && std::any_of(surface->trailing.begin(), surface->trailing.end(), is_same)) continue;
-    UnusedTrailing& list = surface && is_rim(model, w.edge, *surface) ? rims : own;
-    list.edges.push_back(w.edge);
-    list.length += w.length;
+    (surface && is_rim(model, w.edge, *surface) ? rims : own).edges.push_back(w);
   }
-  for (UnusedTrailing* list : {&own, &rims})
-    if (!list->edges.empty()) unused.push_back(std::move(*list));
+  for (Rest* list : {&own, &rims})
+    if (!list->edges.empty()) rest.push_back(std::move(*list));
 }
 
 /// The plane of symmetry on which a chain lies; kNone: on none.
@@ -514,9 +494,150 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
   return kNone;
 }
 
+/// All surfaces of a model, on rank 0.
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets)
+      : model_(model), roles_(roles), edges_(edges), facets_(facets) {}
+
+  std::vector<LiftingSurface> run(Noseless noseless, std::vector<UnusedTrailing>* unused) {
+    for (const auto& chain : trailing_chains(model_.tables(), edges_)) find_with_noses(chain);
+    unite_sharp_noses(surfaces_);
+    const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
+    for (Rest& rest : rest_) find_thin(rest, has_aircraft);
+    for (const WingEdge& w : edges_)
+      if (w.is_declared && w.kind == WingEdgeKind::kLeading) add_declared_leading(w);
+    if (unused)
+      for (const Rest& rest : rest_) {
+        if (rest.edges.empty()) continue;
+        unused->push_back({{}, 0, rest.why.text, rest.why.may_be_wing});
+        for (const WingEdge& w : rest.edges) unused->back().edges.push_back(w.edge), unused->back().length += w.length;
+      }
+    return std::move(surfaces_);
+  }
+
+ private:
+  double reach() const { return 2 * kDeflection * roles_.reference_diagonal; }
+
+  ProfileCutter cutter_for(const std::vector<WingEdge>& chain) {
+    const FaceId mirror = mirror_of(chain);
+    if (mirror == kNone) return ProfileCutter(facets_);
+    if (!whole_.contains(mirror))
+      whole_.emplace(mirror, with_image(model_, facets_, mirror, kOnPlane * roles_.reference_diagonal));
+    return ProfileCutter(whole_.at(mirror));
+  }
+
+  void find_with_noses(const std::vector<WingEdge>& chain) {
+    Reason why;
+    std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), why);
+    if (!surface && why.may_be_wing && is_blade_like(chain)) {
+      const Facets exact = exact_facets(chain);
+      Reason also;
+      surface = surface_at(chain, ProfileCutter(exact), also);
+    }
+    note_rest(model_, chain, surface, why, rest_);
+    if (!surface) return;
+    surfaces_.push_back(std::move(*surface));
+    add_leading(model_, edges_, surfaces_.back());
+  }
+
+  std::optional<LiftingSurface> surface_at(const std::vector<WingEdge>& chain, const ProfileCutter& cutter,
+                                           Reason& why) {
+    const SurfaceMeasurer measurer(model_, roles_.own.axis, cutter, reach());
+    std::optional<SurfaceDraft> draft = measurer.find(chain, why);
+    std::optional<LiftingSurface> surface;
+    if (draft) {
+      if (is_concave_.empty()) is_concave_ = find_concave_edges(model_, roles_);
+      surface = measurer.finish(std::move(*draft), is_concave_);
+      if (!surface) why = {"its profiles reach into other bodies"};
+    }
+    return surface;
+  }
+
+  /// Whether an edge of a chain spans much of the model without turning much, as those of blades and wings do, between
+  /// splines: their faces are long, and facets between knots may miss the shape of the profile.
+  bool is_blade_like(const std::vector<WingEdge>& chain) const {
+    const ModelTables& t = model_.tables();
+    std::vector<std::int32_t> offsets;
+    std::vector<FaceId> faces;
+    t.edge_faces(offsets, faces);
+    const auto is_of_spline = [&](EdgeId e) {
+      return std::any_of(faces.begin() + offsets[e], faces.begin() + offsets[e + 1],
+                         [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; });
+    };
+    return std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
+      if (!is_of_spline(w.edge)) return false;
+      const auto curve = model_.curve(w.edge);
+      const double straight = distance(curve->point(curve->t_min()), curve->point(curve->t_max()));
+      return straight >= kLongBlade * roles_.reference_diagonal && straight >= kStraightBlade * w.length;
+    });
+  }
+
+  /// Of the faces at the edges of a chain, and of their neighbours.
+  Facets exact_facets(const std::vector<WingEdge>& chain) const {
+    const ModelTables& t = model_.tables();
+    std::vector<std::int32_t> offsets;
+    std::vector<FaceId> edge_faces;
+    t.edge_faces(offsets, edge_faces);
+    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
+    const auto want_at = [&](EdgeId e) {
+      for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
+        if (roles_.role[edge_faces[k]] == FaceRole::kWall) is_wanted[edge_faces[k]] = 1;
+    };
+    for (const WingEdge& w : chain) want_at(w.edge);
+    const std::vector<std::uint8_t> first = is_wanted;
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      if (first[f])
+        for (const EdgeId e : t.edges_of(f)) want_at(e);
+    return make_facets(model_, is_wanted,
+                       {.deflection = kDeflection * roles_.reference_diagonal, .angle = radians(20), .is_exact = true});
+  }
+
+  /// Declared edges of the rest, and all of it where it may be a wing's and is thin behind the edge.
+  void find_thin(Rest& rest, bool has_aircraft) {
+    std::vector<WingEdge> declared, others;
+    for (const WingEdge& w : rest.edges) (w.is_declared ? declared : others).push_back(w);
+    const auto take = [&](std::vector<WingEdge>& own) {
+      if (own.empty()) return;
+      const ProfileCutter cutter = cutter_for(own);
+      std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own);
+      if (!surface) return;
+      surfaces_.push_back(std::move(*surface));
+      own.clear();
+    };
+    take(declared);
+    if (has_aircraft && rest.why.may_be_wing) take(others);
+    rest.edges = std::move(others);
+    rest.edges.insert(rest.edges.end(), declared.begin(), declared.end());
+  }
+
+  void add_declared_leading(const WingEdge& w) {
+    const std::vector<WingEdge> own = {w};
+    const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
+    const auto known = std::ranges::find_if(surfaces_, has_edge);
+    if (known != surfaces_.end()) {
+      known->declared_leading.push_back(
+          chords_along(model_, w, [&](const EdgePlace& place) { return known->nearest_chord(place.x).chord; }));
+      return;
+    }
+    const ProfileCutter cutter = cutter_for(own);
+    if (std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own))
+      surfaces_.push_back(std::move(*surface));
+  }
+
+  const Model& model_;
+  const FaceRoles& roles_;
+  std::span<const WingEdge> edges_;
+  const Facets& facets_;
+  std::map<FaceId, Facets> whole_;  // by symmetry plane
+  std::vector<std::uint8_t> is_concave_;
+  std::vector<LiftingSurface> surfaces_;
+  std::vector<Rest> rest_;
+};
+
 }  // namespace
 
-double TrailingEdge::chord_at(double share) const {
+double ChordEdge::chord_at(double share) const {
   const auto next = std::lower_bound(stations.begin() + 1, stations.end() - 1, share,
                                      [](const ChordStation& s, double at) { return s.share < at; });
   const ChordStation &a = *(next - 1), &b = *next;
@@ -527,7 +648,7 @@ double TrailingEdge::chord_at(double share) const {
 const ChordStation* LiftingSurface::nearest_station(Vec3 x) const {
   const ChordStation* nearest = nullptr;
   double least = 0;
-  for (const TrailingEdge& edge : trailing)
+  for (const ChordEdge& edge : trailing)
     for (const ChordStation& s : edge.stations) {
       if (!s.is_measured) continue;
       const double d = segment_distance(x, s.trailing, s.nose);
@@ -539,49 +660,30 @@ const ChordStation* LiftingSurface::nearest_station(Vec3 x) const {
 }
 
 NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
-  const ChordStation* nearest = nearest_station(x);
-  if (!nearest) return {median_chord, -1};
-  return {nearest->chord, segment_distance(x, nearest->trailing, nearest->nose)};
+  if (const ChordStation* nearest = nearest_station(x))
+    return {nearest->chord, segment_distance(x, nearest->trailing, nearest->nose)};
+  NearestChord nearest{median_chord, std::numeric_limits<double>::infinity()};
+  for (const std::vector<ChordEdge>* edges : {&trailing, &declared_leading})
+    for (const ChordEdge& edge : *edges)
+      for (const ChordStation& s : edge.stations)
+        if (const double d = distance(x, s.trailing); d < nearest.distance) nearest = {s.chord, d};
+  return nearest;
 }
 
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges, const Executor& executor,
-                                                  std::vector<UnusedTrailing>* unused) {
-  std::vector<std::vector<WingEdge>> chains;
-  if (executor.is_root()) chains = trailing_chains(model.tables(), edges);
-  std::vector<LiftingSurface> surfaces;
-  bool has_chains = !chains.empty();
-  share(executor, has_chains);
-  if (!has_chains) return surfaces;
+                                                  std::vector<UnusedTrailing>* unused, Noseless noseless) {
+  bool has_edges = std::any_of(edges.begin(), edges.end(),
+                               [](const WingEdge& w) { return w.kind != WingEdgeKind::kLeading || w.is_declared; });
+  share(executor, has_edges);
+  if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;
   Facets own;
   if (!has_wall_facets(roles, deflection))
     own = make_facets(model, are_walls(roles), {.deflection = deflection}, executor);
-  if (!executor.is_root()) return surfaces;
-  const Facets& facets = has_wall_facets(roles, deflection) ? roles.own.facets : own;
-  std::map<FaceId, Facets> whole;  // by symmetry plane
-  std::vector<std::uint8_t> is_concave;
-  for (const auto& chain : chains) {
-    const FaceId mirror = mirror_of(chain);
-    if (mirror != kNone && !whole.contains(mirror))
-      whole.emplace(mirror, with_image(model, facets, mirror, kOnPlane * roles.reference_diagonal));
-    const ProfileCutter cutter(mirror == kNone ? facets : whole.at(mirror));
-    const SurfaceMeasurer measurer(model, roles.own.axis, cutter, 2 * deflection);
-    Reason why;
-    std::optional<SurfaceDraft> draft = measurer.find(chain, why);
-    std::optional<LiftingSurface> surface;
-    if (draft) {
-      if (is_concave.empty()) is_concave = find_concave_edges(model, roles);
-      surface = measurer.finish(std::move(*draft), is_concave);
-      if (!surface) why = {"its profiles reach into other bodies"};
-    }
-    if (unused) note_unused(model, chain, surface, why, *unused);
-    if (!surface) continue;
-    surfaces.push_back(std::move(*surface));
-    add_leading(model, edges, surfaces.back());
-  }
-  unite_sharp_noses(surfaces);
-  return surfaces;
+  if (!executor.is_root()) return {};
+  SurfaceFinder finder(model, roles, edges, has_wall_facets(roles, deflection) ? roles.own.facets : own);
+  return finder.run(noseless, unused);
 }
 
 }  // namespace st

@@ -19,8 +19,9 @@ struct ChordStation {
   FaceId nose_face = kNone;
 };
 
-/// Stations along one CAD edge, in ascending order of `share`, first 0 and last 1.
-struct TrailingEdge {
+/// The chords along one CAD edge, a trailing edge or a declared leading one: stations in ascending order of `share`,
+/// first 0 and last 1.
+struct ChordEdge {
   EdgeId edge = kNone;
   FaceId base = kNone;    ///< of a blunt edge: the narrow face between it and its partner
   bool is_half = false;   ///< a plane of symmetry cuts the base in two: the partner is the edge's own image
@@ -36,11 +37,20 @@ struct NearestChord {
   double chord = 0, distance = 0;
 };
 
+/// Whether trailing edges without noses count.
+enum class Noseless : unsigned char {
+  kOfAircraft,  ///< where the model has another lifting surface, or the edge is declared
+  kAll
+};
+
 /// A lifting surface: all trailing edges that hang together, pieces, kinks and both sides of a blunt one alike.
 struct LiftingSurface {
   bool is_blunt = false;
-  std::vector<TrailingEdge> trailing;  ///< ascending by edge
-  std::vector<EdgeId> leading;         ///< CAD edges along the nose, ascending; a nose inside a face has none
+  bool has_noses = true;     ///< false: no station is measured; chords are as far as the part behind the edge is thin
+  bool is_declared = false;  ///< some of its edges are, by the user
+  std::vector<ChordEdge> trailing;          ///< ascending by edge
+  std::vector<EdgeId> leading;              ///< CAD edges along the nose, ascending; a nose inside a face has none
+  std::vector<ChordEdge> declared_leading;  ///< of these the declared ones, with the chords there; none measured
   std::vector<FaceId> faces;  ///< that measured profiles cross, and that no concave edge parts from the trailing
                               ///< edge, ascending
   double span = 0;            ///< along the trailing edge, model unit
@@ -49,7 +59,7 @@ struct LiftingSurface {
   /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:
   /// linear in stations.
   const ChordStation* nearest_station(Vec3 x) const;
-  /// Its chord, and how far away it runs.
+  /// Its chord, and how far away it runs; of the nearest station where none is measured.
   NearestChord nearest_chord(Vec3 x) const;
 };
 
@@ -64,13 +74,15 @@ struct UnusedTrailing {
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
 /// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord. Of a
 /// chain that shows less, the edges that show as much each; edges with a base above 6 per cent of the chord are left
-/// out. Profiles are cut square to an axis of the model, each edge to its own, and square to the edge where that shows
-/// none or clearly fewer. By first edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the
-/// trailing edges that belong to none. Cost: a coarse triangulation of the walls, as tasks, where there are any
-/// trailing edges and `roles` has none; the rest is rank 0's.
+/// out. What may be a wing's and shows no nose may be thin yet (features/thin_surface.h). Profiles are cut square to an
+/// axis of the model, each edge to its own, and square to the edge where that shows none or clearly fewer. By first
+/// edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none.
+/// Cost: a coarse triangulation of the walls, as tasks, where there are any trailing edges and `roles` has none; the
+/// rest is rank 0's.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),
-                                                  std::vector<UnusedTrailing>* unused = nullptr);
+                                                  std::vector<UnusedTrailing>* unused = nullptr,
+                                                  Noseless noseless = Noseless::kOfAircraft);
 
 }  // namespace st

@@ -15,13 +15,15 @@ namespace {
 
 // Places along the chord, from the nose, and what a profile is like there. Thickness is over the largest one.
 constexpr std::array<double, 11> kPlaces = {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97};
-constexpr double kThinnest = 0.01, kThickest = 0.35;   // largest thickness over the chord
+constexpr double kThinnest = 0.01, kThickest = ProfileCutter::kThickestPart;  // largest thickness over the chord
 constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first place: a double wedge has 0.04, a plate
                                                        // 1
 constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
 constexpr std::size_t kFacetsPerBlock = 64;
-constexpr double kBehind = 0.02;  // of the chord: nothing lies further behind the edge
+constexpr double kThinFor = 5;      // largest over smallest distance from the edge at which a thin part is thin
+constexpr double kThinStep = 1.05;  // between two distances that are tried
+constexpr double kBehind = 0.02;    // of the chord: nothing lies further behind the edge
 
 /// Thickness across the chord at a place; nullopt unless the profile has two sides there.
 template <class Segments>
@@ -36,6 +38,20 @@ std::optional<double> thickness_at(const Segments& segments, Vec3 trailing_edge,
   }
   if (heights.size() != 2) return std::nullopt;
   return std::abs(heights[1] - heights[0]);
+}
+
+/// How far apart the two sides of a cut are at a distance from a point on it; nullopt: it has not two sides there.
+template <class Segments>
+std::optional<double> width_at(const Segments& segments, Vec3 from, double way) {
+  std::array<Vec3, 2> x;
+  std::size_t n = 0;
+  for (const auto& s : segments) {
+    const double a = distance(s.end[0], from) - way, b = distance(s.end[1], from) - way;
+    if ((a < 0) == (b < 0)) continue;
+    if (n == x.size()) return std::nullopt;
+    x[n++] = s.end[0] + a / (a - b) * (s.end[1] - s.end[0]);
+  }
+  return n == x.size() ? std::optional(distance(x[0], x[1])) : std::nullopt;
 }
 
 /// Rounding counts as near.
@@ -151,6 +167,26 @@ std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, doubl
   std::sort(profile.faces.begin(), profile.faces.end());
   profile.faces.erase(std::unique(profile.faces.begin(), profile.faces.end()), profile.faces.end());
   return profile;
+}
+
+std::optional<ThinPart> ProfileCutter::thin_part(Vec3 edge, Vec3 normal, double reach, double thickest) const {
+  const std::vector<Segment> part = part_at(edge, normal, reach);
+  double furthest = 0;
+  for (const Segment& s : part)
+    for (const Vec3& x : s.end) furthest = std::max(furthest, distance(x, edge));
+  double begin = 0, end = 0;  // of the distances at which it is thin
+  for (double way = reach; way < furthest; way *= kThinStep) {
+    const std::optional<double> width = width_at(part, edge, way);
+    const bool is_thin = width && *width <= thickest * way;
+    if (is_thin && begin == 0) begin = way;
+    if (is_thin) end = way;
+    if (!is_thin && end >= kThinFor * begin && begin > 0) break;
+    if (!is_thin) begin = end = 0;
+  }
+  if (begin == 0 || end < kThinFor * begin) return std::nullopt;
+  if (end * kThinStep >= furthest) end = furthest;
+  const std::optional<double> middle = width_at(part, edge, 0.5 * end);
+  return ThinPart{end, middle.value_or(0)};
 }
 
 }  // namespace st

@@ -19,6 +19,12 @@ struct Profile {
   std::vector<FaceId> faces;  ///< that the cut crosses, ascending
 };
 
+/// A thin part behind an edge whose nose is not seen: it ends in a body, or in no round or sharp nose.
+struct ThinPart {
+  double chord = 0;   ///< as far as the cut has two sides that are near each other; model unit
+  double middle = 0;  ///< how far they are apart half way, model unit
+};
+
 /// Cuts a model's facets by planes and measures what is found.
 class ProfileCutter {
  public:
@@ -31,6 +37,12 @@ class ProfileCutter {
   /// far from the point the cut may begin, model unit. Cost: linear in the blocks of facets, and in facets of those
   /// that are cut.
   std::optional<Profile> cut(Vec3 trailing_edge, Vec3 normal, double reach) const;
+
+  /// The part of the same cut that is thin; `thickest`: distance of its sides over that from the edge at most. nullopt:
+  /// it is so for less than a factor of five in the distance from the edge. Same cost.
+  std::optional<ThinPart> thin_part(Vec3 edge, Vec3 normal, double reach, double thickest = kThickestPart) const;
+
+  static constexpr double kThickestPart = 0.35;
 
  private:
   /// Where the plane crosses a facet, from one of its sides to another one.

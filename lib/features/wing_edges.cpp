@@ -8,6 +8,7 @@
 
 #include "base/packer.h"
 #include "base/share.h"
+#include "features/edge_places.h"
 #include "features/strip.h"
 
 namespace st {
@@ -64,7 +65,57 @@ class WingEdgeFinder {
     return find(executor);
   }
 
+  void declare(std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) const {
+    std::vector<std::optional<WingEdge>> found(uses_.size());
+    for (const WingEdge& w : edges) found[w.edge] = w;
+    for (const DeclaredEdge& d : declared) {
+      if (d.meaning == EdgeMeaning::kNoTrailing) {
+        if (found[d.edge] && found[d.edge]->kind != WingEdgeKind::kLeading) found[d.edge].reset();
+        continue;
+      }
+      const bool is_leading = d.meaning == EdgeMeaning::kLeading;
+      const Strip* base = is_leading ? nullptr : base_at(d.edge);
+      for (const EdgeId e : base ? std::vector<EdgeId>{base->edges[0], base->edges[1]} : std::vector<EdgeId>{d.edge}) {
+        if (base && mirror_of(e)) continue;  // half a base: the other edge is there twice
+        const bool is_known = found[e] && (found[e]->kind == WingEdgeKind::kLeading) == is_leading;
+        if (!is_known) found[e] = make_declared(e, is_leading, base);
+        found[e]->is_declared = true;
+      }
+    }
+    edges.clear();
+    for (const auto& w : found)
+      if (w) edges.push_back(*w);
+  }
+
  private:
+  /// The narrow face at a trailing edge; nullptr: the edge is sharp.
+  const Strip* base_at(EdgeId e) const {
+    const auto at = std::find_if(strips_.begin(), strips_.end(), [&](const Strip& s) {
+      return (s.edges[0] == e || s.edges[1] == e) && median_width(s) <= kBluntWidth * s.length;
+    });
+    return at == strips_.end() ? nullptr : &*at;
+  }
+
+  static double median_width(const Strip& strip) {
+    std::vector<double> widths;
+    for (const auto& station : strip.stations) widths.push_back(station.width());
+    return median(widths);
+  }
+
+  WingEdge make_declared(EdgeId e, bool is_leading, const Strip* base) const {
+    WingEdge own{.edge = e, .kind = is_leading ? WingEdgeKind::kLeading : WingEdgeKind::kSharpTrailing};
+    if (uses_[e].size() == 2) own = make(e, own.kind, stations(e, surfaces_of(e)), 0);
+    const auto curve = model_.curve(e);
+    own.middle = curve->point(0.5 * (curve->t_min() + curve->t_max()));
+    own.length = t_.edge_length[e];
+    if (!base) return own;
+    own.kind = WingEdgeKind::kBluntTrailing;
+    own.base = base->face;
+    own.mirror = mirror_face(base->edges[base->edges[0] == e ? 1 : 0]);
+    own.size = (own.mirror == kNone ? 1 : 2) * median_width(*base);
+    return own;
+  }
+
   std::vector<WingEdge> find(const Executor& executor) {
     std::vector<std::optional<WingEdge>> found(uses_.size());
     std::vector<EdgeId> candidates;
@@ -163,11 +214,6 @@ class WingEdgeFinder {
     return {model_.surface(uses_[e][0].face), model_.surface(uses_[e][1].face)};
   }
 
-  static double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0 : values[values.size() / 2];
-  }
-
   WingEdge make(EdgeId e, WingEdgeKind kind, const std::vector<Station>& stations, double size,
                 FaceId base = kNone) const {
     std::vector<double> angles;
@@ -264,9 +310,7 @@ class WingEdgeFinder {
     const std::array<FaceId, 2> mirror = {mirror_face(strip.edges[0]), mirror_face(strip.edges[1])};
     if (mirror[0] != kNone && mirror[1] != kNone) return;
     const bool is_half = mirror[0] != kNone || mirror[1] != kNone;
-    std::vector<double> widths;
-    for (const auto& station : strip.stations) widths.push_back(station.width());
-    const double width = (is_half ? 2 : 1) * median(widths);
+    const double width = (is_half ? 2 : 1) * median_width(strip);
     if (width > kBluntWidth * strip.length) return;
     if (is_half) complete(strip, places);
     if (count_blunt(strip, places) < kAgreeing) return;
@@ -351,6 +395,11 @@ const char* name_of(WingEdgeKind kind) {
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor) {
   return WingEdgeFinder(model, roles, strips).run(executor);
+}
+
+void declare_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
+                   std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) {
+  if (!declared.empty()) WingEdgeFinder(model, roles, strips).declare(declared, edges);
 }
 
 }  // namespace st

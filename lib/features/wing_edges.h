@@ -25,12 +25,21 @@ const char* name_of(WingEdgeKind kind);
 struct WingEdge {
   EdgeId edge = kNone;
   WingEdgeKind kind = WingEdgeKind::kSharpTrailing;
-  Vec3 middle;          ///< on the edge, model unit
+  Vec3 middle = {};     ///< on the edge, model unit
   double length = 0;    ///< model unit
   double angle = 0;     ///< of the material between the faces, radians; median over the edge
   double size = 0;      ///< model unit: width of a blunt edge, median nose radius of a leading edge; 0 for a sharp edge
   FaceId base = kNone;  ///< of a blunt edge: the narrow face
-  FaceId mirror = kNone;  ///< the symmetry plane that cuts the wing in two along this edge, or along its base
+  FaceId mirror = kNone;     ///< the symmetry plane that cuts the wing in two along this edge, or along its base
+  bool is_declared = false;  ///< by the user, whatever its shape
+};
+
+/// What the user says of an edge.
+enum class EdgeMeaning : unsigned char { kTrailing, kNoTrailing, kLeading };
+
+struct DeclaredEdge {
+  EdgeId edge = kNone;
+  EdgeMeaning meaning = EdgeMeaning::kTrailing;
 };
 
 /// Ascending by edge. Dihedral angle and curvature decide, at nine places along each edge, most of which must agree;
@@ -42,5 +51,10 @@ struct WingEdge {
 /// on rank 0, empty elsewhere. Cost: some hundred evaluations per edge of a nose.
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor = SerialExecutor());
+
+/// Sets what the user says, the later of two winning: adds edges, marks them as declared, or takes them out. With one
+/// long edge of a narrow face the other one is a trailing edge, too. Local.
+void declare_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
+                   std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges);
 
 }  // namespace st

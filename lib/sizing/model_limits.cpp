@@ -49,16 +49,17 @@ class LimitsMaker {
     edge_is_ruled_.assign(edge_.size(), 0);
     for (std::size_t r = 0; r < rules_.size(); ++r)
       for (const EdgeId e : targets_[r].edges) {
+        if (!rules_[r].asks_sizes()) continue;
         edge_is_ruled_[e] = 1;
         if (!t_.edge_is_degenerate[e])
           change(
-              rules_[r], [&] { return edge_middle(e); }, edge_[e]);
+              rules_[r], [&] { return reference_on(rules_[r], e); }, edge_[e]);
       }
     vertex_.resize(t_.n_vertices());
     for (std::size_t r = 0; r < rules_.size(); ++r)
       for (const VertexId v : targets_[r].vertices)
         change(
-            rules_[r], [&] { return t_.vertex_xyz[v]; }, vertex_[v]);
+            rules_[r], [&] { return reference_at(rules_[r], t_.vertex_xyz[v]); }, vertex_[v]);
     return finish();
   }
 
@@ -103,10 +104,11 @@ class LimitsMaker {
 
   void apply_to_faces(std::size_t r) {
     const SizeRule& rule = rules_[r];
+    if (!rule.asks_sizes()) return;
     const auto apply = [&](FaceId f) {
-      const auto middle = [&] { return t_.face_box[f].center(); };
-      if (rule.for_surfaces) change(rule, middle, face_.surface[f]);
-      if (rule.for_curves) change(rule, middle, face_.curve[f]);
+      const auto reference = [&] { return reference_at(rule, t_.face_box[f].center()); };
+      if (rule.for_surfaces) change(rule, reference, face_.surface[f]);
+      if (rule.for_curves) change(rule, reference, face_.curve[f]);
     };
     for (const FaceId f : targets_[r].faces) apply(f);
     if (rule.has_selection()) return;
@@ -114,11 +116,11 @@ class LimitsMaker {
       if (roles_.role[f] == FaceRole::kWall) apply(f);
   }
 
-  void change(const SizeRule& rule, const std::function<Vec3()>& place, Limits& limits) const {
+  void change(const SizeRule& rule, const std::function<LengthReference()>& reference, Limits& limits) const {
     if (rule.is_sampled == false)
       limits.reset();
     else if (limits || rule.has_selection())
-      limits = changed_limits(rule, limits.value_or(wall_), reference_at(rule, place));
+      limits = changed_limits(rule, limits.value_or(wall_), reference());
   }
 
   Vec3 edge_middle(EdgeId e) const {
@@ -126,14 +128,29 @@ class LimitsMaker {
                   t_.vertex_xyz[t_.edge_vertices[2 * static_cast<std::size_t>(e) + 1]]);
   }
 
+  static bool needs_wing(const SizeRule& rule) {
+    return (rule.lmin && rule.lmin->is_of_wing()) || (rule.lmax && rule.lmax->is_of_wing()) ||
+           (rule.chord && rule.chord->is_of_wing());
+  }
+
+  /// Of the lifting surface whose edge it is; else of the nearest one.
+  LengthReference reference_on(const SizeRule& rule, EdgeId e) const {
+    if (!needs_wing(rule)) return {roles_.reference_diagonal, t_.unit_in_m};
+    const auto is_own = [&](const ChordEdge& edge) { return edge.edge == e; };
+    for (const LiftingSurface& wing : wings_)
+      for (const std::vector<ChordEdge>* edges : {&wing.trailing, &wing.declared_leading})
+        if (const auto own = std::ranges::find_if(*edges, is_own); own != edges->end())
+          return {roles_.reference_diagonal, t_.unit_in_m, own->chord_at(0.5), wing.span};
+    return reference_at(rule, edge_middle(e));
+  }
+
   /// Chord and span of the lifting surface that is nearest.
-  LengthReference reference_at(const SizeRule& rule, const std::function<Vec3()>& place) const {
+  LengthReference reference_at(const SizeRule& rule, Vec3 place) const {
     LengthReference reference{roles_.reference_diagonal, t_.unit_in_m};
-    const bool needs_wing = (rule.lmin && rule.lmin->is_of_wing()) || (rule.lmax && rule.lmax->is_of_wing()) ||
-                            (rule.chord && rule.chord->is_of_wing());
+    if (!needs_wing(rule)) return reference;
     double nearest = -1;
-    for (std::size_t w = 0; needs_wing && w < wings_.size(); ++w) {
-      const NearestChord own = wings_[w].nearest_chord(place());
+    for (std::size_t w = 0; w < wings_.size(); ++w) {
+      const NearestChord own = wings_[w].nearest_chord(place);
       if (nearest >= 0 && own.distance >= nearest) continue;
       nearest = own.distance;
       reference.chord = own.chord;

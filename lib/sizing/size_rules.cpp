@@ -176,6 +176,31 @@ RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<c
   return targets;
 }
 
+std::vector<DeclaredEdge> declared_edges(std::span<const SizeRule> rules, const ModelTables& t,
+                                         std::span<const Strip> strips, std::span<const WingEdge> wing_edges) {
+  std::vector<DeclaredEdge> declared;
+  for (const SizeRule& rule : rules) {
+    if (!rule.meaning) continue;
+    RuleTargets targets = find_targets(rule, t, wing_edges);
+    for (const FaceId f : targets.faces) {
+      if (rule.meaning == EdgeMeaning::kNoTrailing) {
+        const auto edges = t.edges_of(f);
+        targets.edges.insert(targets.edges.end(), edges.begin(), edges.end());
+        continue;
+      }
+      const auto strip = std::ranges::find(strips, f, &Strip::face);
+      if (strip == strips.end() || rule.meaning == EdgeMeaning::kLeading)
+        fail(rule, text_of(t.face_label(f),
+                           " is not the base of a blunt trailing edge; name edges, with edges, between "
+                           "or detected"));
+      targets.edges.push_back(strip->edges[0]);
+    }
+    for (const EdgeId e : targets.edges)
+      if (!t.edge_is_degenerate[e]) declared.push_back({e, *rule.meaning});
+  }
+  return declared;
+}
+
 SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const LengthReference& reference) {
   const auto resolved = [&](const LengthSpec& spec, const char* key) {
     return resolve_length(spec, reference, text_of(rule.where, ": ", key));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/length.h"
+#include "features/strip.h"
 #include "features/wing_edges.h"
 #include "geometry/model/model.h"
 #include "sizing/size_limits.h"
@@ -24,6 +25,7 @@ struct SizeRule {
   std::vector<std::string> between;  ///< two glob patterns: the edges between a face of a group of the first and one of
                                      ///< the second
   std::vector<WingEdgeKind> detected;  ///< edges that detection gives these kinds
+  std::optional<EdgeMeaning> meaning;  ///< of the edges selected, whatever their shape
   bool for_surfaces = true;            ///< the insides of the faces selected
   bool for_curves = true;              ///< the edges of the faces selected
   std::optional<bool> is_sampled;      ///< false: asks for nothing
@@ -33,6 +35,9 @@ struct SizeRule {
   std::optional<int> gap_cells, wall_cells, edge_cells;
   std::optional<double> max_aspect;  ///< edges that are named are stretched along themselves
 
+  bool asks_sizes() const {
+    return is_sampled || lmin || lmax || chord || alpha_deg || gap_cells || wall_cells || edge_cells || max_aspect;
+  }
   bool has_selection() const { return !groups.empty() || !faces.empty() || selects_edges(); }
   bool selects_edges() const { return !edges.empty() || !between.empty() || !detected.empty(); }
 };
@@ -50,6 +55,11 @@ struct RuleTargets {
 /// `wing_edges`: what detection found, where any rule needs it. Throws Error(kUsage) naming the rule for a selection
 /// that meets nothing or an id that does not exist.
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& tables, std::span<const WingEdge> wing_edges = {});
+
+/// What rules say of edges, in their order. Of faces the long edges of narrow ones are meant; kNoTrailing is said of
+/// all edges of faces. Throws Error(kUsage), likewise for a face that is not narrow.
+std::vector<DeclaredEdge> declared_edges(std::span<const SizeRule> rules, const ModelTables& tables,
+                                         std::span<const Strip> strips, std::span<const WingEdge> wing_edges);
 
 /// `limits` with what the rule says. `reference`: what per cents refer to. Throws Error(kUsage) when lmin exceeds lmax.
 SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const LengthReference& reference);

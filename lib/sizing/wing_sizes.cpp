@@ -40,7 +40,7 @@ class WingRaster {
   WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
       : model_(model), wing_(wing), sizes_(sizes), boxes_(boxes) {}
 
-  void add_edge(const TrailingEdge& trailing) {
+  void add_edge(const ChordEdge& trailing) {
     const auto curve = model_.curve(trailing.edge);
     const ArcTable arc(*curve);
     walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), [&](double share) {
@@ -48,7 +48,7 @@ class WingRaster {
     });
   }
 
-  void add_noses(const TrailingEdge& trailing) {
+  void add_noses(const ChordEdge& trailing) {
     std::vector<const ChordStation*> run;
     int n_missed = 0;
     for (const ChordStation& s : trailing.stations) {
@@ -63,7 +63,7 @@ class WingRaster {
   }
 
   /// All over the base, by the chords of one of its long edges; `strip` is measured from the other one, perhaps.
-  void add_base(const Strip& strip, const TrailingEdge& trailing) {
+  void add_base(const Strip& strip, const ChordEdge& trailing) {
     const double way = ArcTable(*model_.curve(trailing.edge)).length();
     const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
     walk(way, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
@@ -144,7 +144,9 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
   const auto is_ruled = [&](EdgeId e) { return is_left_out[e] != 0; };
   const bool has_noses = std::none_of(wing.leading.begin(), wing.leading.end(), is_ruled);
   WingRaster raster(model, wing, sizes, boxes);
-  for (const TrailingEdge& trailing : wing.trailing) {
+  for (const ChordEdge& leading : wing.declared_leading)
+    if (!is_ruled(leading.edge)) raster.add_edge(leading);
+  for (const ChordEdge& trailing : wing.trailing) {
     if (!is_ruled(trailing.edge)) raster.add_edge(trailing);
     const auto strip =
         std::find_if(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == trailing.base; });
@@ -159,7 +161,7 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
 std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSizes& sizes) {
   const LocalLengths lengths(wing, sizes);
   std::optional<RaisedLength> most;
-  for (const TrailingEdge& trailing : wing.trailing)
+  for (const ChordEdge& trailing : wing.trailing)
     for (const ChordStation& s : trailing.stations) {
       if (!s.is_measured) continue;
       note_raised({lengths.asked(s.chord), lengths.floor(s.chord)}, most);
@@ -168,7 +170,7 @@ std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSi
 }
 
 void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines) {
-  for (const TrailingEdge& trailing : wing.trailing)
+  for (const ChordEdge& trailing : wing.trailing)
     for (const ChordStation& s : trailing.stations)
       if (s.is_measured) lines.push_back({s.nose, s.trailing, s.chord, index});
 }

@@ -602,44 +602,6 @@ nlohmann::json depth_json(const DepthLimit& depth) {
   return json;
 }
 
-/// Measured stations of a lifting surface.
-nlohmann::json stations_json(const LiftingSurface& wing) {
-  nlohmann::json list = nlohmann::json::array();
-  const auto place = [](Vec3 x) { return nlohmann::json{x.x, x.y, x.z}; };
-  for (const TrailingEdge& edge : wing.trailing)
-    for (const ChordStation& s : edge.stations)
-      if (s.is_measured) list.push_back({{"trailing", place(s.trailing)}, {"nose", place(s.nose)}, {"chord", s.chord}});
-  return list;
-}
-
-std::vector<std::int32_t> numbers_of(std::vector<FaceId> faces) {
-  for (FaceId& f : faces) ++f;
-  return faces;
-}
-
-nlohmann::json wings_json(const Wings& wings) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const LiftingSurface& wing : wings.aircraft.wings) {
-    std::vector<std::int32_t> edges, leading, bases;
-    for (const TrailingEdge& edge : wing.trailing) {
-      edges.push_back(edge.edge + 1);
-      if (edge.base != kNone) bases.push_back(edge.base + 1);
-    }
-    std::sort(bases.begin(), bases.end());
-    bases.erase(std::unique(bases.begin(), bases.end()), bases.end());
-    for (const EdgeId e : wing.leading) leading.push_back(e + 1);
-    list.push_back({{"trailing_edges", edges},
-                    {"leading_edges", leading},
-                    {"bases", bases},
-                    {"faces", numbers_of(wing.faces)},
-                    {"stations", stations_json(wing)},
-                    {"is_blunt", wing.is_blunt},
-                    {"span", wing.span},
-                    {"chord", {wing.least_chord, wing.median_chord, wing.largest_chord}}});
-  }
-  return list;
-}
-
 /// Options of lifting surfaces that were set, by a preset perhaps: "--edge-size, --base-cells"; empty: none.
 std::string wing_options(const RasterStageOptions& o) {
   const RasterStageOptions defaults;
@@ -658,8 +620,9 @@ void report_unused(const RasterStageOptions& o, const Wings& wings, double refer
   const bool is_asked = !wing_options(o).empty();
   for (const std::string& line : unused_lines(wings.unused, kMostUnused)) is_asked ? log_report(line) : log_info(line);
   if (!is_asked) return;
-  const std::string warning = unused_warning(wings.unused, reference_diagonal);
-  if (!warning.empty()) log_warning(warning);
+  for (const std::string& warning :
+       {unused_warning(wings.unused, reference_diagonal), noseless_warning(wings.aircraft.wings)})
+    if (!warning.empty()) log_warning(warning);
 }
 
 /// One line for each lifting surface, or one that there is none.
@@ -669,14 +632,8 @@ void report_wings(const RasterStageOptions& o, const Wings& wings) {
     log_report("  no lifting surface found: without effect are " + set);
   else if (n == 0)
     log_info("no lifting surface found: --edge-size has no effect");
-  for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i) {
-    const LiftingSurface& wing = wings.aircraft.wings[i];
-    log_report(
-        fmt::format("  lifting surface: {} trailing edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; "
-                    "{} along edge and nose",
-                    wing.trailing.size(), wing.trailing.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span,
-                    wing.least_chord, wing.largest_chord, o.edge_size));
-  }
+  for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i)
+    log_report(wing_line(wings.aircraft.wings[i], o.edge_size));
   if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
 }
 
@@ -730,7 +687,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                                   {"cell_per_length", a.numbers.cell_per_length},
                                                   {"rules", n_rules},
                                                   {"wing_edges", wings.edges.size()},
-                                                  {"lifting_surfaces", wings_json(wings)},
+                                                  {"lifting_surfaces", wings_json(wings.aircraft.wings)},
                                                   {"unused_trailing", unused_json(wings.unused)},
                                                   {"gap_samples", counts.n_gap_boxes},
                                                   {"not_sampled", counts.n_failures},
@@ -805,7 +762,11 @@ class RasterRun {
 
   void set_limits() {
     wings_.edges = find_wing_edges(model_, roles_, strips_, trace_);
-    wings_.aircraft.wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused);
+    if (comm_.is_root())
+      declare_edges(model_, roles_, strips_, declared_edges(rules_, model_.tables(), strips_, wings_.edges),
+                    wings_.edges);
+    wings_.aircraft.wings =
+        find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);

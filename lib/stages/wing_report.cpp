@@ -16,23 +16,64 @@ std::vector<const UnusedTrailing*> longest_first(std::span<const UnusedTrailing>
   return order;
 }
 
-std::vector<EdgeId> numbers_of_edges(const UnusedTrailing& u) {
-  std::vector<EdgeId> numbers;
-  for (const EdgeId e : u.edges) numbers.push_back(e + 1);
-  return numbers;
+std::vector<std::int32_t> from_one(std::vector<std::int32_t> ids) {
+  for (std::int32_t& id : ids) ++id;
+  return ids;
 }
 
 /// "edges 3, 8, 9 and 4 more".
-std::string names_of(const UnusedTrailing& u) {
+std::string listed(std::vector<std::int32_t> numbers) {
   constexpr std::size_t kNamed = 8;
-  std::vector<EdgeId> numbers = numbers_of_edges(u);
   const std::size_t n = numbers.size();
   numbers.resize(std::min(n, kNamed));
   return fmt::format("{} {}{}", n == 1 ? "edge" : "edges", fmt::join(numbers, ", "),
                      n > kNamed ? fmt::format(" and {} more", n - kNamed) : "");
 }
 
+/// A file of sizes that says what edges are, on one line.
+std::string rule_for(std::vector<std::int32_t> numbers, const char* meaning) {
+  constexpr std::size_t kNamed = 12;
+  const std::size_t n = numbers.size();
+  numbers.resize(std::min(n, kNamed));
+  return fmt::format("size = [{{ edges = [{}{}], {} }}]", fmt::join(numbers, ", "), n > kNamed ? ", ..." : "", meaning);
+}
+
+/// Measured stations of a lifting surface.
+nlohmann::json stations_json(const LiftingSurface& wing) {
+  nlohmann::json list = nlohmann::json::array();
+  const auto place = [](Vec3 x) { return nlohmann::json{x.x, x.y, x.z}; };
+  for (const ChordEdge& edge : wing.trailing)
+    for (const ChordStation& s : edge.stations)
+      if (s.is_measured) list.push_back({{"trailing", place(s.trailing)}, {"nose", place(s.nose)}, {"chord", s.chord}});
+  return list;
+}
+
 }  // namespace
+
+nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const LiftingSurface& wing : wings) {
+    std::vector<std::int32_t> edges, leading, bases;
+    for (const ChordEdge& edge : wing.trailing) {
+      edges.push_back(edge.edge + 1);
+      if (edge.base != kNone) bases.push_back(edge.base + 1);
+    }
+    std::sort(bases.begin(), bases.end());
+    bases.erase(std::unique(bases.begin(), bases.end()), bases.end());
+    for (const EdgeId e : wing.leading) leading.push_back(e + 1);
+    list.push_back({{"trailing_edges", edges},
+                    {"leading_edges", leading},
+                    {"bases", bases},
+                    {"faces", from_one(wing.faces)},
+                    {"stations", stations_json(wing)},
+                    {"is_blunt", wing.is_blunt},
+                    {"has_noses", wing.has_noses},
+                    {"is_declared", wing.is_declared},
+                    {"span", wing.span},
+                    {"chord", {wing.least_chord, wing.median_chord, wing.largest_chord}}});
+  }
+  return list;
+}
 
 std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most) {
   std::vector<std::string> lines;
@@ -41,8 +82,8 @@ std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, st
       lines.push_back(fmt::format("  and {} more trailing edges without a lifting surface", unused.size() - most));
       break;
     }
-    lines.push_back(
-        fmt::format("  no lifting surface at trailing {}, length {:.4g}: {}", names_of(*u), u->length, u->why));
+    lines.push_back(fmt::format("  no lifting surface at trailing {}, length {:.4g}: {}", listed(from_one(u->edges)),
+                                u->length, u->why));
   }
   return lines;
 }
@@ -53,25 +94,45 @@ std::string unused_warning(std::span<const UnusedTrailing> unused, double refere
   for (const UnusedTrailing* u : longest_first(unused)) {
     if (u->length < kLongTrailing * reference_diagonal) break;
     if (!u->may_be_wing) continue;
-    for (const EdgeId e : numbers_of_edges(*u)) edges.push_back(e);
+    for (const EdgeId e : from_one(u->edges)) edges.push_back(e);
     length += u->length;
   }
   if (edges.empty()) return "";
-  constexpr std::size_t kNamed = 12;
-  const std::size_t n = edges.size();
   std::sort(edges.begin(), edges.end());
-  edges.resize(std::min(n, kNamed));
   return fmt::format(
       "{} trailing edges, {:.4g} long, belong to no lifting surface and get the lengths of other edges; if they are a "
-      "wing's, give them their own by a rule in --sizes: [[size]] edges = [{}{}] lmax = \"LENGTH\"",
-      n, length, fmt::join(edges, ", "), n > kNamed ? ", ..." : "");
+      "wing's, say so in a file for --sizes: {}",
+      edges.size(), length, rule_for(edges, "trailing_edge = true"));
 }
 
 nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
   nlohmann::json list = nlohmann::json::array();
   for (const UnusedTrailing& u : unused)
-    list.push_back({{"edges", numbers_of_edges(u)}, {"length", u.length}, {"reason", u.why}});
+    list.push_back({{"edges", from_one(u.edges)}, {"length", u.length}, {"reason", u.why}});
   return list;
+}
+
+std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) {
+  const std::vector<ChordEdge>& edges = wing.trailing.empty() ? wing.declared_leading : wing.trailing;
+  return fmt::format(
+      "  lifting surface{}: {} {} edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
+      wing.is_declared ? " by a rule" : "", edges.size(), wing.trailing.empty() ? "leading" : "trailing",
+      edges.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span, wing.least_chord, wing.largest_chord,
+      edge_size, wing.has_noses ? "edge and nose" : "the edge, no nose is seen");
+}
+
+std::string noseless_warning(std::span<const LiftingSurface> wings) {
+  std::vector<EdgeId> edges;
+  for (const LiftingSurface& wing : wings)
+    if (!wing.has_noses && !wing.is_declared)
+      for (const ChordEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
+  if (edges.empty()) return "";
+  std::sort(edges.begin(), edges.end());
+  return fmt::format(
+      "no nose is seen before the trailing {}: noses there get the lengths of their curvature; name those that are "
+      "edges "
+      "with leading_edge = true in a file for --sizes, and for trailing edges that are none write {}",
+      listed(edges), rule_for(edges, "trailing_edge = false"));
 }
 
 }  // namespace st

@@ -1,4 +1,4 @@
-// What st-raster says of trailing edges that make no lifting surface.
+// What st-raster says of lifting surfaces, and of trailing edges that make none.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,6 +18,15 @@ std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, st
 
 /// Which long ones have the lengths of all other edges, and the rule that gives them their own; empty: there are none.
 std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal);
+
+/// One line on a lifting surface.
+std::string wing_line(const LiftingSurface& wing, const std::string& edge_size);
+
+/// Surfaces whose noses are not seen, and what to do; empty: there are none.
+std::string noseless_warning(std::span<const LiftingSurface> wings);
+
+/// `lifting_surfaces` of --json.
+nlohmann::json wings_json(std::span<const LiftingSurface> wings);
 
 /// `unused_trailing` of --json: edges from 1, length, reason.
 nlohmann::json unused_json(std::span<const UnusedTrailing> unused);

@@ -371,6 +371,12 @@ TopoDS_Shape double_wedge() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(profile.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// A wing of span 30 and chord 10 whose front is flat: a profile without a nose.
+TopoDS_Shape wedge_fin() {
+  BRepBuilderAPI_MakePolygon profile(gp_Pnt(0, -0.8, 0), gp_Pnt(10, 0, 0), gp_Pnt(0, 0.8, 0), true);
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(profile.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
 /// What two balls of radius 20 have in common, 2 thick: its rim is sharp all around.
 TopoDS_Shape lens() {
   return BRepAlgoAPI_Common(moved(BRepPrimAPI_MakeSphere(20).Shape(), 0, 0, 19),
@@ -546,6 +552,7 @@ const std::map<std::string, Factory>& factories() {
       {"thin_wing", [] { return wing(0.1036, 0.035); }},
       {"tapering_wing", tapering_wing},
       {"double_wedge", double_wedge},
+      {"wedge_fin", wedge_fin},
       {"lens", lens},
       {"wing_with_pod", wing_with_pod},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},

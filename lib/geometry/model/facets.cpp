@@ -71,7 +71,7 @@ Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const Fac
     IMeshTools_Parameters parameters;
     parameters.Deflection = limits.deflection;
     parameters.Angle = limits.angle;
-    parameters.ControlSurfaceDeflection = false;  // nodes between knots are enough, and come at half the cost
+    parameters.ControlSurfaceDeflection = limits.is_exact;
     const BRepMesh_IncrementalMesh mesher(copy.Shape(), parameters);
     for (const FaceId f : ids) add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(f + 1))), f, facets);
   } catch (const Standard_Failure&) {

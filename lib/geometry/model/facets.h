@@ -15,6 +15,7 @@ namespace st {
 struct FacetLimits {
   double deflection = 0;       ///< largest distance from the surface, model unit, > 0
   double angle = radians(20);  ///< largest turning of the normal or tangent along a facet, radians
+  bool is_exact = false;       ///< false: inside faces, only nodes between knots are made sure of, at half the cost
 };
 
 /// Triangles of faces; where two faces share an edge, their triangles share its nodes.

@@ -9,9 +9,9 @@
 namespace st {
 namespace {
 
-const std::vector<std::string> kKeys = {"groups", "faces",     "edges",      "between",    "detected",
-                                        "for",    "sample",    "lmin",       "lmax",       "alpha",
-                                        "chord",  "gap_cells", "wall_cells", "edge_cells", "max_aspect"};
+const std::vector<std::string> kKeys = {
+    "groups", "faces", "edges", "between", "detected",  "trailing_edge", "leading_edge", "for",       "sample",
+    "lmin",   "lmax",  "alpha", "chord",   "gap_cells", "wall_cells",    "edge_cells",   "max_aspect"};
 
 std::string all_keys() {
   std::string text;
@@ -26,12 +26,12 @@ class RuleReader : TomlEntry {
 
   SizeRule run() {
     for (const auto& [key, node] : table()) read(std::string(key.str()), node);
-    const bool asks = rule_.is_sampled || rule_.lmin || rule_.lmax || rule_.chord || rule_.alpha_deg ||
-                      rule_.gap_cells || rule_.wall_cells || rule_.edge_cells || rule_.max_aspect;
-    if (!asks)
+    if (!rule_.asks_sizes() && !rule_.meaning)
       fail(table(),
-           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells, max_aspect or "
-           "sample");
+           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells, max_aspect, "
+           "sample, trailing_edge or leading_edge");
+    if (rule_.meaning && !rule_.has_selection())
+      fail(table(), "trailing_edge and leading_edge need a selection: give edges, between, detected or groups");
     return std::move(rule_);
   }
 
@@ -47,6 +47,10 @@ class RuleReader : TomlEntry {
       read_between(node);
     else if (key == "detected")
       read_detected(node);
+    else if (key == "trailing_edge")
+      read_meaning(node, key, EdgeMeaning::kTrailing, EdgeMeaning::kNoTrailing);
+    else if (key == "leading_edge")
+      read_meaning(node, key, EdgeMeaning::kLeading, std::nullopt);
     else if (key == "for")
       read_for(node);
     else if (key == "sample")
@@ -79,6 +83,15 @@ class RuleReader : TomlEntry {
   void read_detected(const toml::node& node) {
     for (const std::string& name : names("detected", node))
       if (!add_detected(name, rule_)) fail(node, "detected: takes \"trailing\", \"leading\" or a list of these");
+  }
+
+  /// `if_not`: nullopt: false is refused.
+  void read_meaning(const toml::node& node, const std::string& key, EdgeMeaning if_so,
+                    std::optional<EdgeMeaning> if_not) {
+    if (!node.is_boolean() || (!if_not && !node.as_boolean()->get()))
+      fail(node, key + (if_not ? ": takes true or false" : ": takes true; leave the key out otherwise"));
+    if (rule_.meaning) fail(node, "a rule has either trailing_edge or leading_edge");
+    rule_.meaning = node.as_boolean()->get() ? if_so : if_not;
   }
 
   void read_for(const toml::node& node) {

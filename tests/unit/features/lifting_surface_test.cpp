@@ -25,7 +25,7 @@ void expect_wing_of_chord_10(const LiftingSurface& wing) {
   EXPECT_NEAR(wing.least_chord, 10, 0.02);
   EXPECT_NEAR(wing.largest_chord, 10, 0.02);
   EXPECT_EQ(wing.leading.size(), 1u);
-  for (const TrailingEdge& edge : wing.trailing)
+  for (const ChordEdge& edge : wing.trailing)
     for (const ChordStation& s : edge.stations) {
       EXPECT_NEAR(s.trailing.x, 10, 1e-6);
       EXPECT_NEAR(s.chord, 10, 0.02);
@@ -95,7 +95,7 @@ TEST(LiftingSurface, tapers_as_a_blended_wing_body_does) {
   EXPECT_EQ(wings[0].trailing.size(), 3u);
   EXPECT_NEAR(wings[0].largest_chord, 60, 0.5);
   EXPECT_NEAR(wings[0].least_chord, 6, 0.1);
-  for (const TrailingEdge& edge : wings[0].trailing)
+  for (const ChordEdge& edge : wings[0].trailing)
     EXPECT_GT(std::ranges::count_if(edge.stations, [](const ChordStation& s) { return s.is_measured; }), 20);
 }
 
@@ -142,8 +142,8 @@ TEST(LiftingSurface, knows_the_chord_near_a_place) {
   EXPECT_NEAR(nearest.distance, 2, 0.1);
 }
 
-TEST(TrailingEdge, is_linear_between_stations) {
-  TrailingEdge edge;
+TEST(ChordEdge, is_linear_between_stations) {
+  ChordEdge edge;
   edge.stations.resize(3);
   for (std::size_t i = 0; i < 3; ++i) edge.stations[i].share = 0.5 * static_cast<double>(i);
   edge.stations[0].chord = edge.stations[1].chord = 4;

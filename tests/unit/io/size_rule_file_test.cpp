@@ -77,6 +77,19 @@ TEST_F(SizeRuleFiles, refuse_values_that_a_key_does_not_take) {
   for (const auto& [key, message] : cases) EXPECT_ERROR(read(std::string("lmax = 1\n") + key), kUsage, message);
 }
 
+TEST_F(SizeRuleFiles, say_what_edges_are_in_one_line) {
+  write_text_file(dir_ / "one.toml", "size = [{ edges = [3, 8], trailing_edge = true }]\n");
+  EXPECT_EQ(read_size_rules(dir_ / "one.toml").rules.at(0).meaning, EdgeMeaning::kTrailing);
+  EXPECT_EQ(read("edges = 3\ntrailing_edge = false").rules.at(0).meaning, EdgeMeaning::kNoTrailing);
+  const SizeRule nose = read("edges = \"LE\"\nleading_edge = true\nlmax = 1").rules.at(0);
+  EXPECT_EQ(nose.meaning, EdgeMeaning::kLeading);
+  EXPECT_TRUE(nose.asks_sizes());
+  EXPECT_NE(refusal("trailing_edge = true").find("need a selection"), std::string::npos);
+  EXPECT_NE(refusal("edges = 1\nleading_edge = false").find("takes true"), std::string::npos);
+  EXPECT_NE(refusal("edges = 1\ntrailing_edge = 1").find("takes true or false"), std::string::npos);
+  EXPECT_NE(refusal("edges = 1\ntrailing_edge = true\nleading_edge = true").find("either"), std::string::npos);
+}
+
 TEST_F(SizeRuleFiles, without_a_rule_are_refused) {
   write_text_file(dir_ / "none.toml", "alpha = 7\n");
   EXPECT_ERROR(read_size_rules(dir_ / "none.toml"), kUsage, "none.toml: no table [[size]] in it");

@@ -204,6 +204,38 @@ TEST(SizeRules, of_several_keys_take_what_meets_all_of_them_and_of_a_list_what_m
   EXPECT_ERROR(find_targets(rule, t), kUsage, "sizes.toml:3: no edge meets all keys of its selection");
 }
 
+TEST(SizeRules, say_what_edges_are_in_their_order) {
+  const ModelTables t = with_groups();
+  SizeRule rule = rule_of({}, {});
+  rule.meaning = EdgeMeaning::kTrailing;
+  rule.edges = {"TE_1"};
+  SizeRule none = rule_of({}, {});
+  none.meaning = EdgeMeaning::kNoTrailing;
+  none.groups = {"WING"};
+  const std::vector<SizeRule> rules = {rule, none};
+  const std::vector<DeclaredEdge> declared = declared_edges(rules, t, {}, {});
+  ASSERT_EQ(declared.size(), 3u) << "TE_1, and both edges of the wing that are no pole";
+  EXPECT_EQ(declared[0].edge, 0);
+  EXPECT_EQ(declared[0].meaning, EdgeMeaning::kTrailing);
+  EXPECT_EQ(declared[1].meaning, EdgeMeaning::kNoTrailing);
+  rule.edges.clear();
+  rule.groups = {"WING"};
+  EXPECT_ERROR(declared_edges(std::vector<SizeRule>{rule}, t, {}, {}), kUsage, "is not the base of a blunt");
+  const std::vector<Strip> bases = {{.face = 0, .edges = {0, 1}, .stations = {}}};
+  ASSERT_EQ(declared_edges(std::vector<SizeRule>{rule}, t, bases, {}).size(), 1u);
+}
+
+TEST(SizeRules, without_sizes_leave_limits_alone) {
+  SizeRule rule = rule_of({}, {});
+  rule.meaning = EdgeMeaning::kTrailing;
+  rule.groups = {"SYM"};
+  const ModelLimits limits = limits_of({rule});
+  EXPECT_FALSE(limits.face[2]) << "a symmetry plane asks for nothing";
+  rule.groups.clear();
+  rule.edges = {"TE_1"};
+  EXPECT_FALSE(limits_of({rule}).edge_is_ruled[0]);
+}
+
 TEST(SizeRules, take_the_detected_edges_of_a_group_alone) {
   const ModelTables t = with_groups();
   std::vector<WingEdge> found(2);

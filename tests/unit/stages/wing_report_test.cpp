@@ -21,10 +21,36 @@ TEST(WingReport, names_the_longest_edges_first_and_says_why) {
 TEST(WingReport, warns_of_long_edges_alone_and_names_the_rule) {
   const std::string text = unused_warning(kUnusedEdges, 100);
   EXPECT_NE(text.find("3 trailing edges, 14 long"), std::string::npos) << text;
-  EXPECT_NE(text.find("[[size]] edges = [2, 4, 5]"), std::string::npos) << text;
+  EXPECT_NE(text.find("size = [{ edges = [2, 4, 5], trailing_edge = true }]"), std::string::npos) << text;
   EXPECT_EQ(unused_warning(kUnusedEdges, 1000), "");
   EXPECT_EQ(unused_warning({}, 1), "");
   EXPECT_EQ(unused_warning({&kRim, 1}, 1), "") << "rims are no wings";
+}
+
+LiftingSurface noseless() {
+  LiftingSurface wing;
+  wing.has_noses = false;
+  wing.span = 3;
+  wing.least_chord = wing.median_chord = wing.largest_chord = 1;
+  wing.trailing.resize(1);
+  wing.trailing[0].edge = 4;
+  return wing;
+}
+
+TEST(WingReport, says_where_no_nose_is_seen) {
+  LiftingSurface wing = noseless();
+  EXPECT_EQ(
+      wing_line(wing, "0.1%chord"),
+      "  lifting surface: 1 trailing edges from edge 5 on, sharp, span 3, chord 1 to 1; 0.1%chord along the edge, "
+      "no nose is seen");
+  const std::string text = noseless_warning({&wing, 1});
+  EXPECT_NE(text.find("before the trailing edge 5:"), std::string::npos) << text;
+  EXPECT_NE(text.find("size = [{ edges = [5], trailing_edge = false }]"), std::string::npos) << text;
+  EXPECT_EQ(wings_json({&wing, 1})[0]["has_noses"], false);
+  wing.is_declared = true;
+  EXPECT_EQ(noseless_warning({&wing, 1}), "") << "the user knows";
+  std::swap(wing.trailing, wing.declared_leading);
+  EXPECT_NE(wing_line(wing, "1").find("lifting surface by a rule: 1 leading edges from edge 5 on"), std::string::npos);
 }
 
 TEST(WingReport, lists_all_in_json) {

@@ -1,0 +1,74 @@
+"""How many lifting surfaces st-raster finds on real CAD files (ST_CORPUS, by default ../shared/corpus beside the
+repository): counted by hand on pictures."""
+import os
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import ToolTest, must  # noqa: E402
+
+CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
+WINGS = {
+    "aero_d150_fullspan.brep": 5,
+    "aero_d150_half_with_tail.brep": 3,
+    "aero_d150_wing.igs": 1,
+    "aero_d150_wing_body_half.brep": 1,
+    "aero_evtol_bet.brep": 7,
+    "aero_onera_m6_sharpte.brep": 1,
+    "aero_tigl_simplewing.brep": 1,
+    "aero_bladex_propeller_shaft.iges": 5,
+    "aero_dealii_wing_igs.iges": 1,
+    "aero_iea15mw_rotor_blade.stp": 1,
+    "aero_lsdo_simple_wing.stp": 2,
+    "aero_d150_fuselage.igs": 0,
+    "mech_as1_oc_214.stp": 0,
+    "mech_build123d_m6_screw.step": 0,
+    "mech_esp_piston.brep": 0,
+    "mech_geouned_scdr.stp": 0,
+    "mech_geouned_tank.stp": 0,
+    "mech_geouned_tester.stp": 0,
+    "mech_netgen_frame.step": 0,
+    "mech_netgen_screw.step": 0,
+    "mech_occt_bottle.brep": 0,
+    "mech_occt_linkrods.step": 0,
+    "mech_odri_lower_leg_base.step": 0,
+    "mech_trimesh_box_sides.step": 0,
+    "ship_dtmb5415_bulb.iges": 0,
+    "ship_goteborg_hull.iges": 0,
+}
+
+
+class Wings(ToolTest):
+    def raster(self, name, *options):
+        geometry = self.folder / "geometry.hdf"
+        if not geometry.exists():
+            must("st-import", CORPUS / name, "-o", geometry)
+        return must("st-raster", geometry, "-o", self.folder / "raster.hdf", "--no-surface", "--json", *options)
+
+    def check(self, name, n_wings):
+        done = self.raster(name, "--preset", "preview")
+        self.assertEqual(len(done.json()["lifting_surfaces"]), n_wings, f"{name}: {done}")
+
+    def test_the_user_has_the_last_word(self):
+        other, rules = self.folder / "none.hdf", self.folder / "sizes.toml"
+        name = "aero_d150_wing_body_half.brep"
+        (wing,) = self.raster(name).json()["lifting_surfaces"]
+        rules.write_text(f"size = [{{ edges = {wing['trailing_edges']}, trailing_edge = false }}]\n")
+        self.assertEqual(self.raster(name, "--sizes", rules).json()["lifting_surfaces"], [])
+        rules.write_text("size = [{ edges = 99999, trailing_edge = true }]\n")
+        self.expect_error(2, "st-raster", self.folder / "geometry.hdf", "-o", other, "--sizes", rules,
+                          says=["sizes.toml:1", "99999"])
+
+
+def add_tests():
+    for name, n_wings in WINGS.items():
+        setattr(Wings, "test_" + name.split(".")[0], lambda self, name=name, n=n_wings: self.check(name, n))
+
+
+if __name__ == "__main__":
+    if not CORPUS.is_dir():
+        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
+        sys.exit(77)
+    add_tests()
+    unittest.main(verbosity=2)
