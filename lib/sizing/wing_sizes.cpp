@@ -70,8 +70,8 @@ class WingRaster {
       const double chord = trailing.chord_at(share), edge = length_of(chord);
       const Strip::Station station = strip.at(is_turned ? 1 - share : share);
       const double width = (trailing.is_half ? 2 : 1) * station.width();
-      const double length = std::clamp(width / sizes_.base_cells, kFinestBase * edge, edge);
-      return Place{station.middle(), std::max(length, floor_of(chord)), 0.5 * station.across};
+      return Place{station.middle(), std::max(length_across(sizes_, width, edge), floor_of(chord)),
+                   0.5 * station.across};
     });
   }
 
@@ -133,6 +133,16 @@ class WingRaster {
 };
 
 }  // namespace
+
+double length_along(const LiftingSurface& wing, const WingSizes& sizes, const ChordEdge& edge, double chord) {
+  const LocalLengths lengths(wing, sizes);
+  return std::max(
+      {lengths.asked(chord), lengths.floor(chord), sizes.given.of(pack_cause(CauseKind::kEdge, edge.edge))});
+}
+
+double length_across(const WingSizes& sizes, double width, double along) {
+  return std::clamp(width / sizes.base_cells, kFinestBase * along, along);
+}
 
 void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {
   if (own.floor > own.asked && (!most || own.floor * most->asked > most->floor * own.asked)) most = own;

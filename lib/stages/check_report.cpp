@@ -8,6 +8,7 @@
 
 #include "io/file/json_text.h"
 #include "stages/text_table.h"
+#include "stages/wing_table.h"
 
 namespace st {
 
@@ -365,6 +366,7 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
     for (const Check& c : f.checks)
       if (c.fails() == fails) text += check_line(mesh, c);
   text += group_table(mesh, f);
+  text += wing_table(f.wings, f.is_stretched);
   text += quality_lines(mesh, f.quality, f.is_stretched);
   if (f.conformity) text += conformity_lines(*f.conformity);
   if (f.deviation) text += deviation_line(mesh, *f.deviation);
@@ -411,6 +413,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
   j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
   if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);
   if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
+  if (!f.wings.empty()) j["lifting_surfaces"] = wing_measures_json(f.wings);
   if (f.causes) j["causes"] = causes_json(mesh, *f.causes, f.conformity.has_value());
   if (detail == ReportDetail::kFull) j["bins"] = bins_json();
   return json_text(j, detail == ReportDetail::kFull ? 1 : -1);

@@ -12,6 +12,7 @@
 #include "judge/surface_deviation.h"
 #include "mesh/checks.h"
 #include "mesh/quality.h"
+#include "stages/wing_measure.h"
 
 namespace st {
 
@@ -44,6 +45,7 @@ struct Findings {
   std::vector<std::int32_t> face_group;                      ///< [n_faces] with a geometry
   std::optional<double> area_difference, volume_difference;  ///< of the whole mesh from the CAD, relative; with a
                                                              ///< geometry, volume where both have one
+  std::vector<WingMeasure> wings;                            ///< with a sizing
   std::vector<Check> checks;
 
   bool passes() const;

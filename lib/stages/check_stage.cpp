@@ -667,6 +667,34 @@ std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* fie
   return squeeze;
 }
 
+/// Lifting surfaces that the sizes know; their distance from the CAD, where that was measured.
+std::vector<WingMeasure> measured_wings(const std::string& sizing, const SurfaceMesh& mesh, const Findings& f) {
+  const std::vector<WingRecord> records = read_asked_wings(sizing);
+  std::vector<WingMeasure> wings = measure_wings(mesh, records);
+  for (std::size_t w = 0; f.deviation && w < wings.size(); ++w) {
+    double chord = 0, most = 0;
+    for (const WingRecord::Station& s : records[w].stations) chord = std::max(chord, s.chord);
+    for (const FaceId face : records[w].faces)
+      if (static_cast<std::size_t>(face) < f.deviation->faces.size())
+        most = std::max(most, f.deviation->faces[face].max_distance);
+    if (chord > 0 && !records[w].faces.empty()) wings[w].deviation = most / chord;
+  }
+  return wings;
+}
+
+/// Says where a mesh is coarser at lifting surfaces than was asked for.
+void check_wings(Findings& f) {
+  if (f.wings.empty()) return;
+  Check c{"wing-sizes", "places on lifting surfaces coarser than 1.5 times what was asked for", {}, false, ""};
+  for (const WingMiss& miss : find_misses(f.wings)) {
+    if (c.defects.count == 0)
+      c.note = fmt::format("the {} of the surface at edge {} has {:.3g} at {:.0f} % of the span, {:.3g} asked for",
+                           miss.what, f.wings[miss.wing].first_edge + 1, miss.has, 100 * miss.share, miss.asked);
+    c.defects.add({miss.place, kNone, kNone});
+  }
+  f.checks.push_back(std::move(c));
+}
+
 /// What the measures mean.
 void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
            Findings& f) {
@@ -679,6 +707,7 @@ void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const Trian
   check_quality(artifact.mesh, corners, o.thresholds, f);
   check_causes(o.thresholds, f);
   check_sizes(o.thresholds, f);
+  check_wings(f);
   if (cad) check_deviation(o.thresholds, cad->model.tables(), f);
 }
 
@@ -714,6 +743,7 @@ StageSummary run_check(const CheckStageOptions& options) {
   measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
   if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
   progress.step("causes", 0.9);
+  if (!options.sizing.empty()) f.wings = measured_wings(options.sizing, artifact.mesh, f);
   judge(options, artifact, corners, cad.get(), f);
   const double seconds = timer.seconds();
   for (const std::string& path : options.reports)

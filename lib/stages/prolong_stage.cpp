@@ -311,6 +311,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   sizing.names = {std::move(raster.edge_name), raster.labels.face_name, {}};
   sizing.faces = std::move(raster.faces);
   sizing.labels = std::move(raster.labels);
+  sizing.wings = std::move(raster.wings);
   sizing.header = raster.header;
   sizing.header.schema = "sizing";
   sizing.header.tool = "st-prolong";

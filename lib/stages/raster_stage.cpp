@@ -165,7 +165,8 @@ struct Wings {
   std::vector<WingEdge> edges;
   std::vector<UnusedTrailing> unused;
   Aircraft aircraft;
-  std::vector<RasterBox> boxes;  ///< what they ask for, besides curvature
+  std::vector<RasterBox> boxes;     ///< what they ask for, besides curvature
+  std::vector<WingRecord> records;  ///< likewise, for the artifact
 };
 
 /// Where --lmin undoes --edge-size.
@@ -225,6 +226,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   for (const LiftingSurface& wing : wings.aircraft.wings) {
     const std::optional<RaisedLength> own = raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
     if (own) note_raised(*own, most);
+    wings.records.push_back(record_wing(wing, sizes, is_left_out));
   }
   if (most)
     log_warning(
@@ -798,6 +800,7 @@ class RasterRun {
     artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
     artifact_.edge_name = model_.tables().edge_name;
     artifact_.labels = model_.tables().labels;
+    artifact_.wings = std::move(wings_.records);
     fill_header(o_, geometry_.header, wall_, sizes_.hash, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
   }

@@ -31,6 +31,7 @@
 #include <BinTools.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <Geom2d_Curve.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <GeomAdaptor_Curve.hxx>
@@ -197,6 +198,23 @@ Handle(Geom_BSplineSurface) crumpled() {
 /// A wave, offset by more than its radii.
 TopoDS_Shape folded_sheet() {
   return face_of(new Geom_OffsetSurface(wave(10, 8, 3, 3, false), 10), 0.1, 2.9, 0.1, 1.9);
+}
+
+/// A square; its right side runs 0.1 too far down in (u,v), within its tolerance, so that the loop runs back there.
+TopoDS_Shape slipped_side() {
+  const TopoDS_Face face = TopoDS::Face(rectangle(10, 10));
+  BRep_Builder builder;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge side = TopoDS::Edge(it.Current());
+    const BRepAdaptor_Curve line(side);
+    if (line.Value(line.FirstParameter()).X() < 9 || line.Value(line.LastParameter()).X() < 9) continue;
+    double first = 0, last = 0;
+    const auto whole = Handle(Geom2d_Curve)::DownCast(BRep_Tool::CurveOnSurface(side, face, first, last)->Copy());
+    whole->Translate(gp_Vec2d(0, -0.1));
+    builder.UpdateEdge(side, whole, face, 0.11);
+    for (const TopoDS_Vertex& v : {TopExp::FirstVertex(side), TopExp::LastVertex(side)}) builder.UpdateVertex(v, 0.11);
+  }
+  return face;
 }
 
 /// A square, and on one of its edges a second face whose boundary crosses itself: it can only be closed in space.
@@ -580,6 +598,7 @@ const std::map<std::string, Factory>& factories() {
              {moved(box(10, 10, 10), 20, 20, 20), box(60, 60, 60), moved(box(10, 10, 10), 40, 40, 0)});
        }},
       {"square", [] { return rectangle(10, 10); }},
+      {"slipped_side", slipped_side},
       {"disc", disc},
       {"annulus", annulus},
       {"strip", [] { return rectangle(100, 0.2); }},

@@ -13,6 +13,7 @@
 #include "io/hdf5/artifact_checks.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/hdf5_file.h"
+#include "io/hdf5/wing_records_io.h"
 #include "sizing/moved_field.h"
 
 namespace st {
@@ -625,6 +626,7 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   write_face_cells(file, raster.faces);
   file.write_strings(kFaceName, raster.labels.face_name);
   file.write_strings(kEdgeName, raster.edge_name);
+  write_wings(file, raster.wings);
   write_groups(file, raster.labels);
   return file.commit();
 }
@@ -647,6 +649,7 @@ RasterArtifact read_raster(const std::string& path) {
   raster.faces = read_face_cells(file, n);
   if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.faces.origin);
   raster.edge_name = file.read_strings(kEdgeName);
+  raster.wings = read_wings(file);
   raster.labels = read_face_labels(file, raster.faces);
   return raster;
 }
@@ -699,6 +702,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   file.write_strings(kFaceName, sizing.names.face);
   file.write_strings(kEdgeName, sizing.names.edge);
   file.write_strings(kSourceName, sizing.names.source);
+  write_wings(file, sizing.wings);
   return file.commit();
 }
 
@@ -738,6 +742,7 @@ SizingArtifact read_sizing(const std::string& path) {
   sizing.face_weight = read_face_weight(file);
   sizing.names = read_names(file);
   sizing.sources = read_sources(file);
+  sizing.wings = read_wings(file);
   if (file.has(kFaceOffset)) {
     sizing.faces = read_face_cells(file, n);
     sizing.labels = read_face_labels(file, sizing.faces);
@@ -756,6 +761,19 @@ CauseNames read_cause_names(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
   require_version(file, kOpenSizingVersion, "st-prolong");
   return read_names(file);
+}
+
+std::vector<WingRecord> read_asked_wings(const std::string& path) {
+  const Hdf5Reader file(path, "sizing", kSizingVersion);
+  require_version(file, kOpenSizingVersion, "st-prolong");
+  const double scale = read_slope_and_scale(file).second;
+  const Similarity frame = read_frame(file);
+  std::vector<WingRecord> wings;
+  for (WingRecord& wing : read_wings(file)) {
+    for (WingRecord::Station& s : wing.stations) s.asked *= scale;
+    wings.push_back(moved(frame, std::move(wing)));
+  }
+  return wings;
 }
 
 std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header) {

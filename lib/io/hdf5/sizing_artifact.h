@@ -14,6 +14,7 @@
 #include "sizing/sample_seeds.h"
 #include "sizing/source_set.h"
 #include "sizing/stretched_cells.h"
+#include "sizing/wing_record.h"
 
 namespace st {
 
@@ -52,6 +53,7 @@ struct RasterArtifact {
   FaceCells faces;                     ///< where in the octree each face lies, with its area there
   std::vector<std::string> edge_name;  ///< [n_edges]; "": none
   FaceLabels labels;                   ///< names of faces, and groups for slopes of groups, or none
+  std::vector<WingRecord> wings;       ///< lifting surfaces
   std::int64_t n_not_sampled = 0;      ///< faces and batches of edges that could not be sampled; > 0: the raster is
                                        ///< incomplete
 
@@ -75,6 +77,7 @@ struct SizingArtifact {
   Blanking blanking;         ///< colours and splits; empty: no surface blanks anything. Links are not stored
   FaceCells faces;           ///< as in the raster; empty: not known, so that sources cannot be changed
   FaceLabels labels;         ///< likewise
+  std::vector<WingRecord> wings;    ///< lifting surfaces, in the octree's own frame and before `scale`
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
   CauseNames names;
 
@@ -117,6 +120,9 @@ MappedSizing map_sizing(const std::string& path);
 
 /// Names of a sizing artifact alone.
 CauseNames read_cause_names(const std::string& path);
+
+/// Lifting surfaces of a sizing artifact alone, where they lie in the model, with what its lengths ask for.
+std::vector<WingRecord> read_asked_wings(const std::string& path);
 
 /// The field alone; `header` may be null. Throws Error(kInput).
 std::unique_ptr<SizeField> open_sizing(const std::string& path, ArtifactHeader* header);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kPoleTurning = 60.0 * kPi / 180.0;  // of the transverse tangent between the nodes of a pole
 constexpr double kJunctionGap = 0.02;  // of the requested length: larger gaps in (u,v) between coedges get a segment
+constexpr double kInexactGap = 0.3;    // likewise, of gaps within the tolerance of their vertex: such a segment may run
+                                     // back along its neighbour
 
 struct End {
   Vec2 uv;
@@ -78,12 +80,18 @@ class BoundaryMaker {
 
   void add_node(Vec2 uv, std::int32_t id, Vec3 x, double h, bool is_pole, bool joins_previous) {
     auto& nodes = result_.nodes;
-    if (joins_previous && !nodes.empty() && nodes.back().id == id && gap(nodes.back().uv, uv) < kJunctionGap * h) {
+    if (joins_previous && !nodes.empty() && nodes.back().id == id && is_junction(nodes.back().uv, uv, id, h)) {
       nodes.back().is_pole |= is_pole;
       nodes.back().uv = 0.5 * (nodes.back().uv + uv);
       return;
     }
     nodes.push_back({uv, x, h, id, is_pole});
+  }
+
+  /// Whether two places of a node are one.
+  bool is_junction(Vec2 a, Vec2 b, std::int32_t id, double h) const {
+    const double tolerance = id < t_.n_vertices() ? t_.vertex_tolerance[id] : 0;
+    return gap(a, b) < std::max(kJunctionGap * h, std::min(tolerance, kInexactGap * h));
   }
 
   /// Distance in space that a step in (u,v) is worth.
@@ -165,7 +173,8 @@ class BoundaryMaker {
     for (std::int32_t i = first; i < n; ++i)
       if (!(nodes[i].h > 0)) nodes[i].h = same_id_size(first, n, nodes[i].id, h);
     std::int32_t last = n;
-    if (nodes[n - 1].id == nodes[first].id && gap(nodes[n - 1].uv, nodes[first].uv) < kJunctionGap * nodes[first].h) {
+    if (nodes[n - 1].id == nodes[first].id &&
+        is_junction(nodes[n - 1].uv, nodes[first].uv, nodes[first].id, nodes[first].h)) {
       nodes[first].is_pole |= nodes[n - 1].is_pole;
       nodes.pop_back();
       last = n - 1;

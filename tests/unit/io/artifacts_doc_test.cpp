@@ -96,6 +96,11 @@ RasterArtifact sample_raster() {
   r.labels.group_name = {"body", "wing"};
   r.labels.face_group = {0, 1, 0};
   r.n_not_sampled = 1;
+  r.wings.resize(2);
+  r.wings[0].stations.resize(11);
+  r.wings[0].edges.resize(3);
+  r.wings[1].faces.resize(7);
+  r.wings[1].bases.resize(4);
   return r;
 }
 
@@ -126,6 +131,7 @@ SizingArtifact sample_sizing() {
   s.stretched.along.resize(17);
   s.stretched.direction.resize(17);
   s.face_weight = {1, 2, 3};
+  s.wings = sample_raster().wings;
   s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};
   return s;
 }

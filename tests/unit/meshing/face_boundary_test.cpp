@@ -133,6 +133,12 @@ TEST(FaceBoundary, judges_a_node_by_the_segments_on_both_sides) {
   for (const auto& n : c.boundary.nodes) EXPECT_NEAR(n.h, 0.5, 1e-12);
 }
 
+TEST(FaceBoundary, does_not_run_back_within_the_tolerance_of_a_vertex) {
+  const FaceCase c("slipped_side", UniformField(1));
+  EXPECT_EQ(c.boundary.nodes.size(), 40u) << "ten on each side, and none twice";
+  EXPECT_TRUE(check_boundary(*c.surface, c.boundary).empty()) << "no segments cross or touch";
+}
+
 TEST(MinSegments, are_three_for_a_closed_edge_two_for_a_pair_one_else) {
   for (int n : min_segments_per_edge(test::make_model("box").tables())) EXPECT_EQ(n, 1);
   EXPECT_EQ(min_segments_per_edge(test::make_model("disc").tables()), std::vector<int>{3});

@@ -1,0 +1,64 @@
+#include "sizing/wing_record.h"
+
+#include <algorithm>
+
+namespace st {
+namespace {
+
+/// Of the edges' length: half of each way between two stations belongs to each of them.
+double covered_share(const LiftingSurface& wing) {
+  double covered = 0, all = 0;
+  for (const ChordEdge& edge : wing.trailing)
+    for (std::size_t i = 1; i < edge.stations.size(); ++i) {
+      const ChordStation &a = edge.stations[i - 1], &b = edge.stations[i];
+      const double way = distance(a.trailing, b.trailing);
+      all += way;
+      covered += 0.5 * way * (static_cast<int>(a.is_measured) + static_cast<int>(b.is_measured));
+    }
+  return all > 0 ? covered / all : 0;
+}
+
+void sort_once(std::vector<FaceId>& faces) {
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+}  // namespace
+
+WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out) {
+  WingRecord record;
+  record.span = wing.span;
+  record.has_noses = wing.has_noses;
+  record.covered = wing.has_noses ? covered_share(wing) : 0;
+  record.faces = wing.faces;
+  for (const ChordEdge& edge : wing.trailing.empty() ? wing.declared_leading : wing.trailing) {
+    record.edges.push_back(edge.edge);
+    if (edge.base != kNone) record.bases.push_back(edge.base);
+    for (const ChordStation& s : edge.stations) {
+      if (wing.has_noses && !s.is_measured) continue;
+      WingRecord::Station own{s.nose, s.trailing, s.chord};
+      if (!is_left_out[edge.edge]) {
+        own.asked = length_along(wing, sizes, edge, s.chord);
+        if (edge.base != kNone)
+          own.base = (edge.is_half ? 0.5 : 1) * edge.base_width / length_across(sizes, edge.base_width, own.asked);
+      }
+      record.stations.push_back(own);
+    }
+  }
+  sort_once(record.bases);
+  std::erase_if(record.faces, [&](FaceId f) { return std::ranges::binary_search(record.bases, f); });
+  return record;
+}
+
+WingRecord moved(const Similarity& frame, WingRecord wing) {
+  for (WingRecord::Station& s : wing.stations) {
+    s.nose = frame(s.nose);
+    s.trailing = frame(s.trailing);
+    s.chord *= frame.scale;
+    s.asked *= frame.scale;
+  }
+  wing.span *= frame.scale;
+  return wing;
+}
+
+}  // namespace st

@@ -1,0 +1,36 @@
+// What was asked for on lifting surfaces, as artifacts keep it for judging meshes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/similarity.h"
+#include "features/lifting_surface.h"
+#include "sizing/wing_sizes.h"
+
+namespace st {
+
+/// A lifting surface.
+struct WingRecord {
+  /// A place on a trailing edge, and the nose before it.
+  struct Station {
+    Vec3 nose, trailing;  ///< model unit; `nose` means nothing where the surface has none
+    double chord = 0;     ///< model unit
+    double asked = 0;     ///< length at both, model unit; 0: rules say what they get
+    double base = 0;      ///< lengths across the base of a blunt edge; 0: sharp, or rules say it
+  };
+  std::vector<Station> stations;     ///< edge by edge, along each
+  std::vector<EdgeId> edges;         ///< trailing ones; of a nose alone the leading one
+  std::vector<FaceId> faces, bases;  ///< ascending; bases are no part of `faces`
+  double span = 0;                   ///< model unit
+  double covered = 1;                ///< share of the edges' length with noses
+  bool has_noses = true;
+};
+
+/// Measured stations; of a surface without noses all. `is_left_out`: as raster_wing() takes it.
+WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out);
+
+/// The same wing elsewhere.
+WingRecord moved(const Similarity& frame, WingRecord wing);
+
+}  // namespace st

@@ -1,0 +1,233 @@
+#include "stages/wing_measure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace st {
+namespace {
+
+constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
+constexpr double kAround = 3;        // lengths around a place whose segments count
+constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
+constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
+constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
+constexpr double kMissed = 1.5;      // length over that asked for
+
+/// A wing's stations in the order of the span.
+struct Spanwise {
+  std::vector<const WingRecord::Station*> station;
+  std::vector<double> share;
+
+  explicit Spanwise(const WingRecord& wing) {
+    for (const WingRecord::Station& s : wing.stations) station.push_back(&s);
+    if (station.empty()) return;
+    const auto furthest_from = [&](Vec3 x) {
+      return *std::ranges::max_element(station, {}, [&](const auto* s) { return distance(s->trailing, x); });
+    };
+    const WingRecord::Station* a = furthest_from(furthest_from(station.front()->trailing)->trailing);
+    const WingRecord::Station* b = furthest_from(a->trailing);
+    if (b->chord > a->chord) std::swap(a, b);
+    const Vec3 way = b->trailing - a->trailing;
+    const auto share_of = [&](const WingRecord::Station* s) {
+      return dot(way, way) > 0 ? dot(s->trailing - a->trailing, way) / dot(way, way) : 0;
+    };
+    std::ranges::stable_sort(station, {}, share_of);
+    for (const auto* s : station) share.push_back(share_of(s));
+  }
+
+  std::size_t nearest(double at) const {
+    const auto i = std::ranges::min_element(share, {}, [&](double own) { return std::abs(own - at); });
+    return static_cast<std::size_t>(i - share.begin());
+  }
+
+  /// Where noses, or trailing edges, run at a station; by those about 2 per cent of the span away.
+  Vec3 direction(std::size_t i, Vec3 WingRecord::Station::*place) const {
+    constexpr double kStep = 0.02;
+    std::size_t a = i, b = i;
+    while (a > 0 && share[i] - share[a] < kStep) --a;
+    while (b + 1 < station.size() && share[b] - share[i] < kStep) ++b;
+    return normalized(station[b]->*place - station[a]->*place);
+  }
+};
+
+/// The triangles of one surface.
+class WingMesh {
+ public:
+  WingMesh(const SurfaceMesh& mesh, const WingRecord& wing) : mesh_(mesh) {
+    for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+      const FaceId f = mesh.triangle_face[t];
+      if (wing.faces.empty() || std::ranges::binary_search(wing.faces, f)) skin_.push_back(t);
+      if (std::ranges::binary_search(wing.bases, f)) base_.push_back(t);
+    }
+  }
+  std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
+  bool is_empty() const { return skin_.empty(); }
+
+  LengthsAt lengths_at(Vec3 place, Vec3 along_span) const {
+    const TriangleId nearest =
+        *std::ranges::min_element(skin_, {}, [&](TriangleId t) { return distance2_to(t, place); });
+    const double reach = kAround * mean_side(nearest);
+    std::array<double, 2> sum = {0, 0};
+    std::array<std::int64_t, 2> n = {0, 0};
+    for (const TriangleId t : skin_) {
+      if (distance2_to(t, place) > reach * reach) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 side = corner(t, (k + 1) % 3) - corner(t, k);
+        const std::size_t is_along = std::abs(dot(normalized(side), along_span)) >= kAlong ? 1 : 0;
+        sum[is_along] += norm(side);
+        ++n[is_along];
+      }
+    }
+    const auto mean = [&](std::size_t i) { return n[i] ? sum[i] / static_cast<double>(n[i]) : 0; };
+    return {mean(0), mean(1)};
+  }
+
+  /// Lengths along the profile at a station: of each triangle that its plane cuts, the part of its own extent that the
+  /// cut is long. Mean of both sides.
+  double chord_cells(const WingRecord::Station& s, Vec3 normal) const {
+    double cells = 0;
+    cut(skin_, s, normal, [&](double own, double, double) { cells += own; });
+    return 0.5 * cells;
+  }
+  double base_cells(const WingRecord::Station& s, Vec3 normal) const {
+    double cells = 0;
+    cut(base_, s, normal, [&](double own, double, double) { cells += own; });
+    return cells;
+  }
+
+  /// From `at_nose` to the mean extent 2 per cent of the chord away; 0: nothing is cut there.
+  double growth(const WingRecord::Station& s, Vec3 normal, double at_nose) const {
+    constexpr double kBand = 0.25;
+    double sum = 0, way = 0, weight = 0;
+    cut(skin_, s, normal, [&](double cells, double extent, double from_nose) {
+      if (std::abs(from_nose - kNoseReach * s.chord) > kBand * kNoseReach * s.chord) return;
+      sum += cells * extent;
+      way += cells * from_nose;
+      weight += cells;
+    });
+    return weight > 0 ? 1 + std::max(0.0, sum - weight * at_nose) / way : 0;
+  }
+
+  /// Largest angle between neighbours on one face of the skin around a place, radians: kinks of the CAD are its own.
+  double turning(Vec3 place, double reach) const {
+    std::map<std::pair<NodeId, NodeId>, TriangleId> sides;
+    double most = 0;
+    for (const TriangleId t : skin_) {
+      if (distance2_to(t, place) > reach * reach) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [a, b] = std::minmax(mesh_.triangles[t].n[k], mesh_.triangles[t].n[(k + 1) % 3]);
+        const auto [known, is_new] = sides.emplace(std::pair(a, b), t);
+        if (!is_new && mesh_.triangle_face[t] == mesh_.triangle_face[known->second])
+          most = std::max(most, angle_between(normal_of(t), normal_of(known->second)));
+      }
+    }
+    return most;
+  }
+
+ private:
+  Vec3 corner(TriangleId t, std::size_t k) const { return mesh_.node_xyz[mesh_.triangles[t].n[k]]; }
+  double distance2_to(TriangleId t, Vec3 x) const {
+    const Vec3 d = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3 - x;
+    return dot(d, d);
+  }
+  double mean_side(TriangleId t) const {
+    return (distance(corner(t, 0), corner(t, 1)) + distance(corner(t, 1), corner(t, 2)) +
+            distance(corner(t, 2), corner(t, 0))) /
+           3;
+  }
+  Vec3 normal_of(TriangleId t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
+
+  /// `visit` gets of each triangle that the profile's plane cuts: the part that the cut is of the triangle's extent
+  /// along it, that extent, and how far it is from the nose.
+  template <class Visit>
+  void cut(const std::vector<TriangleId>& triangles, const WingRecord::Station& s, Vec3 normal,
+           const Visit& visit) const {
+    const Vec3 forward = normalized(s.trailing - s.nose);
+    for (const TriangleId t : triangles) {
+      std::array<Vec3, 2> end;
+      std::size_t n = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = corner(t, k), b = corner(t, (k + 1) % 3);
+        const double ha = dot(a - s.trailing, normal), hb = dot(b - s.trailing, normal);
+        if ((ha < 0) != (hb < 0) && n < 2) end[n++] = a + ha / (ha - hb) * (b - a);
+      }
+      if (n < 2 || !(distance(end[0], end[1]) > 0)) continue;
+      const Vec3 middle = 0.5 * (end[0] + end[1]) - s.nose;
+      const double from_nose = dot(middle, forward);
+      if (norm(middle - from_nose * forward) > kThick * s.chord || from_nose < -kNoseReach * s.chord ||
+          from_nose > (1 + kNoseReach) * s.chord)
+        continue;
+      const Vec3 way = normalized(end[1] - end[0]);
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t k = 0; k < 3; ++k) {
+        low = std::min(low, dot(corner(t, k), way));
+        high = std::max(high, dot(corner(t, k), way));
+      }
+      visit(distance(end[0], end[1]) / (high - low), high - low, norm(middle));
+    }
+  }
+
+  const SurfaceMesh& mesh_;
+  std::vector<TriangleId> skin_, base_;
+};
+
+WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
+                                   std::size_t i) {
+  const WingRecord::Station& s = *spanwise.station[i];
+  WingStationMeasure own{
+      .share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked, .asked_base_cells = s.base};
+  const Vec3 along = spanwise.direction(i, &WingRecord::Station::trailing);
+  own.trailing = mesh.lengths_at(s.trailing, along);
+  if (!wing.has_noses) return own;
+  const Vec3 forward = normalized(s.trailing - s.nose), normal = normalized(along - dot(along, forward) * forward);
+  own.nose = mesh.lengths_at(s.nose, spanwise.direction(i, &WingRecord::Station::nose));
+  own.chord_cells = mesh.chord_cells(s, normal);
+  own.base_cells = mesh.base_cells(s, normal);
+  own.growth = mesh.growth(s, normal, own.nose.normal);
+  own.turning = mesh.turning(s.nose, kNoseReach * s.chord);
+  return own;
+}
+
+}  // namespace
+
+std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings) {
+  std::vector<WingMeasure> all;
+  for (const WingRecord& wing : wings) {
+    WingMeasure own{.span = wing.span,
+                    .covered = wing.covered,
+                    .first_edge = wing.edges.empty() ? kNone : wing.edges[0],
+                    .has_noses = wing.has_noses};
+    const WingMesh triangles(mesh, wing);
+    const Spanwise spanwise(wing);
+    if (!wing.faces.empty()) own.n_triangles = triangles.n_triangles();
+    std::vector<std::size_t> chosen;
+    if (!triangles.is_empty() && !spanwise.station.empty())
+      for (const double share : kShares) chosen.push_back(spanwise.nearest(share));
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    for (const std::size_t i : chosen) own.stations.push_back(measure_station(triangles, wing, spanwise, i));
+    all.push_back(std::move(own));
+  }
+  return all;
+}
+
+std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings) {
+  std::vector<WingMiss> misses;
+  for (std::size_t w = 0; w < wings.size(); ++w)
+    for (const WingStationMeasure& s : wings[w].stations) {
+      const auto check = [&](const char* what, double has) {
+        if (s.asked > 0 && has > kMissed * s.asked)
+          misses.push_back({w, s.share, s.place, what, has / s.chord, s.asked / s.chord});
+      };
+      check("nose", s.nose.normal);
+      check("trailing edge", s.trailing.normal);
+      if (s.base_cells > 0 && kMissed * s.base_cells < s.asked_base_cells)
+        misses.push_back({w, s.share, s.place, "base", s.base_cells, s.asked_base_cells});
+    }
+  return misses;
+}
+
+}  // namespace st

@@ -1,0 +1,60 @@
+// What a mesh has at noses and trailing edges of lifting surfaces, against what was asked for.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+#include "sizing/wing_record.h"
+
+namespace st {
+
+/// Mean lengths of segments at a place; 0: there are none.
+struct LengthsAt {
+  double normal = 0;  ///< of those that run more across the span than along it
+  double along = 0;   ///< of the others
+};
+
+/// At one station; lengths in model unit.
+struct WingStationMeasure {
+  double share = 0;  ///< of the span, from the end of the larger chord
+  Vec3 place = {};   ///< on the trailing edge
+  double chord = 0, asked = 0;
+  LengthsAt nose = {}, trailing = {};  ///< likewise, of triangles on the skin
+  double chord_cells = 0;              ///< lengths along the chord, mean of both sides
+  double base_cells = 0;               ///< across the base; 0: sharp, or not asked for
+  double asked_base_cells = 0;
+  double growth = 0;   ///< of lengths, from one to the next, from the nose on over 2 per cent of the chord
+  double turning = 0;  ///< largest angle between neighbours of one face within 2 per cent of the chord around the nose,
+                       ///< radians
+};
+
+/// One lifting surface.
+struct WingMeasure {
+  double span = 0, covered = 0;  ///< see WingRecord
+  EdgeId first_edge = kNone;
+  bool has_noses = true;
+  std::int64_t n_triangles = 0;                    ///< on its faces
+  std::vector<WingStationMeasure> stations = {};   ///< nearest to 10, 30, 50, 70 and 90 per cent of the span, each once
+  std::optional<double> deviation = std::nullopt;  ///< largest distance of a triangle's midpoint from the CAD over the
+                                                   ///< chord
+};
+
+/// Places where the mesh is coarser than 1.5 times what was asked for.
+struct WingMiss {
+  std::size_t wing = 0;
+  double share = 0;  ///< of the span
+  Vec3 place;
+  const char* what = "";      ///< "nose", "trailing edge", "base"
+  double has = 0, asked = 0;  ///< lengths over the chord; cells across a base
+};
+
+/// Of each. A surface without noses has no faces of its own: all triangles count there. Segments count within three of
+/// their lengths around a place. Local, linear in triangles for each station.
+std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
+
+std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings);
+
+}  // namespace st

@@ -1,0 +1,19 @@
+// How st-check and st-report say what lifting surfaces have: text, JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "stages/wing_measure.h"
+
+namespace st {
+
+/// A line for each surface below a heading; lengths are per cents of the local chord, across the edge, and along it too
+/// where sizes are stretched. Empty: there is none.
+std::string wing_table(std::span<const WingMeasure> wings, bool is_stretched);
+
+/// Lengths in model unit.
+nlohmann::json wing_measures_json(std::span<const WingMeasure> wings);
+
+}  // namespace st
