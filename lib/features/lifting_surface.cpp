@@ -298,10 +298,7 @@ class SurfaceMeasurer {
     for (std::size_t i = 0; i < places.size(); ++i) {
       ChordStation station{places[i].share, places[i].x};
       if (profiles[i]) {
-        station.is_measured = true;
-        station.chord = profiles[i]->chord;
-        station.nose = profiles[i]->nose;
-        station.nose_face = profiles[i]->nose_face;
+        measure(*profiles[i], station);
         surface.faces.insert(surface.faces.end(), profiles[i]->faces.begin(), profiles[i]->faces.end());
       }
       surface.trailing[places[i].edge].stations.push_back(station);
@@ -310,6 +307,23 @@ class SurfaceMeasurer {
     surface.faces.erase(std::unique(surface.faces.begin(), surface.faces.end()), surface.faces.end());
     measure_chords(surface);
     return surface;
+  }
+
+  /// The nose on the facets may lie on the face beside that of the true one.
+  void measure(const Profile& profile, ChordStation& station) const {
+    station.is_measured = true;
+    station.nose = profile.nose;
+    station.nose_face = profile.nose_face;
+    std::vector<FaceId> faces = {profile.nose_face};
+    faces.insert(faces.end(), profile.faces.begin(), profile.faces.end());
+    for (const FaceId f : faces) {
+      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, reach_, guess_[f]);
+      if (!nose) continue;
+      station.nose = *nose;
+      station.nose_face = f;
+      break;
+    }
+    station.chord = distance(station.nose, station.trailing);
   }
 
   static void measure_chords(LiftingSurface& surface) {
@@ -342,7 +356,9 @@ class SurfaceMeasurer {
         const bool is_like = own && own->chord < kOutlier * from.chord && from.chord < kOutlier * own->chord &&
                              std::binary_search(own_faces.begin(), own_faces.end(), own->nose_face);
         (is_like ? known : to) = share;
-        if (is_like) added.push_back({share, p.x, own->chord, true, own->nose, own->nose_face});
+        if (!is_like) continue;
+        added.push_back({share, p.x});
+        measure(*own, added.back());
       }
     };
     const std::vector<ChordStation>& s = edge.stations;
@@ -394,6 +410,7 @@ class SurfaceMeasurer {
   const std::array<Vec3, 3>& axes_;
   const ProfileCutter& cutter_;
   const double reach_;
+  mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
 };
 
 /// A wing with a sharp nose was found from both of its edges: one of them is the leading edge.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
@@ -62,6 +63,38 @@ bool is_near(const Box3& box, Vec3 x, double reach) {
 }
 
 }  // namespace
+
+std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
+                               std::optional<Vec2>& guess) {
+  constexpr int kSteps = 12;
+  constexpr double kLongest = 0.01, kDone = 1e-6;  // of the chord
+  SurfaceFoot foot{{}, {}, std::numeric_limits<double>::infinity()};
+  if (guess) foot = descend_from(surface, profile.nose, *guess);
+  if (!(foot.distance <= reach)) foot = closest_point(surface, profile.nose);
+  Vec2 uv = foot.uv;
+  for (int i = 0; i < kSteps; ++i) {
+    const SurfacePoint2 p = surface.evaluate2(uv);
+    const Vec3 n = normalized(cross(p.du, p.dv)), way = p.x - trailing_edge;
+    const Vec3 along = normalized(cross(n, profile.normal)), to_plane = profile.normal - dot(profile.normal, n) * n;
+    const std::optional<Vec2> unit = tangent_step(p.du, p.dv, along);
+    if (!unit || !(dot(to_plane, to_plane) > 0)) return std::nullopt;
+    const Vec3 bend = unit->x * unit->x * p.duu + 2 * unit->x * unit->y * p.duv + unit->y * unit->y * p.dvv;
+    const double turning = dot(way, bend) + 1;  // of the square of the distance: twice its second derivative, halved
+    if (!(turning < 0)) return std::nullopt;
+    const double most = kLongest * profile.chord;
+    const Vec3 step = std::clamp(-dot(way, along) / turning, -most, most) * along -
+                      dot(way, profile.normal) / dot(to_plane, to_plane) * to_plane;
+    const std::optional<Vec2> in_uv = tangent_step(p.du, p.dv, step);
+    if (!in_uv) return std::nullopt;
+    uv = uv + *in_uv;
+    if (norm(step) <= kDone * profile.chord) break;
+  }
+  const bool is_inside =
+      uv.x >= surface.u_min() && uv.x <= surface.u_max() && uv.y >= surface.v_min() && uv.y <= surface.v_max();
+  const Vec3 x = surface.point(uv);
+  guess = uv;
+  return is_inside && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
+}
 
 ProfileCutter::ProfileCutter(const Facets& facets) : facets_(facets) {
   block_.resize((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
@@ -136,7 +169,7 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
 
 std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, double reach) const {
   const std::vector<Segment> part = part_at(trailing_edge, normal, reach);
-  Profile profile;
+  Profile profile{.normal = normal};
   for (const Segment& s : part) {
     profile.faces.push_back(facets_.face[s.facet]);
     for (const Vec3& x : s.end) {

@@ -7,17 +7,26 @@
 #include <vector>
 
 #include "geometry/model/facets.h"
+#include "geometry/shape/surface.h"
 
 namespace st {
 
 /// A cut through a lifting surface.
 struct Profile {
-  Vec3 nose;                  ///< the point furthest from the trailing edge, model unit
-  FaceId nose_face = kNone;   ///< that it lies on
-  double chord = 0;           ///< from the trailing edge to the nose, model unit
-  double thickness = 0;       ///< largest, over the chord
-  std::vector<FaceId> faces;  ///< that the cut crosses, ascending
+  Vec3 normal = {};                ///< of the plane, unit
+  Vec3 nose = {};                  ///< the point furthest from the trailing edge, model unit
+  FaceId nose_face = kNone;        ///< that it lies on
+  double chord = 0;                ///< from the trailing edge to the nose, model unit
+  double thickness = 0;            ///< largest, over the chord
+  std::vector<FaceId> faces = {};  ///< that the cut crosses, ascending
 };
+
+/// The point of a surface on the plane through `trailing_edge` that is furthest from it, near a profile's nose, which
+/// lies on facets. nullopt: it is further from there than `reach`, or outside of the surface. `guess`: (u,v) of a nose
+/// nearby, or nothing; becomes that of this one. Local; some dozen evaluations, without a guess a search of the
+/// surface.
+std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
+                               std::optional<Vec2>& guess);
 
 /// A thin part behind an edge whose nose is not seen: it ends in a body, or in no round or sharp nose.
 struct ThinPart {

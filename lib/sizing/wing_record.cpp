@@ -34,14 +34,11 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
   for (const ChordEdge& edge : wing.trailing.empty() ? wing.declared_leading : wing.trailing) {
     record.edges.push_back(edge.edge);
     if (edge.base != kNone) record.bases.push_back(edge.base);
+    if (edge.base != kNone && !is_left_out[edge.edge]) record.base_cells = (edge.is_half ? 0.5 : 1) * sizes.base_cells;
     for (const ChordStation& s : edge.stations) {
       if (wing.has_noses && !s.is_measured) continue;
       WingRecord::Station own{s.nose, s.trailing, s.chord};
-      if (!is_left_out[edge.edge]) {
-        own.asked = length_along(wing, sizes, edge, s.chord);
-        if (edge.base != kNone)
-          own.base = (edge.is_half ? 0.5 : 1) * edge.base_width / length_across(sizes, edge.base_width, own.asked);
-      }
+      if (!is_left_out[edge.edge]) own.asked = length_along(wing, sizes, edge, s.chord);
       record.stations.push_back(own);
     }
   }

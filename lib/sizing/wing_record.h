@@ -17,13 +17,14 @@ struct WingRecord {
     Vec3 nose, trailing;  ///< model unit; `nose` means nothing where the surface has none
     double chord = 0;     ///< model unit
     double asked = 0;     ///< length at both, model unit; 0: rules say what they get
-    double base = 0;      ///< lengths across the base of a blunt edge; 0: sharp, or rules say it
   };
   std::vector<Station> stations;     ///< edge by edge, along each
   std::vector<EdgeId> edges;         ///< trailing ones; of a nose alone the leading one
   std::vector<FaceId> faces, bases;  ///< ascending; bases are no part of `faces`
   double span = 0;                   ///< model unit
   double covered = 1;                ///< share of the edges' length with noses
+  double base_cells = 0;  ///< lengths across its bases, down to a quarter of `asked`; half as many where a plane of
+                          ///< symmetry cuts them in two; 0: sharp, or rules say it
   bool has_noses = true;
 };
 

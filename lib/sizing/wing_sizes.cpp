@@ -70,7 +70,7 @@ class WingRaster {
       const double chord = trailing.chord_at(share), edge = length_of(chord);
       const Strip::Station station = strip.at(is_turned ? 1 - share : share);
       const double width = (trailing.is_half ? 2 : 1) * station.width();
-      return Place{station.middle(), std::max(length_across(sizes_, width, edge), floor_of(chord)),
+      return Place{station.middle(), std::max(length_across(sizes_.base_cells, width, edge), floor_of(chord)),
                    0.5 * station.across};
     });
   }
@@ -140,8 +140,8 @@ double length_along(const LiftingSurface& wing, const WingSizes& sizes, const Ch
       {lengths.asked(chord), lengths.floor(chord), sizes.given.of(pack_cause(CauseKind::kEdge, edge.edge))});
 }
 
-double length_across(const WingSizes& sizes, double width, double along) {
-  return std::clamp(width / sizes.base_cells, kFinestBase * along, along);
+double length_across(double n_cells, double width, double along) {
+  return std::clamp(width / n_cells, kFinestBase * along, along);
 }
 
 void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {

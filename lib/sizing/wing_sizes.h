@@ -36,10 +36,10 @@ struct WingSizes {
   GivenFloors given = {};           ///< by rules: likewise nothing is finer there
 };
 
-/// What is asked for along a trailing edge where its chord is `chord`, and across a base of a width where that is
-/// `along`; model unit. Throws Error(kUsage).
+/// What is asked for along a trailing edge where its chord is `chord`, model unit. Throws Error(kUsage).
 double length_along(const LiftingSurface& wing, const WingSizes& sizes, const ChordEdge& edge, double chord);
-double length_across(const WingSizes& sizes, double width, double along);
+/// What `n_cells` across a base of this width are, down to a quarter of the length along it; model unit.
+double length_across(double n_cells, double width, double along);
 
 /// A length that the floor makes larger.
 struct RaisedLength {

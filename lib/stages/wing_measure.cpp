@@ -93,10 +93,14 @@ class WingMesh {
     cut(skin_, s, normal, [&](double own, double, double) { cells += own; });
     return 0.5 * cells;
   }
-  double base_cells(const WingRecord::Station& s, Vec3 normal) const {
-    double cells = 0;
-    cut(base_, s, normal, [&](double own, double, double) { cells += own; });
-    return cells;
+  /// Likewise across the base, and how wide it is.
+  std::pair<double, double> base_cells(const WingRecord::Station& s, Vec3 normal) const {
+    double cells = 0, width = 0;
+    cut(base_, s, normal, [&](double own, double extent, double) {
+      cells += own;
+      width += own * extent;
+    });
+    return {cells, width};
   }
 
   /// From `at_nose` to the mean extent 2 per cent of the chord away; 0: nothing is cut there.
@@ -178,15 +182,17 @@ class WingMesh {
 WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
                                    std::size_t i) {
   const WingRecord::Station& s = *spanwise.station[i];
-  WingStationMeasure own{
-      .share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked, .asked_base_cells = s.base};
+  WingStationMeasure own{.share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked};
   const Vec3 along = spanwise.direction(i, &WingRecord::Station::trailing);
   own.trailing = mesh.lengths_at(s.trailing, along);
   if (!wing.has_noses) return own;
   const Vec3 forward = normalized(s.trailing - s.nose), normal = normalized(along - dot(along, forward) * forward);
   own.nose = mesh.lengths_at(s.nose, spanwise.direction(i, &WingRecord::Station::nose));
   own.chord_cells = mesh.chord_cells(s, normal);
-  own.base_cells = mesh.base_cells(s, normal);
+  const auto [cells, width] = mesh.base_cells(s, normal);
+  own.base_cells = cells;
+  if (width > 0 && s.asked > 0 && wing.base_cells > 0)
+    own.asked_base_cells = width / length_across(wing.base_cells, width, s.asked);
   own.growth = mesh.growth(s, normal, own.nose.normal);
   own.turning = mesh.turning(s.nose, kNoseReach * s.chord);
   return own;

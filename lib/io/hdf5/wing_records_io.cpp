@@ -9,9 +9,9 @@
 namespace st {
 namespace {
 
-constexpr const char* kStation = "/st/wing/station";  // nose, trailing, chord, asked, base
-constexpr const char* kNumbers = "/st/wing/numbers";  // span, covered, has_noses
-constexpr std::size_t kStationColumns = 9, kNumberColumns = 3;
+constexpr const char* kStation = "/st/wing/station";  // nose, trailing, chord, asked
+constexpr const char* kNumbers = "/st/wing/numbers";  // span, covered, base_cells, has_noses
+constexpr std::size_t kStationColumns = 8, kNumberColumns = 4;
 
 /// Ids of each wing, one after the other: "/st/wing/edge" and "/st/wing/edge_offset".
 struct Lists {
@@ -36,7 +36,7 @@ std::vector<std::int64_t> read_offsets(const Hdf5Reader& file, const char* name,
 }
 
 WingRecord::Station station_of(const double* row) {
-  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, row[6], row[7], row[8]};
+  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5]}, row[6], row[7]};
 }
 
 void read_stations(const Hdf5Reader& file, std::vector<WingRecord>& wings) {
@@ -47,8 +47,7 @@ void read_stations(const Hdf5Reader& file, std::vector<WingRecord>& wings) {
     for (std::int64_t i = offsets[w]; i < offsets[w + 1]; ++i) {
       wings[w].stations.push_back(station_of(rows.data() + kStationColumns * static_cast<std::size_t>(i)));
       const WingRecord::Station& s = wings[w].stations.back();
-      if (!(s.chord > 0 && s.asked >= 0 && s.base >= 0))
-        file.fail(kStation, "row " + std::to_string(i) + " has no chord > 0");
+      if (!(s.chord > 0 && s.asked >= 0)) file.fail(kStation, "row " + std::to_string(i) + " has no chord > 0");
     }
 }
 
@@ -62,10 +61,10 @@ void write_wings(Hdf5Writer& file, const std::vector<WingRecord>& wings) {
     for (const WingRecord::Station& s : wing.stations) {
       add(rows, s.nose);
       add(rows, s.trailing);
-      rows.insert(rows.end(), {s.chord, s.asked, s.base});
+      rows.insert(rows.end(), {s.chord, s.asked});
     }
     offsets.push_back(static_cast<std::int64_t>(rows.size() / kStationColumns));
-    numbers.insert(numbers.end(), {wing.span, wing.covered, wing.has_noses ? 1.0 : 0.0});
+    numbers.insert(numbers.end(), {wing.span, wing.covered, wing.base_cells, wing.has_noses ? 1.0 : 0.0});
   }
   file.write<double>(kStation, rows, kStationColumns);
   file.write<std::int64_t>(offset_path("station"), offsets);
@@ -92,7 +91,8 @@ std::vector<WingRecord> read_wings(const Hdf5Reader& file) {
     const double* row = numbers.data() + kNumberColumns * w;
     wings[w].span = row[0];
     wings[w].covered = row[1];
-    wings[w].has_noses = row[2] != 0;
+    wings[w].base_cells = row[2];
+    wings[w].has_noses = row[3] != 0;
   }
   read_stations(file, wings);
   for (const Lists& list : kLists) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "support/shapes.h"
 
 namespace st {
@@ -18,6 +21,25 @@ TEST(Profile, of_a_wing_is_as_thick_as_its_aerofoil) {
   EXPECT_NEAR(profile->thickness, 0.12, 0.003);
   EXPECT_FALSE(ProfileCutter(facets).cut({10, 0, 15}, {1, 0, 0}, 0.02)) << "along the edge";
   EXPECT_FALSE(ProfileCutter(facets).cut({20, 0, 15}, {0, 0, 1}, 0.02)) << "off the wing";
+}
+
+TEST(Profile, has_its_nose_on_the_surface_itself) {
+  const Model model = test::make_model("cylinder");
+  const ModelTables& t = model.tables();
+  const auto side = std::ranges::find(t.face_type, SurfaceType::kCylinder) - t.face_type.begin();
+  const Box3 box = t.face_box[static_cast<std::size_t>(side)];
+  const double radius = 0.5 * (box.hi.y - box.lo.y);
+  const auto surface = model.surface(static_cast<FaceId>(side));
+  const Vec3 middle = box.center(), tail = middle + Vec3{0, 5 * radius, 0};
+  Profile profile{.normal = {0, 0, 1}, .chord = 6 * radius};
+  profile.nose = middle + radius * Vec3{std::sin(0.1), -std::cos(0.1), 0};  // as a facet's corner beside it
+  std::optional<Vec2> guess;
+  const auto nose = exact_nose(*surface, tail, profile, 0.2 * radius, guess);
+  ASSERT_TRUE(nose);
+  EXPECT_LT(distance(*nose, middle - Vec3{0, radius, 0}), 1e-5 * radius);
+  ASSERT_TRUE(guess);
+  EXPECT_LT(distance(surface->point(*guess), *nose), 1e-12 * radius);
+  EXPECT_FALSE(exact_nose(*surface, tail, profile, 0.05 * radius, guess)) << "further away than the facets may be";
 }
 
 }  // namespace

@@ -11,14 +11,15 @@ namespace {
 
 std::vector<WingRecord> two_wings() {
   WingRecord wing;
-  wing.stations = {{{0, 0, 0}, {1, 0, 0}, 1, 0.01, 2}, {{0, 1, 0}, {1, 1, 0}, 1, 0.01, 2}};
+  wing.stations = {{{0, 0, 0}, {1, 0, 0}, 1, 0.01}, {{0, 1, 0}, {1, 1, 0}, 1, 0.01}};
   wing.edges = {0};
   wing.faces = {0};
   wing.bases = {1};
   wing.span = 1;
   wing.covered = 0.75;
+  wing.base_cells = 2;
   WingRecord other;
-  other.stations = {{{}, {5, 0, 0}, 3, 0, 0}};
+  other.stations = {{{}, {5, 0, 0}, 3, 0}};
   other.edges = {0, 1};
   other.span = 2;
   other.has_noses = false;
@@ -44,7 +45,7 @@ TEST_F(WingRecords, are_read_as_they_were_written) {
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].stations.size(), 2u);
   EXPECT_EQ(read[0].stations[1].nose, (Vec3{0, 1, 0}));
-  EXPECT_EQ(read[0].stations[1].base, 2);
+  EXPECT_EQ(read[0].base_cells, 2);
   EXPECT_EQ(read[0].bases, std::vector<FaceId>{1});
   EXPECT_EQ(read[0].covered, 0.75);
   EXPECT_EQ(read[1].edges, (std::vector<EdgeId>{0, 1}));

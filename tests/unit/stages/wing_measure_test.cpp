@@ -34,7 +34,7 @@ WingRecord record(double asked) {
   WingRecord wing;
   for (int j = kSpanwise - 1; j >= 0; --j) {
     const double y = 0.1 * (j + 0.5);
-    wing.stations.push_back({{0, y, 0}, {1, y, 0}, 1, asked, 0});
+    wing.stations.push_back({{0, y, 0}, {1, y, 0}, 1, asked});
   }
   wing.edges = {4};
   wing.faces = {0, 1};
