@@ -676,6 +676,18 @@ const ChordStation* LiftingSurface::nearest_station(Vec3 x) const {
   return nearest;
 }
 
+double LiftingSurface::covered() const {
+  double covered = 0, all = 0;
+  for (const ChordEdge& edge : trailing)
+    for (std::size_t i = 1; i < edge.stations.size(); ++i) {
+      const ChordStation &a = edge.stations[i - 1], &b = edge.stations[i];
+      const double way = distance(a.trailing, b.trailing);
+      all += way;
+      covered += 0.5 * way * (static_cast<int>(a.is_measured) + static_cast<int>(b.is_measured));
+    }
+  return all > 0 ? covered / all : 0;
+}
+
 NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
   if (const ChordStation* nearest = nearest_station(x))
     return {nearest->chord, segment_distance(x, nearest->trailing, nearest->nose)};

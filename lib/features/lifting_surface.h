@@ -59,6 +59,8 @@ struct LiftingSurface {
   /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:
   /// linear in stations.
   const ChordStation* nearest_station(Vec3 x) const;
+  /// Share of the trailing edges' length with noses: of the way between two stations each of them has half.
+  double covered() const;
   /// Its chord, and how far away it runs; of the nearest station where none is measured.
   NearestChord nearest_chord(Vec3 x) const;
 };

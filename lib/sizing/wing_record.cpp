@@ -5,19 +5,6 @@
 namespace st {
 namespace {
 
-/// Of the edges' length: half of each way between two stations belongs to each of them.
-double covered_share(const LiftingSurface& wing) {
-  double covered = 0, all = 0;
-  for (const ChordEdge& edge : wing.trailing)
-    for (std::size_t i = 1; i < edge.stations.size(); ++i) {
-      const ChordStation &a = edge.stations[i - 1], &b = edge.stations[i];
-      const double way = distance(a.trailing, b.trailing);
-      all += way;
-      covered += 0.5 * way * (static_cast<int>(a.is_measured) + static_cast<int>(b.is_measured));
-    }
-  return all > 0 ? covered / all : 0;
-}
-
 void sort_once(std::vector<FaceId>& faces) {
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
@@ -29,7 +16,7 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
   WingRecord record;
   record.span = wing.span;
   record.has_noses = wing.has_noses;
-  record.covered = wing.has_noses ? covered_share(wing) : 0;
+  record.covered = wing.covered();
   record.faces = wing.faces;
   for (const ChordEdge& edge : wing.trailing.empty() ? wing.declared_leading : wing.trailing) {
     record.edges.push_back(edge.edge);

@@ -118,21 +118,32 @@ std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) 
       "  lifting surface{}: {} {} edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
       wing.is_declared ? " by a rule" : "", edges.size(), wing.trailing.empty() ? "leading" : "trailing",
       edges.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span, wing.least_chord, wing.largest_chord,
-      edge_size, wing.has_noses ? "edge and nose" : "the edge, no nose is seen");
+      edge_size,
+      wing.has_noses ? wing.covered() < kCovered
+                           ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
+                           : "edge and nose"
+                     : "the edge, no nose is seen");
 }
 
 std::string noseless_warning(std::span<const LiftingSurface> wings) {
   std::vector<EdgeId> edges;
-  for (const LiftingSurface& wing : wings)
-    if (!wing.has_noses && !wing.is_declared)
+  std::vector<std::string> parts;
+  for (const LiftingSurface& wing : wings) {
+    if (wing.is_declared) continue;
+    if (!wing.has_noses)
       for (const ChordEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
-  if (edges.empty()) return "";
+    else if (wing.covered() < kCovered)
+      parts.push_back(fmt::format("{:.0f} % of the surface at edge {}", 100 * (1 - wing.covered()),
+                                  wing.trailing.front().edge + 1));
+  }
   std::sort(edges.begin(), edges.end());
+  if (!edges.empty()) parts.insert(parts.begin(), "the trailing " + listed(edges));
+  if (parts.empty()) return "";
   return fmt::format(
-      "no nose is seen before the trailing {}: noses there get the lengths of their curvature; name those that are "
-      "edges "
-      "with leading_edge = true in a file for --sizes, and for trailing edges that are none write {}",
-      listed(edges), rule_for(edges, "trailing_edge = false"));
+      "no nose is seen before {}: noses there get the lengths of their curvature; name those that are edges with "
+      "leading_edge = true in a file for --sizes{}",
+      fmt::join(parts, ", "),
+      edges.empty() ? "" : ", and for trailing edges that are none write " + rule_for(edges, "trailing_edge = false"));
 }
 
 }  // namespace st

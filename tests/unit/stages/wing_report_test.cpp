@@ -53,6 +53,20 @@ TEST(WingReport, says_where_no_nose_is_seen) {
   EXPECT_NE(wing_line(wing, "1").find("lifting surface by a rule: 1 leading edges from edge 5 on"), std::string::npos);
 }
 
+TEST(WingReport, says_how_much_of_a_nose_is_seen) {
+  LiftingSurface wing = noseless();
+  wing.has_noses = true;
+  for (const double y : {0, 1, 2, 3, 4})
+    wing.trailing[0].stations.push_back({.share = y / 4, .trailing = {0, y, 0}, .chord = 1, .is_measured = y < 2.5});
+  EXPECT_DOUBLE_EQ(wing.covered(), 0.625);
+  EXPECT_NE(wing_line(wing, "1").find("edge and nose, which is seen on 62 %"), std::string::npos);
+  const std::string text = noseless_warning({&wing, 1});
+  EXPECT_NE(text.find("before 38 % of the surface at edge 5:"), std::string::npos) << text;
+  EXPECT_EQ(text.find("trailing_edge = false"), std::string::npos) << "it is one";
+  for (ChordStation& s : wing.trailing[0].stations) s.is_measured = true;
+  EXPECT_EQ(noseless_warning({&wing, 1}), "");
+}
+
 TEST(WingReport, lists_all_in_json) {
   const nlohmann::json list = unused_json(kUnusedEdges);
   ASSERT_EQ(list.size(), 3U);
