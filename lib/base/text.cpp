@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace st {
 
@@ -40,6 +41,13 @@ std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string&
   const auto b = std::from_chars(a.ptr + 1, end, last);
   if (*a.ptr != '-' || b.ec != std::errc() || b.ptr != end || last < 0) return std::nullopt;
   return std::pair(first, last);
+}
+
+std::optional<double> as_number(std::string_view text) {
+  double value = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 }  // namespace st

@@ -23,4 +23,7 @@ std::string one_line(std::string_view text);
 /// "17" is 17 to 17, "17-20" is 17 to 20; nullopt: a name.
 std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text);
 
+/// A number that the whole text is; nullopt: it is none, or not finite.
+std::optional<double> as_number(std::string_view text);
+
 }  // namespace st

@@ -87,4 +87,14 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
                                                   std::vector<UnusedTrailing>* unused = nullptr,
                                                   Noseless noseless = Noseless::kOfAircraft);
 
+/// An edge at an end of a lifting surface.
+struct EndRim {
+  EdgeId edge = kNone;
+  double chord = 0;  ///< of that end, model unit
+};
+
+/// Edges around the first and the last measured profile along the span: between faces of the surface and others, near
+/// the chord there, and no trailing or leading edges. Ascending. A tip that is pinched has none. Local.
+std::vector<EndRim> find_end_rims(const Model& model, const LiftingSurface& wing);
+
 }  // namespace st

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/log.h"
 #include "features/arc_table.h"
 
 namespace st {
@@ -18,10 +19,11 @@ class LocalLengths {
  public:
   LocalLengths(const LiftingSurface& wing, const WingSizes& sizes) : span_(wing.span), sizes_(sizes) {}
 
-  double floor(double chord) const {
-    return sizes_.least ? resolve_length(*sizes_.least, reference_of(chord), "--lmin") : 0;
+  double floor(double chord) const { return sizes_.least ? resolved(*sizes_.least, "--lmin", chord) : 0; }
+  double asked(double chord) const { return resolved(sizes_.edge_size, "--edge-size", chord); }
+  double resolved(const LengthSpec& size, const char* option, double chord) const {
+    return resolve_length(size, reference_of(chord), option);
   }
-  double asked(double chord) const { return resolve_length(sizes_.edge_size, reference_of(chord), "--edge-size"); }
 
  private:
   LengthReference reference_of(double chord) const {
@@ -72,6 +74,16 @@ class WingRaster {
       const double width = (trailing.is_half ? 2 : 1) * station.width();
       return Place{station.middle(), std::max(length_across(sizes_.base_cells, width, edge), floor_of(chord)),
                    0.5 * station.across};
+    });
+  }
+
+  void add_rim(const EndRim& rim, const LengthSpec& size) {
+    const auto curve = model_.curve(rim.edge);
+    const ArcTable arc(*curve);
+    const double length =
+        std::max(LocalLengths(wing_, sizes_).resolved(size, "--end-size", rim.chord), floor_of(rim.chord));
+    walk(arc.length(), pack_cause(CauseKind::kEdge, rim.edge), [&](double share) {
+      return Place{curve->point(arc.parameter_at(share)), length};
     });
   }
 
@@ -164,6 +176,14 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
     const bool is_second = has_base && !trailing.is_half && strip->edges[1] == trailing.edge;
     if (has_noses && !is_second) raster.add_noses(trailing);
     if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
+  }
+  if (sizes.end_size) {
+    const std::vector<EndRim> rims = find_end_rims(model, wing);
+    for (const EndRim& rim : rims)
+      if (!is_ruled(rim.edge)) raster.add_rim(rim, *sizes.end_size);
+    if (rims.empty() && !wing.trailing.empty())
+      log_warning("--end-size: no edge runs around the tip or root of the lifting surface at edge " +
+                  std::to_string(wing.trailing.front().edge + 1));
   }
   return raster.most_raised();
 }

@@ -30,10 +30,11 @@ struct WingSizes {
   LengthSpec edge_size;       ///< along trailing edges and noses; chord and span are local
   int base_cells = 2;         ///< lengths across the base of a blunt trailing edge, down to a quarter of edge_size
   LengthReference reference;  ///< of lengths that are not the wing's
-  std::optional<LengthSpec> least;  ///< nothing is finer; nullopt: no floor
-  double cell_per_length = 2;       ///< edge of a raster box over its length
-  StretchLimits stretch = {};       ///< along edge, nose and base
-  GivenFloors given = {};           ///< by rules: likewise nothing is finer there
+  std::optional<LengthSpec> least;                    ///< nothing is finer; nullopt: no floor
+  double cell_per_length = 2;                         ///< edge of a raster box over its length
+  StretchLimits stretch = {};                         ///< along edge, nose and base
+  GivenFloors given = {};                             ///< by rules: likewise nothing is finer there
+  std::optional<LengthSpec> end_size = std::nullopt;  ///< along the rims of tip and root; nullopt: not asked for
 };
 
 /// What is asked for along a trailing edge where its chord is `chord`, model unit. Throws Error(kUsage).
@@ -50,8 +51,9 @@ struct RaisedLength {
 void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most);
 
 /// Appends boxes along the trailing edges and the noses of a lifting surface, and across its bases, one length apart.
-/// Edges and bases in `is_left_out` ([n_edges] 1: a rule says what they get) are passed over; with one of the leading
-/// edges all noses are. Where `given` raises lengths, the place where it does so most. Local. Throws Error(kUsage).
+/// Likewise along the rims of tip and root where `end_size` is set. Edges and bases in `is_left_out` ([n_edges] 1: a
+/// rule says what they get) are passed over; with one of the leading edges all noses are. Where `given` raises lengths,
+/// the place where it does so most. Local. Throws Error(kUsage).
 std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface& wing, const WingSizes& sizes,
                                         std::span<const Strip> strips, std::span<const std::uint8_t> is_left_out,
                                         std::vector<RasterBox>& boxes);

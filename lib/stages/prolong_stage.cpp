@@ -13,6 +13,7 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "io/file/json_text.h"
 #include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
@@ -34,12 +35,34 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMostExact = 9e15;  // triangles that are still written as a whole number
 
+/// A member of a grid family beside the sizing itself.
+struct FamilyMember {
+  std::string level;  ///< "coarse"
+  double factor;      ///< of all lengths
+};
+
+/// Of the workshops from level to level (L+2)/(L+1), level 3 being the medium one (guidelines of the seventh drag
+/// prediction workshop). Throws Error(kUsage).
+std::vector<FamilyMember> family_members(const std::string& family) {
+  if (family.empty()) return {};
+  if (family == "dpw") {
+    std::vector<FamilyMember> members;
+    for (int level = 1; level <= 6; ++level) members.push_back({fmt::format("L{}", level), 4.0 / (level + 1)});
+    return members;
+  }
+  const std::optional<double> ratio = as_number(family);
+  if (!ratio || !ProlongStageOptions::kFamily.refusal(*ratio).empty())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--family {}: takes a ratio in {} or dpw", family, ProlongStageOptions::kFamily.interval));
+  return {{"coarse", *ratio}, {"fine", 1 / *ratio}};
+}
+
 void require_valid(const ProlongStageOptions& o) {
   o.kSlope.require(o.slope);
   o.kScale.require(o.scale);
   o.kTargetTriangles.require(o.target_triangles);
   o.kMaxTriangles.require(o.max_triangles);
-  o.kFamily.require(o.family);
+  family_members(o.family);
   parse_similarity(o.transform, "--transform");
   require_blank_side(o.blank_side);
   if (o.no_blank && !o.blank.empty())
@@ -385,7 +408,7 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
 }
 
 /// "out/sizing.hdf" and "coarse" -> "out/sizing-coarse.hdf".
-std::string family_member(const std::string& path, const std::string& level) {
+std::string member_path(const std::string& path, const std::string& level) {
   std::filesystem::path p(path);
   p.replace_filename(p.stem().string() + "-" + level + p.extension().string());
   return p.string();
@@ -412,8 +435,10 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   const Timer timer;
   require_valid(o);
   require_writable(o.output);
-  const std::string coarse = family_member(o.output, "coarse"), fine = family_member(o.output, "fine");
-  if (o.family) require_derived_outputs({coarse, fine});
+  const std::vector<FamilyMember> members = family_members(o.family);
+  std::vector<std::string> paths;
+  for (const FamilyMember& m : members) paths.push_back(member_path(o.output, m.level));
+  require_derived_outputs(paths);
   if (!o.sample.empty()) require_writable(o.sample_output);
   ProlongedSizes sizes = read_and_prolong(o);
   SizingArtifact& sizing = sizes.sizing;
@@ -424,11 +449,8 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   sizing.header.content_hash = write_sizing(o.output, sizing);
   for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_report(line);
   const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());
-  if (o.family) {
-    const double scale = sizing.scale;
-    write_member(o, coarse, scale * *o.family, sizes);
-    write_member(o, fine, scale / *o.family, sizes);
-  }
+  const double scale = sizing.scale;
+  for (std::size_t i = 0; i < members.size(); ++i) write_member(o, paths[i], scale * members[i].factor, sizes);
   return summary;
 }
 

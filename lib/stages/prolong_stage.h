@@ -26,10 +26,11 @@ struct ProlongStageOptions {
                           ///< are
   std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:
                           ///< that one
-  std::optional<double> family;
+  std::string family;     ///< a ratio, or "dpw"; empty: none
   static constexpr NumberOption kFamily{
       "--family", "RATIO", "(1, 4]",
-      "grid family: also write OUTPUT-coarse and OUTPUT-fine, lengths multiplied and divided by this ratio"};
+      "grid family: also write OUTPUT-coarse and OUTPUT-fine, lengths multiplied and divided by this ratio; dpw: "
+      "OUTPUT-L1 to -L6 of the drag prediction workshops, L3 as OUTPUT"};
   std::optional<int> target_triangles;
   static constexpr NumberOption kTargetTriangles{
       "--target-triangles", "N", "[4, 2e9]",

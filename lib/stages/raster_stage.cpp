@@ -111,9 +111,14 @@ std::optional<LengthSpec> edge_size(const RasterStageOptions& o) {
   return o.edge_size == "none" ? std::nullopt : std::optional(parse_length(o.edge_size, "--edge-size"));
 }
 
+std::optional<LengthSpec> end_size(const RasterStageOptions& o) {
+  return o.end_size.empty() ? std::nullopt : std::optional(parse_length(o.end_size, "--end-size"));
+}
+
 void require_valid(const RasterStageOptions& o) {
   option_rules(o);
   edge_size(o);
+  end_size(o);
   SizeOptions::kAlpha.require(o.alpha_deg);
   SizeOptions::kGapCells.require(o.gap_cells);
   SizeOptions::kWallCells.require(o.wall_cells);
@@ -142,6 +147,7 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
     return resolve_length(parse_length(text, option), {diagonal, t.unit_in_m}, option);
   };
   if (const std::optional<LengthSpec> size = edge_size(o)) require_unit(*size, t.unit_in_m, "--edge-size");
+  if (const std::optional<LengthSpec> size = end_size(o)) require_unit(*size, t.unit_in_m, "--end-size");
   limits.max_length = resolved(o.lmax, "--lmax", kDefaultMaxLength * diagonal);
   limits.min_length = resolved(o.lmin, "--lmin", kDefaultMinLength * limits.max_length);
   limits.alpha = radians(o.alpha_deg);
@@ -220,6 +226,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   WingSizes sizes{*size, o.base_cells, {diagonal, model.tables().unit_in_m}, std::nullopt, o.cell_per_length};
   sizes.stretch = {o.max_aspect, max_length, radians(o.alpha_deg)};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
+  sizes.end_size = end_size(o);
   sizes.given = find_floors(rules, false, model.tables(), wings.edges, limits);
   warn_of_floor(o, wings.aircraft.wings, sizes);
   std::optional<RaisedLength> most;
@@ -534,6 +541,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
     options["chord"] = limits.chord;
   options["edge_size"] = o.edge_size;
   options["base_cells"] = o.base_cells;
+  if (!o.end_size.empty()) options["end_size"] = o.end_size;
   options["chord_cells"] = o.chord_cells;
   if (o.all_walls) options["all_walls"] = true;
   if (o.no_surface) options["no_surface"] = true;
@@ -613,6 +621,7 @@ std::string wing_options(const RasterStageOptions& o) {
   };
   add(o.edge_size != defaults.edge_size && o.edge_size != "none", "--edge-size");
   add(o.base_cells != defaults.base_cells, "--base-cells");
+  add(o.end_size != defaults.end_size, "--end-size");
   add(o.chord_cells != defaults.chord_cells, "--chord-cells");
   return set;
 }

@@ -22,6 +22,7 @@ struct RasterStageOptions {
   std::optional<int> gap_cells, wall_cells, edge_cells;
   std::string trailing_edges;  ///< lengths at detected trailing edges: "LMIN:LMAX" or "LMAX"; empty: not detected
   std::string leading_edges;   ///< lengths at detected leading edges, written the same way
+  std::string end_size;        ///< length along the rims of tips and roots of lifting surfaces; empty: off
   std::string edge_size = "0.3%chord";  ///< length at trailing edges and noses of lifting surfaces; "none": off
   int base_cells = 2;
   static constexpr NumberOption kBaseCells{"--base-cells", "N", "[1, 100]",

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/error.h"
 #include "base/near_face_name.h"
@@ -20,11 +19,9 @@ NamedSlope parse_slope(const std::string& item) {
   NamedSlope result;
   if (equals != std::string::npos) {
     result.name = trimmed(std::string_view(item).substr(0, equals));
-    const std::string number = trimmed(std::string_view(item).substr(equals + 1));
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), result.slope);
-    if (error == std::errc() && end == number.data() + number.size() && !result.name.empty() &&
-        kSlope.refusal(result.slope).empty())
-      return result;
+    const auto slope = as_number(trimmed(std::string_view(item).substr(equals + 1)));
+    result.slope = slope.value_or(0);
+    if (slope && !result.name.empty() && kSlope.refusal(result.slope).empty()) return result;
   }
   throw Error(ExitCode::kUsage,
               fmt::format("--slope-of '{}': not understood; write NAME=S with S in {}, such as WING=0.1", item,

@@ -61,6 +61,20 @@ class Presets(unittest.TestCase):
             same = run("st-diff", WORK / f"member-{level}.hdf", WORK / "alone.hdf")
             self.assertEqual(same.returncode, 0, level + same.stdout)
 
+    def test_the_family_of_the_workshops_has_six_levels_the_third_as_it_is(self):
+        raster, sizing = WORK / "raster.hdf", WORK / "dpw.hdf"
+        summary("st-raster", self.geometry, "-o", raster)
+        summary("st-prolong", raster, "-o", sizing, "--family", "dpw")
+        self.assertEqual(run("st-diff", WORK / "dpw-L3.hdf", sizing).returncode, 0)
+        for level in range(1, 7):
+            scale = 4 / (level + 1)
+            summary("st-prolong", raster, "-o", WORK / "alone.hdf", "--scale", repr(scale))
+            same = run("st-diff", WORK / f"dpw-L{level}.hdf", WORK / "alone.hdf")
+            self.assertEqual(same.returncode, 0, f"L{level}: {same.stdout}")
+        refused = run("st-prolong", raster, "-o", sizing, "--family", "dwp")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("takes a ratio in (1, 4] or dpw", refused.stderr)
+
     def test_an_unknown_preset_is_refused_with_the_names(self):
         done = run("st-raster", self.geometry, "--preset", "ranz")
         self.assertEqual(done.returncode, 2)

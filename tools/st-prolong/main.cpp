@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   tool.number(o.kScale, o.scale);
   tool.number(o.kTargetTriangles, o.target_triangles);
   tool.number(o.kMaxTriangles, o.max_triangles);
-  tool.number(o.kFamily, o.family);
+  tool.text(o.kFamily.flag, o.family, o.kFamily.unit, o.kFamily.help);
   tool.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
   tool.optional_input("--background", o.background,
                       "background mesh with edge lengths: .bac, .ba3 or .msh (version 2.2)");

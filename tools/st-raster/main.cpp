@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
             "find trailing edges by shape and give them these edge lengths; default: off");
   tool.text("--leading-edges", o.leading_edges, "[LMIN:]LMAX",
             "find leading edges by shape and give them these edge lengths; default: off");
+  tool.text("--end-size", o.end_size, "LENGTH",
+            "edge length around the tips and roots of lifting surfaces, such as 0.1%span; default: not set");
   tool.text("--edge-size", o.edge_size, "LENGTH",
             "edge length at trailing edges and noses of lifting surfaces; none: as all other edges");
   tool.number(o.kBaseCells, o.base_cells);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPoleTurning = 60.0 * kPi / 180.0;  // of the transverse tangent between the nodes of a pole
 constexpr double kJunctionGap = 0.02;  // of the requested length: larger gaps in (u,v) between coedges get a segment
 constexpr double kInexactGap = 0.3;    // likewise, of gaps within the tolerance of their vertex: such a segment may run
-                                     // back along its neighbour
+                                       // back along its neighbour
 
 struct End {
   Vec2 uv;

@@ -19,5 +19,11 @@ TEST(Text, is_a_range_of_numbers_or_a_name) {
     EXPECT_EQ(as_range(name), std::nullopt) << name;
 }
 
+TEST(Text, is_a_number_as_a_whole_or_none) {
+  EXPECT_EQ(as_number("1.5"), 1.5);
+  EXPECT_EQ(as_number("-2e3"), -2000);
+  for (const char* other : {"", "dpw", "1.5x", " 1", "inf", "nan"}) EXPECT_EQ(as_number(other), std::nullopt) << other;
+}
+
 }  // namespace
 }  // namespace st

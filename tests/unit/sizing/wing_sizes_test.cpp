@@ -98,6 +98,18 @@ TEST(WingSizes, do_not_lay_more_cells_across_a_base_than_a_quarter_of_the_edges_
     }
 }
 
+TEST(WingSizes, run_around_tips_where_that_is_asked_for) {
+  WingSizes sizes = share_of_chord("0.5%chord");
+  const std::size_t before = sample("sharp_wing", sizes).boxes.size();
+  sizes.end_size = parse_length("0.1%span", "--end-size");
+  const Sampled s = sample("sharp_wing", sizes);
+  const auto n = std::ranges::count_if(s.boxes, [](const RasterBox& b) {
+    return std::abs(b.length - 0.03) < 1e-6 && (b.center.z < 1e-6 || b.center.z > 30 - 1e-6);
+  });
+  EXPECT_EQ(static_cast<std::size_t>(n), s.boxes.size() - before);
+  EXPECT_GT(n, 4 * 300) << "four sides of ten, one box for each 0.03";
+}
+
 TEST(WingSizes, leave_out_what_a_rule_names) {
   const auto trailing = static_cast<EdgeId>(WingEdgeKind::kBluntTrailing),
              leading = static_cast<EdgeId>(WingEdgeKind::kLeading);

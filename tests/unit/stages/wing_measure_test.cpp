@@ -3,44 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include "stages/wing_table.h"
+#include "unit/stages/plank.h"
 
 namespace st {
 namespace {
 
-constexpr int kChordwise = 20, kSpanwise = 40;  // cells of 0.05 by 0.1
-
-/// A wing of chord 1 and span 4 along y: face 0 above and face 1 below, one apart from the other by 0.1.
-SurfaceMesh plank() {
-  SurfaceMesh mesh;
-  for (int side = 0; side < 2; ++side) {
-    const auto first = static_cast<NodeId>(mesh.node_xyz.size());
-    for (int j = 0; j <= kSpanwise; ++j)
-      for (int i = 0; i <= kChordwise; ++i) mesh.node_xyz.push_back({0.05 * i, 0.1 * j, side == 0 ? 0.05 : -0.05});
-    const auto node = [&](int i, int j) { return first + j * (kChordwise + 1) + i; };
-    for (int j = 0; j < kSpanwise; ++j)
-      for (int i = 0; i < kChordwise; ++i)
-        for (const Triangle& t : {Triangle{{node(i, j), node(i + 1, j), node(i + 1, j + 1)}},
-                                  Triangle{{node(i, j), node(i + 1, j + 1), node(i, j + 1)}}}) {
-          mesh.triangles.push_back(t);
-          mesh.triangle_face.push_back(side);
-        }
-  }
-  return mesh;
-}
-
-/// Stations at each cell's middle, in whatever order.
-WingRecord record(double asked) {
-  WingRecord wing;
-  for (int j = kSpanwise - 1; j >= 0; --j) {
-    const double y = 0.1 * (j + 0.5);
-    wing.stations.push_back({{0, y, 0}, {1, y, 0}, 1, asked});
-  }
-  wing.edges = {4};
-  wing.faces = {0, 1};
-  wing.span = 4;
-  return wing;
-}
+using test::kChordwise;
+using test::kSpanwise;
+using test::plank;
+using test::record;
 
 TEST(WingMeasure, knows_lengths_across_and_along_the_span) {
   const WingRecord wing = record(0.05);
@@ -99,21 +70,6 @@ TEST(WingMeasure, of_a_surface_without_noses_has_its_trailing_edge) {
   EXPECT_NEAR(all[0].stations[0].trailing.normal, 0.05, 1e-9);
   EXPECT_EQ(all[0].stations[0].nose.normal, 0);
   EXPECT_EQ(all[0].n_triangles, 0);
-}
-
-TEST(WingTable, has_a_line_for_each_surface) {
-  EXPECT_EQ(wing_table({}, false), "");
-  const std::vector<WingRecord> wings = {record(0.05), record(0.05)};
-  const std::vector<WingMeasure> all = measure_wings(plank(), wings);
-  const std::string text = wing_table(all, false);
-  EXPECT_EQ(std::ranges::count(text, '\n'), 4);
-  EXPECT_NE(text.find("edge 5"), std::string::npos) << text;
-  EXPECT_NE(text.find("5 5 5 5 5"), std::string::npos) << text;
-  EXPECT_NE(wing_table(all, true).find("nose along"), std::string::npos);
-  const nlohmann::json json = wing_measures_json(all);
-  EXPECT_EQ(json.size(), 2u);
-  EXPECT_EQ(json[1]["stations"].size(), 5u);
-  EXPECT_NEAR(json[1]["stations"][0]["nose"]["normal"].get<double>(), 0.05, 1e-9);
 }
 
 }  // namespace
