@@ -52,7 +52,8 @@ CadLines cad_lines(const Model& model, std::span<const FaceId> unmeshed) {
       lines.runs.push_back({kind[e], group[e], 0});
     const std::vector<Vec3> points = line_to_see(*model.curve(e));
     for (std::size_t i = 1; i < points.size(); ++i) lines.ends.insert(lines.ends.end(), {points[i - 1], points[i]});
-    lines.runs.back().n_lines += static_cast<std::int64_t>(points.size()) - 1;
+    lines.edges.push_back({e, static_cast<std::int64_t>(points.size()) - 1});
+    lines.runs.back().n_lines += lines.edges.back().n_lines;
   }
   return lines;
 }

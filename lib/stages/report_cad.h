@@ -27,10 +27,17 @@ struct LineRun {
   std::int64_t n_lines = 0;
 };
 
+/// The lines of one edge.
+struct EdgeLines {
+  EdgeId edge = kNone;
+  std::int64_t n_lines = 0;
+};
+
 /// Edges as straight lines, sorted by kind and group.
 struct CadLines {
   std::vector<Vec3> ends;  ///< [2*n_lines]
   std::vector<LineRun> runs;
+  std::vector<EdgeLines> edges;  ///< in the same order
 };
 
 /// All edges but poles. `unmeshed`: faces, any order. Local; some microseconds per line.

@@ -306,9 +306,10 @@ Contents read_contents(const RunFiles& files) {
   return c;
 }
 
-/// The CAD's edges, and which of them are drawn when: [[kind, group, number of lines], ...].
+/// The CAD's edges, and which of them are drawn when: [[kind, group, number of lines], ...]. Each edge: [[number,
+/// number of lines, length, name], ...].
 struct LinePart {
-  Json meta = Json::array();
+  Json meta = Json::array(), edges = Json::array();
   std::vector<Vec3> ends;
 };
 
@@ -319,6 +320,9 @@ LinePart lines_to_show(const Contents& c) {
   for (const FaceFailure& f : c.failures) unmeshed.push_back(f.face);
   CadLines lines = cad_lines(*c.model, unmeshed);
   for (const LineRun& run : lines.runs) part.meta.push_back({static_cast<int>(run.kind), run.group, run.n_lines});
+  const ModelTables& t = c.model->tables();
+  for (const EdgeLines& own : lines.edges)
+    part.edges.push_back({own.edge + 1, own.n_lines, t.edge_length[own.edge], t.edge_name[own.edge]});
   part.ends = std::move(lines.ends);
   return part;
 }
@@ -357,6 +361,7 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   meta["import"] = import_findings(c.findings);
   meta["unmeshed"] = unmeshed_faces(c.failures, mesh.labels);
   meta["lines"] = lines.meta;
+  meta["edges"] = lines.edges;
   meta["times"] = stage_times(o.times);
   meta["sizes"] = sizes.meta;
   const std::vector<std::pair<std::string, std::string>> places = {

@@ -53,6 +53,22 @@ setTimeout(() => {
       $("sliced").checked = false; $("sliced").onchange();
       said.cleared = coloured() - before;
     }
+    canvas.setPointerCapture = () => {};  // made for real pointers
+    if (cadEdges.length) {
+      $("lined").checked = true;
+      const box = canvas.getBoundingClientRect(), s = 2 * camera.half / box.height, { right, up } = axes(), i = 6 * cadEdges[0].first;
+      const on = axis => [0, 1, 2].reduce((sum, k) => sum + axis[k] * ((lineEnds[i + k] + lineEnds[i + 3 + k]) / 2 - camera.focus[k]), 0) / s;
+      const place = { clientX: box.left + box.width / 2 + on(right), clientY: box.top + box.height / 2 - on(up), bubbles: true };
+      const click = () => { canvas.dispatchEvent(new PointerEvent("pointerdown", place)); canvas.dispatchEvent(new PointerEvent("pointerup", place)); canvas.dispatchEvent(new MouseEvent("click", place)); };
+      click();
+      said.picked = $("picked_edges").textContent;
+      said.rule = $("rule").textContent;
+      said.on_edge = cadEdges.some(e => said.picked.startsWith("edge " + e.number));
+      $("unpick").click();
+      said.unpicked = $("picked").hidden;
+      $("lined").checked = false;
+    }
+    said.wings = $("wings").textContent;
     const button = document.querySelector("#findings button");
     if (button) button.click();
     setTimeout(() => {
@@ -138,6 +154,9 @@ class Report(Browser):
         self.assertRegex(said["plane"], r"^z = \S+ mm$")
         self.assertGreater(said["covered"], 0.02, said)
         self.assertAlmostEqual(said["cleared"], 0, delta=0.001)
+        self.assertTrue(said["on_edge"] and said["unpicked"], said)
+        self.assertRegex(said["rule"], r"^\[\[size\]\]\nedges = \[\d+\]\ntrailing_edge = true$")
+        self.assertEqual(said["wings"], "")
 
     def test_a_mesh_that_fails_gets_its_report(self):
         _, file = self.report("plate_with_hole")
@@ -283,6 +302,7 @@ class Aircraft(Browser):
         self.assertTrue(said["turned"] and said["flown"], said)
         self.assertGreater(said["near"], 0.05, said)
         self.assertGreater(said["cells"], 1000, said)
+        self.assertIn("Lifting surfaces", said["wings"])
 
 
 if __name__ == "__main__":

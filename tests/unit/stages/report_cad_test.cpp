@@ -18,6 +18,9 @@ std::map<LineKind, double> lengths(const CadLines& lines) {
     for (const std::size_t end = i + 2 * static_cast<std::size_t>(run.n_lines); i < end; i += 2)
       length[run.kind] += distance(lines.ends[i], lines.ends[i + 1]);
   EXPECT_EQ(i, lines.ends.size());
+  std::int64_t n_lines = 0;
+  for (const EdgeLines& own : lines.edges) n_lines += own.n_lines;
+  EXPECT_EQ(2 * n_lines, static_cast<std::int64_t>(lines.ends.size()));
   return length;
 }
 
