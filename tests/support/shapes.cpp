@@ -591,6 +591,15 @@ const std::map<std::string, Factory>& factories() {
        [] {
          return occt::compound_of({box(10, 10, 10), moved(box(10, 10, 10), 30, 0, 0)});
        }},
+      {"facing_wedges",  // two wedges whose ends are coplanar and whose boxes meet, 1.4 apart
+       [] {
+         const auto wedge = [](gp_Pnt a, gp_Pnt b, gp_Pnt c) {
+           BRepBuilderAPI_MakePolygon outline(a, b, c, true);
+           return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire(), true).Face(), gp_Vec(0, 0, 5)).Shape();
+         };
+         return occt::compound_of(
+             {wedge({0, 0, 0}, {10, 0, 0}, {0, 10, 0}), wedge({12, 0, 0}, {12, 12, 0}, {0, 12, 0})});
+       }},
       {"box_of_60", [] { return box(60, 60, 60); }},
       {"nested_boxes",
        [] {

@@ -33,6 +33,7 @@ alpha = 7
 edge-size = "0.1%chord"
 base-cells = 4
 chord-cells = 40
+gap-cells = 8
 [st-prolong]
 slope = 0.15
 )"},
@@ -43,6 +44,7 @@ alpha = 5
 edge-size = "0.07%chord"
 base-cells = 6
 chord-cells = 60
+gap-cells = 8
 [st-prolong]
 slope = 0.12
 )"},

@@ -22,6 +22,7 @@
 #include <optional>
 #include <set>
 
+#include "base/box_tree.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -177,6 +178,31 @@ bool lie_on_each_other(const TopoDS_Face& a, const TopoDS_Face& b, double tolera
   return probe_a.distance_of(probe_b.samples()) || probe_b.distance_of(probe_a.samples());
 }
 
+/// Points on the edges of a face in a box, edge by edge.
+std::vector<Vec3> points_on_edges(const TopoDS_Face& face, const Box3& box, double tolerance) {
+  constexpr int kSamples = 17;
+  std::vector<Vec3> points;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(it.Current());
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const BRepAdaptor_Curve curve(edge);
+    const double first = curve.FirstParameter(), way = curve.LastParameter() - first;
+    for (int i = 0; i < kSamples; ++i) {
+      const Vec3 x = vec(curve.Value(first + way * i / (kSamples - 1)));
+      if (distance2(x, box) <= tolerance * tolerance) points.push_back(x);
+    }
+  }
+  return points;
+}
+
+/// A face to compare with several others; made once.
+struct ProbedFace {
+  FaceProbe probe;
+  std::vector<Vec3> samples;
+
+  ProbedFace(const TopoDS_Face& face, double tolerance) : probe(face, tolerance), samples(probe.samples()) {}
+};
+
 /// Finds pairs of solids whose faces lie on each other.
 class FaceContacts {
  public:
@@ -210,13 +236,49 @@ class FaceContacts {
       const Vec3 p = box.center();
       const BRepAdaptor_Surface sa(a, false), sb(b, false);
       if (const auto same = are_one_surface(sa, sb, {p.x, p.y, p.z}, box.diagonal(), tolerance))
-        return *same && (!are_sharers(f, g) || lie_on_each_other(a, b, tolerance));
+        return *same && (are_sharers(f, g) ? lie_on_each_other(a, b, tolerance)
+                                           : !look_alike(a, b) || overlap(f, g, box, tolerance));
     }
     if (t_.face_type[f] != t_.face_type[g] && is_plane(f) && is_plane(g)) return false;
     if (n_sampled_++ >= kMostSampled) return false;
     const auto on_a = surface_of(a, f), on_b = surface_of(b, g);
     return lies_on(*on_a, *on_b, box, tolerance) || lies_on(*on_b, *on_a, box, tolerance);
   }
+  /// Planes that bound their solids on the same side, such as the end caps of two bodies beside each other. Faces that
+  /// touch look opposite ways; only bodies at one place look alike.
+  static bool look_alike(const TopoDS_Face& a, const TopoDS_Face& b) {
+    const BRepAdaptor_Surface sa(a, false), sb(b, false);
+    if (sa.GetType() != GeomAbs_Plane || sb.GetType() != GeomAbs_Plane) return false;
+    const auto normal = [](const BRepAdaptor_Surface& s, const TopoDS_Face& face) {
+      const gp_Ax3 axes = s.Plane().Position();
+      const bool is_turned = (face.Orientation() == TopAbs_REVERSED) != !axes.Direct();
+      return is_turned ? axes.Direction().Reversed() : axes.Direction();
+    };
+    return normal(sa, a).Dot(normal(sb, b)) > 0;
+  }
+
+  /// Of faces of one surface whose boxes have `box` in common: coplanar faces beside each other do not. Where one is
+  /// not within the other, the edges of one run through the other. True for faces that cannot be measured.
+  bool overlap(FaceId f, FaceId g, const Box3& box, double tolerance) {
+    try {
+      ProbedFace &a = probed(f), &b = probed(g);
+      const auto edges_of = [&](FaceId id) {
+        return points_on_edges(TopoDS::Face(model_.faces(id + 1)), box, tolerance);
+      };
+      return a.probe.distance_of(b.samples) || b.probe.distance_of(a.samples) || a.probe.distance_of(edges_of(g)) ||
+             b.probe.distance_of(edges_of(f));
+    } catch (const Standard_Failure&) {
+      return true;
+    }
+  }
+  ProbedFace& probed(FaceId f) {
+    const auto [at, is_new] = probed_.try_emplace(f);
+    if (is_new)
+      at->second =
+          std::make_unique<ProbedFace>(TopoDS::Face(model_.faces(f + 1)), std::max(tolerance_, t_.face_tolerance[f]));
+    return *at->second;
+  }
+
   bool are_sharers(FaceId f, FaceId g) const {
     return sharers_.count(t_.face_solid[f]) > 0 && sharers_.count(t_.face_solid[g]) > 0;
   }
@@ -231,6 +293,7 @@ class FaceContacts {
   double tolerance_;
   std::set<int> sharers_;
   std::size_t n_sampled_ = 0;
+  std::map<FaceId, std::unique_ptr<ProbedFace>> probed_;
 };
 
 // --- edges on each other ---
