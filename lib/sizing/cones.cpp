@@ -9,121 +9,10 @@
 #include <utility>
 
 #include "base/limits.h"
+#include "sizing/cone_cell.h"
 
 namespace st {
 namespace {
-
-// Of the length known at a place: less is no gain.
-constexpr float kClearly = 0.99F;
-constexpr float kClearlyNearby = 0.997F;  // where a sample is near: the mesh's nodes are
-constexpr float kWide = 0.25F;            // of half the edge: wider rectangles are looked at in more places
-constexpr float kNearby = 3.75F;          // half edges from the centre: one edge from the closest point
-
-using Int4 [[gnu::vector_size(16)]] = std::int32_t;  // of a comparison: -1 where it holds
-
-bool is_any(Int4 v) {
-  std::uint64_t half[2];
-  std::memcpy(half, &v, sizeof half);
-  return (half[0] | half[1]) != 0;
-}
-
-Float4 min_of(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 max_of(Float4 a, Float4 b) { return a > b ? a : b; }
-
-float least_of(Float4 v) { return std::min({v[0], v[1], v[2], v[3]}); }
-
-Float4 root_of(Float4 v) {
-  Float4 root{};
-  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(v[i]);
-  return root;
-}
-
-Float4 four(float v) { return v - Float4{}; }
-
-/// A cone with each of its numbers four times, to be asked at four places at once.
-class WideCone {
- public:
-  explicit WideCone(const Cone& cone) : length_(four(cone.length)), slope_(four(cone.slope)) {
-    for (; n_sides_ < 2 && cone.half[n_sides_] > 0; ++n_sides_) {
-      most_[n_sides_] = four(cone.half[n_sides_]);
-      for (int k = 0; k < 3; ++k) side_[n_sides_][k] = four(cone.side[n_sides_][k]);
-    }
-  }
-  /// Distances of places that lie so far from the middle of its rectangle.
-  Float4 distance(Float4 x, Float4 y, Float4 z) const {
-    for (int e = 0; e < n_sides_; ++e) {
-      const Float4(&unit)[3] = side_[e];
-      const Float4 along = max_of(min_of(x * unit[0] + y * unit[1] + z * unit[2], most_[e]), -most_[e]);
-      x -= along * unit[0];
-      y -= along * unit[1];
-      z -= along * unit[2];
-    }
-    return root_of(x * x + y * y + z * z);
-  }
-  Float4 length_at(Float4 distance) const { return length_ + slope_ * distance; }
-
- private:
-  Float4 length_, slope_, side_[2][3], most_[2];
-  int n_sides_ = 0;
-};
-
-/// Four places, from the lower corner of the root.
-struct FourPlaces {
-  Float4 x[3];
-
-  Float4 distance(const Cone& cone, const WideCone& wide) const {
-    return wide.distance(x[0] - cone.x[0], x[1] - cone.x[1], x[2] - cone.x[2]);
-  }
-  Float4 length(const Cone& cone) const {
-    const WideCone wide(cone);
-    return wide.length_at(distance(cone, wide));
-  }
-};
-
-// Where the lengths in a cell are compared: its corners, the centres of its faces, its own centre (twice).
-constexpr int kGroups = 4;  // of four probes
-constexpr Float4 kProbe[kGroups][3] = {{{-1, 1, -1, 1}, {-1, -1, 1, 1}, {-1, -1, -1, -1}},
-                                       {{-1, 1, -1, 1}, {-1, -1, 1, 1}, {1, 1, 1, 1}},
-                                       {{-1, 1, 0, 0}, {0, 0, -1, 1}, {0, 0, 0, 0}},
-                                       {{0, 0, 0, 0}, {0, 0, 0, 0}, {-1, 1, 0, 0}}};
-using Lengths = std::array<Float4, kGroups>;
-
-float at_center(const Lengths& lengths) { return lengths[kGroups - 1][3]; }
-
-/// A cube in single precision.
-struct Cell {
-  float c[3];
-  float half;
-
-  /// Of a cone at the probes.
-  Lengths lengths(const Cone& cone) const {
-    Lengths result;
-    const WideCone wide(cone);
-    const Float4 x = four(c[0] - cone.x[0]), y = four(c[1] - cone.x[1]), z = four(c[2] - cone.x[2]), h = four(half);
-    for (int g = 0; g < kGroups; ++g)
-      result[g] = wide.length_at(wide.distance(x + h * kProbe[g][0], y + h * kProbe[g][1], z + h * kProbe[g][2]));
-    return result;
-  }
-  /// The places of the cell closest to those `a` and `b` along the sides of a cone's rectangle.
-  FourPlaces closest(const Cone& cone, Float4 a, Float4 b) const {
-    FourPlaces places;
-    for (int k = 0; k < 3; ++k) {
-      const Float4 lo = four(c[k] - half), hi = four(c[k] + half);
-      places.x[k] = max_of(lo, min_of(hi, cone.x[k] + a * cone.side[0][k] + b * cone.side[1][k]));
-    }
-    return places;
-  }
-  /// From the place closest to the middle of a cone's rectangle towards the centre.
-  FourPlaces closest(const Cone& cone) const {
-    constexpr Float4 kTowards{0, 0.25F, 0.5F, 0.75F};
-    FourPlaces places;
-    for (int k = 0; k < 3; ++k) {
-      const float from = std::clamp(cone.x[k], c[k] - half, c[k] + half);
-      places.x[k] = from + kTowards * (c[k] - from);
-    }
-    return places;
-  }
-};
 
 class ConeSpread {
  public:
@@ -191,7 +80,7 @@ class ConeSpread {
   struct Site {
     static constexpr std::int32_t kOwn = 7;
 
-    Cell cell;
+    ConeCell cell;
     Lengths best;                                  // smallest at the probes
     std::int32_t n = 0;                            // its samples, in order
     std::array<std::int32_t, kOwn> own{};          // the first of them
@@ -200,11 +89,8 @@ class ConeSpread {
     std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
   };
 
-  Cell cell_of(std::int32_t site) const {
-    const std::int32_t leaf = site < octree_.n_leaves() ? site : blanking_->split_leaf[site - octree_.n_leaves()];
-    const Vec3 c = octree_.leaf_center(leaf) - octree_.lo;
-    return {{static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
-            static_cast<float>(0.5 * octree_.cell_edge(octree_.leaf_levels[leaf]))};
+  ConeCell cell_of(std::int32_t site) const {
+    return {octree_, site < octree_.n_leaves() ? site : blanking_->split_leaf[site - octree_.n_leaves()]};
   }
 
   /// Parts of cut cells that no sample came to across a face are given what is known where links lead. A part that the
@@ -296,7 +182,7 @@ class ConeSpread {
     if (sites_[site].refused == sample || has(site, sample)) return false;
     Lengths& best = sites_[site].best;
     const Lengths own = sites_[site].cell.lengths(cones_[sample]);
-    const bool is_near = is_nearby(sites_[site].cell, cones_[sample], own);
+    const bool is_near = sites_[site].cell.is_near(cones_[sample], at_center(own));
     const float share = is_near ? kClearlyNearby : kClearly;
     if (!is_below(own, share, best) && !(is_near && wins_nearby(site, sample))) {
       sites_[site].refused = sample;
@@ -323,69 +209,26 @@ class ConeSpread {
     ++s.n;
   }
 
-  /// Whether lengths are below a share of others at any probe.
-  static bool is_below(const Lengths& lengths, float share, const Lengths& others) {
-    Int4 is_below{};
-    for (int g = 0; g < kGroups; ++g) is_below |= lengths[g] < share * others[g];
-    return is_any(is_below);
-  }
-
-  /// From afar lengths change evenly over a cell.
-  static bool is_nearby(const Cell& cell, const Cone& cone, const Lengths& own) {
-    return at_center(own) <= cone.length + cone.slope * kNearby * cell.half;
-  }
-
   /// Whether the sample wins where the site is close to it.
   bool wins_nearby(std::int32_t site, std::int32_t sample) const {
-    return wins_nearby(sites_[site].cell, cones_[sample], [&](const auto& is_beaten_by) {
+    return sites_[site].cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
       any_sample(site, [&](std::int32_t other) { return is_beaten_by(cones_[other]); });
     });
-  }
-
-  /// `visit_known` calls its argument for other cones of the cell, until it is true.
-  template <class VisitKnown>
-  bool wins_nearby(const Cell& cell, const Cone& cone, const VisitKnown& visit_known) const {
-    if (!(cone.half[0] > kWide * cell.half)) return wins_at(cell.closest(cone), cell, cone, visit_known);
-    constexpr float kInside = 0.8F;  // of the sides: further out its neighbours count
-    const float a = kInside * cone.half[0], b = kInside * cone.half[1];
-    float towards[2];  // of the rectangle the place closest to the cell's centre
-    for (int e = 0; e < 2; ++e) {
-      const float(&unit)[3] = cone.side[e];
-      float along = 0;
-      for (int k = 0; k < 3; ++k) along += (cell.c[k] - cone.x[k]) * unit[k];
-      towards[e] = std::clamp(along, -kInside * cone.half[e], kInside * cone.half[e]);
-    }
-    return wins_at(cell.closest(cone, Float4{0, a, -a, towards[0]}, Float4{0, 0, 0, towards[1]}), cell, cone,
-                   visit_known) ||
-           wins_at(cell.closest(cone, Float4{a, a, -a, -a}, Float4{b, -b, b, -b}), cell, cone, visit_known);
-  }
-
-  template <class VisitKnown>
-  bool wins_at(const FourPlaces& places, const Cell& cell, const Cone& cone, const VisitKnown& visit_known) const {
-    const WideCone wide(cone);
-    const Float4 distance = places.distance(cone, wide), limit = (1 / kClearlyNearby) * wide.length_at(distance);
-    Int4 wins = (distance < 2 * cell.half) & (limit < largest_);
-    if (!is_any(wins)) return false;
-    visit_known([&](const Cone& other) {
-      wins &= places.length(other) >= limit;
-      return !is_any(wins);
-    });
-    return is_any(wins);
   }
 
   bool is_still_best(std::int32_t site, std::int32_t sample) const {
     constexpr float kSame = 1.0001F;
     const Lengths own = sites_[site].cell.lengths(cones_[sample]);
     if (is_below(own, kSame, sites_[site].best)) return true;
-    if (!is_nearby(sites_[site].cell, cones_[sample], own)) return false;
-    return wins_nearby(sites_[site].cell, cones_[sample], [&](const auto& is_beaten_by) {
+    if (!sites_[site].cell.is_near(cones_[sample], at_center(own))) return false;
+    return sites_[site].cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
       any_sample(site, [&](std::int32_t other) { return other != sample && is_beaten_by(cones_[other]); });
     });
   }
 
   /// Those of the site that win at a probe, or clearly where the site is close to them.
   const std::vector<std::int32_t>& pruned(std::int32_t site) {
-    const Cell& cell = sites_[site].cell;
+    const ConeCell& cell = sites_[site].cell;
     kept_.clear();
     doubtful_.clear();
     any_sample(site, [&](std::int32_t sample) {
@@ -417,7 +260,8 @@ class ConeSpread {
       const auto visit_kept = [&](const auto& is_beaten_by) {
         std::any_of(kept_.begin(), kept_.end(), [&](std::int32_t k) { return is_beaten_by(cones_[k]); });
       };
-      if (!wins(s) && is_nearby(cell, cones_[s], own_[i]) && wins_nearby(cell, cones_[s], visit_kept))
+      if (!wins(s) && cell.is_near(cones_[s], at_center(own_[i])) &&
+          cell.wins_nearby(cones_[s], largest_, visit_kept))
         kept_.push_back(s);
     }
     return kept_;
