@@ -115,6 +115,11 @@ struct ConeCell {
     return result;
   }
 
+  float length_at_center(const Cone& cone) const {
+    float way[3];
+    return cone.length + cone.slope * way_to_center(cone, way);
+  }
+
   /// Whether a cone of length `at_center` there is near: from afar lengths change evenly over a cell.
   bool is_near(const Cone& cone, float at_center) const {
     constexpr float kNearby = 3.75F;  // half edges from the centre: one edge from the closest point
@@ -142,6 +147,18 @@ struct ConeCell {
   }
 
  private:
+  /// From the closest point of a cone's rectangle; and how far.
+  float way_to_center(const Cone& cone, float (&way)[3]) const {
+    for (int k = 0; k < 3; ++k) way[k] = c[k] - cone.x[k];
+    for (int e = 0; e < 2 && cone.half[e] > 0; ++e) {
+      const float(&unit)[3] = cone.side[e];
+      const float all = way[0] * unit[0] + way[1] * unit[1] + way[2] * unit[2],
+                  along = std::clamp(all, -cone.half[e], cone.half[e]);
+      for (int k = 0; k < 3; ++k) way[k] -= along * unit[k];
+    }
+    return std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+  }
+
   /// The places of the cell closest to those `a` and `b` along the sides of a cone's rectangle.
   FourPlaces closest(const Cone& cone, Float4 a, Float4 b) const {
     FourPlaces places;

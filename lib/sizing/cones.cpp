@@ -30,7 +30,10 @@ class ConeSpread {
     const auto n = static_cast<std::size_t>(blanking ? blanking->n_sites() : octree_.n_leaves());
     sites_.resize(n);
     for (std::size_t site = 0; site < n; ++site) sites_[site].cell = cell_of(static_cast<std::int32_t>(site));
-    for (Site& site : sites_) site.best.fill(four(largest_));
+    for (Site& site : sites_) {
+      site.best.fill(four(largest_));
+      site.winner.fill(Int4{} + kNone);
+    }
   }
 
   void run() {
@@ -39,10 +42,8 @@ class ConeSpread {
     for_each_own_site(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       push({site, sample, 0}, cones_[sample].length);
     });
-    for (now_ = 0; now_ < buckets_.size(); ++now_) {
-      for (std::size_t i = 0; i < buckets_[now_].size(); ++i) pass_on(buckets_[now_][i]);
-      std::vector<Event>().swap(buckets_[now_]);
-    }
+    for (now_ = 0; now_ < buckets_.size(); ++now_)
+      while (!buckets_[now_].empty()) pass_on_in_order(std::exchange(buckets_[now_], {}));
     fill_rest();
   }
 
@@ -73,20 +74,56 @@ class ConeSpread {
     std::int32_t site, sample;
     std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
   };
+  static constexpr std::size_t kAhead = 4;  // events
   struct Entry {
     std::int32_t sample, next;
   };
-  /// Two lines of the cache: what an offer needs.
-  struct Site {
-    static constexpr std::int32_t kOwn = 7;
+  /// What an offer needs comes first.
+  struct alignas(64) Site {
+    static constexpr std::int32_t kOwn = 8;
 
     ConeCell cell;
-    Lengths best;                                  // smallest at the probes
-    std::int32_t n = 0;                            // its samples, in order
-    std::array<std::int32_t, kOwn> own{};          // the first of them
-    std::int32_t more = kNone;                     // the last of the rest, into entries_
-    std::int32_t refused = kNone;                  // the last sample that was, which others may offer again
+    Lengths best;               // smallest at the probes
+    std::int32_t n = 0;         // its samples, in order
+    std::int32_t more = kNone;  // the last of those beyond `own`, into entries_
+    std::int32_t n_refused = 0;
+    std::uint64_t may_have = 0;  // a bit for each of its samples, the same one for some
+    Int4 own[2] = {Int4{} + kNone, Int4{} + kNone};
+    Int4 refused = Int4{} + kNone;                 // the last samples that were, which others may offer again
+    std::array<Int4, kGroups> winner;              // the sample of `best`; kNone: the largest length
     std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
+
+    [[gnu::always_inline]] void fetch() const {
+      constexpr std::size_t kLine = 64;  // bytes of the cache
+      for (std::size_t at = 0; at < sizeof(Site); at += kLine)
+        __builtin_prefetch(reinterpret_cast<const std::byte*>(this) + at);
+    }
+    std::int32_t own_sample(std::int32_t i) const { return own[i / 4][i % 4]; }
+    static std::uint64_t bit_of(std::int32_t sample) {
+      return std::uint64_t{1} << (static_cast<std::uint32_t>(sample) * 0x9E3779B1U >> 26);
+    }
+    /// At the corner closest to a cone.
+    std::int32_t winner_towards(const Cone& cone) const {
+      return winner[cone.x[2] > cell.c[2]][(cone.x[0] > cell.c[0]) + 2 * (cone.x[1] > cell.c[1])];
+    }
+    /// The sides with a probe where a sample wins.
+    std::int32_t sides_won(std::int32_t sample) const {
+      constexpr Int4 kSides[kGroups] = {{1 + 4 + 16, 2 + 4 + 16, 1 + 8 + 16, 2 + 8 + 16},
+                                        {1 + 4 + 32, 2 + 4 + 32, 1 + 8 + 32, 2 + 8 + 32},
+                                        {1, 2, 4, 8},
+                                        {16, 32, 0, 0}};
+      Int4 sides{};
+      for (int g = 0; g < kGroups; ++g) sides |= (winner[g] == sample) & kSides[g];
+      return sides[0] | sides[1] | sides[2] | sides[3];
+    }
+    bool is_winner(std::int32_t sample) const {
+      return is_any((winner[0] == sample) | (winner[1] == sample) | (winner[2] == sample) | (winner[3] == sample));
+    }
+  };
+  /// A site across a face.
+  struct Beside {
+    std::int32_t site;
+    std::int32_t towards;  // a bit: see sides_ahead()
   };
 
   ConeCell cell_of(std::int32_t site) const {
@@ -104,7 +141,7 @@ class ConeSpread {
       const bool is_cut = site >= n_leaves || blanking_->colour[site] == CellColour::kCut;
       if (!is_cut || sites_[site].n > 0) continue;
       const auto take = [&](std::int32_t from) {
-        any_sample(from, [&](std::int32_t sample) {
+        any_sample(sites_[from], [&](std::int32_t sample) {
           found.push_back({site, sample});
           return false;
         });
@@ -127,28 +164,74 @@ class ConeSpread {
     for (const auto& [site, sample] : found) offer(site, sample, least);
   }
 
-  void pass_on(const Event e) {
-    float least = 0;
-    if (e.n == 0 && !offer(e.site, e.sample, least)) return;
-    if (e.n != 0 && sites_[e.site].n != e.n && !is_still_best(e.site, e.sample)) return;
-    const auto [first, last] = beside(e.site);
-    for (std::int32_t k = first; k < last; ++k) {
-      const std::int32_t other = beside_[k];
-      if (offer(other, e.sample, least)) push({other, e.sample, sites_[other].n}, least);
+  /// Site by site: so those that are looked at lie beside each other in memory.
+  void pass_on_in_order(std::vector<Event> events) {
+    std::sort(events.begin(), events.end(),
+              [](const Event& a, const Event& b) { return a.site != b.site ? a.site < b.site : a.sample < b.sample; });
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
+      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site);
+      pass_on(events[i]);
     }
   }
 
+  /// Asks the memory for what an event will need. Inlined: else it is taken for a function without effect.
+  [[gnu::always_inline]] void fetch(const Event& e) const {
+    sites_[e.site].fetch();
+    __builtin_prefetch(&cones_[e.sample]);
+  }
+  [[gnu::always_inline]] void fetch_beside(std::int32_t site) const {
+    const auto [first, last] = sites_[site].beside;
+    for (std::int32_t k = first; k < last; ++k) sites_[beside_[k].site].fetch();
+  }
+
+  void pass_on(const Event e) {
+    float least = 0;
+    if (e.n == 0 && !offer(e.site, e.sample, least)) return;
+    if (e.n != 0 && sites_[e.site].n != e.n && !is_still_best(sites_[e.site], e.sample)) return;
+    const auto [first, last] = beside(e.site);
+    const std::int32_t ahead = sides_ahead(sites_[e.site], e.sample);
+    for (std::int32_t k = first; k < last; ++k) {
+      const auto [other, towards] = beside_[k];
+      if ((towards & ahead) != 0 && offer(other, e.sample, least)) push({other, e.sample, sites_[other].n}, least);
+    }
+  }
+
+  static constexpr std::int32_t kAlways = 1 << 6;  // beside
+
+  /// The sides of a cell by which straight ways from a sample leave the place where it wins: bit 2 * axis for the lower
+  /// one, then the upper. From afar it wins at a probe of these sides.
+  std::int32_t sides_ahead(const Site& s, std::int32_t sample) const {
+    const Cone& cone = cones_[sample];
+    std::int32_t sides = kAlways;
+    for (int k = 0; k < 3; ++k) {
+      const float reach = std::abs(cone.side[0][k]) * cone.half[0] + std::abs(cone.side[1][k]) * cone.half[1],
+                  from_center = cone.x[k] - s.cell.c[k];
+      if (from_center + reach >= -s.cell.half) sides |= 1 << (2 * k);
+      if (from_center - reach <= s.cell.half) sides |= 2 << (2 * k);
+    }
+    return s.cell.is_near(cone, s.cell.length_at_center(cone)) ? sides : sides & (kAlways | s.sides_won(sample));
+  }
+
+  static std::int32_t side_of(const CellStep& step) {
+    const int d[3] = {step.x, step.y, step.z};
+    const int k = std::abs(d[0]) > 1 ? 0 : std::abs(d[1]) > 1 ? 1 : 2;
+    return (d[k] < 0 ? 1 : 2) << (2 * k);
+  }
+
   /// Where the sites begin and end in `beside_` that lie across the faces of this one: a corner that a sample wins
-  /// belongs to those, too. Found when first asked for.
+  /// belongs to those, too. Beside a surface ways are not straight. Found when first asked for.
   std::pair<std::int32_t, std::int32_t> beside(std::int32_t site) {
     auto& [first, last] = sites_[site].beside;
     if (last > first) return {first, last};
     first = static_cast<std::int32_t>(beside_.size());
     if (!blanking_ || blanking_->site_links[site] == kNone)
-      neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep&) { beside_.push_back(other); });
+      neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep& step) {
+        beside_.push_back({other, side_of(step)});
+      });
     else
       for_each_link(blanking_, neighbours_, site, [&](std::int32_t other, const CellStep& step) {
-        if (step.is_across_face()) beside_.push_back(other);
+        if (step.is_across_face()) beside_.push_back({other, kAlways});
       });
     require_countable(beside_.size(), "cells beside cells");
     last = static_cast<std::int32_t>(beside_.size());
@@ -163,106 +246,92 @@ class ConeSpread {
 
   /// Whether f(sample) is true for any sample of the site.
   template <class F>
-  bool any_sample(std::int32_t site, const F& f) const {
-    const Site& s = sites_[site];
+  bool any_sample(const Site& s, const F& f) const {
     const std::int32_t n_own = std::min(s.n, Site::kOwn);
     for (std::int32_t i = 0; i < n_own; ++i)
-      if (f(s.own[i])) return true;
+      if (f(s.own_sample(i))) return true;
     for (std::int32_t k = s.more; k != kNone; k = entries_[k].next)
       if (f(entries_[k].sample)) return true;
     return false;
   }
 
-  bool has(std::int32_t site, std::int32_t sample) const {
-    return any_sample(site, [sample](std::int32_t other) { return other == sample; });
+  bool has(const Site& s, std::int32_t sample) const {
+    if ((s.may_have & Site::bit_of(sample)) == 0) return false;
+    if (is_any((s.own[0] == sample) | (s.own[1] == sample))) return true;
+    std::int32_t k = s.more;
+    while (k != kNone && entries_[k].sample != sample) k = entries_[k].next;
+    return k != kNone;
   }
 
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
   bool offer(std::int32_t site, std::int32_t sample, float& least) {
-    if (sites_[site].refused == sample || has(site, sample)) return false;
-    Lengths& best = sites_[site].best;
-    const Lengths own = sites_[site].cell.lengths(cones_[sample]);
-    const bool is_near = sites_[site].cell.is_near(cones_[sample], at_center(own));
+    Site& s = sites_[site];
+    if (is_any(s.refused == sample) || has(s, sample)) return false;
+    const Cone& cone = cones_[sample];
+    const Lengths own = s.cell.lengths(cone);
+    const bool is_near = s.cell.is_near(cone, at_center(own));
     const float share = is_near ? kClearlyNearby : kClearly;
-    if (!is_below(own, share, best) && !(is_near && wins_nearby(site, sample))) {
-      sites_[site].refused = sample;
+    if (!is_below(own, share, s.best) && !(is_near && wins_nearby(s, sample))) {
+      s.refused[s.n_refused++ % 4] = sample;
       return false;
     }
     Float4 smallest = four(largest_);
     for (int g = 0; g < kGroups; ++g) {
       smallest = min_of(smallest, own[g]);
-      best[g] = min_of(best[g], own[g]);
+      s.winner[g] = own[g] < s.best[g] ? Int4{} + sample : s.winner[g];
+      s.best[g] = min_of(s.best[g], own[g]);
     }
     least = least_of(smallest);
-    add_sample(site, sample);
+    add_sample(s, sample);
     return true;
   }
 
-  void add_sample(std::int32_t site, std::int32_t sample) {
-    Site& s = sites_[site];
+  void add_sample(Site& s, std::int32_t sample) {
     if (s.n < Site::kOwn) {
-      s.own[s.n] = sample;
+      s.own[s.n / 4][s.n % 4] = sample;
     } else {
       entries_.push_back({sample, s.more});
       s.more = static_cast<std::int32_t>(entries_.size()) - 1;
     }
+    s.may_have |= Site::bit_of(sample);
     ++s.n;
   }
 
   /// Whether the sample wins where the site is close to it.
-  bool wins_nearby(std::int32_t site, std::int32_t sample) const {
-    return sites_[site].cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
-      any_sample(site, [&](std::int32_t other) { return is_beaten_by(cones_[other]); });
+  bool wins_nearby(const Site& s, std::int32_t sample) const {
+    const std::int32_t first = s.winner_towards(cones_[sample]);  // most are beaten by it
+    return s.cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
+      if (first != kNone && first != sample && is_beaten_by(cones_[first])) return;
+      any_sample(s,
+                 [&](std::int32_t other) { return other != sample && other != first && is_beaten_by(cones_[other]); });
     });
   }
 
-  bool is_still_best(std::int32_t site, std::int32_t sample) const {
-    constexpr float kSame = 1.0001F;
-    const Lengths own = sites_[site].cell.lengths(cones_[sample]);
-    if (is_below(own, kSame, sites_[site].best)) return true;
-    if (!sites_[site].cell.is_near(cones_[sample], at_center(own))) return false;
-    return sites_[site].cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
-      any_sample(site, [&](std::int32_t other) { return other != sample && is_beaten_by(cones_[other]); });
-    });
+  bool is_still_best(const Site& s, std::int32_t sample) const {
+    if (s.is_winner(sample)) return true;
+    return s.cell.is_near(cones_[sample], s.cell.length_at_center(cones_[sample])) && wins_nearby(s, sample);
   }
 
   /// Those of the site that win at a probe, or clearly where the site is close to them.
   const std::vector<std::int32_t>& pruned(std::int32_t site) {
-    const ConeCell& cell = sites_[site].cell;
+    const Site& s = sites_[site];
     kept_.clear();
-    doubtful_.clear();
-    any_sample(site, [&](std::int32_t sample) {
-      doubtful_.push_back(sample);
+    near_.clear();
+    any_sample(s, [&](std::int32_t sample) {
+      if (s.is_winner(sample))
+        kept_.push_back(sample);
+      else if (s.cell.is_near(cones_[sample], s.cell.length_at_center(cones_[sample])))
+        near_.push_back(sample);
       return false;
     });
-    std::sort(doubtful_.begin(), doubtful_.end(), [&](std::int32_t a, std::int32_t b) {
+    std::sort(near_.begin(), near_.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
-    std::array<Int4, kGroups> winner;
-    winner.fill(Int4{} + kNone);
-    Lengths least;
-    least.fill(four(largest_));
-    own_.clear();
-    for (const std::int32_t s : doubtful_) {
-      own_.push_back(cell.lengths(cones_[s]));
-      for (int g = 0; g < kGroups; ++g) {
-        winner[g] = own_.back()[g] < least[g] ? Int4{} + s : winner[g];
-        least[g] = min_of(least[g], own_.back()[g]);
-      }
-    }
-    const auto wins = [&](std::int32_t s) {
-      return std::any_of(winner.begin(), winner.end(), [&](Int4 w) { return is_any(w == s); });
-    };
-    for (const std::int32_t s : doubtful_)
-      if (wins(s)) kept_.push_back(s);
-    for (std::size_t i = 0; i < doubtful_.size(); ++i) {
-      const std::int32_t s = doubtful_[i];
+    for (const std::int32_t sample : near_) {
       const auto visit_kept = [&](const auto& is_beaten_by) {
         std::any_of(kept_.begin(), kept_.end(), [&](std::int32_t k) { return is_beaten_by(cones_[k]); });
       };
-      if (!wins(s) && cell.is_near(cones_[s], at_center(own_[i])) &&
-          cell.wins_nearby(cones_[s], largest_, visit_kept))
-        kept_.push_back(s);
+      if (s.cell.wins_nearby(cones_[sample], largest_, visit_kept)) kept_.push_back(sample);
     }
     return kept_;
   }
@@ -275,11 +344,10 @@ class ConeSpread {
   float smallest_ = std::numeric_limits<float>::infinity();
   std::vector<Cone> cones_;
   std::vector<Site> sites_;  // [n_sites]
-  std::vector<std::int32_t> beside_;
+  std::vector<Beside> beside_;
   std::vector<Entry> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
-  std::vector<std::int32_t> kept_, doubtful_;
-  std::vector<Lengths> own_;
+  std::vector<std::int32_t> kept_, near_;
   std::size_t now_ = 0;
 };
 
