@@ -15,6 +15,7 @@
 #include "features/concave_edges.h"
 #include "features/edge_places.h"
 #include "features/profile.h"
+#include "features/profile_facets.h"
 #include "features/thin_surface.h"
 
 namespace st {
@@ -445,16 +446,13 @@ void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSur
 
 /// The facets and their mirror image; vertices on the plane of `mirror` belong to both.
 Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_plane) {
-  const auto surface = model.surface(mirror);
-  const SurfacePoint at =
-      surface->evaluate({0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())});
-  const Vec3 normal = normalized(cross(at.du, at.dv));
+  const MirrorPlane plane(model, mirror);
   std::vector<std::int32_t> image;
   for (std::size_t i = 0, n = facets.xyz.size(); i < n; ++i) {
     const Vec3 x = facets.xyz[i];
-    const double height = dot(x - at.x, normal);
-    image.push_back(static_cast<std::int32_t>(std::abs(height) <= on_plane ? i : facets.xyz.size()));
-    if (std::abs(height) > on_plane) facets.xyz.push_back(x - 2 * height * normal);
+    const bool is_on_plane = std::abs(dot(x - plane.x, plane.normal)) <= on_plane;
+    image.push_back(static_cast<std::int32_t>(is_on_plane ? i : facets.xyz.size()));
+    if (!is_on_plane) facets.xyz.push_back(plane.image_of(x));
   }
   for (std::size_t i = 0, n = facets.triangle.size(); i < n; ++i) {
     const auto t = facets.triangle[i];
@@ -462,12 +460,6 @@ Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_pl
     facets.face.push_back(facets.face[i]);
   }
   return facets;
-}
-
-std::vector<std::uint8_t> are_walls(const FaceRoles& roles) {
-  std::vector<std::uint8_t> is_wall;
-  for (const FaceRole role : roles.role) is_wall.push_back(role == FaceRole::kWall);
-  return is_wall;
 }
 
 /// The same on every rank.
@@ -514,8 +506,9 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
 /// All surfaces of a model, on rank 0.
 class SurfaceFinder {
  public:
-  SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets)
-      : model_(model), roles_(roles), edges_(edges), facets_(facets) {}
+  SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
+                std::vector<CutEnd>& ends)
+      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends) {}
 
   std::vector<LiftingSurface> run(Noseless noseless, std::vector<UnusedTrailing>* unused) {
     for (const auto& chain : trailing_chains(model_.tables(), edges_)) find_with_noses(chain);
@@ -538,10 +531,10 @@ class SurfaceFinder {
 
   ProfileCutter cutter_for(const std::vector<WingEdge>& chain) {
     const FaceId mirror = mirror_of(chain);
-    if (mirror == kNone) return ProfileCutter(facets_);
+    if (mirror == kNone) return ProfileCutter(facets_, &ends_);
     if (!whole_.contains(mirror))
       whole_.emplace(mirror, with_image(model_, facets_, mirror, kOnPlane * roles_.reference_diagonal));
-    return ProfileCutter(whole_.at(mirror));
+    return ProfileCutter(whole_.at(mirror), &ends_);
   }
 
   void find_with_noses(const std::vector<WingEdge>& chain) {
@@ -646,6 +639,7 @@ class SurfaceFinder {
   const FaceRoles& roles_;
   std::span<const WingEdge> edges_;
   const Facets& facets_;
+  std::vector<CutEnd>& ends_;       // of cuts through these
   std::map<FaceId, Facets> whole_;  // by symmetry plane
   std::vector<std::uint8_t> is_concave_;
   std::vector<LiftingSurface> surfaces_;
@@ -707,12 +701,20 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   share(executor, has_edges);
   if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;
-  Facets own;
-  if (!has_wall_facets(roles, deflection))
-    own = make_facets(model, are_walls(roles), {.deflection = deflection}, executor);
-  if (!executor.is_root()) return {};
-  SurfaceFinder finder(model, roles, edges, has_wall_facets(roles, deflection) ? roles.own.facets : own);
-  return finder.run(noseless, unused);
+  ProfileFacets own(model, roles, {{.deflection = deflection}, 2 * deflection});
+  const bool has_all = has_wall_facets(roles, deflection);
+  if (!has_all) own.add_along(edges, executor);
+  while (true) {
+    std::vector<CutEnd> ends;
+    std::vector<LiftingSurface> surfaces;
+    std::vector<UnusedTrailing> rest;
+    if (executor.is_root())
+      surfaces = SurfaceFinder(model, roles, edges, has_all ? roles.own.facets : own.facets(), ends)
+                     .run(noseless, unused ? &rest : nullptr);
+    if (!has_all && own.add_beyond(ends, executor)) continue;  // a cut between the places crosses more
+    if (unused) *unused = std::move(rest);
+    return surfaces;
+  }
 }
 
 }  // namespace st

@@ -79,8 +79,8 @@ struct UnusedTrailing {
 /// out. What may be a wing's and shows no nose may be thin yet (features/thin_surface.h). Profiles are cut square to an
 /// axis of the model, each edge to its own, and square to the edge where that shows none or clearly fewer. By first
 /// edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none.
-/// Cost: a coarse triangulation of the walls, as tasks, where there are any trailing edges and `roles` has none; the
-/// rest is rank 0's.
+/// Cost: a coarse triangulation of the walls that profiles cross, as tasks, unless `roles` has one of all; the rest is
+/// rank 0's.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),

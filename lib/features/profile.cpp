@@ -96,7 +96,7 @@ std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const
   return is_inside && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
 }
 
-ProfileCutter::ProfileCutter(const Facets& facets) : facets_(facets) {
+ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutEnd>* ends) : facets_(facets), ends_(ends) {
   block_.resize((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
   node_begin_.resize(facets.xyz.size() + 1, 0);
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
@@ -160,9 +160,16 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
     const Segment s = todo.back();
     todo.pop_back();
     part.push_back(s);
-    for (const auto& [a, b] : s.side)
-      for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i)
-        if (std::ranges::count(facets_.triangle[facet_[i]], b) > 0) take(segment_of(facet_[i], origin, normal));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto [a, b] = s.side[k];
+      int n_facets = 0;
+      for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i) {
+        if (std::ranges::count(facets_.triangle[facet_[i]], b) == 0) continue;
+        take(segment_of(facet_[i], origin, normal));
+        ++n_facets;
+      }
+      if (ends_ && n_facets == 1) ends_->push_back({facets_.face[s.facet], s.end[k]});
+    }
   }
   return part;
 }

@@ -34,11 +34,17 @@ struct ThinPart {
   double middle = 0;  ///< how far they are apart half way, model unit
 };
 
+/// Where a cut ends: no further facet is there.
+struct CutEnd {
+  FaceId face;  ///< whose facet is the last one
+  Vec3 x;       ///< model unit
+};
+
 /// Cuts a model's facets by planes and measures what is found.
 class ProfileCutter {
  public:
-  /// `facets` must outlive the object.
-  explicit ProfileCutter(const Facets& facets);
+  /// `facets` must outlive the object. `ends` (may be null) gets the ends of all cuts that are not closed.
+  explicit ProfileCutter(const Facets& facets, std::vector<CutEnd>* ends = nullptr);
 
   /// The part of the cut by the plane through `trailing_edge` with this unit normal that hangs together with the point,
   /// if it is the profile of a lifting surface: two sides at every station along the chord, 1 to 35 per cent thick,
@@ -50,6 +56,9 @@ class ProfileCutter {
   /// The part of the same cut that is thin; `thickest`: distance of its sides over that from the edge at most. nullopt:
   /// it is so for less than a factor of five in the distance from the edge. Same cost.
   std::optional<ThinPart> thin_part(Vec3 edge, Vec3 normal, double reach, double thickest = kThickestPart) const;
+
+  /// Notes the ends of the same cut.
+  void note_ends(Vec3 edge, Vec3 normal, double reach) const { part_at(edge, normal, reach); }
 
   static constexpr double kThickestPart = 0.35;
 
@@ -66,6 +75,7 @@ class ProfileCutter {
   std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const;
 
   const Facets& facets_;
+  std::vector<CutEnd>* const ends_;
   std::vector<Box3> block_;                       ///< boxes of kFacetsPerBlock facets each
   std::vector<std::int32_t> node_begin_, facet_;  ///< facets of each node, ascending
 };

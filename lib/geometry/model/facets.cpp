@@ -87,10 +87,31 @@ void append(Facets&& part, Facets& all) {
   all.face.insert(all.face.end(), part.face.begin(), part.face.end());
 }
 
+/// Those of one face stay in order.
+void sort_by_face(Facets& facets) {
+  if (std::is_sorted(facets.face.begin(), facets.face.end())) return;
+  std::vector<std::size_t> order(facets.face.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return facets.face[a] < facets.face[b]; });
+  const Facets old = facets;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    facets.triangle[i] = old.triangle[order[i]];
+    facets.face[i] = old.face[order[i]];
+  }
+}
+
 }  // namespace
 
 Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                    const Executor& executor) {
+  Facets facets;
+  add_facets(model, is_wanted, limits, executor, facets);
+  return facets;
+}
+
+void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                const Executor& executor, Facets& facets) {
   ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
   const Model::Impl& brep = ModelEditor::brep(model);
   std::vector<FaceId> ids;
@@ -105,10 +126,9 @@ Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wante
         return packed(facets_of(brep, rest.first(std::min(rest.size(), kFacesPerTask)), limits));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
-  Facets facets;
   for (Facets& part : parts) append(std::move(part), facets);
   weld(facets);
-  return facets;
+  sort_by_face(facets);
 }
 
 }  // namespace st

@@ -38,5 +38,17 @@ TEST(Facets, of_many_faces_are_the_same_in_whatever_order_tasks_arrive) {
   EXPECT_EQ(facets.xyz, other.xyz);
 }
 
+TEST(Facets, join_those_of_other_faces) {
+  const Model model = test::make_model("box");
+  Facets facets = make_facets(model, {0, 1, 0, 1, 0, 1}, {.deflection = 0.1});
+  add_facets(model, {1, 0, 1, 0, 1, 0}, {.deflection = 0.1}, SerialExecutor(), facets);
+  const Facets all = make_facets(model, std::vector<std::uint8_t>(6, 1), {.deflection = 0.1});
+  EXPECT_EQ(facets.face, all.face);
+  std::vector<std::int32_t> nodes;
+  for (const auto& t : facets.triangle) nodes.insert(nodes.end(), t.begin(), t.end());
+  std::sort(nodes.begin(), nodes.end());
+  EXPECT_EQ(std::unique(nodes.begin(), nodes.end()) - nodes.begin(), 8);
+}
+
 }  // namespace
 }  // namespace st

@@ -1,0 +1,68 @@
+// Facets of those walls alone that profiles cross.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/executor.h"
+#include "features/face_roles.h"
+#include "features/profile.h"
+#include "features/wing_edges.h"
+#include "geometry/model/facets.h"
+
+namespace st {
+
+/// A point of a plane of symmetry, and its unit normal, at the middle of its range. Precondition: the face is plane.
+struct MirrorPlane {
+  Vec3 x, normal;
+
+  MirrorPlane(const Model& model, FaceId face);
+  Vec3 image_of_direction(Vec3 v) const { return v - 2 * dot(v, normal) * normal; }
+  Vec3 image_of(Vec3 p) const { return p - 2 * dot(p - x, normal) * normal; }
+};
+
+struct ProfileLimits {
+  FacetLimits facets;
+  double reach = 0;  ///< how far from a place the cut may begin, model unit
+};
+
+/// Grows where cuts end at the border of a face; a body that no profile crosses gets no facets. Member functions are
+/// collective; facets and what is decided by them are rank 0's, empty elsewhere.
+class ProfileFacets {
+ public:
+  /// Both must outlive the object.
+  ProfileFacets(const Model& model, const FaceRoles& roles, const ProfileLimits& limits);
+
+  /// Facets of the walls that cuts cross which begin on trailing edges, or declared ones, among `edges` (of rank 0): at
+  /// each of their places, square to the edge and to the model's axes. Cost: the facets, as tasks, and the cuts.
+  void add_along(std::span<const WingEdge> edges, const Executor& executor);
+
+  /// Those of the walls beyond the borders at which cuts end (of rank 0); false: there are none.
+  bool add_beyond(std::span<const CutEnd> ends, const Executor& executor);
+
+  const Facets& facets() const { return facets_; }
+
+ private:
+  /// A plane through a place on an edge.
+  struct Cut {
+    Vec3 x, normal;
+  };
+
+  std::vector<Cut> cuts_at(std::span<const WingEdge> edges);
+  bool is_at(FaceId f, Vec3 x) const;
+  std::vector<std::uint8_t> walls_beyond(std::span<const CutEnd> ends);
+  void take_walls_at(EdgeId e, const Vec3* x, std::vector<std::uint8_t>& taken);
+  bool add(std::vector<std::uint8_t> wanted, const Executor& executor);
+
+  const Model& model_;
+  const FaceRoles& roles_;
+  const ProfileLimits limits_;
+  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
+  std::vector<std::uint8_t> is_known_;  // [n_faces] their facets are there, or will be next
+  std::vector<MirrorPlane> mirrors_;    // on which edges lie: a cut goes on in the image
+  Facets facets_;
+};
+
+}  // namespace st

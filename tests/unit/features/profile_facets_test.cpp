@@ -1,0 +1,93 @@
+// Facets of those walls alone that profiles cross.
+#include "features/profile_facets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "features/edge_places.h"
+#include "features/profile.h"
+#include "features/strip.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+constexpr ProfileLimits kLimits{{.deflection = 0.02}, 0.04};
+
+struct Case {
+  Model model;
+  FaceRoles roles = face_roles(model.tables());
+  std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
+
+  explicit Case(const std::string& shape) : model(test::make_model(shape)) {}
+  Facets facets() const {
+    ProfileFacets facets(model, roles, kLimits);
+    facets.add_along(edges, SerialExecutor());
+    return facets.facets();
+  }
+  Facets all_facets() const {
+    return make_facets(model, std::vector<std::uint8_t>(model.tables().n_faces(), 1), kLimits.facets);
+  }
+};
+
+std::vector<FaceId> faces_with(const Facets& facets) {
+  std::vector<FaceId> faces = facets.face;
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+TEST(ProfileFacets, show_the_same_profiles_as_those_of_all_faces) {
+  for (const char* shape : {"wing_on_body", "wing_with_pod", "half_blunt_wing", "tapering_wing"}) {
+    const Case c(shape);
+    const Facets facets = c.facets(), all = c.all_facets();
+    const ProfileCutter some(facets), every(all);
+    int n_profiles = 0;
+    for (const EdgePlace& place : places_along(c.model, c.edges)) {
+      if (c.edges[place.edge].kind == WingEdgeKind::kLeading) continue;
+      for (const Vec3 normal : {place.tangent, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        if (std::abs(dot(normal, place.tangent)) < kAlongAxis) continue;
+        const auto profile = some.cut(place.x, normal, kLimits.reach),
+                   other = every.cut(place.x, normal, kLimits.reach);
+        ASSERT_EQ(profile.has_value(), other.has_value()) << shape;
+        n_profiles += profile.has_value();
+        if (!profile) continue;
+        EXPECT_NEAR(profile->chord, other->chord, 1e-9) << shape;
+        EXPECT_EQ(profile->faces, other->faces) << shape;
+      }
+    }
+    EXPECT_TRUE(n_profiles > 0 || std::string(shape) == "half_blunt_wing") << shape << ": half a profile is none";
+    EXPECT_TRUE(std::is_sorted(facets.face.begin(), facets.face.end()));
+  }
+}
+
+TEST(ProfileFacets, are_none_of_faces_that_no_profile_crosses) {
+  const Case c("sharp_wing");
+  const std::vector<FaceId> faces = faces_with(c.facets());
+  EXPECT_EQ(faces.size(), 2u) << "upper and lower side; no profile crosses the tips";
+  EXPECT_EQ(faces_with(c.all_facets()).size(), 4u);
+}
+
+TEST(ProfileFacets, are_none_without_edges) {
+  Case c("sharp_wing");
+  c.edges.clear();
+  EXPECT_TRUE(c.facets().triangle.empty());
+}
+
+TEST(ProfileFacets, go_on_where_another_cut_ends) {
+  const Case c("sharp_wing");
+  ProfileFacets facets(c.model, c.roles, kLimits);
+  facets.add_along(c.edges, SerialExecutor());
+  std::vector<CutEnd> ends;
+  const ProfileCutter cutter(facets.facets(), &ends);
+  cutter.note_ends({10, 0, 15}, {0, 0, 1}, kLimits.reach);
+  EXPECT_TRUE(ends.empty());
+  cutter.note_ends({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along the span
+  ASSERT_FALSE(ends.empty());
+  EXPECT_TRUE(facets.add_beyond(ends, SerialExecutor()));
+  EXPECT_EQ(faces_with(facets.facets()).size(), 4u) << "the tips, too";
+  EXPECT_FALSE(facets.add_beyond(ends, SerialExecutor()));
+}
+
+}  // namespace
+}  // namespace st
