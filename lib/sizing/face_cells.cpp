@@ -94,15 +94,15 @@ class PlanePoints {
   /// `octree`: without the sources.
   PlanePoints(const OctreeField& octree, const SourceTree* sources) : octree_(octree), sources_(sources) {}
 
-  /// `n` squares per axis.
+  /// `n` squares per axis. `near`: the sources that may count in the cell.
   const std::vector<AreaPoint>& make(const CellPlane& plane, Vec3 origin, Vec3 middle, double edge, int n,
-                                     bool has_sources) {
+                                     FewSources near) {
     points_.clear();
     center_ = origin + Vec3{plane.center[0], plane.center[1], plane.center[2]};
     normal_ = {plane.normal[0], plane.normal[1], plane.normal[2]};
     middle_ = middle;
     edge_ = edge;
-    has_sources_ = has_sources;
+    near_ = near;
     steepest_ = std::max({std::abs(normal_.x), std::abs(normal_.y), std::abs(normal_.z)});
     if (steepest_ > 0)
       for (int b = 0; b < n; ++b)
@@ -120,7 +120,7 @@ class PlanePoints {
   void add(double a, double b, double side) {
     double height = 0;
     const Vec3 x = on_plane(a, b, height);
-    if (has_sources_ && is_coarse(x, a, b, side)) {
+    if (!near_.are_none() && is_coarse(x, a, b, side)) {
       for (const double v : {-0.25, 0.25})
         for (const double u : {-0.25, 0.25}) add(a + u * side, b + v * side, 0.5 * side);
       return;
@@ -153,9 +153,13 @@ class PlanePoints {
     if (side < kSmallest) return false;
     std::int32_t winner = kNone;
     const double radius = std::sqrt(0.5) * side * edge_ / steepest_, length = length_at(x, winner),
-                 least = sources_->least_near(x, radius, length);
-    if (2 * radius <= least) return false;
-    if (least < kLeastShare * length) return true;
+                 at_least = length - sources_->slope() * radius;  // within the radius
+    if (2 * radius <= at_least) return false;
+    if (2 * radius <= length || at_least < kLeastShare * length) {
+      const double least = sources_->least_near(x, radius, length);
+      if (2 * radius <= least) return false;
+      if (least < kLeastShare * length) return true;
+    }
     if (winner == kNone) return false;
     double height = 0;
     for (const double v : {-0.5, 0.5})
@@ -164,13 +168,13 @@ class PlanePoints {
     return false;
   }
   double length_at(Vec3 x, std::int32_t& winner) {
-    return sources_->size_below(x, octree_.OctreeField::size(x, hint_) / octree_.data().scale, &winner);
+    return sources_->size_below(x, octree_.OctreeField::size(x, hint_) / octree_.data().scale, near_, winner);
   }
 
   const OctreeField& octree_;
   const SourceTree* sources_;
   int hint_ = 0;
-  bool has_sources_ = false;
+  FewSources near_;
   Vec3 center_, normal_, middle_;
   double edge_ = 0, steepest_ = 0, total_ = 0;
   std::vector<AreaPoint> points_;
@@ -229,11 +233,11 @@ class CellWeigher {
     const std::int32_t leaf = faces_.leaf[i];
     const float* n = faces_.plane[i].normal;
     const Vec3 normal{n[0], n[1], n[2]};
-    const bool has_sources = field_.has_sources_in(leaf);
-    const OctreeField& asked = has_sources ? field_ : octree_;
+    const FewSources near = field_.sources_in(leaf);
+    const OctreeField& asked = near.are_none() ? octree_ : field_;
     const int n_points = points_per_axis(raster_, leaf, field_.data().octree);
     const auto& on_plane = points_.make(faces_.plane[i], faces_.origin, raster_.leaf_center(leaf),
-                                        raster_.cell_edge(raster_.leaf_levels[leaf]), n_points, has_sources);
+                                        raster_.cell_edge(raster_.leaf_levels[leaf]), n_points, near);
     FaceWeight sum;
     PartCollector collector(face, parts);
     const double unit = static_cast<double>(faces_.area[i]) / points_.total();

@@ -166,8 +166,10 @@ OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) co
   Answer answer;
   const double length = data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x, &answer.cone);
   const std::int32_t n = data_.octree.n_leaves(), leaf = leaf_of(site);
-  const bool may_be_source = data_.sources && (!is_inside(x) || has_sources_in(leaf));
-  const double least = may_be_source ? data_.sources->size_below(x.xyz, length, &answer.source) : length;
+  double least = length;
+  if (data_.sources)
+    least = is_inside(x) ? data_.sources->size_below(x.xyz, length, sources_near(leaf), answer.source)
+                         : data_.sources->size_below(x.xyz, length, &answer.source);
   answer.length = scaled(least);
   if (answer.source != kNone) {
     answer.cone = kNone;

@@ -94,8 +94,8 @@ class OctreeField : public SizeField {
   /// asked.
   virtual Similarity frame() const { return {}; }
   virtual SizeExplanation explain(Vec3 xyz) const;
-  /// Whether a source may tell a length somewhere in a leaf.
-  bool has_sources_in(std::int32_t leaf) const { return data_.sources && !sources_near(leaf).are_none(); }
+  /// The sources that may tell a length somewhere in a leaf.
+  FewSources sources_in(std::int32_t leaf) const { return data_.sources ? sources_near(leaf) : FewSources(nullptr, 0); }
   /// Likewise size() in the octree's own frame, its gradient and its cause.
   double size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::int32_t& cause) const;
 

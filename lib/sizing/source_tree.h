@@ -59,6 +59,16 @@ class SourceTree {
     for (int i = 0; i < near.n(); ++i) upper = entries_[near[i]].source->size_below(x, upper);
     return upper;
   }
+  double size_below(Vec3 x, double upper, FewSources near, std::int32_t& winner) const {
+    if (near.are_many()) return size_below(x, upper, &winner);
+    winner = kNone;
+    for (int i = 0; i < near.n(); ++i)
+      if (const double length = entries_[near[i]].source->size_below(x, upper); length < upper) {
+        upper = length;
+        winner = near[i];
+      }
+    return upper;
+  }
   /// As size_below, of what is requested in each direction: the smallest length; along its direction, where it is
   /// stretched, no more than any source and `upper` allow.
   LocalSize local_below(Vec3 x, const LocalSize& upper) const;
@@ -74,6 +84,8 @@ class SourceTree {
   Vec3 origin(std::int32_t source, Vec3 x) const;
   double min_size() const { return min_size_; }
   double max_aspect() const { return max_aspect_; }
+  /// Of the steepest source.
+  double slope() const { return slope_; }
 
  private:
   /// Whether a source below a node of the tree may ask for `best` or less at a squared distance from its box.

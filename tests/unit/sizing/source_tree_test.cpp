@@ -96,7 +96,10 @@ TEST(SourceTree, names_the_few_that_count_nearby) {
     (near.are_none() ? n_none : near.are_many() ? n_many : n_few) += 1;
     for (int k = 0; k < 20; ++k) {
       const Vec3 d = random_place(random, -1, 1), y = x + radius * std::min(1.0, 1 / norm(d)) * d;
-      ASSERT_EQ(tree.size_below(y, upper, near), tree.size_below(y, upper));
+      std::int32_t winner = kNone, by = kNone;
+      ASSERT_EQ(tree.size_below(y, upper, near), tree.size_below(y, upper, &winner));
+      ASSERT_EQ(tree.size_below(y, upper, near, by), tree.size_below(y, upper));
+      ASSERT_EQ(by, winner);
     }
   }
   EXPECT_GT(std::min({n_none, n_few, n_many}), 100);
