@@ -4,38 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
+#include "sizing/source_types.h"
+
 namespace st {
 namespace {
 
 constexpr double kLn2 = 0.69314718055994530942;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double distance_to_triangle(Vec3 x, const std::array<Vec3, 3>& p) {
-  const Vec3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b), r = x - p[0];
-  const double n2 = norm2(n), wb = dot(cross(r, b), n), wc = dot(cross(a, r), n);
-  if (n2 > 0 && wb >= 0 && wc >= 0 && wb + wc <= n2) return std::abs(dot(r, n)) / std::sqrt(n2);
-  return std::min({segment_distance(x, p[0], p[1]), segment_distance(x, p[1], p[2]), segment_distance(x, p[2], p[0])});
-}
-
-/// Negative inside, as below: how far from the surface.
-double distance_to_box(Vec3 x, const SourceSpec& s) {
-  double d2 = 0, deepest = -kInfinity;
-  for (const Vec3& axis : s.half_axis) {
-    const double half = norm(axis), outside = std::abs(dot(x - s.point[0], axis)) / half - half;
-    if (outside > 0) d2 += outside * outside;
-    deepest = std::max(deepest, outside);
-  }
-  return deepest < 0 ? deepest : std::sqrt(d2);
-}
-
-/// `axis`: unit vector from one end to the other, `height` away; a disc has no height.
-double distance_to_cylinder(Vec3 x, Vec3 a, Vec3 axis, double height, double radius) {
-  const Vec3 r = x - a;
-  const double along = dot(r, axis), across = norm(r - along * axis);
-  const double lengthwise = std::max(-along, along - height), sideways = across - radius;
-  if (lengthwise < 0 && sideways < 0) return std::max(lengthwise, sideways);
-  return std::hypot(std::max(lengthwise, 0.0), std::max(sideways, 0.0));
-}
 
 /// The smallest value of f over [0, 1]: the best of evenly spaced places, then golden sections about it.
 template <class F>
@@ -79,7 +55,8 @@ SourceSpacing mixed(const SourceSpacing& a, const SourceSpacing& b, double t) {
 
 class ShapeSource final : public SizeSource {
  public:
-  ShapeSource(const SourceSpec& spec, double slope) : SizeSource(slope), spec_(spec) {
+  ShapeSource(const SourceSpec& spec, double slope, ShapeDistance distance)
+      : SizeSource(slope), spec_(spec), distance_(distance) {
     const auto& s = spec.spacing;
     least_ = s[0];
     double width = s[0].doubling - s[0].radius;
@@ -95,7 +72,7 @@ class ShapeSource final : public SizeSource {
 
   double size(Vec3 x, int&) const override { return size_below(x, kInfinity); }
   double size_below(Vec3 x, double upper) const override {
-    const double at_least = grown_length(least_, slope(), distance_from(x));
+    const double at_least = grown_length(least_, slope(), distance_(spec_, x));
     if (!is_varied_ || !(at_least < upper)) return std::min(at_least, upper);
     return std::min(upper, spec_.kind == SourceKind::kLine ? on_line(x) : on_triangle(x));
   }
@@ -112,27 +89,6 @@ class ShapeSource final : public SizeSource {
   }
 
  private:
-  /// From the source's points to x; not positive inside volumes.
-  double distance_from(Vec3 x) const {
-    const auto& p = spec_.point;
-    switch (spec_.kind) {
-      case SourceKind::kPoint:
-        return distance(x, p[0]);
-      case SourceKind::kLine:
-        return segment_distance(x, p[0], p[1]);
-      case SourceKind::kTriangle:
-        return distance_to_triangle(x, p);
-      case SourceKind::kBox:
-        return distance_to_box(x, spec_);
-      case SourceKind::kCylinder:
-        return distance_to_cylinder(x, p[0], normalized(p[1] - p[0]), distance(p[0], p[1]), spec_.extent);
-      case SourceKind::kSphere:
-        return distance(x, p[0]) - spec_.extent;
-      case SourceKind::kDisc:
-        return distance_to_cylinder(x, p[0], normalized(spec_.half_axis[0]), 0, spec_.extent);
-    }
-    return 0;
-  }
   double between(Vec3 x, Vec3 a, Vec3 b, const SourceSpacing& at_a, const SourceSpacing& at_b) const {
     if (is_plain_) return least_over_segment(x, a, b, at_a.length, at_b.length, slope());
     return least_over(
@@ -151,6 +107,7 @@ class ShapeSource final : public SizeSource {
   }
 
   SourceSpec spec_;
+  ShapeDistance distance_;
   SourceSpacing least_;     // smallest length, largest radius, slowest growth of all its points
   bool is_varied_ = false;  // the spacing is not one for all points
   bool is_plain_ = false;   // lengths grow by the slope from every point on
@@ -192,12 +149,16 @@ double least_over_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::arra
                    least_over_segment(x, p[2], p[0], length[2], length[0], slope)});
 }
 
-int n_spacings(SourceKind kind) { return kind == SourceKind::kLine ? 2 : kind == SourceKind::kTriangle ? 3 : 1; }
+int n_spacings(SourceKind kind) {
+  const SourceType* type = find_source_type(kind);
+  ST_ASSERT(type);
+  return type->n_spacings;
+}
 
 bool simplify(SourceSpec& source) {
   constexpr double kFlat = 1e-12;  // of the largest coordinate, of the longest side
+  if (source.kind != SourceKind::kLine && source.kind != SourceKind::kTriangle) return false;
   const int n = n_spacings(source.kind);
-  if (n == 1) return false;
   const auto& p = source.point;
   double extent = 0, longest = 0;
   int from = 0, to = 0;  // the two points farthest apart
@@ -249,7 +210,13 @@ void transform(const Similarity& motion, SourceSpec& source) {
 }
 
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope) {
-  return std::make_unique<ShapeSource>(spec, slope);
+  const SourceType* type = find_source_type(spec.kind);
+  ST_ASSERT(type);
+  return type->make(spec, slope);
+}
+
+std::unique_ptr<SizeSource> make_shape_source(const SourceSpec& spec, double slope, ShapeDistance distance) {
+  return std::make_unique<ShapeSource>(spec, slope, distance);
 }
 
 }  // namespace st

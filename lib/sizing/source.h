@@ -30,8 +30,9 @@ struct SourceGrowth {
   SourceSpacing spacing;
 };
 
-/// Something that asks for lengths in all of space. A new kind of source is a new implementation of min_size() and
-/// size(), the two methods of the paper (section 3.1); it shall grow by slope() at most.
+/// Something that asks for lengths in all of space. A new type of source is a new implementation of min_size() and
+/// size(), the two methods of the paper (section 3.1), and an entry of source_types(); it shall grow by slope() at
+/// most.
 class SizeSource : public SizeField {
  public:
   explicit SizeSource(double slope) : slope_(slope) {}
@@ -49,6 +50,7 @@ class SizeSource : public SizeField {
   double slope_;
 };
 
+/// The number of a type in the table (source_types.h).
 enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };
 
 /// A source as the user describes it.
@@ -63,7 +65,7 @@ struct SourceSpec {
   Vec3 direction = {};                   ///< unit, where aspect > 1
 };
 
-/// Points of a line or triangle, 1 for the rest.
+/// Of its type: points of a line or triangle, 1 for most.
 int n_spacings(SourceKind kind);
 
 /// A line whose ends are one point becomes a point, a triangle whose corners lie on a line a line (or a point), with
@@ -76,10 +78,16 @@ Box3 core_box(const SourceSpec& source);
 /// Positions and directions are moved; lengths, radii and extents are scaled.
 void transform(const Similarity& motion, SourceSpec& source);
 
-/// The source as a field: at each point the smallest over the source's points of what they ask for there. Exact where
-/// the spacing is one for all points, or grows by the slope from all of them without radii; otherwise to 1e-6.
-/// Precondition: lengths > 0, radii >= 0, slope > 0.
+/// The source as a field, as its type makes it. Precondition: lengths > 0, radii >= 0, slope > 0; of a type that
+/// exists.
 std::unique_ptr<SizeSource> make_source(const SourceSpec& spec, double slope);
+
+/// From a source's points to x; not positive inside volumes.
+using ShapeDistance = double (*)(const SourceSpec&, Vec3 x);
+
+/// A shape as a field: at each point the smallest over the shape's points of what they ask for there. Exact where the
+/// spacing is one for all points, or grows by the slope from all of them without radii; otherwise to 1e-6.
+std::unique_ptr<SizeSource> make_shape_source(const SourceSpec& spec, double slope, ShapeDistance distance);
 
 /// The smallest over a triangle of a linear length plus `slope` times the distance from x. Exact.
 double least_over_triangle(Vec3 x, const std::array<Vec3, 3>& point, const std::array<double, 3>& length, double slope);

@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "sizing/octree.h"
+#include "sizing/source_types.h"
 
 namespace st {
 
 double SourceSet::min_size() const {
   double least = std::numeric_limits<double>::infinity();
   for (const SourceSpec& s : sources)
-    for (int k = 0; k < n_spacings(s.kind); ++k) least = std::min(least, s.spacing[k].length);
+    if (const SourceType* type = find_source_type(s.kind)) least = std::min(least, type->make(s, slope)->min_size());
   if (!background.tets.empty())
     for (const LocalSize& s : background.node_size) least = std::min(least, s.length);
   return least;

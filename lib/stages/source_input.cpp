@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
@@ -116,11 +117,13 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
   };
   for (std::size_t s = 0; s < input.set.sources.size(); ++s) {
     const SourceSpec& spec = input.set.sources[s];
-    const Box3 core = core_box(spec);
+    const std::unique_ptr<SizeSource> source = make_source(spec, input.set.slope);
+    const SourceGrowth growth = source->growth();
+    const Vec3 reach = growth.spacing.radius * Vec3{1, 1, 1};
+    const Box3 core{growth.core.lo - reach, growth.core.hi + reach};
     const double away = distance_between(core, lo, hi);
     if (away > 0)
-      log_warning(label_of(spec.name, s) + " " +
-                  outside_text(away, least_inside(*make_source(spec, input.set.slope), core), far_length));
+      log_warning(label_of(spec.name, s) + " " + outside_text(away, least_inside(*source, core), far_length));
   }
   Box3 background;
   for (const Vec3 x : input.set.background.node_xyz) background.add(x);

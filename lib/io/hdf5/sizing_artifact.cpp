@@ -15,6 +15,7 @@
 #include "io/hdf5/hdf5_file.h"
 #include "io/hdf5/wing_records_io.h"
 #include "sizing/moved_field.h"
+#include "sizing/source_types.h"
 
 namespace st {
 
@@ -457,7 +458,7 @@ SourceSet read_sources(const Hdf5Reader& file) {
   require_finite(file, kSourceNumbers, numbers);
   if (names.size() != kinds.size()) file.fail(kSourceName, "does not fit the number of sources");
   for (std::size_t i = 0; i < kinds.size(); ++i) {
-    if (kinds[i] > static_cast<std::uint8_t>(SourceKind::kDisc)) file.fail(kSourceKind, "names a kind that is unknown");
+    if (!find_source_type(static_cast<SourceKind>(kinds[i]))) file.fail(kSourceKind, "names a kind that is unknown");
     set.sources.push_back(source_of(static_cast<SourceKind>(kinds[i]), numbers.data() + kSourceColumns * i));
     SourceSpec& s = set.sources.back();
     s.name = names[i];

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
+#include "sizing/source_types.h"
 
 namespace st {
 namespace {
@@ -250,11 +251,6 @@ SourceFile read_msh(const std::string& path) {
 
 // --- TOML ---
 
-const std::map<std::string, SourceKind> kKinds = {{"point", SourceKind::kPoint},       {"line", SourceKind::kLine},
-                                                  {"triangle", SourceKind::kTriangle}, {"box", SourceKind::kBox},
-                                                  {"cylinder", SourceKind::kCylinder}, {"sphere", SourceKind::kSphere},
-                                                  {"disc", SourceKind::kDisc}};
-
 /// One [[source]] table; every access names file and line on failure.
 class SourceTable {
  public:
@@ -350,56 +346,33 @@ class SourceTable {
   const ModelScale& scale_;
 };
 
-void read_box(const SourceTable& table, SourceSpec& source) {
-  const Vec3 lo = table.vector("lo"), hi = table.vector("hi"), half = 0.5 * (hi - lo);
-  if (!(half.x > 0 && half.y > 0 && half.z > 0)) table.fail("box: lo must be below hi in x, y and z");
-  source.point[0] = 0.5 * (lo + hi);
-  source.half_axis = {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}};
+void read_shape(const SourceTable& table, const SourceType& type, SourceSpec& source) {
+  for (const auto& [key, sets] : type.keys) switch (sets) {
+      case SourceKey::kFirstPoint:
+        source.point[0] = table.vector(key);
+        break;
+      case SourceKey::kSecondPoint:
+        source.point[1] = table.vector(key);
+        break;
+      case SourceKey::kPoints: {
+        const std::vector<Vec3> points = table.vectors(key, static_cast<std::size_t>(type.n_spacings));
+        std::copy(points.begin(), points.end(), source.point.begin());
+        break;
+      }
+      case SourceKey::kDirection:
+        source.half_axis[0] = table.vector(key);
+        break;
+      case SourceKey::kExtent:
+        if (!table.has(key)) table.fail(fmt::format("source needs {}, the radius of the volume", key));
+        source.extent = table.length(key);
+        break;
+    }
+  if (!type.complete) return;
+  if (const std::string wrong = type.complete(source); !wrong.empty()) table.fail(wrong);
 }
 
-void read_shape(const SourceTable& table, SourceSpec& source) {
-  const std::size_t n = static_cast<std::size_t>(n_spacings(source.kind));
-  if (n > 1) {
-    const std::vector<Vec3> points = table.vectors("points", n);
-    std::copy(points.begin(), points.end(), source.point.begin());
-    if (SourceSpec simpler = source; simplify(simpler))
-      table.fail(source.kind == SourceKind::kLine
-                     ? "line: its points are the same; move one, or write type = \"point\" and at"
-                     : "triangle: its points lie on one line; move one, or write type = \"line\" with two points");
-  }
-  const auto extent = [&] {
-    if (!table.has("extent")) table.fail("source needs extent, the radius of the volume");
-    return table.length("extent");
-  };
-  switch (source.kind) {
-    case SourceKind::kPoint:
-      source.point[0] = table.vector("at");
-      break;
-    case SourceKind::kBox:
-      read_box(table, source);
-      break;
-    case SourceKind::kCylinder:
-      source.point = {table.vector("from"), table.vector("to"), {}};
-      if (source.point[0] == source.point[1]) table.fail("cylinder: from and to are the same point");
-      source.extent = extent();
-      break;
-    case SourceKind::kDisc:
-      source.half_axis[0] = table.vector("normal");
-      if (!(norm(source.half_axis[0]) > 0)) table.fail("disc: normal is zero");
-      [[fallthrough]];
-    case SourceKind::kSphere:
-      source.point[0] = table.vector("at");
-      source.extent = extent();
-      break;
-    case SourceKind::kLine:
-    case SourceKind::kTriangle:
-      break;
-  }
-}
-
-void read_stretch(const SourceTable& table, SourceSpec& source) {
+void read_stretch(const SourceTable& table, bool has_axis, SourceSpec& source) {
   if (table.has("aspect")) source.aspect = table.number("aspect", 1, 100);
-  const bool has_axis = source.kind == SourceKind::kLine || source.kind == SourceKind::kCylinder;
   if (table.has("direction"))
     source.direction = table.vector("direction");
   else if (has_axis)
@@ -412,24 +385,24 @@ void read_stretch(const SourceTable& table, SourceSpec& source) {
 SourceSpec read_source(const SourceTable& table) {
   SourceSpec source;
   source.name = table.text("name");
-  const auto kind = kKinds.find(table.text("type"));
-  if (kind == kKinds.end()) {
+  const SourceType* type = find_source_type(table.text("type"));
+  if (!type) {
     std::vector<std::string> names;
-    for (const auto& [name, of] : kKinds) names.push_back(name);
-    table.fail("type '" + table.text("type") + "'" + did_you_mean(table.text("type"), names) +
-               ": write point, line, triangle, box, cylinder, sphere or disc");
+    for (const SourceType& known : source_types()) names.push_back(known.name);
+    table.fail("type '" + table.text("type") + "'" + did_you_mean(table.text("type"), names) + ": write " +
+               source_type_names());
   }
-  source.kind = kind->second;
-  read_shape(table, source);
+  source.kind = type->kind;
+  read_shape(table, *type, source);
   if (!table.has("length")) table.fail("source needs a length");
-  const std::size_t n = static_cast<std::size_t>(n_spacings(source.kind));
+  const auto n = static_cast<std::size_t>(type->n_spacings);
   const auto length = table.lengths("length", n, 0, false), radius = table.lengths("radius", n, 0, true),
              doubling = table.lengths("doubling", n, 0, false);
   for (std::size_t k = 0; k < n; ++k) {
     source.spacing[k] = {length[k], radius[k], doubling[k]};
     if (table.has("doubling") && doubling[k] <= radius[k]) table.fail("doubling must be larger than radius");
   }
-  read_stretch(table, source);
+  read_stretch(table, type->has_axis, source);
   return source;
 }
 
@@ -437,6 +410,14 @@ std::string name_to_delete(const SourceTable& table) {
   const std::string name = table.text("name");
   if (name.empty()) table.fail("delete: needs the name of a source");
   return name;
+}
+
+/// Of all types.
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys{"name", "type", "delete", "length", "radius", "doubling", "aspect", "direction"};
+  for (const SourceType& type : source_types())
+    for (const SourceType::Key& key : type.keys) keys.push_back(key.name);
+  return keys;
 }
 
 SourceFile read_toml(const std::string& path, const ModelScale& scale) {
@@ -447,8 +428,7 @@ SourceFile read_toml(const std::string& path, const ModelScale& scale) {
     throw Error(ExitCode::kUsage, path + ": no table [[source]] in it; see docs/st-prolong.md");
   for (const toml::table* entry : entries) {
     const SourceTable table(path, *entry, scale);
-    table.require_known({"name", "type", "delete", "at", "points", "lo", "hi", "from", "to", "normal", "extent",
-                         "length", "radius", "doubling", "aspect", "direction"});
+    table.require_known(known_keys());
     if (table.flag("delete"))
       result.deleted.push_back(name_to_delete(table));
     else
