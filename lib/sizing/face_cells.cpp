@@ -202,11 +202,14 @@ class PartCollector {
   PartCollector(FaceId face, std::vector<SizedPart>& parts) : parts_(parts), face_(face) {}
 
   /// A point of length `h` that stands for `area`; its weight is that of a unit area.
-  void add(std::int32_t cause, double h, double area, const FaceWeight& weight) {
+  void add(std::int32_t cause, double h, double area, const FaceWeight& weight, Vec3 place) {
     if (part_.area > 0 && cause != part_.cause) finish();
-    if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}};
+    if (!(part_.area > 0)) part_ = {face_, cause, 0, h, {}, place};
     part_.area += area;
-    part_.least = std::min(part_.least, h);
+    if (h < part_.least) {
+      part_.least = h;
+      part_.place = place;
+    }
     part_.weight.add(weight, area);
   }
 
@@ -249,7 +252,7 @@ class CellWeigher {
       const double uniform = share / (h * h), g = norm(gradient - dot(gradient, normal) * normal);
       const FaceWeight at_point{uniform, g * uniform, g * g * uniform};
       sum.add(at_point, weight);
-      collector.add(cause, h, unit * weight, at_point);
+      collector.add(cause, h, unit * weight, at_point, x);
     }
     collector.finish();
     FaceWeight of_cell;

@@ -72,6 +72,7 @@ struct SizedPart {
   double area = 0;             ///< model unit squared
   double least = 0;            ///< smallest length in it
   FaceWeight weight;
+  Vec3 place = {};  ///< where it is the smallest
 
   /// The one length that gives as many triangles, but for those of the gradient.
   double length() const;

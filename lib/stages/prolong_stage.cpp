@@ -27,6 +27,7 @@
 #include "stages/size_tally.h"
 #include "stages/slope_input.h"
 #include "stages/source_input.h"
+#include "stages/undercuts.h"
 
 namespace st {
 namespace {
@@ -311,8 +312,14 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
   sizing.names.source = std::move(input.names);
   progress.step("expected triangles", 0.8);
   SizeTally tally = tally_by_group(sizing.labels, sizing.faces.n_faces());
+  UndercutTally undercuts;
   std::vector<FaceWeight> weights =
-      face_weights(sizing.faces, sizing.shape.view(), *sizing.field(), [&](const SizedPart& part) { tally.add(part); });
+      face_weights(sizing.faces, sizing.shape.view(), *sizing.field(), [&](const SizedPart& part) {
+        tally.add(part);
+        if (!sizing.face_lmin.empty())
+          undercuts.add(part.cause, part.least, sizing.face_lmin[part.face], sizing.frame(part.place));
+      });
+  sizing.undercuts = undercuts.take();
   const double scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   std::vector<InputRef>& inputs = sizing.header.inputs;
   std::erase_if(inputs, [](const InputRef& i) { return i.role == "sources" || i.role == "background"; });
@@ -335,6 +342,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   sizing.faces = std::move(raster.faces);
   sizing.labels = std::move(raster.labels);
   sizing.wings = std::move(raster.wings);
+  sizing.face_lmin = std::move(raster.face_lmin);
   sizing.header = raster.header;
   sizing.header.schema = "sizing";
   sizing.header.tool = "st-prolong";
@@ -366,6 +374,15 @@ ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
   }
   sizing.scale = 1;
   return add_sources(o, octree_options(sizing.header.options_json), progress, std::move(sizing));
+}
+
+/// Where the smallest lengths that were given do not hold on faces.
+void report_undercuts(const SizingArtifact& sizing) {
+  if (sizing.undercuts.empty()) return;
+  const double scale = sizing.scale * sizing.frame.scale;
+  log_report(fmt::format("  {} places on faces are below the lmin given for them, down to {:.4g}, because of {}",
+                         count(sizing.undercuts), scale * least_of(sizing.undercuts),
+                         undercut_text(sizing.undercuts, sizing.names, scale)));
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing,
@@ -401,6 +418,7 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
                                 {"slope", o.slope},
                                 {"scale", sizing.scale},
                                 {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
+                                {"below_lmin", undercuts_json(sizing.undercuts, sizing.names, "places", scale)},
                                 {"groups", groups_json(groups, sizing.names)},
                                 {"hash", sizing.header.content_hash},
                                 {"seconds", seconds}});
@@ -448,6 +466,7 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
   for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_report(line);
+  report_undercuts(sizing);
   const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());
   const double scale = sizing.scale;
   for (std::size_t i = 0; i < members.size(); ++i) write_member(o, paths[i], scale * members[i].factor, sizes);

@@ -43,6 +43,7 @@
 #include "stages/size_tally.h"
 #include "stages/stored_model.h"
 #include "stages/task_trace.h"
+#include "stages/undercuts.h"
 #include "stages/wing_report.h"
 
 namespace st {
@@ -243,42 +244,23 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
 }
 
-/// Samples that are shorter than the least length given for them.
-struct BelowFloor {
-  std::size_t n = 0;
-  float least = std::numeric_limits<float>::infinity();
-  std::vector<Vec3> places;  ///< the first
-};
+void report_undercuts(const RasterArtifact& a) {
+  if (a.undercuts.empty()) return;
+  log_report(fmt::format(
+      "  {} of {} samples are below the lmin given for them, down to {:.4g}, on narrower strips or bases: {}",
+      count(a.undercuts), a.samples.size(), least_of(a.undercuts), undercut_text(a.undercuts, a.cause_names(), 1)));
+}
 
-BelowFloor find_below_floor(std::span<const LengthSample> samples, const GivenFloors& floors) {
-  constexpr double kRounding = 0.999;
+nlohmann::ordered_json below_lmin_json(const RasterArtifact& a) {
+  if (a.undercuts.empty()) return nullptr;
   constexpr std::size_t kPlaces = 3;
-  BelowFloor below;
-  for (const LengthSample& s : samples) {
-    if (s.length >= kRounding * floors.of(s.cause)) continue;
-    ++below.n;
-    below.least = std::min(below.least, s.length);
-    if (below.places.size() < kPlaces) below.places.push_back(s.xyz);
-  }
-  return below;
-}
-
-void report_below_floor(const BelowFloor& below, std::size_t n_samples) {
-  if (below.n == 0) return;
-  std::string places;
-  for (const Vec3 x : below.places)
-    places += fmt::format("{}({:.5g}, {:.5g}, {:.5g})", places.empty() ? "" : ", ", x.x, x.y, x.z);
-  log_report(
-      fmt::format("  {} of {} samples are below the lmin given for them, down to {:.4g}, on strips narrower "
-                  "than it: near {}{}",
-                  below.n, n_samples, below.least, places, below.n > below.places.size() ? ", ..." : ""));
-}
-
-nlohmann::ordered_json below_floor_json(const BelowFloor& below) {
-  if (below.n == 0) return nullptr;
   nlohmann::ordered_json places = nlohmann::ordered_json::array();
-  for (const Vec3 x : below.places) places.push_back({x.x, x.y, x.z});
-  return {{"samples", below.n}, {"least", below.least}, {"places", places}};
+  for (const Undercut& u : a.undercuts)
+    if (places.size() < kPlaces) places.push_back({u.place.x, u.place.y, u.place.z});
+  return {{"samples", count(a.undercuts)},
+          {"least", least_of(a.undercuts)},
+          {"places", places},
+          {"causes", undercuts_json(a.undercuts, a.cause_names(), "samples", 1)}};
 }
 
 /// Loops of the faces that this rank sampled: they are asked for twice.
@@ -678,7 +660,7 @@ ExitCode code_of(const RasterStageOptions& o, const SampleCounts& counts) {
 
 StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, const SampleCounts& counts,
                        std::size_t n_rules, const Wings& wings, const std::vector<GroupSizes>& groups,
-                       const BelowFloor& below, const PhaseTimes& times) {
+                       const PhaseTimes& times) {
   const double seconds = times.total();
   const std::size_t n_cells = a.octree.shape.leaf_keys.size();
   StageSummary summary;
@@ -703,7 +685,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                                   {"gap_samples", counts.n_gap_boxes},
                                                   {"not_sampled", counts.n_failures},
                                                   {"beyond_depth", depth_json(counts.depth)},
-                                                  {"below_lmin", below_floor_json(below)},
+                                                  {"below_lmin", below_lmin_json(a)},
                                                   {"groups", sampled_json(groups, a.cause_names())},
                                                   {"hash", a.header.content_hash},
                                                   {"seconds", seconds},
@@ -810,6 +792,9 @@ class RasterRun {
     artifact_.edge_name = model_.tables().edge_name;
     artifact_.labels = model_.tables().labels;
     artifact_.wings = std::move(wings_.records);
+    const GivenFloors floors = find_floors(rules_, !o_.lmin.empty(), model_.tables(), wings_.edges, limits_);
+    if (std::ranges::any_of(floors.face, [](double lmin) { return lmin > 0; })) artifact_.face_lmin = floors.face;
+    artifact_.undercuts = sample_undercuts(artifact_.samples, floors);
     fill_header(o_, geometry_.header, wall_, sizes_.hash, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
   }
@@ -819,10 +804,8 @@ class RasterRun {
     report_unused(o_, wings_, roles_.reference_diagonal);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
     for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
-    const BelowFloor below = find_below_floor(
-        artifact_.samples, find_floors(rules_, !o_.lmin.empty(), model_.tables(), wings_.edges, limits_));
-    report_below_floor(below, artifact_.samples.size());
-    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, below, times_);
+    report_undercuts(artifact_);
+    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
   }
 
   const RasterStageOptions& o_;

@@ -104,6 +104,11 @@ constexpr const char* kGroupName = "/st/group/name";
 constexpr const char* kFaceGroup = "/st/face/group";
 constexpr const char* kSourceName = "/st/source/name";
 constexpr const char* kFaceWeight = "/st/face/weight";
+constexpr const char* kFaceLmin = "/st/face/lmin";
+constexpr const char* kUndercutCause = "/st/undercut/cause";
+constexpr const char* kUndercutCount = "/st/undercut/count";
+constexpr const char* kUndercutLeast = "/st/undercut/least";
+constexpr const char* kUndercutPlace = "/st/undercut/place";
 
 void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
   file.set_attribute(kSizing, "min_length", n.min_length);
@@ -568,6 +573,42 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   return make_octree_field(data, arrays, min_length, read_frame(file));
 }
 
+/// Nothing where no least length is given.
+void write_undercuts(Hdf5Writer& file, const std::vector<double>& face_lmin, const std::vector<Undercut>& undercuts) {
+  if (!face_lmin.empty()) file.write<double>(kFaceLmin, face_lmin);
+  if (undercuts.empty()) return;
+  std::vector<std::int32_t> causes;
+  std::vector<std::int64_t> counts;
+  std::vector<double> least;
+  std::vector<Vec3> places;
+  for (const Undercut& u : undercuts) {
+    causes.push_back(u.cause);
+    counts.push_back(u.n);
+    least.push_back(u.least);
+    places.push_back(u.place);
+  }
+  file.write<std::int32_t>(kUndercutCause, causes);
+  file.write<std::int64_t>(kUndercutCount, counts);
+  file.write<double>(kUndercutLeast, least);
+  file.write<Vec3>(kUndercutPlace, places);
+}
+
+void read_undercuts(const Hdf5Reader& file, std::size_t n_faces, std::vector<double>& face_lmin,
+                    std::vector<Undercut>& undercuts) {
+  if (file.has(kFaceLmin)) {
+    face_lmin = file.read_rows<double>(kFaceLmin, n_faces);
+    require_lengths(file, kFaceLmin, face_lmin);
+  }
+  if (!file.has(kUndercutCause)) return;
+  const std::vector<std::int32_t> causes = file.read<std::int32_t>(kUndercutCause);
+  const std::vector<std::int64_t> counts = file.read_rows<std::int64_t>(kUndercutCount, causes.size());
+  const std::vector<double> least = file.read_rows<double>(kUndercutLeast, causes.size());
+  const std::vector<Vec3> places = file.read_rows<Vec3>(kUndercutPlace, causes.size());
+  require_lengths(file, kUndercutLeast, least);
+  require_finite(file, kUndercutPlace, places);
+  for (std::size_t i = 0; i < causes.size(); ++i) undercuts.push_back({causes[i], counts[i], least[i], places[i]});
+}
+
 std::vector<double> read_face_weight(const Hdf5Reader& file) {
   std::vector<double> weight = file.read<double>(kFaceWeight);
   require_lengths(file, kFaceWeight, weight);
@@ -629,6 +670,7 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write_strings(kEdgeName, raster.edge_name);
   write_wings(file, raster.wings);
   write_groups(file, raster.labels);
+  write_undercuts(file, raster.face_lmin, raster.undercuts);
   return file.commit();
 }
 
@@ -652,6 +694,7 @@ RasterArtifact read_raster(const std::string& path) {
   raster.edge_name = file.read_strings(kEdgeName);
   raster.wings = read_wings(file);
   raster.labels = read_face_labels(file, raster.faces);
+  read_undercuts(file, raster.labels.face_name.size(), raster.face_lmin, raster.undercuts);
   return raster;
 }
 
@@ -698,6 +741,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     write_sources(file, sizing.sources);
     write_face_cells(file, sizing.faces);
     write_groups(file, sizing.labels);
+    write_undercuts(file, sizing.face_lmin, sizing.undercuts);
   }
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
@@ -747,6 +791,7 @@ SizingArtifact read_sizing(const std::string& path) {
   if (file.has(kFaceOffset)) {
     sizing.faces = read_face_cells(file, n);
     sizing.labels = read_face_labels(file, sizing.faces);
+    read_undercuts(file, sizing.labels.face_name.size(), sizing.face_lmin, sizing.undercuts);
   }
   return sizing;
 }

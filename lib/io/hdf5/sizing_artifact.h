@@ -42,6 +42,16 @@ struct CauseNames {
 /// "edge 12 \"TE\"", "face 3", "source \"wake\"", "the background mesh", "the largest length". See pack_cause.
 std::string cause_text(const CauseNames& names, std::int32_t cause);
 
+/// Lengths of one cause below the least length that is given where they are (lmin).
+struct Undercut {
+  std::int32_t cause = kNone;  ///< see pack_cause
+  std::int64_t n = 0;          ///< samples of the raster, or places of faces in cells, > 0
+  double least = 0;            ///< model unit, before scale
+  Vec3 place;                  ///< of the first, model unit
+
+  bool operator==(const Undercut&) const = default;
+};
+
 /// raster.hdf
 struct RasterArtifact {
   ArtifactHeader header;
@@ -54,6 +64,8 @@ struct RasterArtifact {
   std::vector<std::string> edge_name;  ///< [n_edges]; "": none
   FaceLabels labels;                   ///< names of faces, and groups for slopes of groups, or none
   std::vector<WingRecord> wings;       ///< lifting surfaces
+  std::vector<double> face_lmin;       ///< [n_faces] least length that is given for it, 0: none; empty: for none
+  std::vector<Undercut> undercuts;     ///< samples of strips and bases below that, most first
   std::int64_t n_not_sampled = 0;      ///< faces and batches of edges that could not be sampled; > 0: the raster is
                                        ///< incomplete
 
@@ -79,6 +91,8 @@ struct SizingArtifact {
   FaceLabels labels;         ///< likewise
   std::vector<WingRecord> wings;    ///< lifting surfaces, in the octree's own frame and before `scale`
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
+  std::vector<double> face_lmin;    ///< as in the raster
+  std::vector<Undercut> undercuts;  ///< where the field is below that on faces, by what causes it, most first
   CauseNames names;
 
   /// Views of the arrays above, in the octree's own frame. `tree`: of `sources`.

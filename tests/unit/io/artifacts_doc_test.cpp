@@ -101,6 +101,8 @@ RasterArtifact sample_raster() {
   r.wings[0].edges.resize(3);
   r.wings[1].faces.resize(7);
   r.wings[1].bases.resize(4);
+  r.face_lmin = {0.1, 0, 0.2};
+  r.undercuts.resize(9);
   return r;
 }
 
@@ -127,6 +129,8 @@ SizingArtifact sample_sizing() {
   s.sources.background.node_size.resize(4);
   s.sources.background.tets.resize(6);
   s.faces = sample_raster().faces;
+  s.face_lmin = {0.1, 0, 0.2};
+  s.undercuts.resize(9);
   s.labels = sample_raster().labels;
   s.stretched.along.resize(17);
   s.stretched.direction.resize(17);
