@@ -131,7 +131,7 @@ class Blanker {
     return is_inside == (flow_sign_ < 0) ? CellColour::kFlow : CellColour::kBlanked;
   }
 
-  /// One ray for each region of uncut cells, and its colour for all of them.
+  /// One ray for each region of uncut cells that hang together at faces, and its colour for all of them.
   void colour_the_rest() {
     std::vector<std::int32_t> region(octree_.leaf_keys.size(), kNone), seeds, front;
     for (std::int32_t seed = 0; seed < octree_.n_leaves(); ++seed) {
@@ -143,7 +143,7 @@ class Blanker {
       while (!front.empty()) {
         const std::int32_t leaf = front.back();
         front.pop_back();
-        neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+        neighbours_.for_each_across_face(leaf, [&](std::int32_t other, const CellStep&) {
           if (is_cut(other) || region[other] != kNone) return;
           region[other] = own;
           front.push_back(other);

@@ -22,32 +22,39 @@ class TriangleWalk {
     box_ = {};
     for (const Vec3& x : corner_) box_.add(x);
     normal_ = cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
+    steepness_ = (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
     const double half = 0.5 * octree_.edge;
-    descend(octree_.node_children.empty() ? ~0 : 0, octree_.lo + Vec3{half, half, half}, half);
+    const Vec3 center = octree_.lo + Vec3{half, half, half};
+    if (meets_box(center, kTouching * half)) descend(octree_.node_children.empty() ? ~0 : 0, center, half);
   }
   std::vector<std::pair<std::int32_t, TriangleId>> found;  // leaf, triangle
 
  private:
+  /// Precondition: the triangle's box meets the cube.
   void descend(std::int32_t node, Vec3 center, double half) {
-    if (!may_meet(center, kTouching * half)) return;
+    if (!meets_plane(center, kTouching * half)) return;
     if (node < 0) {
       if (!is_apart(center, kTouching * half)) found.emplace_back(~node, triangle_);
       return;
     }
-    const double q = 0.5 * half;
+    const double q = 0.5 * half, reach = (kTouching - 1) * q;
+    const int lower = (box_.lo.x <= center.x + reach) | (box_.lo.y <= center.y + reach) << 1 |
+                      (box_.lo.z <= center.z + reach) << 2,
+              upper = (box_.hi.x >= center.x - reach) | (box_.hi.y >= center.y - reach) << 1 |
+                      (box_.hi.z >= center.z - reach) << 2;  // a bit for each axis: halves that the box meets
     for (int o = 0; o < 8; ++o)
-      descend(octree_.node_children[8 * static_cast<std::size_t>(node) + static_cast<std::size_t>(o)],
-              center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q}, q);
+      if (((o & upper) | (~o & lower)) == 7)
+        descend(octree_.node_children[8 * static_cast<std::size_t>(node) + static_cast<std::size_t>(o)],
+                center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q}, q);
   }
-  bool may_meet(Vec3 c, double h) const {
-    if (box_.lo.x > c.x + h || box_.hi.x < c.x - h || box_.lo.y > c.y + h || box_.hi.y < c.y - h ||
-        box_.lo.z > c.z + h || box_.hi.z < c.z - h)
-      return false;
-    return std::abs(dot(normal_, c - corner_[0])) <=
-           h * (std::abs(normal_.x) + std::abs(normal_.y) + std::abs(normal_.z)) * kTouching;
+  bool meets_box(Vec3 c, double h) const {
+    return box_.lo.x <= c.x + h && box_.hi.x >= c.x - h && box_.lo.y <= c.y + h && box_.hi.y >= c.y - h &&
+           box_.lo.z <= c.z + h && box_.hi.z >= c.z - h;
   }
+  bool meets_plane(Vec3 c, double h) const { return std::abs(dot(normal_, c - corner_[0])) <= h * steepness_; }
 
-  /// Whether a plane along an edge of the triangle and an edge of the cube separates them: with may_meet() the
+  /// Whether a plane along an edge of the triangle and an edge of the cube separates them: with the box
+  /// and the plane the
   /// separating axes of a triangle and a cube (Akenine-Moeller 2001).
   bool is_apart(Vec3 center, double h) const {
     const Vec3 c[3] = {corner_[0] - center, corner_[1] - center, corner_[2] - center};
@@ -70,6 +77,7 @@ class TriangleWalk {
   const SurfaceView& surface_;
   TriangleId triangle_ = 0;
   Vec3 corner_[3], normal_;
+  double steepness_ = 0;  // half the width of a cube across the plane, over half its edge and the normal's length
   Box3 box_;
 };
 
