@@ -111,18 +111,22 @@ Model& Model::operator=(Model&&) noexcept = default;
 
 std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
   ST_ASSERT(edge >= 0 && edge < tables_.n_edges() && !tables_.edge_is_degenerate[edge]);
-  double t0, t1;
-  const TopoDS_Edge e = TopoDS::Edge(impl_->edges(edge + 1));
-  const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
-  if (c.IsNull())
-    throw Error(ExitCode::kGeometry, tables_.edge_label(edge) + " has no space curve; repair the CAD model");
-  return occt::make_curve(c, t0, t1);
+  return impl_->curves.get(edge, [&] {
+    double t0, t1;
+    const TopoDS_Edge e = TopoDS::Edge(impl_->edges(edge + 1));
+    const Handle(Geom_Curve) c = BRep_Tool::Curve(e, t0, t1);
+    if (c.IsNull())
+      throw Error(ExitCode::kGeometry, tables_.edge_label(edge) + " has no space curve; repair the CAD model");
+    return occt::make_curve(c, t0, t1);
+  });
 }
 
 std::unique_ptr<Surface> Model::surface(FaceId face) const {
   ST_ASSERT(face >= 0 && face < tables_.n_faces());
   const double* b = &tables_.face_uv_bounds[4 * static_cast<std::size_t>(face)];
-  return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
+  return impl_->surfaces.get(face, [&] {
+    return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
+  });
 }
 
 std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {

@@ -4,15 +4,45 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "geometry/model/model.h"
 
 namespace st {
 
+/// Curves or surfaces that were made once, by id: the next ones are their copies. For any thread.
+template <class Shape>
+class Originals {
+ public:
+  template <class Make>
+  std::unique_ptr<Shape> get(std::int32_t id, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto own = own_.find(id); own != own_.end()) return own->second->copy();
+    }
+    std::unique_ptr<Shape> made = make();  // perhaps by several threads: all of them the same
+    if (std::unique_ptr<Shape> own = made->copy()) {
+      const std::lock_guard lock(mutex_);
+      own_.try_emplace(id, std::move(own));
+    }
+    return made;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::int32_t, std::unique_ptr<Shape>> own_;
+};
+
 struct Model::Impl {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges;  ///< TopExp order of `shape`: the order of ids
+  Originals<Curve> curves;
+  Originals<Surface> surfaces;
 };
 
 namespace occt {

@@ -104,26 +104,37 @@ std::vector<double> KnotSpans::knots_between(double lo, double hi) const {
 
 BsplineCurve::BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool is_rational, double t_min,
                            double t_max)
-    : knots_(std::move(knots)),
+    : BsplineCurve(std::make_shared<Data>(data_of(std::move(knots), poles)), is_rational, t_min, t_max) {}
+
+BsplineCurve::BsplineCurve(std::shared_ptr<const Data> data, bool is_rational, double t_min, double t_max)
+    : data_(std::move(data)),
       is_rational_(is_rational),
-      kernels_(patch_kernels(knots_.degree() + 1, is_rational ? 4 : 3)) {
+      kernels_(patch_kernels(data_->knots.degree() + 1, is_rational ? 4 : 3)) {
   t_min_ = t_min;
   t_max_ = t_max;
-  period_ = knots_.period();
-  const int order = knots_.degree() + 1;
-  ST_ASSERT(poles.size() >= static_cast<std::size_t>(knots_.first_pole(knots_.n_spans() - 1) + order));
-  coefficients_.assign(static_cast<std::size_t>(knots_.n_spans()) * order, Pole{});
-  for (int k = 0; k < knots_.n_spans(); ++k)
+  period_ = data_->knots.period();
+}
+
+std::unique_ptr<Curve> BsplineCurve::copy() const {
+  return std::unique_ptr<Curve>(new BsplineCurve(data_, is_rational_, t_min_, t_max_));
+}
+
+BsplineCurve::Data BsplineCurve::data_of(KnotSpans knots, const std::vector<Pole>& poles) {
+  const int order = knots.degree() + 1;
+  ST_ASSERT(poles.size() >= static_cast<std::size_t>(knots.first_pole(knots.n_spans() - 1) + order));
+  std::vector<Pole> coefficients(static_cast<std::size_t>(knots.n_spans()) * order);
+  for (int k = 0; k < knots.n_spans(); ++k)
     for (int j = 0; j < order; ++j)
       for (int c = 0; c < order; ++c)
         for (int x = 0; x < 4; ++x)
-          coefficients_[k * order + c].x[x] += knots_.basis(k)[j * order + c] * poles[knots_.first_pole(k) + j].x[x];
+          coefficients[k * order + c].x[x] += knots.basis(k)[j * order + c] * poles[knots.first_pole(k) + j].x[x];
+  return {std::move(knots), std::move(coefficients)};
 }
 
 Vec3 BsplineCurve::point(double t) const {
   double s;
-  const int k = knots_.locate(t, last_, s), degree = knots_.degree();
-  const Pole* c = &coefficients_[static_cast<std::size_t>(k) * (degree + 1)];
+  const int k = data_->knots.locate(t, last_, s), degree = data_->knots.degree();
+  const Pole* c = &data_->coefficients[static_cast<std::size_t>(k) * (degree + 1)];
   double p[4] = {c[degree].x[0], c[degree].x[1], c[degree].x[2], c[degree].x[3]};
   for (int i = degree - 1; i >= 0; --i)
     for (int x = 0; x < 4; ++x) p[x] = p[x] * s + c[i].x[x];
@@ -133,16 +144,25 @@ Vec3 BsplineCurve::point(double t) const {
 
 CurvePoint BsplineCurve::evaluate(double t) const {
   double s, out[12];
-  const int k = knots_.locate(t, last_, s), order = knots_.degree() + 1;
-  kernels_.line_second(coefficients_[static_cast<std::size_t>(k) * order].x, order, s, knots_.rate(k), out);
+  const int k = data_->knots.locate(t, last_, s), order = data_->knots.degree() + 1;
+  kernels_.line_second(data_->coefficients[static_cast<std::size_t>(k) * order].x, order, s, data_->knots.rate(k), out);
   return {{out[0], out[1], out[2]}, {out[4], out[5], out[6]}, {out[8], out[9], out[10]}};
 }
 
 BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational,
                                Bounds bounds)
-    : u_(std::move(u)),
-      v_(std::move(v)),
-      poles_(std::move(poles)),
+    : BsplineSurface(std::make_shared<Data>(Data{std::move(u), std::move(v), std::move(poles)}), n_v, is_rational,
+                     bounds) {}
+
+std::unique_ptr<Surface> BsplineSurface::copy() const {
+  return std::unique_ptr<Surface>(new BsplineSurface(data_, n_v_, is_rational_, {u_min_, u_max_, v_min_, v_max_}));
+}
+
+BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds)
+    : data_(std::move(data)),
+      u_(data_->u),
+      v_(data_->v),
+      poles_(data_->poles),
       n_v_(n_v),
       is_rational_(is_rational),
       stride_(is_rational ? 4 : 3),

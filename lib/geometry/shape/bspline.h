@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/shape/curve.h"
@@ -75,15 +76,23 @@ struct Pole {
 class BsplineCurve : public Curve {
  public:
   BsplineCurve(KnotSpans knots, const std::vector<Pole>& poles, bool is_rational, double t_min, double t_max);
+  std::unique_ptr<Curve> copy() const override;
   Vec3 point(double t) const override;
   CurvePoint evaluate(double t) const override;
-  const std::vector<double>& c0_knots() const { return knots_.c0_knots(); }
-  std::vector<double> knots() const override { return knots_.knots_between(t_min_, t_max_); }
+  const std::vector<double>& c0_knots() const { return data_->knots.c0_knots(); }
+  std::vector<double> knots() const override { return data_->knots.knots_between(t_min_, t_max_); }
 
  private:
-  KnotSpans knots_;
+  /// What copies have in common.
+  struct Data {
+    KnotSpans knots;
+    std::vector<Pole> coefficients;  // [span][degree+1]
+  };
+  static Data data_of(KnotSpans knots, const std::vector<Pole>& poles);
+  BsplineCurve(std::shared_ptr<const Data> data, bool is_rational, double t_min, double t_max);
+
+  std::shared_ptr<const Data> data_;
   bool is_rational_;
-  std::vector<Pole> coefficients_;  // [span][degree+1]
   PatchKernels kernels_;
   mutable int last_ = 0;
 };
@@ -95,6 +104,8 @@ class BsplineSurface : public Surface {
   };
   /// `poles` [n_u][n_v], v fastest.
   BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, Bounds bounds);
+  /// Without the spans that are converted.
+  std::unique_ptr<Surface> copy() const override;
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
@@ -112,8 +123,16 @@ class BsplineSurface : public Surface {
   const double* patch(int iu, int iv) const;
   void convert(int iu, int iv, double* out) const;
 
-  KnotSpans u_, v_;
-  std::vector<Pole> poles_;
+  /// What copies have in common.
+  struct Data {
+    KnotSpans u, v;
+    std::vector<Pole> poles;
+  };
+  BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds);
+
+  std::shared_ptr<const Data> data_;
+  const KnotSpans &u_, &v_;
+  const std::vector<Pole>& poles_;
   int n_v_;
   bool is_rational_;
   int stride_;  // doubles per coefficient

@@ -1,6 +1,7 @@
 // Parametric curves in space, evaluated without knowing what they are.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/vec.h"
@@ -24,6 +25,8 @@ class Curve {
   virtual CurvePoint evaluate(double t) const = 0;
   /// Parameters strictly inside the bounds where one polynomial piece ends and the next begins, ascending.
   virtual std::vector<double> knots() const { return {}; }
+  /// Another one of the same data, for any thread, at a fraction of the cost of making it; nullptr: there is no saving.
+  virtual std::unique_ptr<Curve> copy() const { return nullptr; }
   /// Period of the parametrisation, 0 when there is none.
   double period() const { return period_; }
 

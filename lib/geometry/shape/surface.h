@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -65,6 +66,8 @@ class Surface {
   /// along the period. Where there are no pieces, the breaks.
   virtual std::vector<double> u_knots() const { return u_breaks_; }
   virtual std::vector<double> v_knots() const { return v_breaks_; }
+  /// Another one of the same data, for any thread, at a fraction of the cost of making it; nullptr: there is no saving.
+  virtual std::unique_ptr<Surface> copy() const { return nullptr; }
   /// Period of the parametrisation, 0 when there is none. The bounds of a face may be less than a period, never more.
   double u_period() const { return u_period_; }
   double v_period() const { return v_period_; }

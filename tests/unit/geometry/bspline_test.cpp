@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace st {
 namespace {
@@ -163,6 +164,33 @@ TEST(BsplineSurface, bilinear_patch_is_the_mean_of_its_corners) {
   EXPECT_TRUE(p.dv == (Vec3{0, 1, 3}));
   EXPECT_TRUE(p.duv == (Vec3{0, 0, 2}));
   EXPECT_TRUE(s.point({0, 1}) == (Vec3{0, 1, 2}));  // v fastest
+}
+
+TEST(BsplineCurve, copies_are_the_same_curve) {
+  const std::vector<Pole> poles{{{0, 0, 0, 1}}, {{1, 0, 0, 1}}, {{1, 1, 0, 1}}, {{0, 1, 2, 1}}};
+  const BsplineCurve curve(KnotSpans(2, clamped_knots(2, {1}, 2), 0), poles, false, 0.25, 1.75);
+  const std::unique_ptr<Curve> copy = curve.copy();
+  ASSERT_TRUE(copy);
+  EXPECT_EQ(copy->t_min(), 0.25);
+  EXPECT_EQ(copy->t_max(), 1.75);
+  EXPECT_EQ(copy->knots(), curve.knots());
+  for (const double t : {0.3, 1.0, 1.6}) EXPECT_EQ(copy->evaluate(t).d1, curve.evaluate(t).d1);
+}
+
+TEST(BsplineSurface, copies_live_on_their_own) {
+  auto surface = std::make_unique<BsplineSurface>(
+      KnotSpans(1, {0, 0, 1, 1}, 0), KnotSpans(1, {0, 0, 1, 1}, 0),
+      std::vector<Pole>{{{0, 0, 0, 1}}, {{0, 1, 2, 1}}, {{1, 0, 3, 1}}, {{1, 1, 0, 1}}}, 2, false,
+      BsplineSurface::Bounds{0.1, 0.9, 0.2, 0.8});
+  const std::unique_ptr<Surface> copy = surface->copy();
+  const SurfacePoint2 at = surface->evaluate2({0.3, 0.7});
+  surface.reset();
+  ASSERT_TRUE(copy);
+  EXPECT_EQ(copy->evaluate2({0.3, 0.7}).x, at.x);
+  EXPECT_EQ(copy->evaluate2({0.3, 0.7}).duv, at.duv);
+  EXPECT_EQ(copy->u_min(), 0.1);
+  EXPECT_EQ(copy->v_max(), 0.8);
+  EXPECT_EQ(copy->type(), SurfaceType::kBspline);
 }
 
 }  // namespace
