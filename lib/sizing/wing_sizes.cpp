@@ -209,19 +209,26 @@ ChordLimit::ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int 
     : chord_cells_(chord_cells) {
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(lines_),
                [&](const ChordLine& line) { return line.wing == wing; });
+  for (const ChordLine& line : lines_)
+    balls_.push_back({0.5 * (line.nose + line.trailing), 0.5 * distance(line.nose, line.trailing)});
 }
 
 ChordLimit::Answer ChordLimit::answer(Vec3 x) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  Answer answer;
-  for (const ChordLine& line : lines_) {
-    const double d = segment_distance(x, line.nose, line.trailing);
-    if (d >= nearest) continue;
+  constexpr double kAbove = 1 + 1e-12;  // rounding shall leave no line out
+  if (lines_.empty()) return {};
+  const auto distance_to = [&](std::size_t i) { return segment_distance(x, lines_[i].nose, lines_[i].trailing); };
+  std::size_t best = last_;  // of the last place, which is near mostly
+  double nearest = distance_to(best);
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const double reach = kAbove * (nearest + balls_[i].radius);
+    if (norm2(x - balls_[i].center) > reach * reach) continue;
+    const double d = distance_to(i);
+    if (d > nearest || (d == nearest && i >= best)) continue;
     nearest = d;
-    answer = {line.chord / chord_cells_, line.trailing - line.nose};
+    best = i;
   }
-  answer.direction = normalized(answer.direction);
-  return answer;
+  last_ = best;
+  return {lines_[best].chord / chord_cells_, normalized(lines_[best].trailing - lines_[best].nose)};
 }
 
 }  // namespace st

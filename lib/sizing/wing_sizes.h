@@ -72,7 +72,7 @@ struct ChordLine {
 /// Appends the measured stations.
 void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines);
 
-/// The largest length on one face of a lifting surface: a share of the local chord.
+/// The largest length on one face of a lifting surface: a share of the local chord. One object serves one thread.
 class ChordLimit {
  public:
   /// Of the lines of `wing`; without any there is no limit.
@@ -81,13 +81,19 @@ class ChordLimit {
     double length = std::numeric_limits<double>::infinity();  ///< model unit
     Vec3 direction;                                           ///< unit, along the chord; zero without lines
   };
-  /// Of the nearest line. Linear in lines.
+  /// Of the nearest line, the first of equally near ones. Linear in lines, most of which are passed over.
   Answer answer(Vec3 x) const;
   double at(Vec3 x) const { return answer(x).length; }
 
  private:
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
   std::vector<ChordLine> lines_;
+  std::vector<Ball> balls_;  // around the lines
   int chord_cells_;
+  mutable std::size_t last_ = 0;  // the line that was nearest last
 };
 
 }  // namespace st

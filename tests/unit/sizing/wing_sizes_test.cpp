@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "support/shapes.h"
 
@@ -139,6 +140,22 @@ TEST(WingSizes, tell_where_a_floor_makes_them_larger) {
   ASSERT_TRUE(most_raised(wings[0], sizes));
   EXPECT_NEAR(most_raised(wings[0], sizes)->asked, 0.01, 1e-4);
   EXPECT_EQ(most_raised(wings[0], sizes)->floor, 0.25);
+}
+
+TEST(ChordLimit, passes_over_none_that_is_nearest) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto vec = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  std::vector<ChordLine> lines;
+  for (int i = 0; i < 60; ++i) lines.push_back({vec(), vec(), 1.0 + i, 0});
+  const ChordLimit limit(lines, 0, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x = 2 * vec();
+    const auto nearest = std::min_element(lines.begin(), lines.end(), [&](const ChordLine& a, const ChordLine& b) {
+      return segment_distance(x, a.nose, a.trailing) < segment_distance(x, b.nose, b.trailing);
+    });
+    ASSERT_EQ(limit.at(x), nearest->chord);
+  }
 }
 
 TEST(ChordLimit, is_a_share_of_the_nearest_chord_of_its_own_surface) {
