@@ -38,7 +38,7 @@ std::vector<FaceId> faces_with(const Facets& facets) {
 }
 
 TEST(ProfileFacets, show_the_same_profiles_as_those_of_all_faces) {
-  for (const char* shape : {"wing_on_body", "wing_with_pod", "half_blunt_wing", "tapering_wing"}) {
+  for (const char* shape : {"wing_on_body", "wing_with_pod", "half_blunt_wing", "tapering_wing", "wing_of_8"}) {
     const Case c(shape);
     const Facets facets = c.facets(), all = c.all_facets();
     const ProfileCutter some(facets), every(all);
