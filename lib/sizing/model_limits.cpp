@@ -190,7 +190,6 @@ class LimitsMaker {
     for (const Limits& own : face_.surface)
       limits.wants_gaps = limits.wants_gaps || (own && (own->gap_cells || own->wall_cells));
     limits.is_material_ahead = is_material_ahead(t_, roles_);
-    for (const FaceId f : roles_.guessed) limits.far_length = std::max(limits.far_length, far_length(f));
     limits.far = wall_;
     limits.far.max_length = limits.far_length;
     limit_by_chord(limits);

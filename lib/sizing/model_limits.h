@@ -61,10 +61,9 @@ inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 /// lengths around, but are no finer than the wing is between nose and trailing edge (chord_cells). Where a body is
 /// thinner around than the chord is long, alpha grows with the root of that ratio, twice at most.
 ///
-/// `far_length` is the largest max_length of all faces; guessed outer faces that touch the body count like a far field
-/// there, so that a domain whose sides all touch it does not fill up with the body's lengths. Throws Error(kUsage) for
-/// a rule that selects nothing or contradicts itself. `wing_edges`, `aircraft`: what detection found; lengths of chord
-/// and span refer to the lifting surface that is nearest to the face or edge.
+/// `far_length` is the largest max_length of all faces. Throws Error(kUsage) for a rule that selects nothing or
+/// contradicts itself. `wing_edges`, `aircraft`: what detection found; lengths of chord and span refer to the lifting
+/// surface that is nearest to the face or edge.
 ModelLimits model_limits(const ModelTables& tables, const FaceRoles& roles, const SamplingLimits& wall,
                          const std::vector<SizeRule>& rules = {}, std::span<const WingEdge> wing_edges = {},
                          const Aircraft& aircraft = {});

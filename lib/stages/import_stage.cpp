@@ -66,6 +66,15 @@ nlohmann::json tables_json(const ModelTables& t) {
   return tables;
 }
 
+nlohmann::json air_json(const AirFaces& air) {
+  if (air.n_farfield == 0) return nullptr;
+  return {{"farfield", air.n_farfield},
+          {"symmetry", air.n_symmetry},
+          {"interface", air.n_interface},
+          {"replaced", air.is_replaced},
+          {"recognised_by", air.is_by_shape ? "shape" : "names"}};
+}
+
 nlohmann::json report(const std::string& model, const ImportResult& r) {
   const ModelTables& t = r.tables;
   const Box3 box = t.box();
@@ -88,6 +97,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"nonmanifold_edges", r.n_nonmanifold_edges},
           {"repairs", repairs},
           {"findings", findings},
+          {"flow_domain", air_json(r.air)},
           {"area", r.area},
           {"volume", r.volume},
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
@@ -239,6 +249,22 @@ void say_unit(const ImportStageOptions& o, const ImportResult& r) {
     log_report(fmt::format("  {}", source));
 }
 
+/// Whether the file has its own air, and how to say otherwise.
+void say_air(const ImportStageOptions& o, const ImportResult& r) {
+  const AirFaces& air = r.air;
+  if (air.is_replaced)
+    log_report(fmt::format("  the air of the file is replaced: {}, and gone", air.in_words()));
+  else if (air.n_farfield > 0)
+    log_report(fmt::format("  the file has its own air: {}; lengths in % refer to the rest, diagonal {:.4g}{}",
+                           air.in_words(), r.tables.reference_diagonal(),
+                           air.is_by_shape && o.flow_domain == ImportOptions().flow_domain
+                               ? "; --flow-domain no takes all faces as walls, a groups file names them"
+                               : ""));
+  else if (!air.doubt.empty())
+    log_report(fmt::format("  all faces are walls: what is inside {}; --flow-domain yes takes what is around it as air",
+                           air.doubt));
+}
+
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
@@ -256,6 +282,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
     log_warning(
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
   say_unit(o, r);
+  say_air(o, r);
   say_bodies(o, r);
   say_crossing_faces(o, r);
   say_faults(o, r);
@@ -308,6 +335,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.sew = o.sew;
   options.symmetry = o.symmetry;
   options.farfield = o.farfield;
+  options.replace_farfield = o.replace_farfield;
+  options.flow_domain = o.flow_domain;
   options.unite = o.unite;
   options.join_touching = o.join;
   options.check_only = o.check;
@@ -333,6 +362,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.sew.empty()) used["sew"] = o.sew;
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
+    if (!o.replace_farfield.empty()) used["replace_farfield"] = o.replace_farfield;
+    if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
     if (o.unite) used["unite"] = true;
     if (o.join) used["join"] = true;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();

@@ -19,12 +19,13 @@ struct ImportStageOptions {
   static constexpr NumberOption kTimeLimit{
       "--time-limit", "SECONDS", "(0, 1e9]",
       "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file"};
-  std::string symmetry, farfield;  ///< of ImportOptions; empty: none
-  std::string groups;              ///< groups file (TOML); empty: the groups of the CAD file
-  bool unite = false;              ///< of ImportOptions
-  bool join = false;               ///< solids that touch get common faces
-  bool check = false;              ///< report only, write nothing
-  bool require_closed = false;     ///< an open model is an error (exit 4)
+  std::string symmetry, farfield, replace_farfield;  ///< of ImportOptions; empty: none
+  std::string flow_domain = "auto";                  ///< of ImportOptions
+  std::string groups;                                ///< groups file (TOML); empty: the groups of the CAD file
+  bool unite = false;                                ///< of ImportOptions
+  bool join = false;                                 ///< solids that touch get common faces
+  bool check = false;                                ///< report only, write nothing
+  bool require_closed = false;                       ///< an open model is an error (exit 4)
 };
 
 /// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE

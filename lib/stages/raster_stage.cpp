@@ -132,13 +132,6 @@ void require_valid(const RasterStageOptions& o) {
   SizeOptions::kMaxAspect.require(o.max_aspect);
 }
 
-std::string describe_guess(const ModelTables& t, const FaceRoles& roles) {
-  return fmt::format(
-      "taken as a body in a flow domain: {} faces, {} the first, are its outer boundary, and lengths refer to the rest "
-      "(diagonal {:.4g}); --all-walls takes all faces as walls, names of groups tell for certain",
-      roles.guessed.size(), t.face_label(roles.guessed.front()), roles.reference_diagonal);
-}
-
 SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t, double diagonal) {
   if (!(diagonal > 0))
     throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
@@ -525,7 +518,6 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["base_cells"] = o.base_cells;
   if (!o.end_size.empty()) options["end_size"] = o.end_size;
   options["chord_cells"] = o.chord_cells;
-  if (o.all_walls) options["all_walls"] = true;
   if (o.no_surface) options["no_surface"] = true;
   if (o.max_aspect > 1) options["max_aspect"] = o.max_aspect;
   header.options_json = json_text(options);
@@ -712,11 +704,9 @@ class RasterRun {
         sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
         rules_(all_rules(o, sizes_, geometry_.tables)),
         model_(same_model(comm)),
-        roles_(face_roles(model_, o.all_walls ? RoleGuess::kForbidden : RoleGuess::kAllowed, trace_)),
+        roles_(face_roles(model_, trace_)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
-        strips_(find_strips(model_)) {
-    if (!roles_.guessed.empty()) log_warning(describe_guess(model_.tables(), roles_));
-  }
+        strips_(find_strips(model_)) {}
 
   StageSummary run() {
     progress_.step("lifting surfaces and limits", 0.1);

@@ -42,7 +42,6 @@ struct RasterStageOptions {
   static constexpr NumberOption kTimeLimit{"--time-limit", "SECONDS", "[0.1, 1e9]",
                                            "do not sample a face that takes longer"};
   std::string trace;              ///< table of the time of each task, see TaskTrace; empty: none
-  bool all_walls = false;         ///< no face is taken as a far field or symmetry plane by its extent
   bool no_surface = false;        ///< leave out the coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
 };

@@ -16,6 +16,10 @@ int main(int argc, char** argv) {
             "cut or close the model at this plane: y=0 keeps the positive side, y=0- the negative side");
   tool.text("--farfield", o.farfield, "KIND:SIZE",
             "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
+  tool.text("--replace-farfield", o.replace_farfield, "KIND:SIZE",
+            "likewise, in place of the far field that the file has; its symmetry plane stays one");
+  tool.text("--flow-domain", o.flow_domain, "WORD",
+            "whether the file is the air around a body: auto (by shape where no name says so), yes or no");
   tool.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   tool.number(o.kTimeLimit, o.time_limit);
   tool.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");

@@ -32,7 +32,6 @@ int main(int argc, char** argv) {
   tool.number(o.kMaxCells, o.max_cells);
   tool.number(o.kTimeLimit, o.time_limit);
   tool.output_option("--trace", o.trace, "table of the time of each task, for bench/replay.py; default: none");
-  tool.flag("--all-walls", o.all_walls, "take no face as a far field or symmetry plane by its extent");
   tool.flag("--no-surface", o.no_surface,
             "leave out the coarse surface of a closed model: lengths then pass through solids");
   tool.flag("--allow-incomplete", o.allow_incomplete,

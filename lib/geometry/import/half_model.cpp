@@ -304,7 +304,7 @@ std::string name_of(const ImportedShape& model, const TopoDS_Face& face) {
 bool is_far_field(const ImportedShape& model, const Faces& body) {
   return std::any_of(body.begin(), body.end(), [&](const TopoDS_Face& f) {
     const FaceAttributes& a = model.attributes[model.faces.FindIndex(f) - 1];
-    return role_of_name(a.name) == "farfield" || role_of_name(a.part) == "farfield";
+    return a.role == "farfield" || role_of_name(a.name) == "farfield" || role_of_name(a.part) == "farfield";
   });
 }
 

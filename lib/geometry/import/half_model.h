@@ -26,8 +26,8 @@ struct FarField {
 /// "y=0", "z=-1.5", "y=0+", "x=2-". Throws Error(kUsage).
 SymmetryPlane parse_symmetry(const std::string& text);
 
-/// "box:20", "sphere:50". Throws Error(kUsage) for anything else and for sizes outside [1, 1000].
-FarField parse_farfield(const std::string& text);
+/// "box:20", "sphere:50" of `option`. Throws Error(kUsage) for anything else and for sizes outside [1, 1000].
+FarField parse_farfield(const std::string& text, const std::string& option);
 
 /// Cuts the model at the symmetry plane where it lies on both sides, closes it there with faces named "symmetry"; with
 /// a far field the result is the fluid between the body and the outer faces named "farfield": one closed solid, normals

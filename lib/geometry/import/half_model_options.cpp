@@ -30,9 +30,9 @@ SymmetryPlane parse_symmetry(const std::string& text) {
   return plane;
 }
 
-FarField parse_farfield(const std::string& text) {
-  const std::string message = "--farfield: '" + text +
-                              "' is not a far field; use box:20 or sphere:50, in diagonals of the model from 1 to 1000";
+FarField parse_farfield(const std::string& text, const std::string& option) {
+  const std::string message =
+      option + ": '" + text + "' is not a far field; use box:20 or sphere:50, in diagonals of the model from 1 to 1000";
   FarField far;
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);

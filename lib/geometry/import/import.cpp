@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/required_unit.h"
+#include "geometry/import/air_roles.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
 #include "geometry/import/crossing_faces.h"
@@ -104,30 +105,27 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
   for (ImportFinding& f : findings) f.xyz = factor * f.xyz, f.size *= factor;
 }
 
-/// What --symmetry and --farfield ask for.
-struct FlowDomain {
-  std::optional<occt::SymmetryPlane> plane;
-  std::optional<occt::FarField> far;
-};
-
-FlowDomain parse_flow_domain(const ImportOptions& options) {
-  FlowDomain domain;
-  if (!options.symmetry.empty()) domain.plane = occt::parse_symmetry(options.symmetry);
-  if (!options.farfield.empty()) domain.far = occt::parse_farfield(options.farfield);
-  return domain;
-}
-
-/// Symmetry plane and far field, with tables made again; new faces need no word on their trimming curves and shells.
-void add_flow_domain(ImportedShape& model, occt::ModelOfFile& tables, const FlowDomain& domain,
-                     std::vector<ImportFinding>& findings, const std::string& path) {
-  if (!domain.plane && !domain.far) return;
+/// The air that the file has gets its roles, or goes; symmetry plane and far field that are asked for are made. Tables
+/// are made again; new faces need no word on their trimming curves and shells.
+AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::AskedAir asked,
+                    std::vector<ImportFinding>& findings, const std::string& path) {
+  const occt::FileAir air = occt::find_file_air(model, tables.tables, asked, path);
+  if (air.is_by_shape) tables = occt::make_tables(model, path);
+  if (asked.replaces) {
+    occt::remove_air(model, tables.tables, air.faces, asked, path);
+    tables = occt::make_tables(model, path);
+  }
+  AirFaces counts = occt::counts_of(air);
+  counts.is_replaced = asked.replaces;
+  if (!asked.plane && !asked.far) return counts;
   std::vector<ImportFinding> own;
-  occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), domain.plane, domain.far,
+  occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), asked.plane, asked.far,
                          findings, path);
   occt::repair_loops(model, own);
   occt::repair_pcurves(model, own);
   tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
+  return counts;
 }
 
 void require_closed(const ImportResult& result, const std::string& path) {
@@ -140,9 +138,14 @@ void require_closed(const ImportResult& result, const std::string& path) {
                                          " free edges; close it in the CAD system, or import without --require-closed");
 }
 
+/// A symmetry plane or a far field gives faces other numbers.
+bool makes_air(const ImportOptions& options) {
+  return !options.symmetry.empty() || !options.farfield.empty() || !options.replace_farfield.empty();
+}
+
 /// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
 bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
-  if (options.symmetry.empty() && options.farfield.empty()) return false;
+  if (!makes_air(options)) return false;
   return std::any_of(rule.faces.begin(), rule.faces.end(), [](const std::string& item) {
     return item.find_first_not_of("0123456789-") == std::string::npos;
   });
@@ -191,7 +194,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
 /// Sewing and voids may put the faces in another order: a group that names them by number must not end with others than
 /// those that were sewn for it. With a flow domain such groups are not sewn.
 void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
-  if (!options.symmetry.empty() || !options.farfield.empty()) return;
+  if (makes_air(options)) return;
   const std::vector<double> tolerances = face_tolerances(tables.labels);
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
@@ -312,7 +315,7 @@ void name_parts(const std::vector<std::int32_t>& file_faces, std::vector<ImportF
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
-  const FlowDomain domain = parse_flow_domain(options);
+  const occt::AskedAir air = occt::parse_air(options);
   Progress progress("importing", 1);
   progress.step("reading", 0);
   const CadFile file = occt::read_cad(path);
@@ -345,7 +348,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
   relate_bodies(model, tables, options, result.findings, path, progress);
   progress.step("far field and symmetry", 0.7);
-  add_flow_domain(model, tables, domain, result.findings, path);
+  result.air = settle_air(model, tables, air, result.findings, path);
   progress.step("faces that cross", 0.75);
   const auto crossings = find_faces_that_cross(model, tables, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);

@@ -18,11 +18,25 @@ struct ImportOptions {
   bool check_only = false;  ///< also run OpenCASCADE's checker
   std::string symmetry;     ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
   std::string farfield;     ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
-  bool join_touching = false;     ///< solids that touch get common faces and edges
-  bool unite = false;             ///< bodies that overlap become one, before that
-  double unite_seconds = 60;      ///< no union begins later
-  bool require_closed = false;    ///< Error(kGeometry) for a model that is open after repairs
-  std::vector<GroupRule> groups;  ///< empty: those of the file
+  std::string replace_farfield;      ///< likewise, in place of the one that the file has; empty: keep it
+  std::string flow_domain = "auto";  ///< "auto": air around a body is recognised by its shape where no name says so;
+                                     ///< "yes": it is there; "no": it is not looked for
+  bool join_touching = false;        ///< solids that touch get common faces and edges
+  bool unite = false;                ///< bodies that overlap become one, before that
+  double unite_seconds = 60;         ///< no union begins later
+  bool require_closed = false;       ///< Error(kGeometry) for a model that is open after repairs
+  std::vector<GroupRule> groups;     ///< empty: those of the file
+};
+
+/// Faces that bound the air which the file itself has.
+struct AirFaces {
+  int n_farfield = 0, n_symmetry = 0, n_interface = 0;
+  bool is_by_shape = false;  ///< no name said so
+  bool is_replaced = false;  ///< by a new far field: these faces are gone
+  std::string doubt;         ///< why what looks like air is taken for a part; or empty
+
+  /// "6 faces are farfield, 1 face is symmetry".
+  std::string in_words() const;
 };
 
 struct ImportResult {
@@ -34,6 +48,7 @@ struct ImportResult {
   bool is_closed = false;                ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
   int n_contradictory_edges = 0;  ///< at which both faces disagree which side is outside
+  AirFaces air;                   ///< none where the import made it
   bool has_assumed_unit = false;  ///< the file names no unit, and that of ImportOptions was taken as it
   double area = 0, volume = 0;    ///< model unit squared, cubed (volume 0 when open)
 };

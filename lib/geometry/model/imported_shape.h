@@ -29,6 +29,7 @@ struct FaceAttributes {
   std::int32_t part_index = kNone;  ///< of ImportedShape::parts; kNone: a face that the import made
   bool is_sewn_by_group = false;    ///< its group's tolerance was used
   std::int32_t file_face = kNone;   ///< number in the file, from 0; kNone: a face that the import made
+  std::string role = {};            ///< recognised by shape: "farfield", "symmetry", "interface"; empty: by its name
 };
 
 /// "face 3 of the file".

@@ -60,7 +60,8 @@ Box3 ModelTables::box() const {
 Box3 ModelTables::wall_box() const {
   Box3 b;
   for (FaceId f = 0; f < n_faces(); ++f)
-    if (!is_outer_role(labels.group_role[labels.face_group[f]])) b.add(face_box[f]);
+    if (const std::string& role = labels.group_role[labels.face_group[f]]; !is_outer_role(role) && role != "interface")
+      b.add(face_box[f]);
   return b.is_empty() ? box() : b;
 }
 

@@ -8,6 +8,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "geometry/brep/face_integral.h"
@@ -223,16 +224,33 @@ class TableWriter {
     if (labels.part_name.empty()) labels.face_part.clear();
   }
 
+  static std::string name_in_file(const FaceAttributes& d) {
+    return !d.name.empty() ? d.name : !d.part.empty() ? d.part : "default";
+  }
+
+  /// Names of faces of which only some have a recognised role, or not all the same.
+  std::set<std::string> names_of_several_roles() const {
+    std::map<std::string, std::string> role_of;
+    std::set<std::string> names;
+    for (const FaceAttributes& d : model_.attributes)
+      if (const auto [it, is_new] = role_of.emplace(name_in_file(d), d.role); !is_new && it->second != d.role)
+        names.insert(it->first);
+    return names;
+  }
+
+  /// A face with a recognised role keeps the name that the file gives it, but not one that other faces have.
   void fill_groups() {
     ModelTables& t = tables_;
+    const std::set<std::string> mixed = names_of_several_roles();
     std::map<std::string, std::int32_t> ids;
     for (int i = 0; i < model_.faces.Extent(); ++i) {
       const FaceAttributes& d = model_.attributes[i];
-      const std::string name = !d.name.empty() ? d.name : !d.part.empty() ? d.part : "default";
+      const bool is_renamed = !d.role.empty() && (d.name.empty() || mixed.count(d.name) > 0);
+      const std::string name = is_renamed ? d.role : name_in_file(d);
       const auto [it, is_new] = ids.emplace(name, static_cast<std::int32_t>(t.labels.group_name.size()));
       if (is_new) {
         t.labels.group_name.push_back(name);
-        t.labels.group_role.push_back(role_of_name(name));
+        t.labels.group_role.push_back(d.role.empty() ? role_of_name(name) : d.role);
         t.labels.group_attributes.push_back("{}");
       }
       t.labels.face_group.push_back(it->second);

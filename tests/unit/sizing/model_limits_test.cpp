@@ -55,7 +55,7 @@ TEST(ModelLimits, never_make_a_far_field_finer_than_walls) {
 /// The limits of a wall with a body's measures in a model of diagonal 20, with a wing's chord beside it.
 SamplingLimits limits_of_body(const Body& body) {
   ModelTables t = three_faces({"wall", "wall", "wall"});
-  FaceRoles roles{{FaceRole::kWall, FaceRole::kWall, FaceRole::kWall}, {}, 20, {}};
+  FaceRoles roles{{FaceRole::kWall, FaceRole::kWall, FaceRole::kWall}, 20, {}};
   SamplingLimits wall = kWall;
   wall.chord_cells = 30;
   return *model_limits(t, roles, wall, {}, {}, {{}, {{body}, {0, kNone, kNone}}}).face[0];

@@ -1,0 +1,309 @@
+#include "geometry/import/air_pieces.h"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Tool.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+namespace st::occt {
+namespace {
+
+constexpr int kPointsPerEdge = 5;
+constexpr int kGrid = 8;                 // samples of a face along u and along v
+constexpr double kInPlane = 1e-4;        // over the model's diagonal: edges have tolerances
+constexpr double kRounding = 1e-6;       // likewise: of places in a plane
+constexpr double kCell = 16;             // of the grid in which edges are looked for, over the rounding
+constexpr double kSameArea = 1e-3;       // of faces with the same edges: relative
+constexpr double kAlong = 0.999;         // cosine between normals in a plane
+constexpr double kLargePlane = 0.25;     // diagonal of the box of a face that may be a symmetry plane, over the model's
+constexpr double kStraight = 20;         // degrees
+constexpr std::size_t kMostPlanes = 12;  // that are looked at: a prism of 10 sides
+
+Vec3 point_at(const BRepAdaptor_Surface& surface, double u, double v, Vec3& normal) {
+  gp_Pnt p;
+  gp_Vec du, dv;
+  surface.D1(u, v, p, du, dv);
+  const gp_Vec n = du.Crossed(dv);
+  normal = normalized(Vec3{n.X(), n.Y(), n.Z()});
+  return vec(p);
+}
+
+/// From a face into it, square to one of its edges at the edge's middle; zero where that cannot be told.
+Vec3 direction_into(const TopoDS_Face& face, const TopoDS_Shape& edge) {
+  for (TopExp_Explorer e(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
+    if (!e.Current().IsSame(edge)) continue;
+    const TopoDS_Edge own = TopoDS::Edge(e.Current());
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(own, face, first, last);
+    if (curve.IsNull()) return {};
+    gp_Pnt2d uv;
+    gp_Vec2d way;
+    curve->D1(0.5 * (first + last), uv, way);
+    const BRepAdaptor_Surface surface(face, false);
+    gp_Pnt p;
+    gp_Vec du, dv;
+    surface.D1(uv.X(), uv.Y(), p, du, dv);
+    gp_Vec along = way.X() * du + way.Y() * dv;
+    if (own.Orientation() == TopAbs_REVERSED) along.Reverse();
+    const gp_Vec into = du.Crossed(dv).Crossed(along);
+    return normalized(Vec3{into.X(), into.Y(), into.Z()});
+  }
+  return {};
+}
+
+Vec3 farthest(const std::vector<Vec3>& points, Vec3 from) {
+  return *std::max_element(points.begin(), points.end(),
+                           [&](Vec3 a, Vec3 b) { return norm2(a - from) < norm2(b - from); });
+}
+
+}  // namespace
+
+double size_of(const std::vector<Vec3>& points) {
+  if (points.empty()) return 0;
+  const Vec3 end = farthest(points, points[0]);
+  return distance(end, farthest(points, end));
+}
+
+std::vector<FaceSample> sample_face(const TopoDS_Face& face) {
+  std::vector<FaceSample> samples;
+  try {
+    const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+    const BRepAdaptor_Surface surface(forward);
+    BRepTopAdaptor_FClass2d classifier(forward, Precision::PConfusion());
+    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+    BRepTools::UVBounds(forward, u0, u1, v0, v1);
+    for (int i = 0; i < kGrid; ++i)
+      for (int k = 0; k < kGrid; ++k) {
+        const gp_Pnt2d uv(u0 + (i + 0.5) / kGrid * (u1 - u0), v0 + (k + 0.5) / kGrid * (v1 - v0));
+        if (classifier.Perform(uv) != TopAbs_IN) continue;
+        FaceSample sample;
+        sample.xyz = point_at(surface, uv.X(), uv.Y(), sample.normal);
+        if (norm2(sample.normal) > 0) samples.push_back(sample);
+      }
+  } catch (const Standard_Failure&) {  // a face that cannot be measured says nothing
+    samples.clear();
+  }
+  return samples;
+}
+
+AirPieces::AirPieces(const ImportedShape& model, const ModelTables& tables)
+    : model_(model), t_(tables), box_(tables.box()), diagonal_(box_.diagonal()) {
+  TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+  find_edge_points();
+  find_first_edges();
+  find_first_faces();
+  find_ways();
+}
+
+void AirPieces::find_edge_points() {
+  edge_points_.reserve(static_cast<std::size_t>(kPointsPerEdge) * t_.n_edges());
+  for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+    double t0 = 0, t1 = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges_(e + 1)), t0, t1);
+    for (int k = 0; k < kPointsPerEdge; ++k)
+      edge_points_.push_back(curve.IsNull() ? t_.vertex_xyz[t_.edge_vertices[2 * e]]
+                                            : vec(curve->Value(t0 + k * (t1 - t0) / (kPointsPerEdge - 1))));
+  }
+}
+
+bool AirPieces::are_at_one_place(EdgeId a, EdgeId b) const {
+  const Vec3* p = &edge_points_[static_cast<std::size_t>(kPointsPerEdge) * a];
+  const Vec3* q = &edge_points_[static_cast<std::size_t>(kPointsPerEdge) * b];
+  bool is_same = true, is_opposite = true;
+  for (int k = 0; k < kPointsPerEdge; ++k) {
+    is_same = is_same && distance(p[k], q[k]) <= kRounding * diagonal_;
+    is_opposite = is_opposite && distance(p[k], q[kPointsPerEdge - 1 - k]) <= kRounding * diagonal_;
+  }
+  return is_same || is_opposite;
+}
+
+void AirPieces::find_first_edges() {
+  first_edge_.resize(t_.n_edges());
+  std::iota(first_edge_.begin(), first_edge_.end(), 0);
+  const double cell = kCell * kRounding * diagonal_;
+  std::map<std::array<std::int64_t, 3>, std::vector<EdgeId>> cells;  // first edges by their middles
+  const auto key = [&](Vec3 x, double by) {
+    const auto index = [&](double v) { return static_cast<std::int64_t>(std::floor(v / cell + by)); };
+    return std::array{index(x.x), index(x.y), index(x.z)};
+  };
+  for (EdgeId e = 0; e < t_.n_edges() && cell > 0; ++e) {
+    if (t_.edge_is_degenerate[e]) continue;
+    const Vec3 middle = edge_points_[static_cast<std::size_t>(kPointsPerEdge) * e + kPointsPerEdge / 2];
+    const auto lo = key(middle, -1.0 / kCell), hi = key(middle, 1.0 / kCell);
+    for (std::int64_t i = lo[0]; i <= hi[0]; ++i)
+      for (std::int64_t j = lo[1]; j <= hi[1]; ++j)
+        for (std::int64_t k = lo[2]; k <= hi[2]; ++k)
+          if (const auto near = cells.find({i, j, k}); near != cells.end())
+            for (const EdgeId other : near->second)
+              if (first_edge_[e] == e && are_at_one_place(e, other)) first_edge_[e] = other;
+    if (first_edge_[e] == e) cells[key(middle, 0)].push_back(e);
+  }
+  offsets_.assign(t_.n_edges() + 1, 0);
+  for (const EdgeId e : t_.coedge_edge) ++offsets_[first_edge_[e] + 1];
+  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+  edge_faces_.resize(t_.coedge_edge.size());
+  std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
+  for (FaceId f = 0; f < t_.n_faces(); ++f)
+    for (const EdgeId e : t_.edges_of(f)) edge_faces_[next[first_edge_[e]]++] = f;
+}
+
+void AirPieces::find_first_faces() {
+  std::map<std::vector<EdgeId>, std::vector<FaceId>> by_edges;
+  for (FaceId f = 0; f < t_.n_faces(); ++f) {
+    std::vector<EdgeId> edges;
+    for (const EdgeId e : t_.edges_of(f)) edges.push_back(first_edge_[e]);
+    std::sort(edges.begin(), edges.end());
+    std::vector<FaceId>& same = by_edges[edges];
+    const auto twin = std::find_if(same.begin(), same.end(), [&](FaceId g) {
+      return std::abs(t_.face_area[f] - t_.face_area[g]) <= kSameArea * t_.face_area[f] &&
+             distance(t_.face_box[f].center(), t_.face_box[g].center()) <= kSameArea * t_.face_box[f].diagonal();
+    });
+    first_face_.push_back(twin == same.end() ? f : *twin);
+    if (twin == same.end()) same.push_back(f);
+  }
+}
+
+TopoDS_Face AirPieces::face(FaceId f) const { return TopoDS::Face(model_.faces(f + 1)); }
+
+std::vector<Vec3> AirPieces::points_of(EdgeId e) const {
+  const auto first = edge_points_.begin() + static_cast<std::ptrdiff_t>(kPointsPerEdge) * e;
+  return {first, first + kPointsPerEdge};
+}
+
+std::vector<Vec3> AirPieces::edge_points(std::span<const FaceId> faces) const {
+  std::vector<Vec3> points;
+  for (const FaceId f : faces)
+    for (const EdgeId e : t_.edges_of(f)) {
+      const auto first = edge_points_.begin() + static_cast<std::ptrdiff_t>(kPointsPerEdge) * e;
+      points.insert(points.end(), first, first + kPointsPerEdge);
+    }
+  return points;
+}
+
+bool AirPieces::is_in_plane(FaceId f, const HullPlane& plane) const {
+  double tolerance = std::max(kRounding * diagonal_, t_.face_tolerance[f]);
+  for (const EdgeId e : t_.edges_of(f)) tolerance = std::max(tolerance, t_.edge_tolerance[e]);
+  const auto is_off = [&](Vec3 x) { return std::abs(dot(x - plane.point, plane.normal)) > tolerance; };
+  for (const EdgeId e : t_.edges_of(f))
+    for (int k = 0; k < kPointsPerEdge; ++k)
+      if (is_off(edge_points_[static_cast<std::size_t>(kPointsPerEdge) * e + k])) return false;
+  const std::vector<FaceSample> samples = sample_face(face(f));
+  return std::none_of(
+             samples.begin(), samples.end(),
+             [&](const FaceSample& s) { return is_off(s.xyz) || std::abs(dot(s.normal, plane.normal)) < kAlong; }) &&
+         (!samples.empty() || t_.face_type[f] == SurfaceType::kPlane);
+}
+
+std::optional<HullPlane> AirPieces::hull_plane_of(FaceId f) const {
+  if (t_.face_box[f].diagonal() < kLargePlane * diagonal_) return std::nullopt;
+  const std::vector<FaceSample> samples = sample_face(face(f));
+  if (samples.empty()) return std::nullopt;
+  HullPlane plane{samples[0].xyz, samples[0].normal, {}, 0};
+  double below = 0, above = 0;
+  for (const Vec3 x : t_.vertex_xyz) {
+    const double height = dot(x - plane.point, plane.normal);
+    below = std::max(below, -height), above = std::max(above, height);
+    if (std::min(below, above) > kInPlane * diagonal_) return std::nullopt;
+  }
+  if (above > below) plane.normal = -plane.normal;
+  return is_in_plane(f, plane) ? std::optional(plane) : std::nullopt;
+}
+
+std::vector<HullPlane> AirPieces::hull_planes() const {
+  std::vector<HullPlane> planes;
+  std::vector<char> is_known(t_.n_faces(), 0);
+  for (FaceId f = 0; f < t_.n_faces(); ++f) {
+    if (is_known[f]) continue;
+    std::optional<HullPlane> plane = hull_plane_of(f);
+    if (!plane) continue;
+    for (FaceId g = 0; g < t_.n_faces(); ++g)
+      if (!is_known[g] && is_in_plane(g, *plane)) {
+        is_known[g] = 1;
+        plane->faces.push_back(g);
+        plane->area += t_.face_area[g];
+      }
+    planes.push_back(std::move(*plane));
+  }
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const HullPlane& a, const HullPlane& b) { return a.area > b.area; });
+  if (planes.size() > kMostPlanes) planes.resize(kMostPlanes);
+  return planes;
+}
+
+void AirPieces::find_ways() {
+  for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+    if (first_edge_[e] != e || faces_at(e).size() < 3 || t_.edge_is_degenerate[e]) continue;
+    std::vector<Way> ways;
+    for (const FaceId f : faces_at(e))
+      if (std::none_of(ways.begin(), ways.end(), [&](const Way& way) { return way.face == first_face_[f]; }))
+        ways.push_back({first_face_[f], {}});
+    if (ways.size() < 3) continue;
+    for (Way& way : ways)
+      for (const EdgeId own : t_.edges_of(way.face))
+        if (first_edge_[own] == e) way.into = direction_into(face(way.face), edges_(own + 1));
+    ways_.emplace(e, std::move(ways));
+  }
+}
+
+std::vector<AirPiece> AirPieces::pieces_without(const std::vector<char>& is_left_out) const {
+  std::vector<FaceId> parent(t_.n_faces());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](FaceId f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  const auto join = [&](FaceId f, FaceId g) {
+    const FaceId a = root(f), b = root(g);
+    parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (FaceId f = 0; f < t_.n_faces(); ++f)
+    if (!is_left_out[f] && !is_left_out[first_face_[f]]) join(f, first_face_[f]);
+  for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+    FaceId first = kNone;
+    for (const FaceId f : faces_at(e))
+      if (!is_left_out[f] && first_edge_[e] == e && !is_crowded(e)) first == kNone ? void(first = f) : join(first, f);
+  }
+  std::vector<std::pair<FaceId, FaceId>> pairs;
+  for (const auto& [e, ways] : ways_) {
+    std::vector<Way> single;
+    for (const Way& way : ways)
+      if (!is_left_out[way.face] && std::count_if(ways.begin(), ways.end(), [&](const Way& other) {
+                                      return !is_left_out[other.face] && root(other.face) == root(way.face);
+                                    }) == 1)
+        single.push_back(way);
+    if (const auto pair = straight_pair(single)) pairs.push_back(*pair);
+  }
+  for (const auto& [f, g] : pairs) join(f, g);
+  std::map<FaceId, AirPiece> by_root;
+  for (FaceId f = 0; f < t_.n_faces(); ++f) {
+    if (is_left_out[f]) continue;
+    AirPiece& piece = by_root[root(f)];
+    piece.faces.push_back(f);
+    piece.box.add(t_.face_box[f]);
+  }
+  std::vector<AirPiece> pieces;
+  for (auto& [first, piece] : by_root) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+std::optional<std::pair<FaceId, FaceId>> AirPieces::straight_pair(std::span<const Way> at) {
+  double least = -std::cos(radians(kStraight));
+  std::optional<std::pair<FaceId, FaceId>> best;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (std::size_t k = i + 1; k < at.size(); ++k)
+      if (const double d = dot(at[i].into, at[k].into); d < least) least = d, best = std::pair(at[i].face, at[k].face);
+  return best;
+}
+
+}  // namespace st::occt
