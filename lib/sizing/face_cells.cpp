@@ -32,7 +32,7 @@ class CellLocator {
   bool must_split(const PatchSize& size) {
     int level = 0;
     leaf_ = octree_.find_leaf(morton::encode(octree_.grid_point(size.center)), level);
-    return size.extent > octree_.cell_edge(level);
+    return size.extent > std::max(octree_.cell_edge(level), outside(size.center));
   }
 
   bool visit(const Patch<PositionProbe>& patch, const PatchSize& size, int&) {
@@ -47,6 +47,12 @@ class CellLocator {
   std::vector<FacePart> take() { return std::move(parts_); }
 
  private:
+  /// How far a point lies from the root cube: lengths change no faster there.
+  double outside(Vec3 x) const {
+    const Vec3 d = x - octree_.lo;
+    return std::max({-d.x, -d.y, -d.z, d.x - octree_.edge, d.y - octree_.edge, d.z - octree_.edge});
+  }
+
   const Surface& surface_;
   const OctreeView& octree_;
   std::int32_t leaf_ = 0;  // at the centre of the last patch
@@ -104,7 +110,7 @@ class PlanePoints {
     edge_ = edge;
     near_ = near;
     steepest_ = std::max({std::abs(normal_.x), std::abs(normal_.y), std::abs(normal_.z)});
-    if (steepest_ > 0)
+    if (steepest_ > 0 && !is_beyond(center_))
       for (int b = 0; b < n; ++b)
         for (int a = 0; a < n; ++a) add((a + 0.5) / n - 0.5, (b + 0.5) / n - 0.5, 1.0 / n);
     if (points_.empty()) points_.push_back({center_, 1});
@@ -126,6 +132,11 @@ class PlanePoints {
       return;
     }
     if (std::abs(height) <= 0.5 * edge_) points_.push_back({x, side * side});
+  }
+  /// Beyond the root cube the nearest cells hold the area: lengths inside them say nothing of it.
+  bool is_beyond(Vec3 x) const {
+    const Vec3 d = x - middle_;
+    return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) > edge_;
   }
   /// The point of the plane over (a, b), and how far it lies from the middle of the cell the third way.
   Vec3 on_plane(double a, double b, double& height) const {

@@ -1,6 +1,10 @@
 #include "stages/common_octree.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/packer.h"
+#include "base/share.h"
 #include "sizing/cell_limit.h"
 #include "sizing/octree_nodes.h"
 
@@ -30,7 +34,48 @@ NodeLevels unite_over_ranks(NodeLevels nodes, const Communicator& comm) {
   return comm.is_root() ? nodes : unpack_nodes(bytes);
 }
 
+constexpr double kMargin = 1;      // around the walls, over their diagonal
+constexpr double kWorthIt = 0.5;   // diagonal of what is left, over the model's
+constexpr double kFarShare = 0.5;  // least length outside, over the far field's
+
+bool is_in(Vec3 x, const Box3& box) {
+  return x.x >= box.lo.x && x.y >= box.lo.y && x.z >= box.lo.z && x.x <= box.hi.x && x.y <= box.hi.y && x.z <= box.hi.z;
+}
+
+/// What the samples of a rank say of the box around the walls.
+struct OctreeNeed {
+  std::uint64_t n_too_small = 0;  // for the cells of the model's octree
+  float least_outside = std::numeric_limits<float>::infinity();
+};
+
+OctreeNeed find_need(const Box3& model, const Box3& near_walls, std::span<const RasterBox> boxes) {
+  OctreeNeed need{find_depth_limit(model, boxes).n_samples};
+  for (const RasterBox& box : boxes)
+    if (!is_in(box.center, near_walls)) need.least_outside = std::min(need.least_outside, box.length);
+  return need;
+}
+
 }  // namespace
+
+Box3 choose_octree_box(const Box3& model, const Box3& walls, std::span<const RasterBox> own_boxes, double far_length,
+                       const Communicator& comm) {
+  const double margin = kMargin * walls.diagonal();
+  const Vec3 around{margin, margin, margin};
+  const Box3 near_walls{walls.lo - around, walls.hi + around};
+  if (walls.is_empty() || near_walls.diagonal() > kWorthIt * model.diagonal()) return model;
+  Packer packer;
+  packer.add(find_need(model, near_walls, own_boxes));
+  OctreeNeed all;
+  for (const Bytes& bytes : comm.gather(packer.take())) {
+    OctreeNeed of_rank;
+    Unpacker(bytes).get(of_rank);
+    all.n_too_small += of_rank.n_too_small;
+    all.least_outside = std::min(all.least_outside, of_rank.least_outside);
+  }
+  std::uint8_t is_near = all.n_too_small > 0 && all.least_outside >= kFarShare * far_length;
+  share(comm, is_near);
+  return is_near ? near_walls : model;
+}
 
 RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, std::uint64_t max_cells,
                                  const Communicator& comm) {

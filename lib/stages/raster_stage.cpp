@@ -771,8 +771,9 @@ class RasterRun {
     times_.end("gaps");
     trace_.begin_phase("octree");
     const Box3 box = model_.tables().box();
-    artifact_.octree = build_common_octree(box, boxes, budget_.max_cells, comm_);
-    counts_.depth = gather_depth_limit(find_depth_limit(box, boxes), comm_);
+    const Box3 root = choose_octree_box(box, model_.tables().wall_box(), boxes, limits_.far_length, comm_);
+    artifact_.octree = build_common_octree(root, boxes, budget_.max_cells, comm_);
+    counts_.depth = gather_depth_limit(find_depth_limit(root, boxes), comm_);
     if (o_.cell_per_length > kStoredByCellUpTo) artifact_.samples = gather_samples(boxes, origin_of_places(box), comm_);
     times_.end("octree");
   }

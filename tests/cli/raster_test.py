@@ -54,6 +54,19 @@ class Rules(ToolTest):
         counts = [self.raster(f"[[size]]\nedges = 1\nedge_cells = {n}\n")["samples"] for n in (1, 40)]
         self.assertGreater(counts[1], counts[0] + 10)
 
+    def test_a_far_field_of_200_spans_keeps_its_lengths_and_those_at_the_nose(self):
+        geometry, output = self.folder / "g.hdf", self.folder / "r.hdf"
+        lengths = []
+        for size in (5, 200):
+            must("st-import", MODELS / "wing_with_flap.step", "--farfield", f"box:{size}", "-o", geometry)
+            run = must("st-raster", geometry, "-o", output, "--edge-size", "0.02%chord", "--json")
+            self.assertNotIn("warning", run.err)
+            lengths.append(run.json())
+        self.assertAlmostEqual(lengths[0]["lmin"] / lengths[1]["lmin"], 1, 3)
+        self.assertEqual(lengths[1]["beyond_depth"]["samples"], 0)
+        self.assertLess(lengths[1]["beyond_depth"]["smallest_cell"], 1.1 * lengths[0]["beyond_depth"]["smallest_cell"])
+        self.assertAlmostEqual(lengths[1]["far_length"] / lengths[0]["far_length"], 40, 3)
+
     def test_wrong_rules_are_refused_with_file_and_line(self):
         self.refuse("[[size]]\nlmax = 1\nlmxa = 2\n", "sizes.toml:3", "'lmxa'", "allowed are", "lmin")
         self.refuse('[[size]]\nlmax = 1\nalpha = 91\n', "sizes.toml:3", "[0.001, 90]")
