@@ -10,36 +10,31 @@ namespace {
 
 constexpr double kNearlySame = 0.01;  // difference of diagonals: 2 % of the triangles
 
-/// Of its group; empty where it is in none.
-std::string group_role(const ModelTables& t, FaceId f) {
+FaceRole role_of(const ModelTables& t, FaceId f) {
   const std::size_t i = f;
   const std::int32_t group = i < t.labels.face_group.size() ? t.labels.face_group[i] : kNone;
-  return group < 0 ? "" : t.labels.group_role[group];
-}
-
-FaceRole role_of(const ModelTables& t, FaceId f) {
-  const std::string role = group_role(t, f);
-  return role == "farfield" ? FaceRole::kFarfield : role == "symmetry" ? FaceRole::kSymmetry : FaceRole::kWall;
-}
-
-/// Of the walls that bound a body, or of all where none does.
-double wall_diagonal(const ModelTables& t, const FaceRoles& roles) {
-  Box3 bodies, walls;
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
-    if (roles.role[f] != FaceRole::kWall) continue;
-    walls.add(roles.own.face_box[f]);
-    if (group_role(t, f) != "interface") bodies.add(roles.own.face_box[f]);
-  }
-  return (bodies.is_empty() ? walls : bodies).diagonal();
+  if (group < 0) return FaceRole::kWall;
+  const std::string& role = t.labels.group_role[group];
+  return role == "farfield"    ? FaceRole::kFarfield
+         : role == "symmetry"  ? FaceRole::kSymmetry
+         : role == "interface" ? FaceRole::kInterface
+                               : FaceRole::kWall;
 }
 
 FaceRoles roles_along(OwnAxes own, const ModelTables& t) {
   FaceRoles roles;
   roles.own = std::move(own);
   for (FaceId f = 0; f < t.n_faces(); ++f) roles.role.push_back(role_of(t, f));
-  if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kWall) == roles.role.end())
-    std::fill(roles.role.begin(), roles.role.end(), FaceRole::kWall);
-  roles.reference_diagonal = wall_diagonal(t, roles);
+  const auto has = [&](FaceRole role) {
+    return std::find(roles.role.begin(), roles.role.end(), role) != roles.role.end();
+  };
+  if (!has(FaceRole::kFarfield))
+    std::replace(roles.role.begin(), roles.role.end(), FaceRole::kInterface, FaceRole::kWall);
+  if (!has(FaceRole::kWall)) std::fill(roles.role.begin(), roles.role.end(), FaceRole::kWall);
+  Box3 walls;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (roles.role[f] == FaceRole::kWall) walls.add(roles.own.face_box[f]);
+  roles.reference_diagonal = walls.diagonal();
   return roles;
 }
 

@@ -8,7 +8,12 @@
 
 namespace st {
 
-enum class FaceRole : unsigned char { kWall, kFarfield, kSymmetry };
+enum class FaceRole : unsigned char {
+  kWall,
+  kFarfield,
+  kSymmetry,
+  kInterface  ///< in a flow domain: air on both sides
+};
 
 struct FaceRoles {
   std::vector<FaceRole> role;     ///< [n_faces]
@@ -16,8 +21,8 @@ struct FaceRoles {
   OwnAxes own;                    ///< along which extents are measured
 };
 
-/// Roles from those of groups, which the import recognised or names gave; all faces are walls when none is. The walls'
-/// box is without faces that have air on both sides (role interface). Boxes lie along the model's own axes, but along
+/// Roles from those of groups, which the import recognised or names gave; all faces are walls when none is, and
+/// interfaces are walls without a far field. Boxes lie along the model's own axes, but along
 /// those of space where the walls' box there has nearly the same diagonal: a model that was drawn along the axes of
 /// space is measured along them. Collective.
 FaceRoles face_roles(const Model& model, const Executor& executor = SerialExecutor());

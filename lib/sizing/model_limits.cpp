@@ -71,7 +71,7 @@ class LimitsMaker {
   void set_by_role() {
     for (std::size_t f = 0; f < roles_.role.size(); ++f) {
       Limits own;
-      if (roles_.role[f] != FaceRole::kSymmetry) own = wall_;
+      if (roles_.role[f] != FaceRole::kSymmetry && roles_.role[f] != FaceRole::kInterface) own = wall_;
       if (roles_.role[f] == FaceRole::kFarfield) own->max_length = far_length(f);
       if (const Body* body = body_of(f)) limit_by_body(*body, *own);
       face_.surface.push_back(own);

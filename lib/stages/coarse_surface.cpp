@@ -61,7 +61,9 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   warn_of_holes(result.failures);
   OrientationReport orientation;
   const ModelTables& t = topology.tables();
-  std::erase_if(result.patches, [](const FacePatch& p) { return p.triangles.empty(); });
+  std::erase_if(result.patches, [&](const FacePatch& p) {  // sizes pass where there is air on both sides
+    return p.triangles.empty() || roles.role[p.face] == FaceRole::kInterface;
+  });
   SurfaceMesh mesh = merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, result.patches, {}}, orientation);
   BlankSurface surface{std::move(mesh.node_xyz), std::move(mesh.triangles), BlankSide::kInside};
   if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kFarfield) != roles.role.end())

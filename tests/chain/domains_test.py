@@ -99,6 +99,16 @@ class Domains(ToolTest):
         body = must("st-check", alone / "mesh.hdf", "--json").json()["triangles"]
         self.assertLess(abs(check.json()["triangles"] - body), 0.3 * body)
 
+    def test_sizes_pass_a_box_in_the_air_that_asks_for_none(self):
+        path = self.make(MODELS / "wing_with_flap.step", "box", 10, "inner")
+        folder = make_chain(path, self.folder / "chain")
+        check = Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf", "--sizing",
+                    folder / "sizing.hdf", "--json")
+        self.assertEqual(check.code, OK, str(check))
+        interface = next(g for g in check.json()["groups"] if g["name"] == "interface")
+        self.assertGreater(interface["sizes"]["share"], 0.99)
+        self.assertGreater(interface["quality"]["min"], 0.7)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -58,9 +58,12 @@ Box3 ModelTables::box() const {
 }
 
 Box3 ModelTables::wall_box() const {
+  const auto has_role = [&](FaceId f, const char* role) { return labels.group_role[labels.face_group[f]] == role; };
+  bool is_domain = false;
+  for (FaceId f = 0; f < n_faces(); ++f) is_domain = is_domain || has_role(f, "farfield");
   Box3 b;
   for (FaceId f = 0; f < n_faces(); ++f)
-    if (const std::string& role = labels.group_role[labels.face_group[f]]; !is_outer_role(role) && role != "interface")
+    if (!is_outer_role(labels.group_role[labels.face_group[f]]) && !(is_domain && has_role(f, "interface")))
       b.add(face_box[f]);
   return b.is_empty() ? box() : b;
 }

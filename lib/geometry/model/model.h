@@ -73,8 +73,8 @@ struct ModelTables {
     return std::span(coedge_edge).subspan(coedges(f).first(), coedges(f).size());
   }
 
-  /// Bounding box of all faces, and of the faces whose group's role is no outer one (all faces when there is none): the
-  /// reference diagonal.
+  /// Bounding box of all faces, and of the faces whose group's role is no outer one, nor an interface in a flow domain
+  /// (all faces when there is none): the reference diagonal.
   Box3 box() const;
   Box3 wall_box() const;
   double reference_diagonal() const { return wall_box().diagonal(); }

@@ -31,14 +31,14 @@ TEST(FaceRoles, follow_the_roles_of_groups_and_measure_the_walls_alone) {
   EXPECT_DOUBLE_EQ(roles.reference_diagonal, std::hypot(20, 10));
 }
 
-TEST(FaceRoles, measure_no_walls_with_air_on_both_sides_unless_there_are_no_others) {
+TEST(FaceRoles, of_interfaces_are_walls_but_in_a_flow_domain) {
   ModelTables t = body_in_domain(2);
   t.labels.group_role = {"wall", "interface", "farfield"};
   t.labels.face_group = {0, 0, 1, 2};
-  EXPECT_EQ(face_roles(t).role[2], FaceRole::kWall);
+  EXPECT_EQ(face_roles(t).role[2], FaceRole::kInterface);
   EXPECT_DOUBLE_EQ(face_roles(t).reference_diagonal, std::hypot(2, 1));
-  t.labels.face_group = {1, 1, 1, 2};
-  EXPECT_DOUBLE_EQ(face_roles(t).reference_diagonal, std::hypot(100, 100));
+  t.labels.face_group = {0, 0, 1, 0};
+  EXPECT_EQ(face_roles(t).role[2], FaceRole::kWall);
 }
 
 TEST(FaceRoles, of_a_model_without_a_role_are_walls_all) {
