@@ -61,6 +61,10 @@ class Domains(ToolTest):
                     self.expect(self.make(body, kind, 10, "half", "step"), farfield=HALF_SIDES[kind], symmetry=1,
                                 interface=0)
 
+    def test_of_a_quarter_have_two_symmetry_planes(self):
+        for body in self.corpus(("aero_d150_wing_body_half.brep",)):
+            self.expect(self.make(body, "c", 10, "halfquarter", "step"), farfield=6, symmetry=2, interface=0)
+
     def test_turned_cut_or_with_boxes_sheets_and_several_bodies_inside_are_recognised(self):
         body = MODELS / "wing_with_flap.step"
         for variant, suffix, farfield, interface in (

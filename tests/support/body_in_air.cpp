@@ -4,10 +4,10 @@
 //   body_in_air part NAME OUT
 //
 // KIND: box, sphere, cylinder, c (half cylinder and box), prism (of six sides), bullet (half sphere and cylinder).
-// SIZE: half width or radius over the body's diagonal. VARIANT: whole; half, above y = 0; turned, a whole one;
-// halfturned; two, bodies; inner, a box with air on both sides around the body; innerhalf, likewise with faces of its
-// own on both sides; solid, the body and the domain are solids over each other; cut, the air in two blocks; disc, a
-// loose sheet; sheets, loose faces; open, half without a symmetry plane.
+// SIZE: half width or radius over the body's diagonal. VARIANT: whole; half, above y = 0; halfquarter, and above
+// its middle; turned, a whole one; halfturned; two, bodies; inner, a box with air on both sides around the body;
+// innerhalf, likewise with faces of its own on both sides; solid, the body and the domain are solids over each other;
+// cut, the air in two blocks; disc, a loose sheet; sheets, loose faces; open, half without a symmetry plane.
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -29,8 +29,10 @@
 #include <BRep_Builder.hxx>
 #include <BinTools.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_BezierCurve.hxx>
 #include <IGESControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -165,6 +167,10 @@ TopoDS_Shape half_in(const std::string& kind, const TopoDS_Shape& body, Place p,
     return compound({BRepAlgoAPI_Cut(half, inner).Shape(), BRepAlgoAPI_Cut(inner, body).Shape()});
   }
   const TopoDS_Shape air = BRepAlgoAPI_Cut(half, body).Shape();
+  if (variant == "halfquarter") {
+    const double r = 8 * p.r, z = p.middle.Z();
+    return BRepAlgoAPI_Common(air, box(p.middle.X() - r, -r, z, 2 * r, 2 * r, r)).Shape();
+  }
   if (variant == "halfturned") return turned(air);
   if (variant != "open") return air;
   std::vector<TopoDS_Shape> faces;
@@ -232,6 +238,15 @@ TopoDS_Shape capsule(double r, double h) {
   return fuse(fuse(cylinder(0, 0, 0, gp::DZ(), r, h), ball(0, 0, 0, r)), ball(0, 0, h, r));
 }
 
+/// A block with a wavy groove of depth 3.
+TopoDS_Shape engraving() {
+  TColgp_Array1OfPnt poles(1, 5);
+  for (int i = 0; i < 5; ++i) poles(i + 1) = gp_Pnt(120 + 10 * i, 100 + (i % 2 ? 8 : -4), 97);
+  const TopoDS_Edge wave = BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge();
+  const TopoDS_Shape face = BRepPrimAPI_MakePrism(wave, gp_Vec(0, 5, 0)).Shape();
+  return cut(box(0, 0, 0, 300, 200, 100), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 9)).Shape());
+}
+
 /// A hub with bores, and three twisted plates.
 TopoDS_Shape propeller() {
   TopoDS_Shape all = cylinder(0, 0, -10, gp::DZ(), 10, 20);
@@ -293,6 +308,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
          return cut(all, cylinder(30, 40, 30, gp::DZ(), 5, 30));
        }},
       {"propeller", propeller},
+      {"engraving", engraving},
       {"ring", [] { return cut(BRepPrimAPI_MakeTorus(60, 20).Shape(), cylinder(60, 0, 10, gp::DZ(), 3, 20)); }},
       {"parts_in_a_case",
        [] {

@@ -44,6 +44,19 @@ TEST(AirRoles, are_those_of_groups_and_names_of_the_faces) {
   EXPECT_EQ(std::count(t.labels.group_name.begin(), t.labels.group_name.end(), "symmetry"), 1);
 }
 
+TEST(AirRoles, of_air_on_both_sides_are_no_walls_in_a_flow_domain) {
+  ModelTables t;
+  t.face_box = {{{0, 0, 0}, {1, 1, 1}}, {{-2, -2, -2}, {3, 3, 3}}, {{-9, -9, -9}, {9, 9, 9}}};
+  t.face_is_reversed = {0, 0, 0};
+  t.labels.face_group = {0, 1, 2};
+  t.labels.group_role = {"wall", "interface", "farfield"};
+  EXPECT_EQ(t.wall_box().hi.x, 1);
+  t.labels.group_role = {"wall", "interface", "wall"};
+  EXPECT_EQ(t.wall_box().hi.x, 9);
+  t.labels.group_role = {"wall", "interface", "symmetry"};
+  EXPECT_EQ(t.wall_box().hi.x, 3);
+}
+
 TEST(AirRoles, refuse_a_second_far_field_and_a_second_plane_with_the_way_out) {
   const std::string far = refusal("pod_in_box_50_half", with("", "box:20"));
   EXPECT_NE(far.find("5 faces are farfield, 1 face is symmetry"), std::string::npos) << far;
