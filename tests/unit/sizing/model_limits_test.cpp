@@ -37,6 +37,13 @@ TEST(ModelLimits, follow_the_roles_of_groups) {
   EXPECT_DOUBLE_EQ(limits.trace(2).max_length, limits.far_length) << "an edge that is not sampled is traced coarsely";
 }
 
+TEST(ModelLimits, of_a_face_with_air_on_both_sides_are_none) {
+  const ModelLimits limits = limits_of(three_faces({"wall", "interface", "farfield"}));
+  EXPECT_TRUE(limits.face[0]);
+  EXPECT_FALSE(limits.face[1]);
+  EXPECT_FALSE(limits.edge[2]);
+}
+
 TEST(ModelLimits, of_an_edge_are_the_smallest_of_its_faces) {
   const ModelLimits limits = limits_of(three_faces({"wall", "symmetry", "farfield"}));
   EXPECT_EQ(limits.edge[0]->max_length, 0.5);
