@@ -56,10 +56,15 @@ setTimeout(() => {
     canvas.setPointerCapture = () => {};  // made for real pointers
     if (cadEdges.length) {
       $("lined").checked = true;
-      const box = canvas.getBoundingClientRect(), s = 2 * camera.half / box.height, { right, up } = axes(), i = 6 * cadEdges[0].first;
-      const on = axis => [0, 1, 2].reduce((sum, k) => sum + axis[k] * ((lineEnds[i + k] + lineEnds[i + 3 + k]) / 2 - camera.focus[k]), 0) / s;
-      const place = { clientX: box.left + box.width / 2 + on(right), clientY: box.top + box.height / 2 - on(up), bubbles: true };
-      const click = () => { canvas.dispatchEvent(new PointerEvent("pointerdown", place)); canvas.dispatchEvent(new PointerEvent("pointerup", place)); canvas.dispatchEvent(new MouseEvent("click", place)); };
+      const box = canvas.getBoundingClientRect(), s = 2 * camera.half / box.height, { right, up } = axes();
+      const i = 6 * cadEdges[0].first, middle = k => (lineEnds[i + k] + lineEnds[i + 3 + k]) / 2 - camera.focus[k];
+      const on = axis => [0, 1, 2].reduce((sum, k) => sum + axis[k] * middle(k), 0) / s;
+      const place = { clientX: box.left + box.width / 2 + on(right), clientY: box.top + box.height / 2 - on(up),
+        bubbles: true };
+      const click = () => {
+        for (const type of ["pointerdown", "pointerup"]) canvas.dispatchEvent(new PointerEvent(type, place));
+        canvas.dispatchEvent(new MouseEvent("click", place));
+      };
       click();
       said.picked = $("picked_edges").textContent;
       said.rule = $("rule").textContent;
