@@ -518,15 +518,22 @@ class SurfaceFinder {
     for (const WingEdge& w : edges_)
       if (w.is_declared && w.kind == WingEdgeKind::kLeading) add_declared_leading(w);
     if (unused)
-      for (const Rest& rest : rest_) {
-        if (rest.edges.empty()) continue;
-        unused->push_back({{}, 0, rest.why.text, rest.why.may_be_wing});
-        for (const WingEdge& w : rest.edges) unused->back().edges.push_back(w.edge), unused->back().length += w.length;
-      }
+      for (const Rest& rest : rest_)
+        for (const bool is_declared : {false, true}) tell(rest, is_declared, *unused);
     return std::move(surfaces_);
   }
 
  private:
+  static void tell(const Rest& rest, bool is_declared, std::vector<UnusedTrailing>& unused) {
+    UnusedTrailing own{{}, 0, rest.why.text, rest.why.may_be_wing, is_declared};
+    for (const WingEdge& w : rest.edges) {
+      if (w.is_declared != is_declared) continue;
+      own.edges.push_back(w.edge);
+      own.length += w.length;
+    }
+    if (!own.edges.empty()) unused.push_back(std::move(own));
+  }
+
   double reach() const { return 2 * kDeflection * roles_.reference_diagonal; }
 
   ProfileCutter cutter_for(const std::vector<WingEdge>& chain) {
@@ -633,6 +640,8 @@ class SurfaceFinder {
     const ProfileCutter cutter = cutter_for(own);
     if (std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own))
       surfaces_.push_back(std::move(*surface));
+    else
+      rest_.push_back({own, {"no plane cuts a profile there"}});
   }
 
   const Model& model_;

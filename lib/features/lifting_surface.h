@@ -71,6 +71,7 @@ struct UnusedTrailing {
   double length = 0;          ///< of all, model unit
   std::string why;            ///< in plain words
   bool may_be_wing = true;    ///< false: rims, bodies of revolution and what is too short
+  bool is_declared = false;   ///< by the user, without effect; such leading edges stand here, too
 };
 
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at

@@ -68,33 +68,56 @@ class WingEdgeFinder {
   void declare(std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) const {
     std::vector<std::optional<WingEdge>> found(uses_.size());
     for (const WingEdge& w : edges) found[w.edge] = w;
-    for (const DeclaredEdge& d : declared) {
-      if (d.meaning == EdgeMeaning::kNoTrailing) {
-        if (found[d.edge] && found[d.edge]->kind != WingEdgeKind::kLeading) found[d.edge].reset();
-        continue;
-      }
-      const bool is_leading = d.meaning == EdgeMeaning::kLeading;
-      const Strip* base = is_leading ? nullptr : base_at(d.edge);
-      for (const EdgeId e : base ? std::vector<EdgeId>{base->edges[0], base->edges[1]} : std::vector<EdgeId>{d.edge}) {
-        if (base && mirror_of(e)) continue;  // half a base: the other edge is there twice
-        const bool is_known = found[e] && (found[e]->kind == WingEdgeKind::kLeading) == is_leading;
-        if (!is_known) found[e] = make_declared(e, is_leading, base);
-        found[e]->is_declared = true;
-      }
-    }
+    for (const DeclaredEdge& d : declared)
+      d.meaning == EdgeMeaning::kNoTrailing ? take_out(d.edge, found) : add(d, found);
     edges.clear();
     for (const auto& w : found)
       if (w) edges.push_back(*w);
   }
 
  private:
-  /// The narrow face at a trailing edge; nullptr: the edge is sharp.
-  const Strip* base_at(EdgeId e) const {
+  using FoundEdges = std::vector<std::optional<WingEdge>>;
+
+  static void take_out(EdgeId e, FoundEdges& found) {
+    if (!found[e] || found[e]->kind == WingEdgeKind::kLeading) return;
+    const FaceId base = found[e]->base;
+    for (std::optional<WingEdge>& w : found)
+      if (w && w->kind != WingEdgeKind::kLeading && (w->edge == e || (base != kNone && w->base == base))) w.reset();
+  }
+
+  void add(const DeclaredEdge& d, FoundEdges& found) const {
+    const bool is_leading = d.meaning == EdgeMeaning::kLeading;
+    const bool is_sharp = found[d.edge] && found[d.edge]->kind == WingEdgeKind::kSharpTrailing;
+    const Strip* base = is_leading || (is_sharp && d.base == kNone) ? nullptr : base_at(d);
+    for (const EdgeId e : base ? std::vector<EdgeId>{base->edges[0], base->edges[1]} : std::vector<EdgeId>{d.edge}) {
+      if (base && mirror_of(e)) continue;  // half a base: the other edge is there twice
+      const bool is_known = found[e] && (found[e]->kind == WingEdgeKind::kLeading) == is_leading &&
+                            found[e]->base == (base ? base->face : kNone);
+      if (!is_known) found[e] = make_declared(e, is_leading, base);
+      found[e]->is_declared = true;
+    }
+  }
+
+  /// The base at a trailing edge; nullptr: the edge is sharp.
+  const Strip* base_at(const DeclaredEdge& d) const {
     const auto at = std::find_if(strips_.begin(), strips_.end(), [&](const Strip& s) {
-      return (s.edges[0] == e || s.edges[1] == e) && median_width(s) <= kBluntWidth * s.length;
+      if (d.base != kNone) return s.face == d.base;
+      return (s.edges[0] == d.edge || s.edges[1] == d.edge) && median_width(s) <= kBluntWidth * s.length &&
+             has_corners(s);
     });
     return at == strips_.end() ? nullptr : &*at;
   }
+
+  /// Whether a face ends in corners along both long edges, as a base does; a strip of the skin does not.
+  bool has_corners(const Strip& strip) const {
+    return std::all_of(std::begin(strip.edges), std::end(strip.edges), [&](EdgeId e) {
+      if (uses_[e].size() != 2) return false;
+      if (mirror_of(e)) return true;
+      const std::vector<Station> places = stations(e, surfaces_of(e));
+      return std::ranges::count_if(places, is_corner) >= kAgreeing;
+    });
+  }
+  static bool is_corner(const Station& s) { return s.angle >= kBluntMin && s.angle <= kBluntMax; }
 
   static double median_width(const Strip& strip) {
     std::vector<double> widths;
@@ -339,7 +362,6 @@ class WingEdgeFinder {
     for (int i = 0; i < kStations; ++i) {
       const Station &a = places[0][i], &b = places[1][strip.is_opposed ? kStations - 1 - i : i];
       const auto beyond = [&](const Station& s) { return s.sides[s.sides[0].face == strip.face ? 1 : 0].normal; };
-      const auto is_corner = [](const Station& s) { return s.angle >= kBluntMin && s.angle <= kBluntMax; };
       n_agree += is_corner(a) && is_corner(b) && dot(beyond(a), beyond(b)) <= kLookAway;
     }
     return n_agree;

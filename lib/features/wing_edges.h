@@ -40,6 +40,7 @@ enum class EdgeMeaning : unsigned char { kTrailing, kNoTrailing, kLeading };
 struct DeclaredEdge {
   EdgeId edge = kNone;
   EdgeMeaning meaning = EdgeMeaning::kTrailing;
+  FaceId base = kNone;  ///< of a trailing edge: the narrow face that is said to be its base
 };
 
 /// Ascending by edge. Dihedral angle and curvature decide, at nine places along each edge, most of which must agree;
@@ -52,8 +53,8 @@ struct DeclaredEdge {
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor = SerialExecutor());
 
-/// Sets what the user says, the later of two winning: adds edges, marks them as declared, or takes them out. With one
-/// long edge of a narrow face the other one is a trailing edge, too. Local.
+/// Sets what the user says, the later of two winning: adds edges, marks them as declared, or takes them out. Both long
+/// edges of a base belong together: of one that is named, or of a narrow face with corners along both of them. Local.
 void declare_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                    std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges);
 

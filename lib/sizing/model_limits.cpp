@@ -39,7 +39,8 @@ class LimitsMaker {
   LimitsMaker(const ModelTables& t, const FaceRoles& roles, const SamplingLimits& wall,
               const std::vector<SizeRule>& rules, std::span<const WingEdge> wing_edges, const Aircraft& aircraft)
       : t_(t), roles_(roles), wall_(wall), rules_(rules), wings_(aircraft.wings), bodies_(aircraft.bodies) {
-    for (const SizeRule& rule : rules) targets_.push_back(find_targets(rule, t, wing_edges));
+    for (const SizeRule& rule : rules)
+      targets_.push_back(rule.asks_sizes() ? find_targets(rule, t, wing_edges) : RuleTargets());
   }
 
   ModelLimits run() {

@@ -193,10 +193,10 @@ std::vector<DeclaredEdge> declared_edges(std::span<const SizeRule> rules, const 
         fail(rule, text_of(t.face_label(f),
                            " is not the base of a blunt trailing edge; name edges, with edges, between "
                            "or detected"));
-      targets.edges.push_back(strip->edges[0]);
+      declared.push_back({strip->edges[0], *rule.meaning, f});
     }
     for (const EdgeId e : targets.edges)
-      if (!t.edge_is_degenerate[e]) declared.push_back({e, *rule.meaning});
+      if (!t.edge_is_degenerate[e]) declared.push_back({e, *rule.meaning, kNone});
   }
   return declared;
 }

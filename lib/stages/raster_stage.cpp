@@ -94,11 +94,25 @@ std::vector<SizeRule> option_rules(const RasterStageOptions& o) {
   return rules;
 }
 
+/// What hangs on --edge-size has no effect without it.
+void require_edge_size(const RasterStageOptions& o, const std::vector<SizeRule>& rules) {
+  if (o.edge_size != "none") return;
+  const auto says_edges = [](const SizeRule& rule) {
+    return rule.meaning && rule.meaning != EdgeMeaning::kNoTrailing && !rule.asks_sizes();
+  };
+  const auto rule = std::ranges::find_if(rules, says_edges);
+  if (rule == rules.end() && o.end_size.empty()) return;
+  throw Error(ExitCode::kUsage,
+              fmt::format("{} has no effect with --edge-size none; give --edge-size a length",
+                          rule == rules.end() ? "--end-size" : rule->where + ": trailing_edge or leading_edge"));
+}
+
 /// Rules of options, then those of the file, which win. What can be known before anything is sampled is refused now:
 /// lengths with a unit in a model without one, names that nothing has, a smallest length above the largest.
 std::vector<SizeRule> all_rules(const RasterStageOptions& o, const SizeRuleFile& sizes, const ModelTables& t) {
   std::vector<SizeRule> rules = option_rules(o);
   rules.insert(rules.end(), sizes.rules.begin(), sizes.rules.end());
+  require_edge_size(o, rules);
   for (const SizeRule& rule : rules) {
     for (const auto& [length, key] : {std::pair(rule.lmin, "lmin"), {rule.lmax, "lmax"}, {rule.chord, "chord"}})
       if (length) require_unit(*length, t.unit_in_m, rule.where + ": " + key);
@@ -602,6 +616,8 @@ std::string wing_options(const RasterStageOptions& o) {
 
 /// Who asks for lengths at trailing edges is told of those without; with -v they are all listed.
 void report_unused(const RasterStageOptions& o, const Wings& wings, double reference_diagonal) {
+  for (const UnusedTrailing& u : wings.unused)
+    if (u.is_declared) log_warning(declared_warning(u));
   const bool is_asked = !wing_options(o).empty();
   for (const std::string& line : unused_lines(wings.unused, kMostUnused)) is_asked ? log_report(line) : log_info(line);
   if (!is_asked) return;
@@ -709,6 +725,7 @@ class RasterRun {
         strips_(find_strips(model_)) {}
 
   StageSummary run() {
+    if (comm_.is_root()) say_interfaces();
     progress_.step("lifting surfaces and limits", 0.1);
     set_limits();
     times_.end("opening");
@@ -738,6 +755,11 @@ class RasterRun {
   }
 
  private:
+  void say_interfaces() const {
+    const auto n = std::ranges::count(roles_.role, FaceRole::kInterface);
+    if (n > 0) log_report(fmt::format("  {} faces have the role interface: they ask for no lengths", n));
+  }
+
   Model same_model(const Communicator& comm) {
     require_same_inputs(comm, {{o_.geometry, geometry_.header.content_hash}, {o_.sizes, sizes_.hash}});
     return stored_model(geometry_, o_.geometry);

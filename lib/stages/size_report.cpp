@@ -123,7 +123,7 @@ std::string size_text(const PointSize& p, const std::string& unit) {
   std::string text = fmt::format("length {:.6g}{}\n", why.length, unit);
   if (why.along > why.length)
     text += fmt::format("  along     {:.6g}{} in direction {}\n", why.along, unit, to_text(why.direction));
-  if (!p.is_inside) text += "  outside the box of the octree: the length at its border applies\n";
+  if (!p.is_inside) text += "  outside the box of the octree: lengths grow by the slope from there on\n";
   text +=
       fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient), norm(why.gradient), p.slope);
   text += fmt::format("  cause     {}", p.cause);

@@ -88,12 +88,19 @@ std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, st
   return lines;
 }
 
+std::string declared_warning(const UnusedTrailing& declared) {
+  return fmt::format(
+      "a rule names {} as trailing or leading: without effect, since no plane cuts anything thin behind it ({}); give "
+      "it lmax instead",
+      listed(from_one(declared.edges)), declared.why);
+}
+
 std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal) {
   std::vector<EdgeId> edges;
   double length = 0;
   for (const UnusedTrailing* u : longest_first(unused)) {
     if (u->length < kLongTrailing * reference_diagonal) break;
-    if (!u->may_be_wing) continue;
+    if (!u->may_be_wing || u->is_declared) continue;
     for (const EdgeId e : from_one(u->edges)) edges.push_back(e);
     length += u->length;
   }

@@ -19,6 +19,9 @@ inline constexpr double kCovered = 0.9;
 /// One line for each, the longest first, `most` at most, and one for the others.
 std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most);
 
+/// That a rule names edges that are none, and why.
+std::string declared_warning(const UnusedTrailing& declared);
+
 /// Which long ones have the lengths of all other edges, and the rule that gives them their own; empty: there are none.
 std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal);
 

@@ -56,9 +56,33 @@ class Wings(ToolTest):
         (wing,) = self.raster(name).json()["lifting_surfaces"]
         rules.write_text(f"size = [{{ edges = {wing['trailing_edges']}, trailing_edge = false }}]\n")
         self.assertEqual(self.raster(name, "--sizes", rules).json()["lifting_surfaces"], [])
+        rules.write_text('size = [{ detected = "trailing", trailing_edge = false }]\n')
+        self.assertEqual(self.raster(name, "--sizes", rules).json()["lifting_surfaces"], [])
+        rules.write_text("size = [{ edges = 1, trailing_edge = true }]\n")
+        self.assertIn("without effect", self.raster(name, "--sizes", rules).err)
+        for words in (["--end-size", "0.1%span"], ["--sizes", rules]):
+            self.expect_error(2, "st-raster", self.folder / "geometry.hdf", "-o", other, "--edge-size", "none", *words,
+                              says=["--edge-size none"])
         rules.write_text("size = [{ edges = 99999, trailing_edge = true }]\n")
         self.expect_error(2, "st-raster", self.folder / "geometry.hdf", "-o", other, "--sizes", rules,
                           says=["sizes.toml:1", "99999"])
+
+
+    def test_a_sharp_edge_that_is_named_stays_as_it_was(self):
+        rules = self.folder / "sizes.toml"
+        name = "aero_onera_m6_sharpte.brep"  # a narrow strip of the skin ends at its trailing edge
+        before = self.raster(name).json()
+        (edge,) = before["lifting_surfaces"][0]["trailing_edges"]
+        rules.write_text(f"size = [{{ edges = {edge}, trailing_edge = true }}]\n")
+        after = self.raster(name, "--sizes", rules).json()
+        self.assertEqual(after["samples"], before["samples"])
+        self.assertEqual(len(after["lifting_surfaces"]), 1)
+
+    def test_numbers_in_groups_do_not_outlive_the_far_field(self):
+        groups = self.folder / "groups.toml"
+        groups.write_text('[[group]]\nname = "ff"\nfaces = [1]\nrole = "farfield"\n')
+        self.expect_error(2, "st-import", CORPUS / "aero_onera_m6_sharpte.brep", "-o", self.folder / "other.hdf",
+                          "--groups", groups, "--replace-farfield", "box:20", says=["groups.toml", "by number"])
 
 
 def add_tests():

@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/required_unit.h"
+#include "base/text.h"
 #include "geometry/import/air_roles.h"
 #include "geometry/import/cad_reader.h"
 #include "geometry/import/crossing_bodies.h"
@@ -141,6 +142,17 @@ void require_closed(const ImportResult& result, const std::string& path) {
 /// A symmetry plane or a far field gives faces other numbers.
 bool makes_air(const ImportOptions& options) {
   return !options.symmetry.empty() || !options.farfield.empty() || !options.replace_farfield.empty();
+}
+
+/// Numbers in a groups file are those before the far field goes: they would name others after it.
+void refuse_numbers(const ImportOptions& options) {
+  if (options.replace_farfield.empty()) return;
+  for (const GroupRule& rule : options.groups)
+    for (const std::vector<std::string>* items : {&rule.faces, &rule.edges, &rule.vertices})
+      if (std::any_of(items->begin(), items->end(), [](const std::string& item) { return as_range(item).has_value(); }))
+        throw Error(ExitCode::kUsage, rule.where +
+                                          ": selects by number, and --replace-farfield gives faces other numbers; "
+                                          "select by name, part, layer or place, or name groups after the import");
 }
 
 /// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
@@ -315,6 +327,7 @@ void name_parts(const std::vector<std::int32_t>& file_faces, std::vector<ImportF
 }
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
+  refuse_numbers(options);
   const occt::AskedAir air = occt::parse_air(options);
   Progress progress("importing", 1);
   progress.step("reading", 0);

@@ -77,6 +77,7 @@ TEST(ThinSurface, is_not_made_where_nothing_is_thin) {
   EXPECT_TRUE(found.wings.empty());
   ASSERT_EQ(found.unused.size(), 1u);
   EXPECT_FALSE(found.unused[0].why.empty());
+  EXPECT_TRUE(found.unused[0].is_declared);
 }
 
 TEST(ThinSurface, of_a_declared_nose_belongs_to_its_wing) {
@@ -95,6 +96,34 @@ TEST(ThinSurface, of_a_declared_nose_belongs_to_its_wing) {
   ASSERT_EQ(alone.wings.size(), 1u) << "a nose whose trailing edge is none";
   EXPECT_TRUE(alone.wings[0].trailing.empty());
   EXPECT_NEAR(alone.wings[0].median_chord, 10, 0.6);
+}
+
+TEST(ThinSurface, takes_out_both_edges_of_a_base) {
+  const Model model = test::make_model("blunt_wing");
+  const EdgeId edge = find_in(model, Noseless::kAll).wings.at(0).trailing[0].edge;
+  EXPECT_TRUE(find_in(model, Noseless::kAll, {{edge, EdgeMeaning::kNoTrailing}}).wings.empty());
+}
+
+TEST(ThinSurface, of_a_sharp_edge_takes_no_strip_of_the_skin_for_its_base) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  const EdgeId tail = find_in(model, Noseless::kAll).wings.at(0).trailing[0].edge;
+  // a strip of the skin that ends at the tail, as a narrow face of the CAD would be
+  std::vector<Strip> strips(1);
+  strips[0].face = 0;
+  strips[0].edges[0] = tail;
+  strips[0].edges[1] = find_in(model, Noseless::kAll).wings.at(0).leading.at(0);
+  strips[0].length = 30;
+  strips[0].stations.resize(1);
+  for (const bool is_known : {true, false}) {
+    std::vector<WingEdge> edges;
+    if (is_known) edges = find_wing_edges(model, roles, find_strips(model));
+    declare_edges(model, roles, strips, std::vector<DeclaredEdge>{{tail, EdgeMeaning::kTrailing}}, edges);
+    const auto own = std::ranges::find(edges, tail, &WingEdge::edge);
+    ASSERT_NE(own, edges.end());
+    EXPECT_EQ(own->kind, WingEdgeKind::kSharpTrailing) << is_known;
+    EXPECT_EQ(own->base, kNone);
+  }
 }
 
 TEST(ThinSurface, has_both_edges_of_a_base_when_one_is_declared) {

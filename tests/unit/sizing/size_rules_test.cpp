@@ -234,6 +234,10 @@ TEST(SizeRules, without_sizes_leave_limits_alone) {
   rule.groups.clear();
   rule.edges = {"TE_1"};
   EXPECT_FALSE(limits_of({rule}).edge_is_ruled[0]);
+  rule.edges.clear();
+  add_detected("trailing", rule);
+  rule.meaning = EdgeMeaning::kNoTrailing;
+  EXPECT_NO_THROW(limits_of({rule})) << "of what is found there is nothing left by now";
 }
 
 TEST(SizeRules, take_the_detected_edges_of_a_group_alone) {

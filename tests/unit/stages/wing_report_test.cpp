@@ -24,6 +24,10 @@ TEST(WingReport, warns_of_long_edges_alone_and_names_the_rule) {
   EXPECT_NE(text.find("size = [{ edges = [2, 4, 5], trailing_edge = true }]"), std::string::npos) << text;
   EXPECT_EQ(unused_warning(kUnusedEdges, 1000), "");
   EXPECT_EQ(unused_warning({}, 1), "");
+  UnusedTrailing said = kUnusedEdges[1];
+  said.is_declared = true;
+  EXPECT_EQ(unused_warning({&said, 1}, 1), "") << "the rule is there already";
+  EXPECT_NE(declared_warning(said).find("a rule names edges 2, 4"), std::string::npos);
   EXPECT_EQ(unused_warning({&kRim, 1}, 1), "") << "rims are no wings";
 }
 
