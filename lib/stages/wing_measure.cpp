@@ -54,27 +54,33 @@ struct Spanwise {
   }
 };
 
+/// Around a triangle.
+struct Ball {
+  TriangleId triangle;
+  Vec3 center;
+  double radius;
+};
+
 /// The triangles of one surface.
 class WingMesh {
  public:
   WingMesh(const SurfaceMesh& mesh, const WingRecord& wing) : mesh_(mesh) {
     for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
       const FaceId f = mesh.triangle_face[t];
-      if (wing.faces.empty() || std::ranges::binary_search(wing.faces, f)) skin_.push_back(t);
-      if (std::ranges::binary_search(wing.bases, f)) base_.push_back(t);
+      if (wing.faces.empty() || std::ranges::binary_search(wing.faces, f)) skin_.push_back(ball_of(t));
+      if (std::ranges::binary_search(wing.bases, f)) base_.push_back(ball_of(t));
     }
   }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
   bool is_empty() const { return skin_.empty(); }
 
   LengthsAt lengths_at(Vec3 place, Vec3 along_span) const {
-    const TriangleId nearest =
-        *std::ranges::min_element(skin_, {}, [&](TriangleId t) { return distance2_to(t, place); });
-    const double reach = kAround * mean_side(nearest);
+    const Ball nearest = *std::ranges::min_element(skin_, {}, [&](const Ball& b) { return norm2(b.center - place); });
+    const double reach = kAround * mean_side(nearest.triangle);
     std::array<double, 2> sum = {0, 0};
     std::array<std::int64_t, 2> n = {0, 0};
-    for (const TriangleId t : skin_) {
-      if (distance2_to(t, place) > reach * reach) continue;
+    for (const auto& [t, center, radius] : skin_) {
+      if (norm2(center - place) > reach * reach) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 side = corner(t, (k + 1) % 3) - corner(t, k);
         const std::size_t is_along = std::abs(dot(normalized(side), along_span)) >= kAlong ? 1 : 0;
@@ -120,8 +126,8 @@ class WingMesh {
   double turning(Vec3 place, double reach) const {
     std::map<std::pair<NodeId, NodeId>, TriangleId> sides;
     double most = 0;
-    for (const TriangleId t : skin_) {
-      if (distance2_to(t, place) > reach * reach) continue;
+    for (const auto& [t, center, radius] : skin_) {
+      if (norm2(center - place) > reach * reach) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax(mesh_.triangles[t].n[k], mesh_.triangles[t].n[(k + 1) % 3]);
         const auto [known, is_new] = sides.emplace(std::pair(a, b), t);
@@ -134,9 +140,10 @@ class WingMesh {
 
  private:
   Vec3 corner(TriangleId t, std::size_t k) const { return mesh_.node_xyz[mesh_.triangles[t].n[k]]; }
-  double distance2_to(TriangleId t, Vec3 x) const {
-    const Vec3 d = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3 - x;
-    return dot(d, d);
+  Ball ball_of(TriangleId t) const {
+    const Vec3 center = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
+    return {t, center,
+            std::max({distance(center, corner(t, 0)), distance(center, corner(t, 1)), distance(center, corner(t, 2))})};
   }
   double mean_side(TriangleId t) const {
     return (distance(corner(t, 0), corner(t, 1)) + distance(corner(t, 1), corner(t, 2)) +
@@ -148,10 +155,10 @@ class WingMesh {
   /// `visit` gets of each triangle that the profile's plane cuts: the part that the cut is of the triangle's extent
   /// along it, that extent, and how far it is from the nose.
   template <class Visit>
-  void cut(const std::vector<TriangleId>& triangles, const WingRecord::Station& s, Vec3 normal,
-           const Visit& visit) const {
+  void cut(const std::vector<Ball>& triangles, const WingRecord::Station& s, Vec3 normal, const Visit& visit) const {
     const Vec3 forward = normalized(s.trailing - s.nose);
-    for (const TriangleId t : triangles) {
+    for (const auto& [t, center, radius] : triangles) {
+      if (std::abs(dot(center - s.trailing, normal)) > radius) continue;
       std::array<Vec3, 2> end;
       std::size_t n = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -176,7 +183,7 @@ class WingMesh {
   }
 
   const SurfaceMesh& mesh_;
-  std::vector<TriangleId> skin_, base_;
+  std::vector<Ball> skin_, base_;
 };
 
 WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
