@@ -239,7 +239,7 @@ Json stage_times(const std::string& folder) {
 
 /// What is known of the sizes, as parts of the page.
 struct SizePart {
-  Json meta;
+  Json meta = nullptr;
   SliceCells cells;
   std::vector<std::uint16_t> cause;  ///< by triangle, in their order on the page
 };
