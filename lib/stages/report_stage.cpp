@@ -239,7 +239,7 @@ Json stage_times(const std::string& folder) {
 
 /// What is known of the sizes, as parts of the page.
 struct SizePart {
-  Json meta = nullptr;
+  Json meta = Json::object();
   SliceCells cells;
   std::vector<std::uint16_t> cause;  ///< by triangle, in their order on the page
 };
@@ -350,6 +350,7 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   const std::vector<TriangleId> order = by_group(mesh);
   progress.step("causes of sizes", 0.5);
   SizePart sizes;
+  sizes.meta = nullptr;  // none are given
   if (c.sizing) sizes = c.is_meshed ? sizes_to_show(*c.sizing, mesh, order) : sizes_before_meshing(*c.sizing);
   progress.step("edges of the CAD", 0.7);
   const LinePart lines = lines_to_show(c);
