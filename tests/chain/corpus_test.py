@@ -1,16 +1,13 @@
 """The chain with no option but the file name, on real CAD files (ST_CORPUS, by default ../shared/corpus beside the
 repository): a mesh that passes st-check and, where it is there, the independent judge ../tools/meshcheck.sh beside the
 corpus."""
-import os
 import subprocess
 import sys
-import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import ToolTest, make_chain, must  # noqa: E402
+from chain import CORPUS, ToolTest, main_on_corpus, make_chain, must  # noqa: E402
 
-CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 FAST = [
     "aero_onera_m6_sharpte.brep",
     "aero_evtol_bet.brep",
@@ -38,14 +35,5 @@ class Corpus(ToolTest):
         self.assertEqual(done.returncode, 0, f"{name}: {done.stdout} {done.stderr}")
 
 
-def add_tests():
-    for name in FAST:
-        setattr(Corpus, "test_" + name.split(".")[0], lambda self, name=name: self.check(name))
-
-
 if __name__ == "__main__":
-    if not CORPUS.is_dir():
-        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
-        sys.exit(77)
-    add_tests()
-    unittest.main(verbosity=2)
+    main_on_corpus(Corpus, [(name,) for name in FAST])

@@ -4,13 +4,11 @@ import json
 import os
 import subprocess
 import sys
-import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import Run, ToolTest, make_chain  # noqa: E402
+from chain import CORPUS, Run, ToolTest, main_on_corpus, make_chain  # noqa: E402
 
-CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 VARY = os.environ["ST_VARY"]
 VARIANTS = ["moved", "turned", "tumbled", "scaled", "mirrored", "reordered", "loose", "reversed"]
 MODELS = {  # and the largest length
@@ -65,14 +63,5 @@ class Place(ToolTest):
                 self.assertEqual((code, report["closed"], report["components"], len(report["failed"])), (0, True, 1, 0))
 
 
-def add_tests():
-    for name, lmax in MODELS.items():
-        setattr(Place, "test_" + name.split(".")[0], lambda self, name=name, lmax=lmax: self.check(name, lmax))
-
-
 if __name__ == "__main__":
-    if not CORPUS.is_dir():
-        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
-        sys.exit(77)
-    add_tests()
-    unittest.main(verbosity=2)
+    main_on_corpus(Place, MODELS.items())

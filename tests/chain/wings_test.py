@@ -1,14 +1,11 @@
 """How many lifting surfaces st-raster finds on real CAD files (ST_CORPUS, by default ../shared/corpus beside the
 repository): counted by hand on pictures."""
-import os
 import sys
-import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import ToolTest, must  # noqa: E402
+from chain import CORPUS, ToolTest, main_on_corpus, must  # noqa: E402
 
-CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 WINGS = {
     "aero_d150_fullspan.brep": 5,
     "aero_d150_half_with_tail.brep": 3,
@@ -85,14 +82,5 @@ class Wings(ToolTest):
                           "--groups", groups, "--replace-farfield", "box:20", says=["groups.toml", "by number"])
 
 
-def add_tests():
-    for name, n_wings in WINGS.items():
-        setattr(Wings, "test_" + name.split(".")[0], lambda self, name=name, n=n_wings: self.check(name, n))
-
-
 if __name__ == "__main__":
-    if not CORPUS.is_dir():
-        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
-        sys.exit(77)
-    add_tests()
-    unittest.main(verbosity=2)
+    main_on_corpus(Wings, WINGS.items())

@@ -51,17 +51,12 @@
 #include <string>
 #include <vector>
 
+#include "geometry/brep/compound.h"
 #include "geometry/import/import.h"
 
 namespace {
 
-TopoDS_Shape compound(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound result;
-  BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (const TopoDS_Shape& s : shapes) builder.Add(result, s);
-  return result;
-}
+using st::occt::compound_of;
 
 TopoDS_Shape first(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   const TopExp_Explorer e(shape, kind);
@@ -134,7 +129,7 @@ TopoDS_Shape with_voids(const TopoDS_Shape& outer, const TopoDS_Shape& inner) {
     for (TopExp_Explorer e(s.Current(), TopAbs_SHELL); e.More(); e.Next()) builder.Add(solid, e.Current().Reversed());
   std::vector<TopoDS_Shape> all{solid};
   for (TopExp_Explorer e(inner, TopAbs_FACE, TopAbs_SOLID); e.More(); e.Next()) all.push_back(e.Current());
-  return compound(all);
+  return compound_of(all);
 }
 
 TopoDS_Shape moved(const TopoDS_Shape& shape, const std::function<void(gp_Trsf&)>& set) {
@@ -155,7 +150,7 @@ TopoDS_Shape upper_half(const TopoDS_Shape& shape, const Place& p) {
 TopoDS_Shape faces_of(const TopoDS_Shape& shape) {
   std::vector<TopoDS_Shape> faces;
   for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next()) faces.push_back(e.Current());
-  return compound(faces);
+  return compound_of(faces);
 }
 
 TopoDS_Shape half_in(const std::string& kind, const TopoDS_Shape& body, Place p, const std::string& variant) {
@@ -164,7 +159,7 @@ TopoDS_Shape half_in(const std::string& kind, const TopoDS_Shape& body, Place p,
   if (variant == "innerhalf") {
     const double m = 0.2 * p.diagonal;
     const TopoDS_Shape inner = box(p.x0 - m, 0, p.z0 - m, p.x1 - p.x0 + 2 * m, p.y1 + m, p.z1 - p.z0 + 2 * m);
-    return compound({BRepAlgoAPI_Cut(half, inner).Shape(), BRepAlgoAPI_Cut(inner, body).Shape()});
+    return compound_of({BRepAlgoAPI_Cut(half, inner).Shape(), BRepAlgoAPI_Cut(inner, body).Shape()});
   }
   const TopoDS_Shape air = BRepAlgoAPI_Cut(half, body).Shape();
   if (variant == "halfquarter") {
@@ -179,7 +174,7 @@ TopoDS_Shape half_in(const std::string& kind, const TopoDS_Shape& body, Place p,
     BRepBndLib::AddOptimal(e.Current(), own, false, false);
     if (own.CornerMax().Y() > 1e-6 * p.diagonal) faces.push_back(e.Current());
   }
-  return compound(faces);
+  return compound_of(faces);
 }
 
 TopoDS_Shape in_air(const std::string& kind, const TopoDS_Shape& body, const Place& p, const std::string& variant) {
@@ -187,21 +182,21 @@ TopoDS_Shape in_air(const std::string& kind, const TopoDS_Shape& body, const Pla
   if (variant == "whole") return air;
   if (variant == "turned") return turned(air);
   if (variant == "sheets") return faces_of(air);
-  if (variant == "solid") return compound({outer, body});
+  if (variant == "solid") return compound_of({outer, body});
   if (variant == "two")
     return with_voids(
-        outer, compound({body, moved(body, [&](gp_Trsf& t) { t.SetTranslation(gp_Vec(0, 0, 0.6 * p.diagonal)); })}));
+        outer, compound_of({body, moved(body, [&](gp_Trsf& t) { t.SetTranslation(gp_Vec(0, 0, 0.6 * p.diagonal)); })}));
   if (variant == "inner") {
     const double m = 0.2 * p.diagonal;
     const TopoDS_Shape inner =
         box(p.x0 - m, p.y0 - m, p.z0 - m, p.x1 - p.x0 + 2 * m, p.y1 - p.y0 + 2 * m, p.z1 - p.z0 + 2 * m);
-    return compound({with_voids(outer, inner), with_voids(inner, body)});
+    return compound_of({with_voids(outer, inner), with_voids(inner, body)});
   }
   if (variant == "disc") {
     const gp_Circ circle(gp_Ax2(gp_Pnt(p.x0 - 0.3 * p.diagonal, p.middle.Y(), p.middle.Z()), gp::DX()),
                          0.2 * p.diagonal);
     const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(circle).Edge()).Wire();
-    return compound({air, BRepBuilderAPI_MakeFace(wire).Face()});
+    return compound_of({air, BRepBuilderAPI_MakeFace(wire).Face()});
   }
   if (variant == "cut") {
     TopTools_ListOfShape solids, planes;
@@ -276,7 +271,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
       {"hollow_ball", [] { return with_voids(ball(0, 0, 0, 50), ball(0, 0, 0, 20)); }},
       {"vessel_with_float",
        [] {
-         return compound({with_voids(box(0, 0, 0, 100, 100, 100), box(5, 5, 5, 90, 90, 90)), ball(50, 50, 50, 10)});
+         return compound_of({with_voids(box(0, 0, 0, 100, 100, 100), box(5, 5, 5, 90, 90, 90)), ball(50, 50, 50, 10)});
        }},
       {"dowel_block", [] { return cut(box(0, 0, 0, 300, 200, 100), cylinder(150, 100, 90, gp::DZ(), 3, 20)); }},
       {"countersink",
@@ -312,11 +307,11 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
       {"ring", [] { return cut(BRepPrimAPI_MakeTorus(60, 20).Shape(), cylinder(60, 0, 10, gp::DZ(), 3, 20)); }},
       {"parts_in_a_case",
        [] {
-         return compound({with_voids(box(0, 0, 0, 100, 80, 60), box(2, 2, 2, 96, 76, 56)), box(20, 20, 10, 15, 15, 5),
-                          cylinder(60, 40, 10, gp::DZ(), 6, 20)});
+         return compound_of({with_voids(box(0, 0, 0, 100, 80, 60), box(2, 2, 2, 96, 76, 56)),
+                             box(20, 20, 10, 15, 15, 5), cylinder(60, 40, 10, gp::DZ(), 6, 20)});
        }},
       {"two_blocks", [] {
-         return compound({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)});
+         return compound_of({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)});
        }}};
   return kParts;
 }

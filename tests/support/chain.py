@@ -1,11 +1,13 @@
 """What the tests of the tools share: run a tool, make artifacts of a model once, look at what is left.
 
-Environment: ST_BIN (folder of the tools), ST_MODELS (folder of make_models), ST_WORK (folder for artifacts).
+Environment: ST_BIN (folder of the tools), ST_MODELS (folder of make_models), ST_WORK (folder for artifacts),
+ST_CORPUS (real CAD files, by default ../shared/corpus beside the repository).
 """
 import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,6 +15,7 @@ from pathlib import Path
 BIN = Path(os.environ["ST_BIN"])
 MODELS = Path(os.environ["ST_MODELS"])
 WORK = Path(os.environ["ST_WORK"])
+CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info",
          "st-diff", "st-export"]
 PARALLEL = {"st-raster", "st-mesh", "st-remesh"}
@@ -101,3 +104,14 @@ class ToolTest(unittest.TestCase):
         """`folder` holds exactly the expected names, and the record of what ST wrote: no output, no temporary."""
         names = {p.name for p in Path(folder).iterdir()} - {".st-written"}
         self.assertEqual(sorted(names), sorted(expected))
+
+
+def main_on_corpus(case, checks):
+    """Runs a test case with one test more for each of `checks`: what its check() takes, the name of a file first."""
+    if not CORPUS.is_dir():
+        print(f"SKIPPED: corpus not found at {CORPUS}; set ST_CORPUS", flush=True)
+        sys.exit(77)
+    for arguments in checks:
+        name = arguments[0].split(".")[0]
+        setattr(case, f"test_{name}", lambda self, arguments=arguments: self.check(*arguments))
+    unittest.main(verbosity=2)
