@@ -1,6 +1,8 @@
 // Places on the edges of a chain where something is measured.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,7 +11,11 @@
 namespace st {
 
 inline constexpr int kPlacesPerEdge = 24;
-inline constexpr double kAlongAxis = 0.5;  ///< cosine between edge and axis at least, to cut square to the axis
+inline constexpr double kAlongAxis = 0.5;    ///< cosine between edge and axis at least, to cut square to the axis
+inline constexpr double kMeasured = 0.5;     ///< of the way along the edges of a surface, at least
+inline constexpr double kLeastSpan = 0.5;    ///< of a surface, over its median chord
+inline constexpr double kWidestBase = 0.06;  ///< of the chord
+inline constexpr double kOutlier = 1.4;      ///< chord over what is usual around
 
 /// A place on an edge, before anything is measured there.
 struct EdgePlace {
@@ -24,5 +30,17 @@ std::vector<EdgePlace> places_along(const Model& model, std::span<const WingEdge
 
 /// The upper one of two; 0 of nothing.
 double median(std::vector<double> values);
+
+/// Chords of the places of one edge, up to four to either side of `i`, that have one, its own included.
+template <class Measured>
+std::vector<double> chords_around(std::span<const std::optional<Measured>> of_edge, std::size_t i) {
+  constexpr std::size_t kAround = 4;
+  std::vector<double> chords;
+  for (std::size_t j = i < kAround ? 0 : i - kAround; j < std::min(i + kAround + 1, of_edge.size()); ++j)
+    if (of_edge[j]) chords.push_back(of_edge[j]->chord);
+  return chords;
+}
+
+inline bool is_outlier(double chord, double usual) { return chord > kOutlier * usual || chord * kOutlier < usual; }
 
 }  // namespace st

@@ -22,12 +22,7 @@ namespace st {
 namespace {
 
 constexpr int kStations = kPlacesPerEdge;
-constexpr double kMeasured = 0.5;       // of the stations of a surface, at least
-constexpr double kLeastSpan = 0.5;      // of the median chord
-constexpr double kWidestBase = 0.06;    // of the median chord
 constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the facets
-constexpr std::size_t kAround = 4;      // stations to either side whose chords are compared
-constexpr double kOutlier = 1.4;        // chord over the median around
 constexpr double kLongBlade = 0.25;     // of the reference diagonal: between the ends of a blade's edge at least
 constexpr double kStraightBlade = 0.7;  // the same over the edge's length
 constexpr double kClearlyMore = 1.25;   // way with profiles square to the edge over that square to an axis
@@ -278,11 +273,9 @@ class SurfaceMeasurer {
     std::vector<std::size_t> outliers;
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       if (!profiles[i]) continue;
-      std::vector<double> around;
-      for (std::size_t j = i < kAround ? 0 : i - kAround; j < std::min(i + kAround + 1, profiles.size()); ++j)
-        if (profiles[j] && places[j].edge == places[i].edge) around.push_back(profiles[j]->chord);
-      const double own = profiles[i]->chord, usual = around.size() > 2 ? median(around) : of_all;
-      if (own > kOutlier * usual || own * kOutlier < usual) outliers.push_back(i);
+      const auto of_edge = std::span(std::as_const(profiles)).subspan(places[i].edge * kStations, kStations);
+      const std::vector<double> around = chords_around(of_edge, i % kStations);
+      if (is_outlier(profiles[i]->chord, around.size() > 2 ? median(around) : of_all)) outliers.push_back(i);
     }
     for (const std::size_t i : outliers) profiles[i].reset();
   }
@@ -332,11 +325,7 @@ class SurfaceMeasurer {
     for (const ChordEdge& edge : surface.trailing)
       for (const ChordStation& s : edge.stations)
         if (s.is_measured) chords.push_back(s.chord);
-    if (chords.empty()) return;
-    surface.median_chord = median(chords);
-    const auto [least, most] = std::minmax_element(chords.begin(), chords.end());
-    surface.least_chord = *least;
-    surface.largest_chord = *most;
+    if (!chords.empty()) surface.set_chords(chords);
   }
 
   /// Adds stations where measured ones end: halves the way to the next one, or to the end of the edge. So noses run as
@@ -677,6 +666,13 @@ const ChordStation* LiftingSurface::nearest_station(Vec3 x) const {
       least = d;
     }
   return nearest;
+}
+
+void LiftingSurface::set_chords(const std::vector<double>& chords) {
+  median_chord = median(chords);
+  const auto [least, most] = std::minmax_element(chords.begin(), chords.end());
+  least_chord = *least;
+  largest_chord = *most;
 }
 
 double LiftingSurface::covered() const {

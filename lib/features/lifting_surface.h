@@ -59,6 +59,10 @@ struct LiftingSurface {
   /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:
   /// linear in stations.
   const ChordStation* nearest_station(Vec3 x) const;
+  /// Trailing edges; of a nose alone the leading one.
+  const std::vector<ChordEdge>& edges() const { return trailing.empty() ? declared_leading : trailing; }
+  /// Least, median and largest of those measured. Precondition: there are any.
+  void set_chords(const std::vector<double>& chords);
   /// Share of the trailing edges' length with noses: of the way between two stations each of them has half.
   double covered() const;
   /// Its chord, and how far away it runs; of the nearest station where none is measured.

@@ -9,11 +9,7 @@ namespace st {
 namespace {
 
 constexpr double kSharpest = radians(30);  // of an edge that is not declared
-constexpr double kWidestBase = 0.06;       // of the chord
 constexpr double kGrows = 2;               // thickness half way over that of the base, at least: a plate has 1
-constexpr double kMeasured = 0.5;          // of the way along the edges
-constexpr double kOutlier = 1.4;           // chord over the median of its edge
-constexpr double kLeastSpan = 0.5;         // of the median chord
 
 using Parts = std::vector<std::optional<ThinPart>>;
 
@@ -46,16 +42,9 @@ class ThinMeasurer {
 
   /// Neighbours of a place tell what is usual there.
   static void drop_outliers(Parts& parts) {
-    constexpr std::size_t kAround = 4;
     const Parts all = parts;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!all[i]) continue;
-      std::vector<double> around;
-      for (std::size_t j = i < kAround ? 0 : i - kAround; j < std::min(i + kAround + 1, all.size()); ++j)
-        if (all[j]) around.push_back(all[j]->chord);
-      const double usual = median(around);
-      if (all[i]->chord > kOutlier * usual || all[i]->chord * kOutlier < usual) parts[i].reset();
-    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i] && is_outlier(all[i]->chord, median(chords_around(std::span(all), i)))) parts[i].reset();
   }
 
   const CutFrame& frame_;
@@ -112,9 +101,7 @@ std::optional<LiftingSurface> find_thin_surface(const Model& model, const CutFra
     }
   }
   if (chords.empty()) return std::nullopt;
-  surface.median_chord = median(chords);
-  std::tie(surface.least_chord, surface.largest_chord) =
-      std::pair(*std::ranges::min_element(chords), *std::ranges::max_element(chords));
+  surface.set_chords(chords);
   for (const WingEdge& w : edges) {
     const ChordEdge own = chords_along(model, w, [&](const EdgePlace& p) { return chord_near(places, parts, p.x); });
     (is_leading ? surface.declared_leading : surface.trailing).push_back(own);

@@ -18,7 +18,7 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
   record.has_noses = wing.has_noses;
   record.covered = wing.covered();
   record.faces = wing.faces;
-  for (const ChordEdge& edge : wing.trailing.empty() ? wing.declared_leading : wing.trailing) {
+  for (const ChordEdge& edge : wing.edges()) {
     record.edges.push_back(edge.edge);
     if (edge.base != kNone) record.bases.push_back(edge.base);
     if (edge.base != kNone && !is_left_out[edge.edge]) record.base_cells = (edge.is_half ? 0.5 : 1) * sizes.base_cells;

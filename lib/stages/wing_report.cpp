@@ -120,7 +120,7 @@ nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
 }
 
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) {
-  const std::vector<ChordEdge>& edges = wing.trailing.empty() ? wing.declared_leading : wing.trailing;
+  const std::vector<ChordEdge>& edges = wing.edges();
   return fmt::format(
       "  lifting surface{}: {} {} edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
       wing.is_declared ? " by a rule" : "", edges.size(), wing.trailing.empty() ? "leading" : "trailing",

@@ -172,12 +172,6 @@ void leave_out_sharers(const TopoDS_Shape& shape, std::set<int>& solids) {
     }
 }
 
-/// Of faces of one surface: neighbours do not.
-bool lie_on_each_other(const TopoDS_Face& a, const TopoDS_Face& b, double tolerance) {
-  FaceProbe probe_a(a, tolerance), probe_b(b, tolerance);
-  return probe_a.distance_of(probe_b.samples()) || probe_b.distance_of(probe_a.samples());
-}
-
 /// Points on the edges of a face in a box, edge by edge.
 std::vector<Vec3> points_on_edges(const TopoDS_Face& face, const Box3& box, double tolerance) {
   constexpr int kSamples = 17;
@@ -202,6 +196,11 @@ struct ProbedFace {
 
   ProbedFace(const TopoDS_Face& face, double tolerance) : probe(face, tolerance), samples(probe.samples()) {}
 };
+
+/// Of faces of one surface: neighbours do not.
+bool lie_on_each_other(ProbedFace& a, ProbedFace& b) {
+  return a.probe.distance_of(b.samples) || b.probe.distance_of(a.samples);
+}
 
 /// Finds pairs of solids whose faces lie on each other.
 class FaceContacts {
@@ -235,9 +234,12 @@ class FaceContacts {
     if (t_.face_type[f] == t_.face_type[g]) {
       const Vec3 p = box.center();
       const BRepAdaptor_Surface sa(a, false), sb(b, false);
-      if (const auto same = are_one_surface(sa, sb, {p.x, p.y, p.z}, box.diagonal(), tolerance))
-        return *same && (are_sharers(f, g) ? lie_on_each_other(a, b, tolerance)
-                                           : !look_alike(a, b) || overlap(f, g, box, tolerance));
+      const auto same = are_one_surface(sa, sb, {p.x, p.y, p.z}, box.diagonal(), tolerance);
+      if (same && *same && are_sharers(f, g)) {
+        ProbedFace first(a, tolerance), second(b, tolerance);
+        return lie_on_each_other(first, second);
+      }
+      if (same) return *same && (!look_alike(a, b) || overlap(f, g, box, tolerance));
     }
     if (t_.face_type[f] != t_.face_type[g] && is_plane(f) && is_plane(g)) return false;
     if (n_sampled_++ >= kMostSampled) return false;
@@ -265,8 +267,7 @@ class FaceContacts {
       const auto edges_of = [&](FaceId id) {
         return points_on_edges(TopoDS::Face(model_.faces(id + 1)), box, tolerance);
       };
-      return a.probe.distance_of(b.samples) || b.probe.distance_of(a.samples) || a.probe.distance_of(edges_of(g)) ||
-             b.probe.distance_of(edges_of(f));
+      return lie_on_each_other(a, b) || a.probe.distance_of(edges_of(g)) || b.probe.distance_of(edges_of(f));
     } catch (const Standard_Failure&) {
       return true;
     }
