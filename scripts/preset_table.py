@@ -36,6 +36,7 @@ def wing_row(name, preset, wing):
         return at_stations(wing, lambda s: 100 * s[place]["normal"] / s["chord"], ".2g")
     off = f"{100 * wing['deviation']:.2g}" if "deviation" in wing else "-"
     return (f"| {name} | {preset} | {wing['edge']} | {wing['triangles']:,} | {100 * wing['covered']:.0f} "
+            f"| {100 * wing['held']:.0f} "
             f"| {of_chord('nose')} | {of_chord('trailing')} "
             f"| {at_stations(wing, lambda s: s['chord_cells'], '.0f')} "
             f"| {at_stations(wing, lambda s: s['base_cells'], '.1f')} "
@@ -50,8 +51,8 @@ def main():
     parser.add_argument("--presets", nargs="+", default=["preview", "euler", "rans", "fine"])
     parser.add_argument("--most", type=int, default=2, help="surfaces listed of each model, the largest")
     arguments = parser.parse_args()
-    print("| model | preset | edge | triangles | covered, % | nose | trailing edge | chord | base | growth | turning "
-          "| off |\n|---|---|--:|--:|--:|---|---|---|---|---|---|--:|")
+    print("| model | preset | edge | triangles | covered, % | held, % | nose | trailing edge | chord | base | growth "
+          "| turning | off |\n|---|---|--:|--:|--:|--:|---|---|---|---|---|---|--:|")
     last = []
     for model in arguments.models:
         with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,8 @@ namespace {
 constexpr double kFinestBase = 0.25;  // of the length at the edge: thinner bases get fewer cells
 constexpr int kMaxBoxes = 100000;     // along one edge
 constexpr int kGap = 2;               // stations: noses further apart are not joined
+constexpr double kNose = 0.9;         // of the length asked for: s / (exp(s) - 1) for a slope s of 0.2
+constexpr double kTrailing = 0.95;    // likewise, along edges, where lengths along are exact
 
 /// Lengths at a place of a wing, by its local chord.
 class LocalLengths {
@@ -46,7 +48,7 @@ class WingRaster {
     const auto curve = model_.curve(trailing.edge);
     const ArcTable arc(*curve);
     walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), [&](double share) {
-      return Place{curve->point(arc.parameter_at(share)), length_of(trailing.chord_at(share))};
+      return reduced(kTrailing, curve->point(arc.parameter_at(share)), trailing.chord_at(share));
     });
   }
 
@@ -92,8 +94,9 @@ class WingRaster {
  private:
   struct Place {
     Vec3 x;
-    double length;     // asked for there
-    Vec3 across = {};  // half the width over which it is asked for
+    double length;     // of the field there
+    Vec3 across = {};  // half the width over which it holds
+    double asked = 0;  // of the triangles; 0: as that of the field
   };
 
   double floor_of(double chord) const { return LocalLengths(wing_, sizes_).floor(chord); }
@@ -107,7 +110,7 @@ class WingRaster {
     for (int n = 0; n < kMaxBoxes; ++n) {
       Place place = place_at(std::min(share, 1.0));
       if (place.length < least) {
-        note_raised({place.length, least}, most_raised_);
+        note_raised({std::max(place.length, place.asked), least}, most_raised_);
         place.length = least;
       }
       const double step = std::max(place.length / way, 1.0 / kMaxBoxes);
@@ -126,12 +129,18 @@ class WingRaster {
     }
   }
 
+  /// At a nose or an edge. The first triangles beside it have the length asked for: theirs grows along them.
+  Place reduced(double share, Vec3 x, double chord) const {
+    const double asked = length_of(chord);
+    return {x, std::max(share * asked, std::min(asked, floor_of(chord))), {}, asked};
+  }
+
   /// Along the noses of stations in a row.
   void end_run(std::vector<const ChordStation*>& run) {
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
       walk(distance(a.nose, b.nose), pack_cause(CauseKind::kFace, a.nose_face), [&](double share) {
-        return Place{a.nose + share * (b.nose - a.nose), length_of(a.chord + share * (b.chord - a.chord))};
+        return reduced(kNose, a.nose + share * (b.nose - a.nose), a.chord + share * (b.chord - a.chord));
       });
     }
     run.clear();

@@ -16,6 +16,7 @@ constexpr double kAlong = 0.71;      // cosine to the span of a segment along it
 constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
 constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
 constexpr double kMissed = 1.5;      // length over that asked for
+constexpr double kHeld = 1.3;        // likewise, at most
 
 /// A wing's stations in the order of the span.
 struct Spanwise {
@@ -59,6 +60,7 @@ struct Ball {
   TriangleId triangle;
   Vec3 center;
   double radius;
+  double at = 0;  // the centre's coordinate along the wing
 };
 
 /// The triangles of one surface.
@@ -70,16 +72,21 @@ class WingMesh {
       if (wing.faces.empty() || std::ranges::binary_search(wing.faces, f)) skin_.push_back(ball_of(t));
       if (std::ranges::binary_search(wing.bases, f)) base_.push_back(ball_of(t));
     }
+    Box3 box;
+    for (const WingRecord::Station& s : wing.stations) box.add(s.trailing);
+    const Vec3 size = box.hi - box.lo;
+    axis_ = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
+    for (Ball& b : skin_) b.at = b.center.*axis_;
+    std::ranges::stable_sort(skin_, {}, &Ball::at);
   }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
   bool is_empty() const { return skin_.empty(); }
 
   LengthsAt lengths_at(Vec3 place, Vec3 along_span) const {
-    const Ball nearest = *std::ranges::min_element(skin_, {}, [&](const Ball& b) { return norm2(b.center - place); });
-    const double reach = kAround * mean_side(nearest.triangle);
+    const double reach = kAround * mean_side(nearest(place));
     std::array<double, 2> sum = {0, 0};
     std::array<std::int64_t, 2> n = {0, 0};
-    for (const auto& [t, center, radius] : skin_) {
+    for (const auto& [t, center, radius, at] : skin_within(place, reach)) {
       if (norm2(center - place) > reach * reach) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 side = corner(t, (k + 1) % 3) - corner(t, k);
@@ -126,7 +133,7 @@ class WingMesh {
   double turning(Vec3 place, double reach) const {
     std::map<std::pair<NodeId, NodeId>, TriangleId> sides;
     double most = 0;
-    for (const auto& [t, center, radius] : skin_) {
+    for (const auto& [t, center, radius, at] : skin_within(place, reach)) {
       if (norm2(center - place) > reach * reach) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax(mesh_.triangles[t].n[k], mesh_.triangles[t].n[(k + 1) % 3]);
@@ -143,7 +150,28 @@ class WingMesh {
   Ball ball_of(TriangleId t) const {
     const Vec3 center = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
     return {t, center,
-            std::max({distance(center, corner(t, 0)), distance(center, corner(t, 1)), distance(center, corner(t, 2))})};
+            std::max({distance(center, corner(t, 0)), distance(center, corner(t, 1)), distance(center, corner(t, 2))}),
+            0};
+  }
+  /// A part of the skin that holds all centres not further from `place` than `reach`.
+  std::span<const Ball> skin_within(Vec3 place, double reach) const {
+    const auto begin = std::ranges::lower_bound(skin_, place.*axis_ - reach, {}, &Ball::at);
+    const auto end = std::ranges::upper_bound(begin, skin_.end(), place.*axis_ + reach, {}, &Ball::at);
+    return {begin, end};
+  }
+  /// By the centre; the skin is not empty.
+  TriangleId nearest(Vec3 place) const {
+    auto after = std::ranges::lower_bound(skin_, place.*axis_, {}, &Ball::at), before = after;
+    double least = std::numeric_limits<double>::infinity();
+    TriangleId best = kNone;
+    const auto take = [&](const Ball& b) {
+      if (std::abs(b.at - place.*axis_) >= least) return false;
+      if (const double d = distance(b.center, place); d < least) least = d, best = b.triangle;
+      return true;
+    };
+    for (bool is_on = true; is_on && after != skin_.end(); ++after) is_on = take(*after);
+    for (bool is_on = true; is_on && before != skin_.begin();) is_on = take(*--before);
+    return best;
   }
   double mean_side(TriangleId t) const {
     return (distance(corner(t, 0), corner(t, 1)) + distance(corner(t, 1), corner(t, 2)) +
@@ -157,7 +185,7 @@ class WingMesh {
   template <class Visit>
   void cut(const std::vector<Ball>& triangles, const WingRecord::Station& s, Vec3 normal, const Visit& visit) const {
     const Vec3 forward = normalized(s.trailing - s.nose);
-    for (const auto& [t, center, radius] : triangles) {
+    for (const auto& [t, center, radius, at] : triangles) {
       if (std::abs(dot(center - s.trailing, normal)) > radius) continue;
       std::array<Vec3, 2> end;
       std::size_t n = 0;
@@ -183,18 +211,27 @@ class WingMesh {
   }
 
   const SurfaceMesh& mesh_;
-  std::vector<Ball> skin_, base_;
+  std::vector<Ball> skin_, base_;  // skin_ by centres along axis_
+  double Vec3::*axis_ = &Vec3::x;  // along which the wing is longest
 };
+
+LengthsAt nose_of(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::size_t i) {
+  if (!wing.has_noses) return {};
+  return mesh.lengths_at(spanwise.station[i]->nose, spanwise.direction(i, &WingRecord::Station::nose));
+}
+LengthsAt trailing_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i) {
+  return mesh.lengths_at(spanwise.station[i]->trailing, spanwise.direction(i, &WingRecord::Station::trailing));
+}
 
 WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
                                    std::size_t i) {
   const WingRecord::Station& s = *spanwise.station[i];
   WingStationMeasure own{.share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked};
   const Vec3 along = spanwise.direction(i, &WingRecord::Station::trailing);
-  own.trailing = mesh.lengths_at(s.trailing, along);
+  own.trailing = trailing_of(mesh, spanwise, i);
   if (!wing.has_noses) return own;
   const Vec3 forward = normalized(s.trailing - s.nose), normal = normalized(along - dot(along, forward) * forward);
-  own.nose = mesh.lengths_at(s.nose, spanwise.direction(i, &WingRecord::Station::nose));
+  own.nose = nose_of(mesh, wing, spanwise, i);
   own.chord_cells = mesh.chord_cells(s, normal);
   const auto [cells, width] = mesh.base_cells(s, normal);
   own.base_cells = cells;
@@ -203,6 +240,30 @@ WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing,
   own.growth = mesh.growth(s, normal, own.nose.normal);
   own.turning = mesh.turning(s.nose, kNoseReach * s.chord);
   return own;
+}
+
+/// Sets `held` and `worst`, from all stations.
+void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, WingMeasure& own) {
+  const std::size_t n = spanwise.station.size();
+  double span = 0, held = 0, most = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const WingRecord::Station& s = *spanwise.station[i];
+    const double part = spanwise.share[std::min(i + 1, n - 1)] - spanwise.share[i == 0 ? 0 : i - 1];
+    span += part;
+    double factor = 0;
+    const auto take = [&](const char* what, double has, Vec3 place) {
+      factor = std::max(factor, has / s.asked);
+      if (has / s.asked <= most) return;
+      most = has / s.asked;
+      own.worst = WingMiss{0, spanwise.share[i], place, what, has / s.chord, s.asked / s.chord};
+    };
+    if (s.asked > 0) {
+      take("nose", nose_of(mesh, wing, spanwise, i).normal, s.nose);
+      take("trailing edge", trailing_of(mesh, spanwise, i).normal, s.trailing);
+    }
+    if (factor <= kHeld) held += part;
+  }
+  if (span > 0) own.held = held / span;
 }
 
 }  // namespace
@@ -218,8 +279,10 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
     const Spanwise spanwise(wing);
     if (!wing.faces.empty()) own.n_triangles = triangles.n_triangles();
     std::vector<std::size_t> chosen;
-    if (!triangles.is_empty() && !spanwise.station.empty())
+    if (!triangles.is_empty() && !spanwise.station.empty()) {
       for (const double share : kShares) chosen.push_back(spanwise.nearest(share));
+      measure_all_stations(triangles, wing, spanwise, own);
+    }
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     for (const std::size_t i : chosen) own.stations.push_back(measure_station(triangles, wing, spanwise, i));
     all.push_back(std::move(own));
@@ -229,17 +292,23 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
 
 std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings) {
   std::vector<WingMiss> misses;
-  for (std::size_t w = 0; w < wings.size(); ++w)
+  for (std::size_t w = 0; w < wings.size(); ++w) {
+    const auto add = [&](WingMiss miss, bool is_base) {
+      const double factor = is_base ? miss.asked / miss.has : miss.has / miss.asked;
+      miss.wing = w;
+      if (factor > kMissed) misses.push_back(miss);
+    };
     for (const WingStationMeasure& s : wings[w].stations) {
-      const auto check = [&](const char* what, double has) {
-        if (s.asked > 0 && has > kMissed * s.asked)
-          misses.push_back({w, s.share, s.place, what, has / s.chord, s.asked / s.chord});
-      };
-      check("nose", s.nose.normal);
-      check("trailing edge", s.trailing.normal);
-      if (s.base_cells > 0 && kMissed * s.base_cells < s.asked_base_cells)
-        misses.push_back({w, s.share, s.place, "base", s.base_cells, s.asked_base_cells});
+      if (s.asked > 0) {
+        add({w, s.share, s.place, "nose", s.nose.normal / s.chord, s.asked / s.chord}, false);
+        add({w, s.share, s.place, "trailing edge", s.trailing.normal / s.chord, s.asked / s.chord}, false);
+      }
+      if (s.base_cells > 0) add({w, s.share, s.place, "base", s.base_cells, s.asked_base_cells}, true);
     }
+    const std::optional<WingMiss>& worst = wings[w].worst;
+    const auto is_worst = [&](const WingStationMeasure& s) { return s.share == worst->share; };
+    if (worst && std::ranges::none_of(wings[w].stations, is_worst)) add(*worst, false);
+  }
   return misses;
 }
 

@@ -31,30 +31,34 @@ struct WingStationMeasure {
                        ///< radians
 };
 
+/// Where the mesh is much coarser than what was asked for.
+struct WingMiss {
+  std::size_t wing = 0;
+  double share = 0;  ///< of the span
+  Vec3 place = {};
+  const char* what = "";      ///< "nose", "trailing edge", "base"
+  double has = 0, asked = 0;  ///< lengths over the chord; cells across a base
+};
+
 /// One lifting surface.
 struct WingMeasure {
   double span = 0, covered = 0;  ///< see WingRecord
   EdgeId first_edge = kNone;
   bool has_noses = true;
+  double held = 1;  ///< share of the stations' span where lengths across noses and trailing edges are at most 1.3 times
+                    ///< those asked for; stations of rules count as held
+  std::optional<WingMiss> worst = std::nullopt;    ///< of all stations; nullopt: nothing is asked for
   std::int64_t n_triangles = 0;                    ///< on its faces
   std::vector<WingStationMeasure> stations = {};   ///< nearest to 10, 30, 50, 70 and 90 per cent of the span, each once
   std::optional<double> deviation = std::nullopt;  ///< largest distance of a triangle's midpoint from the CAD over the
                                                    ///< chord
 };
 
-/// Places where the mesh is coarser than 1.5 times what was asked for.
-struct WingMiss {
-  std::size_t wing = 0;
-  double share = 0;  ///< of the span
-  Vec3 place;
-  const char* what = "";      ///< "nose", "trailing edge", "base"
-  double has = 0, asked = 0;  ///< lengths over the chord; cells across a base
-};
-
 /// Of each. A surface without noses has no faces of its own: all triangles count there. Segments count within three of
-/// their lengths around a place. Local, linear in triangles for each station.
+/// their lengths around a place. Local; linear in triangles for each of the five stations.
 std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 
+/// Places where the mesh is coarser than 1.5 times what was asked for: those of the five stations, and the worst.
 std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings);
 
 }  // namespace st

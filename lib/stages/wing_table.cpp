@@ -43,7 +43,7 @@ std::string wing_table(std::span<const WingMeasure> wings, bool is_stretched) {
   const auto of_chord = [](double LengthsAt::*which, LengthsAt WingStationMeasure::*where) {
     return [=](const WingStationMeasure& s) { return 100 * (s.*where).*which / s.chord; };
   };
-  std::vector<TableRow> rows{{"surface at", "triangles", "covered", "asked", "nose, % chord", "trailing edge"}};
+  std::vector<TableRow> rows{{"surface at", "triangles", "covered", "held", "asked", "nose, % chord", "trailing edge"}};
   if (is_stretched) rows[0].insert(rows[0].end(), {"nose along", "trailing along"});
   rows[0].insert(rows[0].end(), {"chord cells", "base cells", "growth", "turning, deg"});
   const bool has_cad = std::ranges::any_of(wings, [](const WingMeasure& w) { return w.deviation.has_value(); });
@@ -52,6 +52,7 @@ std::string wing_table(std::span<const WingMeasure> wings, bool is_stretched) {
     TableRow row{fmt::format("edge {}", w.first_edge + 1),
                  std::to_string(w.n_triangles),
                  fmt::format("{:.0f} %", 100 * w.covered),
+                 fmt::format("{:.0f} %", 100 * w.held),
                  at_stations(w, "{:.2g}", [](const auto& s) { return 100 * s.asked / s.chord; }),
                  at_stations(w, "{:.2g}", of_chord(&LengthsAt::normal, &WingStationMeasure::nose)),
                  at_stations(w, "{:.2g}", of_chord(&LengthsAt::normal, &WingStationMeasure::trailing))};
@@ -80,6 +81,12 @@ json wing_measures_json(std::span<const WingMeasure> wings) {
     for (const WingStationMeasure& s : w.stations) stations.push_back(wing_station_json(s));
     json entry{{"edge", w.first_edge + 1},   {"span", w.span},      {"covered", w.covered}, {"has_noses", w.has_noses},
                {"triangles", w.n_triangles}, {"stations", stations}};
+    entry["held"] = w.held;
+    if (w.worst)
+      entry["worst"] = {{"what", w.worst->what},
+                        {"share", w.worst->share},
+                        {"xyz", {w.worst->place.x, w.worst->place.y, w.worst->place.z}},
+                        {"factor", w.worst->has / w.worst->asked}};
     if (w.deviation) entry["deviation"] = *w.deviation;
     list.push_back(std::move(entry));
   }

@@ -33,16 +33,34 @@ TEST(WingMeasure, knows_lengths_across_and_along_the_span) {
     EXPECT_EQ(s.base_cells, 0);
   }
   EXPECT_TRUE(find_misses(all).empty());
+  EXPECT_EQ(all[0].held, 1);
+  ASSERT_TRUE(all[0].worst);
+  EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 1, 1e-9);
+}
+
+TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
+  WingRecord wing = record(0.05);
+  for (WingRecord::Station& s : wing.stations)
+    if (s.trailing.y > 3) s.asked = 0.037;  // has 1.35 times that
+  wing.stations[5].asked = 0.03;
+  const std::vector<WingMeasure> all = measure_wings(plank(), {&wing, 1});
+  EXPECT_NEAR(all[0].held, 0.75, 0.01);
+  ASSERT_TRUE(all[0].worst);
+  EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 0.05 / 0.03, 1e-9);
+  const std::vector<WingMiss> misses = find_misses(all);
+  ASSERT_EQ(misses.size(), 1u) << "between the five stations, and above 1.5";
+  EXPECT_NEAR(misses[0].place.y, wing.stations[5].nose.y, 1e-12);
 }
 
 TEST(WingMeasure, says_where_more_was_asked_for) {
   const WingRecord wing = record(0.03);
   std::vector<WingMeasure> all = measure_wings(plank(), {&wing, 1});
   const std::vector<WingMiss> misses = find_misses(all);
-  EXPECT_EQ(misses.size(), 10u) << "noses and trailing edges at five stations";
+  EXPECT_EQ(misses.size(), 11u) << "noses and trailing edges at five stations, and the worst of all";
   EXPECT_EQ(misses.front().what, std::string("nose"));
   EXPECT_NEAR(misses.front().has, 0.05, 1e-9);
   all[0].stations.resize(1);
+  all[0].worst.reset();
   all[0].stations[0].asked = 0;
   EXPECT_TRUE(find_misses(all).empty()) << "rules say what it gets";
   all[0].stations[0].base_cells = 2;
