@@ -223,6 +223,40 @@ GivenFloors find_floors(const std::vector<SizeRule>& rules, bool everywhere, con
   return floors;
 }
 
+/// Half of the least length at the noses of `wings`, per face of theirs or beside one; infinite for other faces.
+std::vector<double> curvature_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings,
+                                     const WingSizes& sizes, std::span<const ChordLine> chords) {
+  constexpr double kOfNose = 0.5;
+  std::vector<double> floors(static_cast<std::size_t>(t.n_faces()), std::numeric_limits<double>::infinity());
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  std::vector<double> own(wings.size(), std::numeric_limits<double>::infinity());
+  for (const ChordLine& line : chords) {
+    const LiftingSurface& wing = wings[line.wing];
+    if (!wing.trailing.empty())
+      own[line.wing] = std::min(own[line.wing], kOfNose * length_along(wing, sizes, wing.trailing.front(), line.chord));
+  }
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    const std::span<const FaceId> beside(edge_faces.data() + offsets[e], edge_faces.data() + offsets[e + 1]);
+    for (std::size_t w = 0; w < wings.size(); ++w)
+      if (std::ranges::any_of(beside, [&](FaceId f) { return std::ranges::binary_search(wings[w].faces, f); }))
+        for (const FaceId f : beside) floors[f] = std::min(floors[f], own[w]);
+  }
+  return floors;
+}
+
+/// Curvature on and beside a lifting surface asks for no less than a share of what its nose gets: fillets and rounded
+/// tips need no finer mesh than the nose does. An lmin of a rule stays.
+void raise_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings, const WingSizes& sizes,
+                  ModelLimits& limits) {
+  const std::vector<double> floors = curvature_floors(t, wings, sizes, limits.chords);
+  for (std::size_t f = 0; f < floors.size(); ++f)
+    if (std::optional<SamplingLimits>& own = limits.face[f];
+        own && std::isfinite(floors[f]) && own->min_length == limits.far.min_length)
+      own->min_length = std::clamp(floors[f], own->min_length, own->max_length);
+}
+
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
 void sample_wings(const RasterStageOptions& o, const Model& model, const std::vector<SizeRule>& rules,
                   std::span<const Strip> strips, double diagonal, double max_length, ModelLimits& limits,
@@ -249,6 +283,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
                     "where it matters most; give a smaller lmin there, or leave it out",
                     o.edge_size, most->floor, most->asked));
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
+  if (!sizes.least) raise_floors(model.tables(), wings.aircraft.wings, sizes, limits);
 }
 
 void report_undercuts(const RasterArtifact& a) {
