@@ -29,6 +29,7 @@
 #include "stages/check_report.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
+#include "stages/layers_check.h"
 #include "stages/stored_model.h"
 
 namespace st {
@@ -709,6 +710,10 @@ void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const Trian
   check_sizes(o.thresholds, f);
   check_wings(f);
   if (cad) check_deviation(o.thresholds, cad->model.tables(), f);
+  if (o.layers.empty()) return;
+  const SurfaceMesh& mesh = artifact.mesh;
+  for (Check& c : layers_checks(mesh, has_flow_domain(mesh), artifact.header.unit_in_m, parse_layers(o.layers)))
+    f.checks.push_back(std::move(c));
 }
 
 }  // namespace
@@ -722,6 +727,7 @@ void CheckStageOptions::validate() const {
   needs(thresholds.max_free_sharp.has_value(), geometry, "--max-free-sharp", "--geometry");
   needs(!thresholds.max_deviation.empty(), geometry, "--max-deviation", "--geometry");
   needs(thresholds.max_normal_deviation_deg.has_value(), geometry, "--max-normal-deviation", "--geometry");
+  if (!layers.empty()) parse_layers(layers);
 }
 
 StageSummary run_check(const CheckStageOptions& options) {

@@ -62,12 +62,13 @@ struct CheckStageOptions {
       "largest relative difference between mesh and CAD area of a face, after the chord error"};
   CheckThresholds thresholds;
   std::vector<std::string> reports;  ///< JSON files to write: everything, per model, group and face, with histograms
+  std::string layers = {};  ///< layers of prisms that shall grow from the walls, see LayersRequest; empty: none
   double list_below_deg = 10;
   static constexpr NumberOption kListBelow{
       "--list-below", "DEG", "(0, 60]",
       "triangles with an angle below this, in degrees, are listed by cause; needs --geometry"};
 
-  /// Throws Error(kUsage) for a threshold whose geometry or sizing is not given.
+  /// Throws Error(kUsage) for a threshold whose geometry or sizing is not given, and for layers that say nothing.
   void validate() const;
 };
 
