@@ -7,15 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/boxes.h"
 
 namespace st {
-
-/// Squared distance from a point to a box; 0 inside.
-inline double distance2(Vec3 x, const Box3& box) {
-  const auto gap = [](double at, double lo, double hi) { return at < lo ? lo - at : at > hi ? at - hi : 0.0; };
-  return norm2({gap(x.x, box.lo.x, box.hi.x), gap(x.y, box.lo.y, box.hi.y), gap(x.z, box.lo.z, box.hi.z)});
-}
 
 /// Depends on the boxes and their order alone. O(n log n) to build.
 class BoxTree {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "features/concave_edges.h"
 
 namespace st {
@@ -13,14 +13,12 @@ namespace {
 class BodyFinder {
  public:
   BodyFinder(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings)
-      : t_(model.tables()), own_box_(roles.own.face_box), wings_(wings) {
+      : t_(model.tables()), own_box_(roles.own.face_box), wings_(wings), sets_(t_.n_faces()) {
     const auto n = static_cast<std::size_t>(t_.n_faces());
     is_wing_.assign(n, 0);
     for (const LiftingSurface& wing : wings)
       for (const FaceId f : wing.faces) is_wing_[f] = 1;
     for (std::size_t f = 0; f < n; ++f) is_wall_.push_back(roles.role[f] == FaceRole::kWall);
-    parent_.resize(n);
-    std::iota(parent_.begin(), parent_.end(), 0);
     touches_wing_.assign(n, 0);
   }
 
@@ -35,18 +33,12 @@ class BodyFinder {
   }
 
  private:
-  FaceId root(FaceId f) {
-    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-    return f;
-  }
-
   void join(FaceId a, FaceId b) {
     if (!is_wall_[a] || !is_wall_[b]) return;
     if (is_wing_[a]) touches_wing_[b] = 1;
     if (is_wing_[b]) touches_wing_[a] = 1;
     if (is_wing_[a] || is_wing_[b]) return;
-    const FaceId first = root(a), second = root(b);
-    parent_[std::max(first, second)] = std::min(first, second);
+    sets_.join(a, b);
   }
 
   Bodies assemble() {
@@ -55,7 +47,7 @@ class BodyFinder {
     std::vector<Box3> box, own_box;
     for (FaceId f = 0; f < t_.n_faces(); ++f) {
       if (!is_wall_[f] || is_wing_[f]) continue;
-      const FaceId first = root(f);
+      const FaceId first = sets_.find(f);
       if (first == f) {
         bodies.of_face[f] = static_cast<std::int32_t>(box.size());
         box.emplace_back();
@@ -89,7 +81,7 @@ class BodyFinder {
   std::span<const Box3> own_box_;  // [n_faces]
   std::span<const LiftingSurface> wings_;
   std::vector<std::uint8_t> is_wing_, is_wall_, touches_wing_;  // [n_faces]
-  std::vector<FaceId> parent_;                                  // [n_faces] of a forest
+  DisjointSets sets_;                                           // of faces
 };
 
 }  // namespace

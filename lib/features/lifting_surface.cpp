@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "base/disjoint_sets.h"
 #include "base/share.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
@@ -36,12 +36,7 @@ std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::sp
   std::vector<WingEdge> trailing;
   for (const WingEdge& w : edges)
     if (w.kind != WingEdgeKind::kLeading) trailing.push_back(w);
-  std::vector<std::size_t> parent(trailing.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(static_cast<std::int64_t>(trailing.size()));
   const auto hang_together = [&](const WingEdge& a, const WingEdge& b) {
     if (a.base != kNone && a.base == b.base) return true;
     const VertexId* va = &t.edge_vertices[2 * static_cast<std::size_t>(a.edge)];
@@ -50,13 +45,13 @@ std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::sp
   };
   for (std::size_t i = 0; i < trailing.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (hang_together(trailing[i], trailing[j])) {
-        const std::size_t a = root(i), b = root(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-  std::vector<std::vector<WingEdge>> chains(trailing.size());
-  for (std::size_t i = 0; i < trailing.size(); ++i) chains[root(i)].push_back(trailing[i]);
-  std::erase_if(chains, [](const auto& chain) { return chain.empty(); });
+      if (hang_together(trailing[i], trailing[j]))
+        sets.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+  std::vector<std::vector<WingEdge>> chains;
+  for (const std::vector<std::int32_t>& chain : sets.groups()) {
+    chains.emplace_back();
+    for (const std::int32_t i : chain) chains.back().push_back(trailing[i]);
+  }
   return chains;
 }
 

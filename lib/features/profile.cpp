@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/box_tree.h"
+#include "base/boxes.h"
 #include "geometry/shape/projection.h"
 
 namespace st {

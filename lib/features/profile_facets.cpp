@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/box_tree.h"
+#include "base/boxes.h"
 #include "base/share.h"
 #include "features/edge_places.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
+#include "base/disjoint_sets.h"
 #include "base/packer.h"
 #include "base/share.h"
 #include "features/edge_places.h"
@@ -370,23 +370,17 @@ class WingEdgeFinder {
   // --- chains
 
   void drop_short_chains(std::vector<std::optional<WingEdge>>& found) const {
-    constexpr std::size_t kKinds = 2;  // trailing, leading
-    const auto chain_kind = [](const WingEdge& w) {
-      return w.kind == WingEdgeKind::kLeading ? std::size_t{1} : std::size_t{0};
-    };
-    std::vector<std::size_t> parent(kKinds * static_cast<std::size_t>(t_.n_vertices()));
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    constexpr std::int32_t kKinds = 2;  // trailing, leading
+    const auto chain_kind = [](const WingEdge& w) { return w.kind == WingEdgeKind::kLeading ? 1 : 0; };
+    const std::int32_t n = kKinds * t_.n_vertices();
+    DisjointSets chains(n);
     const auto node = [&](const WingEdge& w, std::size_t end) {
-      return root(chain_kind(w) * static_cast<std::size_t>(t_.n_vertices()) +
-                  static_cast<std::size_t>(t_.edge_vertices[2 * static_cast<std::size_t>(w.edge) + end]));
+      return chains.find(chain_kind(w) * t_.n_vertices() +
+                         t_.edge_vertices[2 * static_cast<std::size_t>(w.edge) + end]);
     };
     for (const auto& w : found)
-      if (w) parent[node(*w, 0)] = node(*w, 1);
-    std::vector<double> length(parent.size(), 0.0);
+      if (w) chains.join(node(*w, 0), node(*w, 1));
+    std::vector<double> length(n, 0.0);
     for (const auto& w : found)
       if (w) length[node(*w, 0)] += w->length;
     for (auto& w : found)

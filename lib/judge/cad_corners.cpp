@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "mesh/adjacency.h"
 
 namespace st {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/boxes.h"
+
 namespace st {
 namespace {
 
@@ -19,16 +21,11 @@ struct NearParts {
 /// By the numbers of the parts.
 using AllNearParts = std::map<std::pair<std::int32_t, std::int32_t>, NearParts>;
 
-bool overlap(const Box3& a, const Box3& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
-
 AllNearParts near_parts(const ModelTables& t, const FaceParts& parts) {
   AllNearParts all;
   for (FaceId a = 0; a < t.n_faces(); ++a)
     for (FaceId b = a + 1; b < t.n_faces(); ++b) {
-      if (parts.placement[a] == parts.placement[b] || !overlap(t.face_box[a], t.face_box[b])) continue;
+      if (parts.placement[a] == parts.placement[b] || !meet(t.face_box[a], t.face_box[b])) continue;
       const std::pair<std::int32_t, std::int32_t> numbers = std::minmax(parts.part[a], parts.part[b]);
       if (!parts.left_out.contains(numbers)) all[numbers].faces.emplace_back(a, b);
     }

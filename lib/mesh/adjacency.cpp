@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
 #include "base/limits.h"
 #include "base/threads.h"
 
@@ -68,19 +69,6 @@ void EdgeTable::sort_buckets(std::size_t first, std::size_t last) {
     std::sort(bucket.begin(), bucket.end());
     for (std::int32_t i = begin; i < end; ++i) std::tie(high_[i], side_[i]) = bucket[i - begin];
   }
-}
-
-DisjointSets::DisjointSets(std::int64_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-std::int32_t DisjointSets::find(std::int32_t element) {
-  while (parent_[element] != element) element = parent_[element] = parent_[parent_[element]];
-  return element;
-}
-
-void DisjointSets::join(std::int32_t a, std::int32_t b) {
-  a = find(a);
-  b = find(b);
-  if (a != b) parent_[std::max(a, b)] = std::min(a, b);
 }
 
 std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes,

@@ -53,17 +53,6 @@ inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) {
   return side_start(triangles, a) == side_start(triangles, b);
 }
 
-/// Sets of elements that were joined; the representative of a set is its lowest element.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::int64_t n);
-  std::int32_t find(std::int32_t element);
-  void join(std::int32_t a, std::int32_t b);
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
 /// Connected component of each node, kNone for nodes without a triangle; triangles connect their nodes. Components are
 /// numbered by their lowest node. `n_components` is set.
 std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes,

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "base/log.h"
 #include "base/threads.h"
 #include "mesh/pair_search.h"

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/limits.h"
 #include "base/threads.h"

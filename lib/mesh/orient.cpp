@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/predicates.h"
 #include "mesh/adjacency.h"
 
@@ -127,11 +128,6 @@ void measure(const SurfaceMesh& mesh, std::span<const std::int32_t> face_compone
 }
 
 // --- nesting ---
-
-bool contains(const Box3& outer, const Box3& inner) {
-  return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && outer.lo.z <= inner.lo.z && outer.hi.x >= inner.hi.x &&
-         outer.hi.y >= inner.hi.y && outer.hi.z >= inner.hi.z;
-}
 
 int sign(double x) { return (x > 0) - (x < 0); }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/morton.h"
 #include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
@@ -11,11 +12,6 @@
 
 namespace st {
 namespace {
-
-bool meet(const Box3& a, const Box3& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
 
 constexpr std::size_t kPerPiece = 1024 * PatchBlocks::kTriangles;  // whose order is mixed
 

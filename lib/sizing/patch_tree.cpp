@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/assert.h"
+#include "base/boxes.h"
 
 namespace st {
 namespace {
@@ -36,9 +37,7 @@ struct Prism {
 
   /// Can the prism meet the box? Tests the axes of both, not their cross products.
   bool meets(const Box3& b) const {
-    if (b.lo.x > box.hi.x || b.hi.x < box.lo.x || b.lo.y > box.hi.y || b.hi.y < box.lo.y || b.lo.z > box.hi.z ||
-        b.hi.z < box.lo.z)
-      return false;
+    if (!meet(b, box)) return false;
     const Vec3 center = b.center() - x, half = 0.5 * (b.hi - b.lo);
     for (int k = 0; k < 3; ++k) {
       const double middle = dot(center, axes[k]);

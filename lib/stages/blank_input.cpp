@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/boxes.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "io/foreign/triangulation_reader.h"
@@ -26,10 +27,6 @@ BlankSide parse_side(const std::string& side, const SurfaceMesh& mesh) {
         "farfield")
       return BlankSide::kOutside;
   return BlankSide::kInside;
-}
-
-bool holds(const Box3& box, Vec3 x) {
-  return x.x >= box.lo.x && x.y >= box.lo.y && x.z >= box.lo.z && x.x <= box.hi.x && x.y <= box.hi.y && x.z <= box.hi.z;
 }
 
 std::string places(const Defects& defects) {
@@ -106,7 +103,7 @@ double share_near(std::span<const Vec3> points, const OctreeView& octree, std::s
   }();
   const auto leaf_at = [&](Vec3 x) { return octree.find_leaf(morton::encode(octree.grid_point(x))); };
   const auto is_near = [&](Vec3 x) {
-    if (!holds(root, x)) return false;
+    if (!contains(root, x)) return false;
     const double step = 0.1 * octree.cell_edge(octree.leaf_levels[leaf_at(x)]);
     for (const double dx : {0.0, -step, step})
       for (const double dy : {0.0, -step, step})

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/boxes.h"
 #include "base/packer.h"
 #include "base/share.h"
 #include "sizing/cell_limit.h"
@@ -38,10 +39,6 @@ constexpr double kMargin = 1;      // around the walls, over their diagonal
 constexpr double kWorthIt = 0.5;   // diagonal of what is left, over the model's
 constexpr double kFarShare = 0.5;  // least length outside, over the far field's
 
-bool is_in(Vec3 x, const Box3& box) {
-  return x.x >= box.lo.x && x.y >= box.lo.y && x.z >= box.lo.z && x.x <= box.hi.x && x.y <= box.hi.y && x.z <= box.hi.z;
-}
-
 /// What the samples of a rank say of the box around the walls.
 struct OctreeNeed {
   std::uint64_t n_too_small = 0;  // for the cells of the model's octree
@@ -51,7 +48,7 @@ struct OctreeNeed {
 OctreeNeed find_need(const Box3& model, const Box3& near_walls, std::span<const RasterBox> boxes) {
   OctreeNeed need{find_depth_limit(model, boxes).n_samples};
   for (const RasterBox& box : boxes)
-    if (!is_in(box.center, near_walls)) need.least_outside = std::min(need.least_outside, box.length);
+    if (!contains(near_walls, box.center)) need.least_outside = std::min(need.least_outside, box.length);
   return need;
 }
 

@@ -11,11 +11,6 @@
 
 namespace st::occt {
 
-bool is_within(const Box3& inner, const Box3& outer) {
-  return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z && inner.hi.x <= outer.hi.x &&
-         inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
-}
-
 Box3 rough_box(const TopoDS_Shape& shape) {
   Bnd_Box box;
   BRepBndLib::Add(shape, box, false);

@@ -16,9 +16,6 @@ inline Vec3 vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 /// Box of the curves and surfaces, enlarged by tolerances.
 Box3 rough_box(const TopoDS_Shape& shape);
 
-/// Whether `inner` is nowhere outside; boundaries may be common.
-bool is_within(const Box3& inner, const Box3& outer);
-
 /// An edge inside a face (INTERNAL, EXTERNAL) that bounds nothing.
 bool is_constraint(const TopoDS_Shape& edge);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 
 namespace st {
@@ -28,7 +29,10 @@ double polygon_length(const std::vector<Vec3>& points) {
 class TopologyBuilder {
  public:
   TopologyBuilder(const FliteFile& file, const std::string& path)
-      : file_(file), path_(path), diagonal_(flite_box(file).diagonal()) {}
+      : file_(file),
+        path_(path),
+        diagonal_(flite_box(file).diagonal()),
+        sets_(2 * static_cast<std::int64_t>(file.segments.size())) {}
 
   FliteTopology build() {
     collect_ends();
@@ -50,17 +54,6 @@ class TopologyBuilder {
       length_.push_back(polygon_length(points));
       result_.segments[s].is_point = length_.back() <= flite_resolution(points.front(), diagonal_);
     }
-    parent_.resize(ends_.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int find(int end) {
-    while (parent_[end] != end) end = parent_[end] = parent_[parent_[end]];
-    return end;
-  }
-  void unite(int a, int b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
   }
 
   void merge_close_ends() {
@@ -71,7 +64,7 @@ class TopologyBuilder {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const double tolerance = 2 * flite_resolution(ends_[order[i]], diagonal_);
       for (std::size_t k = i + 1; k < order.size() && ends_[order[k]].x <= ends_[order[i]].x + tolerance; ++k)
-        if (distance(ends_[order[i]], ends_[order[k]]) <= tolerance) unite(order[i], order[k]);
+        if (distance(ends_[order[i]], ends_[order[k]]) <= tolerance) sets_.join(order[i], order[k]);
     }
   }
 
@@ -80,7 +73,7 @@ class TopologyBuilder {
     std::map<int, int> last, uses;
     for (const int s : region.segments)
       if (!result_.segments[s].is_point)
-        for (const int end : {2 * s, 2 * s + 1}) last[find(end)] = end, ++uses[find(end)];
+        for (const int end : {2 * s, 2 * s + 1}) last[sets_.find(end)] = end, ++uses[sets_.find(end)];
     std::vector<int> loose;
     for (const auto& [vertex, n] : uses)
       if (n % 2 == 1) loose.push_back(last[vertex]);
@@ -96,7 +89,7 @@ class TopologyBuilder {
           if (gap(loose[a], loose[b]) < gap(loose[best_a], loose[best_b])) best_a = a, best_b = b;
       const int a = loose[best_a], b = loose[best_b];
       if (gap(a, b) > kLargestGap * std::min(length_[a / 2], length_[b / 2])) fail(region, a, gap(a, b));
-      unite(a, b);
+      sets_.join(a, b);
       loose = loose_ends(region);
     }
   }
@@ -117,7 +110,7 @@ class TopologyBuilder {
     std::map<int, int> number;
     std::vector<int> n_ends;
     for (std::size_t end = 0; end < ends_.size(); ++end) {
-      const auto [it, is_new] = number.emplace(find(static_cast<int>(end)), static_cast<int>(number.size()));
+      const auto [it, is_new] = number.emplace(sets_.find(static_cast<int>(end)), static_cast<int>(number.size()));
       if (is_new) result_.vertices.emplace_back(), n_ends.push_back(0);
       (end % 2 == 0 ? result_.segments[end / 2].start : result_.segments[end / 2].end) = it->second;
       result_.vertices[it->second] += ends_[end];
@@ -126,7 +119,7 @@ class TopologyBuilder {
     for (std::size_t v = 0; v < n_ends.size(); ++v) result_.vertices[v] = result_.vertices[v] / n_ends[v];
     result_.vertex_gap.assign(n_ends.size(), 0.0);
     for (std::size_t end = 0; end < ends_.size(); ++end) {
-      const int v = number[find(static_cast<int>(end))];
+      const int v = number[sets_.find(static_cast<int>(end))];
       result_.vertex_gap[v] = std::max(result_.vertex_gap[v], distance(ends_[end], result_.vertices[v]));
     }
   }
@@ -192,7 +185,7 @@ class TopologyBuilder {
   double diagonal_;
   std::vector<Vec3> ends_;
   std::vector<double> length_;  // [segments]
-  std::vector<int> parent_;     // of ends: union-find
+  DisjointSets sets_;           // of ends
   FliteTopology result_;
 };
 

@@ -16,6 +16,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "base/disjoint_sets.h"
+
 namespace st::occt {
 namespace {
 
@@ -257,43 +259,33 @@ void AirPieces::find_ways() {
 }
 
 std::vector<AirPiece> AirPieces::pieces_without(const std::vector<char>& is_left_out) const {
-  std::vector<FaceId> parent(t_.n_faces());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](FaceId f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
-  const auto join = [&](FaceId f, FaceId g) {
-    const FaceId a = root(f), b = root(g);
-    parent[std::max(a, b)] = std::min(a, b);
-  };
+  DisjointSets sets(t_.n_faces());
   for (FaceId f = 0; f < t_.n_faces(); ++f)
-    if (!is_left_out[f] && !is_left_out[first_face_[f]]) join(f, first_face_[f]);
+    if (!is_left_out[f] && !is_left_out[first_face_[f]]) sets.join(f, first_face_[f]);
   for (EdgeId e = 0; e < t_.n_edges(); ++e) {
     FaceId first = kNone;
     for (const FaceId f : faces_at(e))
-      if (!is_left_out[f] && first_edge_[e] == e && !is_crowded(e)) first == kNone ? void(first = f) : join(first, f);
+      if (!is_left_out[f] && first_edge_[e] == e && !is_crowded(e))
+        first == kNone ? void(first = f) : sets.join(first, f);
   }
   std::vector<std::pair<FaceId, FaceId>> pairs;
   for (const auto& [e, ways] : ways_) {
     std::vector<Way> single;
     for (const Way& way : ways)
       if (!is_left_out[way.face] && std::count_if(ways.begin(), ways.end(), [&](const Way& other) {
-                                      return !is_left_out[other.face] && root(other.face) == root(way.face);
+                                      return !is_left_out[other.face] && sets.find(other.face) == sets.find(way.face);
                                     }) == 1)
         single.push_back(way);
     if (const auto pair = straight_pair(single)) pairs.push_back(*pair);
   }
-  for (const auto& [f, g] : pairs) join(f, g);
-  std::map<FaceId, AirPiece> by_root;
-  for (FaceId f = 0; f < t_.n_faces(); ++f) {
-    if (is_left_out[f]) continue;
-    AirPiece& piece = by_root[root(f)];
-    piece.faces.push_back(f);
-    piece.box.add(t_.face_box[f]);
-  }
+  for (const auto& [f, g] : pairs) sets.join(f, g);
   std::vector<AirPiece> pieces;
-  for (auto& [first, piece] : by_root) pieces.push_back(std::move(piece));
+  for (std::vector<FaceId>& faces : sets.groups()) {
+    if (is_left_out[faces[0]]) continue;
+    pieces.emplace_back();
+    for (const FaceId f : faces) pieces.back().box.add(t_.face_box[f]);
+    pieces.back().faces = std::move(faces);
+  }
   return pieces;
 }
 

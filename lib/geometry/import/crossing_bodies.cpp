@@ -15,6 +15,7 @@
 #include <set>
 #include <utility>
 
+#include "base/boxes.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/model/bodies.h"
@@ -26,11 +27,6 @@ namespace {
 constexpr double kTouching = 1e-6;  // of the diagonal: the tolerance of places
 constexpr double kDeep = 10;        // times that, on both sides of a face: an edge goes through it
 constexpr double kStep = 0.02;      // of the edge, to look at both sides
-
-bool meet(const Box3& a, const Box3& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
 
 /// Of a comparison: some microseconds.
 int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 8 : type < SurfaceType::kBezier ? 200 : 400; }

@@ -20,6 +20,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "geometry/brep/shape_queries.h"
 
 namespace st::occt {
@@ -123,35 +124,14 @@ class JoinSearch {
         found_.push_back({use.edge, faces_(use.face + 1), d});
   }
 
-  int root(int f) const {
-    while (parent_[f] != f) f = parent_[f];
-    return f;
-  }
-  /// Against the root.
-  bool is_turned(int f) const {
-    bool turned = false;
-    for (; parent_[f] != f; f = parent_[f]) turned = turned != (turned_to_parent_[f] != 0);
-    return turned;
-  }
-
-  /// Whether both sides of the edge agree with what is joined already; joins the faces where nothing is.
-  bool join(const Use& a, const Use& b) {
-    const bool is_one_turned = a.runs_forward == b.runs_forward;
-    const int x = root(a.face), y = root(b.face);
-    const bool is_known_turned = is_turned(a.face) != is_turned(b.face);
-    if (x == y) return is_known_turned == is_one_turned;
-    const int child = n_members_[x] < n_members_[y] ? x : y, other = child == x ? y : x;
-    parent_[child] = other;
-    turned_to_parent_[child] = is_known_turned != is_one_turned;
-    n_members_[other] += n_members_[child];
+  /// Whether both sides of the edge agree with what is joined already; joins the faces where nothing is. `sides`: 2 f
+  /// and 2 f + 1 are the sides of face f.
+  static bool join(const Use& a, const Use& b, DisjointSets& sides) {
+    const int is_one_turned = a.runs_forward == b.runs_forward ? 1 : 0;
+    if (sides.find(2 * a.face) == sides.find(2 * b.face + 1 - is_one_turned)) return false;
+    sides.join(2 * a.face, 2 * b.face + is_one_turned);
+    sides.join(2 * a.face + 1, 2 * b.face + 1 - is_one_turned);
     return true;
-  }
-
-  void start_joining() {
-    parent_.resize(faces_.Extent());
-    std::iota(parent_.begin(), parent_.end(), 0);
-    turned_to_parent_.assign(parent_.size(), 0);
-    n_members_.assign(parent_.size(), 1);
   }
 
   /// In the order of the edges; then, where something contradicts, again from the longest edge on.
@@ -170,14 +150,15 @@ class JoinSearch {
 
   /// Of faces that hang together without a free edge.
   std::vector<std::size_t> contradictions(const std::vector<std::size_t>& order) {
-    start_joining();
+    DisjointSets sides(2 * std::int64_t{faces_.Extent()});
     std::vector<std::size_t> result;
     for (const std::size_t i : order)
-      if (uses_[i].size() == 2 && !join(uses_[i][0], uses_[i][1])) result.push_back(i);
-    std::vector<char> is_open(parent_.size(), 0);
+      if (uses_[i].size() == 2 && !join(uses_[i][0], uses_[i][1], sides)) result.push_back(i);
+    std::vector<char> is_open(2 * static_cast<std::size_t>(faces_.Extent()), 0);
     for (const std::vector<Use>& uses : uses_)
-      if (uses.size() == 1) is_open[root(uses[0].face)] = 1;
-    std::erase_if(result, [&](std::size_t i) { return is_open[root(uses_[i][0].face)] != 0; });
+      if (uses.size() == 1)
+        for (const int side : {0, 1}) is_open[sides.find(2 * uses[0].face + side)] = 1;
+    std::erase_if(result, [&](std::size_t i) { return is_open[sides.find(2 * uses_[i][0].face)] != 0; });
     return result;
   }
 
@@ -191,9 +172,7 @@ class JoinSearch {
 
   double limit_;
   TopTools_IndexedMapOfShape faces_, edges_;
-  std::vector<std::vector<Use>> uses_;   // [n_edges]
-  std::vector<int> parent_, n_members_;  // [n_faces]: a forest of faces that hang together
-  std::vector<char> turned_to_parent_;   // [n_faces]
+  std::vector<std::vector<Use>> uses_;  // [n_edges]
   std::vector<FalseJoin> found_;
 };
 

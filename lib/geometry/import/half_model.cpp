@@ -28,9 +28,9 @@
 #include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
 #include <iterator>
-#include <map>
-#include <numeric>
 
+#include "base/boxes.h"
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/face_labels.h"
 #include "geometry/brep/compound.h"
@@ -389,30 +389,21 @@ TopoDS_Shape in_order(const TopoDS_Shape& shell, const Faces& faces) {
 
 /// Shells of faces that share edges, in the order of their first faces, each oriented alike.
 std::vector<TopoDS_Shape> shells_of(const Faces& faces) {
-  std::vector<int> parent(faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(static_cast<std::int64_t>(faces.size()));
   TopTools_IndexedMapOfShape edges;
   std::vector<int> owner;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (TopExp_Explorer e(faces[f], TopAbs_EDGE); e.More(); e.Next()) {
       const std::size_t k = edges.Add(e.Current());
       if (k > owner.size()) owner.push_back(static_cast<int>(f));
-      const int a = root(owner[k - 1]), b = root(static_cast<int>(f));
-      parent[std::max(a, b)] = std::min(a, b);
+      sets.join(owner[k - 1], static_cast<int>(f));
     }
-  std::map<int, TopoDS_Shell> shells;
   BRep_Builder builder;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    TopoDS_Shell& shell = shells[root(static_cast<int>(f))];
-    if (shell.IsNull()) builder.MakeShell(shell);
-    builder.Add(shell, faces[f]);
-  }
   std::vector<TopoDS_Shape> result;
-  for (auto& [first, shell] : shells) {
+  for (const std::vector<int>& own : sets.groups()) {
+    TopoDS_Shell shell;
+    builder.MakeShell(shell);
+    for (const int f : own) builder.Add(shell, faces[f]);
     ShapeFix_Shell fix;
     fix.FixFaceOrientation(shell);
     for (TopExp_Explorer e(fix.Shape(), TopAbs_SHELL); e.More(); e.Next())
@@ -481,7 +472,7 @@ void require_none_inside(const ImportedShape& model, const Cut& cut, const std::
     for (std::size_t k = 0; k < solids.size(); ++k) {
       const bool is_at_plane = component(boxes[i].lo, cut.plane.axis) <= cut.plane.value + kInPlane * cut.diagonal &&
                                component(boxes[i].hi, cut.plane.axis) >= cut.plane.value - kInPlane * cut.diagonal;
-      if (i == k || !is_at_plane || !is_within(boxes[i], boxes[k]) || !is_inside(solids[i], solids[k])) continue;
+      if (i == k || !is_at_plane || !contains(boxes[k], boxes[i]) || !is_inside(solids[i], solids[k])) continue;
       const auto name = [&](const TopoDS_Solid& solid) {
         return name_of(model, TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current()));
       };
@@ -503,7 +494,7 @@ TopTools_IndexedMapOfShape inner_bodies(const TopoDS_Shape& shape, std::vector<I
   TopTools_IndexedMapOfShape faces;
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t k = 0; k < solids.size(); ++k) {
-      if (i == k || !is_within(boxes[i], boxes[k]) || !is_inside(solids[i], filled(solids[k]))) continue;
+      if (i == k || !contains(boxes[k], boxes[i]) || !is_inside(solids[i], filled(solids[k]))) continue;
       TopExp::MapShapes(solids[i], TopAbs_FACE, faces);
       findings.push_back({FindingKind::kInnerBodyLeftOut, "", boxes[i].center(), boxes[i].diagonal(), false});
       break;

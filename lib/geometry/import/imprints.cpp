@@ -15,12 +15,12 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
+#include "base/disjoint_sets.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
@@ -49,8 +49,8 @@ struct Contact {
 /// Faces that have edges in common, group by group.
 class FaceGroups {
  public:
-  explicit FaceGroups(const ImportedShape& model) : first_(model.faces.Extent() + 1), edge_faces_() {
-    std::iota(first_.begin(), first_.end(), 0);
+  explicit FaceGroups(const ImportedShape& model) : first_(model.faces.Extent() + 1) {
+    DisjointSets groups(model.faces.Extent() + 1);
     edge_faces_.emplace_back();
     for (int f = 1; f <= model.faces.Extent(); ++f)
       for (TopExp_Explorer e(model.faces(f), TopAbs_EDGE); e.More(); e.Next()) {
@@ -58,17 +58,14 @@ class FaceGroups {
         if (i == static_cast<int>(edge_faces_.size())) edge_faces_.emplace_back();
         std::vector<int>& faces = edge_faces_[i];
         faces.push_back(f);  // twice for a seam
-        const int a = root(faces.front()), b = root(f);
-        first_[std::max(a, b)] = std::min(a, b);
+        groups.join(faces.front(), f);
       }
+    for (int f = 0; f <= model.faces.Extent(); ++f) first_[f] = groups.find(f);
     for (const std::vector<int>& faces : edge_faces_)
       if (std::set<int>(faces.begin(), faces.end()).size() > 2) with_third_.insert(root(faces.front()));
   }
 
-  int root(int face) const {
-    while (first_[face] != face) face = first_[face];
-    return face;
-  }
+  int root(int face) const { return first_[face]; }
   /// And all faces that have an edge in common with one of them.
   std::set<int> with_neighbours(const std::set<int>& faces) const {
     std::set<int> result = faces;
@@ -83,7 +80,7 @@ class FaceGroups {
   const std::vector<int>& faces_of(int i) const { return edge_faces_[i]; }
 
  private:
-  std::vector<int> first_;
+  std::vector<int> first_;  ///< face of a face's group
   TopTools_IndexedMapOfShape edges_;
   std::vector<std::vector<int>> edge_faces_;  ///< by 1-based edge
   std::set<int> with_third_;

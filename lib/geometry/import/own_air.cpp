@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/boxes.h"
 #include "geometry/import/air_pieces.h"
 
 namespace st::occt {
@@ -142,9 +143,7 @@ class AirFinder {
   }
 
   static bool encloses(const Box3& outer, const Box3& inner) {
-    const double r = kSpread * outer.diagonal();
-    return outer.lo.x <= inner.lo.x + r && outer.lo.y <= inner.lo.y + r && outer.lo.z <= inner.lo.z + r &&
-           outer.hi.x >= inner.hi.x - r && outer.hi.y >= inner.hi.y - r && outer.hi.z >= inner.hi.z - r;
+    return contains(outer, inner, kSpread * outer.diagonal());
   }
 
   /// Whether some face of the one shares an edge with one of the other.

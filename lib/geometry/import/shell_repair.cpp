@@ -1,4 +1,5 @@
 #include "geometry/import/shell_repair.h"
+#include "base/boxes.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/false_joins.h"
 #include "geometry/import/import.h"
@@ -57,7 +58,7 @@ TopoDS_Solid solid_of(const TopoDS_Shape& shell) {
 }
 
 bool contains(const LooseShell& outer, const LooseShell& inner) {
-  if (outer.volume <= inner.volume || !is_within(inner.box, outer.box)) return false;
+  if (outer.volume <= inner.volume || !contains(outer.box, inner.box)) return false;
   const TopExp_Explorer vertex(inner.original, TopAbs_VERTEX);
   if (!vertex.More()) return false;
   BRepClass3d_SolidClassifier classifier(solid_of(outer.outward), BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())),

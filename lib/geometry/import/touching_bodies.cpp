@@ -22,7 +22,8 @@
 #include <optional>
 #include <set>
 
-#include "base/box_tree.h"
+#include "base/boxes.h"
+#include "base/disjoint_sets.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -42,31 +43,6 @@ constexpr int kStations = 5;               // along u and v, of surfaces without
 constexpr std::size_t kMostSampled = 500;  // pairs of faces without a formula: a millisecond each
 
 constexpr double Vec3::*kAxes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
-
-/// Groups of numbers that were joined.
-class Joined {
- public:
-  explicit Joined(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  /// Each with its members in order.
-  std::vector<std::vector<int>> groups() {
-    std::map<int, std::vector<int>> by_root;
-    for (int i = 0; i < static_cast<int>(parent_.size()); ++i) by_root[root(i)].push_back(i);
-    std::vector<std::vector<int>> result;
-    for (auto& [first, members] : by_root) result.push_back(std::move(members));
-    return result;
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // --- faces on each other ---
 
@@ -125,12 +101,6 @@ std::optional<bool> are_one_surface(const BRepAdaptor_Surface& a, const BRepAdap
   }
 }
 
-bool holds(const Box3& box, Vec3 p, double tolerance) {
-  for (const auto axis : kAxes)
-    if (p.*axis < box.lo.*axis - tolerance || p.*axis > box.hi.*axis + tolerance) return false;
-  return true;
-}
-
 /// Points of `of` in the box, all of which are on `on`: three at least.
 bool lies_on(const Surface& of, const Surface& on, const Box3& box, double tolerance) {
   int n = 0;
@@ -138,7 +108,7 @@ bool lies_on(const Surface& of, const Surface& on, const Box3& box, double toler
     for (int k = 0; k < kStations; ++k) {
       const Vec3 p = of.point({of.u_min() + (of.u_max() - of.u_min()) * (i + 0.5) / kStations,
                                of.v_min() + (of.v_max() - of.v_min()) * (k + 0.5) / kStations});
-      if (!holds(box, p, tolerance)) continue;
+      if (!contains(box, p, tolerance)) continue;
       if (closest_point(on, p).distance > tolerance) return false;
       ++n;
     }
@@ -208,7 +178,7 @@ class FaceContacts {
   FaceContacts(const ImportedShape& model, const ModelTables& tables, double tolerance)
       : model_(model), t_(tables), tolerance_(tolerance), sharers_(edge_sharers(model.shape)) {}
 
-  void add_to(Joined& joined) {
+  void add_to(DisjointSets& joined) {
     std::vector<FaceId> order;
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       if (t_.face_solid[f] != kNone) order.push_back(f);
@@ -221,7 +191,7 @@ class FaceContacts {
         const FaceId f = order[i], g = order[k];
         if (t_.face_box[g].lo.x > t_.face_box[f].hi.x + tolerance_) break;
         const int a = t_.face_solid[f], b = t_.face_solid[g];
-        if (joined.root(a) != joined.root(b) && coincide(f, g)) joined.join(a, b);
+        if (joined.find(a) != joined.find(b) && coincide(f, g)) joined.join(a, b);
       }
   }
 
@@ -330,7 +300,8 @@ bool passes(const TopoDS_Shape& edge, Vec3 p, double tolerance) {
 }
 
 /// Joins solids with edges between the same points; returns those with two such edges of their own.
-std::set<int> add_edge_contacts(const ImportedShape& model, const ModelTables& t, double tolerance, Joined& joined) {
+std::set<int> add_edge_contacts(const ImportedShape& model, const ModelTables& t, double tolerance,
+                                DisjointSets& joined) {
   std::set<int> self_touching;
   const std::vector<VertexId> first = first_at_place(t, tolerance);
   std::vector<int> solid(t.n_edges(), kNone);
@@ -347,7 +318,7 @@ std::set<int> add_edge_contacts(const ImportedShape& model, const ModelTables& t
     for (std::size_t i = 0; i < members.size(); ++i)
       for (std::size_t k = i + 1; k < members.size(); ++k) {
         const EdgeId a = members[i], b = members[k];
-        if (solid[a] != solid[b] && joined.root(solid[a]) == joined.root(solid[b])) continue;
+        if (solid[a] != solid[b] && joined.find(solid[a]) == joined.find(solid[b])) continue;
         if (std::abs(t.edge_length[a] - t.edge_length[b]) > 10 * tolerance + 1e-3 * t.edge_length[a]) continue;
         if (edges.IsEmpty()) TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
         const double near = std::max({tolerance, t.edge_tolerance[a], t.edge_tolerance[b]});
@@ -608,7 +579,7 @@ void join_sharers(ImportedShape& model, ModelOfFile& model_tables, const std::se
 }  // namespace
 
 TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTables& tables) {
-  Joined joined(tables.n_solids);
+  DisjointSets joined(tables.n_solids);
   const double tolerance = kSamePlace * tables.box().diagonal();
   if (tables.n_solids > 1) FaceContacts(model, tables, tolerance).add_to(joined);
   TouchingGroups result;
@@ -633,7 +604,7 @@ void join_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const
 void join_self_touching_solids(ImportedShape& model, ModelOfFile& model_tables, const std::set<int>& left_out,
                                std::vector<ImportFinding>& findings, const std::string& path) {
   const ModelTables& t = model_tables.tables;
-  Joined joined(t.n_solids);
+  DisjointSets joined(t.n_solids);
   std::set<int> self_touching = add_edge_contacts(model, t, kSamePlace * t.box().diagonal(), joined);
   std::set<int> sharers = edge_sharers(model.shape);
   for (const int i : left_out) self_touching.erase(i), sharers.erase(i);

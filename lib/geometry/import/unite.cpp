@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/boxes.h"
 #include "base/progress.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
@@ -37,12 +38,6 @@ double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
   return properties.Mass();
-}
-
-bool meet(const Box3& a, const Box3& b, double tolerance) {
-  for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z})
-    if (a.lo.*axis > b.hi.*axis + tolerance || b.lo.*axis > a.hi.*axis + tolerance) return false;
-  return true;
 }
 
 std::string words(const std::set<std::string>& names) {

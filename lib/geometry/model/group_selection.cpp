@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/required_unit.h"
@@ -87,28 +88,20 @@ void GroupSelection::select_items(const char* key, const std::vector<std::string
   keep(wanted);
 }
 
-void GroupSelection::select_box(const BoxSpec& spec, std::span<const Box3> box,
-                                const std::function<bool(std::int32_t, Vec3, Vec3)>& fits) {
+Box3 GroupSelection::box_of(const BoxSpec& spec) const {
   double c[6];
   for (int i = 0; i < 6; ++i) c[i] = coordinate(rule_, spec[i], t_);
   const double slack = kBoxSlack * t_.box().diagonal();
-  const Vec3 lo{c[0] - slack, c[1] - slack, c[2] - slack}, hi{c[3] + slack, c[4] + slack, c[5] + slack};
-  keep([&](std::int32_t i) { return !box[i].is_empty() && fits(i, lo, hi); });
+  return {{c[0] - slack, c[1] - slack, c[2] - slack}, {c[3] + slack, c[4] + slack, c[5] + slack}};
 }
 
 void GroupSelection::select_boxes(std::span<const Box3> box, std::span<const double> tolerance) {
   if (rule_.inside)
-    select_box(*rule_.inside, box, [&](std::int32_t i, Vec3 lo, Vec3 hi) {
-      const Box3& b = box[i];
-      const double out = tolerance[i];
-      return b.lo.x >= lo.x - out && b.lo.y >= lo.y - out && b.lo.z >= lo.z - out && b.hi.x <= hi.x + out &&
-             b.hi.y <= hi.y + out && b.hi.z <= hi.z + out;
+    keep([&, chosen = box_of(*rule_.inside)](std::int32_t i) {
+      return !box[i].is_empty() && contains(chosen, box[i], tolerance[i]);
     });
   if (rule_.touching)
-    select_box(*rule_.touching, box, [&](std::int32_t i, Vec3 lo, Vec3 hi) {
-      const Box3& b = box[i];
-      return b.hi.x >= lo.x && b.hi.y >= lo.y && b.hi.z >= lo.z && b.lo.x <= hi.x && b.lo.y <= hi.y && b.lo.z <= hi.z;
-    });
+    keep([&, chosen = box_of(*rule_.touching)](std::int32_t i) { return !box[i].is_empty() && meet(chosen, box[i]); });
 }
 
 GroupSelection::Mask GroupSelection::take(const std::string& when_empty) {

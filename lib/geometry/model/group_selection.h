@@ -47,8 +47,7 @@ class GroupSelection {
 
  private:
   void add_matches(const char* key, const std::string& item, const Name& name, Mask& wanted) const;
-  void select_box(const BoxSpec& spec, std::span<const Box3> box,
-                  const std::function<bool(std::int32_t, Vec3, Vec3)>& fits);
+  Box3 box_of(const BoxSpec& spec) const;
 
   const GroupRule& rule_;
   const ModelTables& t_;

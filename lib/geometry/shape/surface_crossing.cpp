@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/boxes.h"
+
 namespace st {
 namespace {
 
@@ -81,11 +83,6 @@ class Grid {
   std::vector<SurfacePoint> points_;
   Box3 box_;
 };
-
-bool meet(const Box3& a, const Box3& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-         b.lo.z <= a.hi.z;
-}
 
 using Corners = std::array<Vec3, 3>;
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "geometry/shape/projection.h"
 #include "geometry/shape/surface_forms.h"
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "geometry/shape/projection.h"
 #include "meshing/associate/face_parameters.h"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"

@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "mesh/adjacency.h"
 
 namespace st {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/boxes.h"
 #include "base/log.h"
 #include "mesh/patch_crossing.h"
 
@@ -38,9 +39,7 @@ class NewCells {
   }
 
   bool touch(const Box3& box) const {
-    if (is_touched_.empty() || box.hi.x < all_.lo.x || box.lo.x > all_.hi.x || box.hi.y < all_.lo.y ||
-        box.lo.y > all_.hi.y || box.hi.z < all_.lo.z || box.lo.z > all_.hi.z)
-      return false;
+    if (is_touched_.empty() || !meet(box, all_)) return false;
     const Range r = range_of(box);
     if (r.n_cells() > kManyCells) return true;
     return visit(r, [&](std::size_t i) { return is_touched_[i] != 0; });

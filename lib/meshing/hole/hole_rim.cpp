@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "mesh/adjacency.h"
 
 namespace st {

@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
-#include "meshing/topology/vertex_sets.h"
 
 namespace st {
 namespace {
@@ -28,16 +28,16 @@ void require_ids(const MergedFeatures& merged, const ModelTables& t) {
 MeshTopology::MeshTopology(const ModelTables& tables, MergedFeatures merged)
     : tables_(tables), merged_(std::move(merged)) {
   require_ids(merged_, tables_);
-  VertexSets sets(tables_.n_vertices());
+  DisjointSets sets(tables_.n_vertices());
   for (const EdgeId e : merged_.edge) {
-    sets.unite(tables_.edge_vertices[2 * e], tables_.edge_vertices[2 * e + 1]);
+    sets.join(tables_.edge_vertices[2 * e], tables_.edge_vertices[2 * e + 1]);
     tables_.edge_is_degenerate[e] = 1;
   }
   const auto is_ring = [&](EdgeId e) { return tables_.edge_vertices[2 * e] == tables_.edge_vertices[2 * e + 1]; };
   for (std::size_t s = 0; s < merged_.strip_face.size(); ++s)
     if (is_ring(merged_.strip_kept[s]) && is_ring(merged_.strip_closed[s]))
-      sets.unite(tables_.edge_vertices[2 * merged_.strip_kept[s]], tables_.edge_vertices[2 * merged_.strip_closed[s]]);
-  for (VertexId& v : tables_.edge_vertices) v = sets.root(v);
+      sets.join(tables_.edge_vertices[2 * merged_.strip_kept[s]], tables_.edge_vertices[2 * merged_.strip_closed[s]]);
+  for (VertexId& v : tables_.edge_vertices) v = sets.find(v);
   const std::size_t n_strips = merged_.strip_face.size();
   if (n_strips == 0) return;
   strip_of_face_.assign(tables_.n_faces(), kNone);

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "features/arc_table.h"
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
-#include "meshing/topology/vertex_sets.h"
 
 namespace st {
 namespace {
@@ -95,7 +95,7 @@ class EdgeMerger {
   }
 
   void merge(EdgeId e) {
-    const VertexId a = sets_.root(t_.edge_vertices[2 * e]), b = sets_.root(t_.edge_vertices[2 * e + 1]);
+    const VertexId a = sets_.find(t_.edge_vertices[2 * e]), b = sets_.find(t_.edge_vertices[2 * e + 1]);
     if (a == b) {
       if (is_point(e)) leave_out({e});
       return;
@@ -107,7 +107,7 @@ class EdgeMerger {
     const bool are_one =
         std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k) || coincide(e, k); });
     if (both.diagonal() > limit || !are_one || !leave_out(edges)) return;
-    sets_.unite(a, b);
+    sets_.join(a, b);
     cluster_[std::min(a, b)] = both;
     auto &to = at_vertex_[std::min(a, b)], &from = at_vertex_[std::max(a, b)];
     to.insert(to.end(), from.begin(), from.end());
@@ -146,10 +146,10 @@ class EdgeMerger {
   }
 
   /// `e` and the others between the two that are too short to be a loop of their own with it.
-  std::vector<EdgeId> short_edges_between(VertexId a, VertexId b, EdgeId e, double limit) const {
+  std::vector<EdgeId> short_edges_between(VertexId a, VertexId b, EdgeId e, double limit) {
     std::vector<EdgeId> edges = {e};
     for (const EdgeId k : at_vertex_[a]) {
-      const VertexId p = sets_.root(t_.edge_vertices[2 * k]), q = sets_.root(t_.edge_vertices[2 * k + 1]);
+      const VertexId p = sets_.find(t_.edge_vertices[2 * k]), q = sets_.find(t_.edge_vertices[2 * k + 1]);
       if (k != e && ((p == a && q == b) || (p == b && q == a)) && t_.edge_length[k] < limit) edges.push_back(k);
     }
     return edges;
@@ -163,7 +163,7 @@ class EdgeMerger {
   std::vector<std::int32_t> face_offsets_;  // faces of each edge
   std::vector<FaceId> faces_;
   int hint_ = 0;
-  VertexSets sets_;
+  DisjointSets sets_;
   std::vector<Box3> cluster_;               // of each set, at its root
   std::vector<std::vector<LoopId>> loops_;  // of each edge
   std::vector<int> n_long_;                 // edges left in each loop
@@ -178,7 +178,7 @@ class StripMerger {
  public:
   StripMerger(const ModelTables& t, const std::vector<EdgeId>& merged_edges)
       : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0) {
-    for (const EdgeId e : merged_edges) sets_.unite(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
+    for (const EdgeId e : merged_edges) sets_.join(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
     t.edge_faces(offsets_, faces_);
     for (EdgeId e = 0; e < t.n_edges(); ++e)
       if (!t.edge_is_degenerate[e] && offsets_[e + 1] - offsets_[e] == 2)
@@ -209,15 +209,15 @@ class StripMerger {
  private:
   using FacePair = std::pair<FaceId, FaceId>;
   using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
-  Contact contact(EdgeId e, int k, FacePair f) const {
-    return {sets_.root(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
+  Contact contact(EdgeId e, int k, FacePair f) {
+    return {sets_.find(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
   }
   FaceId other_face(EdgeId e, FaceId f) const {
     return faces_[offsets_[e]] == f ? faces_[offsets_[e] + 1] : faces_[offsets_[e]];
   }
 
   const ModelTables& t_;
-  VertexSets sets_;
+  DisjointSets sets_;
   std::vector<char> taken_;
   std::vector<std::int32_t> offsets_;
   std::vector<FaceId> faces_;

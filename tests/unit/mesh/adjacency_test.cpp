@@ -51,18 +51,6 @@ TEST(EdgeTable, of_nothing_has_no_edge) {
   EdgeTable({}, 0).for_each_edge([](NodeId, NodeId, std::span<const SideId>) { ADD_FAILURE(); });
 }
 
-TEST(DisjointSets, are_represented_by_their_lowest_element) {
-  DisjointSets sets(10);
-  sets.join(7, 3);
-  sets.join(9, 7);
-  sets.join(1, 2);
-  for (const std::int32_t i : {3, 7, 9}) EXPECT_EQ(sets.find(i), 3);
-  EXPECT_EQ(sets.find(2), 1);
-  EXPECT_EQ(sets.find(0), 0);
-  sets.join(9, 1);
-  EXPECT_EQ(sets.find(7), 1);
-}
-
 TEST(NodeComponents, are_numbered_by_their_lowest_node) {
   std::int32_t n = 0;
   const std::vector<Triangle> triangles{{{6, 7, 8}}, {{1, 2, 3}}, {{3, 4, 1}}};

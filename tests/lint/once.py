@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Ideas that the code has once: each stands in the one file that is named here, and nowhere else in lib and tools.
+
+A new idea is a row of ONCE: what it is, how its code looks, and the file to use instead.
+"""
+import re
+import sys
+
+import lint
+
+ONCE = [
+    ("union-find", r"while \((\w+)\[(\w+)\] != \2\)|(\w+) = (\w+)\[\3\] = \4\[\4\[\3\]\]", "lib/base/disjoint_sets.h"),
+    ("what is near a box", r"([\w.>-]+)(?:\.|->)(?:lo|hi)\.(\*?\w+) [<>]=? (?!\1\b)[\w.>-]+(?:\.|->)(?:lo|hi)\.\2\b"
+     r"(?! [*/?]).*(?:&&|\|\|)", "lib/base/boxes.h"),
+]
+
+
+def check(root):
+    for path in lint.sources(root, under=("lib", "tools")):
+        text = lint.without_comments((root / path).read_text(encoding="utf-8"))
+        for what, pattern, home in ONCE:
+            if path == home:
+                continue
+            for match in re.finditer(pattern, text):
+                yield f"{path}:{text.count(chr(10), 0, match.start()) + 1}: {what} is written in {home}; use that"
+    for what, pattern, home in ONCE:
+        if not (root / home).is_file() or not re.search(pattern, (root / home).read_text(encoding="utf-8")):
+            yield f"{home}: {what} is not written here any more; correct tests/lint/once.py"
+
+
+PLANTS = [
+    lint.Plant("lib/mesh/planted.cpp", "void f() { while (p[i] != i) i = p[i]; }\n", "planted.cpp:1: union-find"),
+    lint.Plant("lib/mesh/planted.cpp", "void f() { i = p[i] = p[p[i]]; }\n", "planted.cpp:1: union-find"),
+    lint.Plant("lib/mesh/planted.cpp", "f = a.lo.x <= b.hi.x && b.lo.x <= a.hi.x;\n", "planted.cpp:1: what is near"),
+    lint.Plant("lib/mesh/planted.cpp", "f = a.lo.*k > b->hi.*k || b.lo.*k > a.hi.*k;\n", "planted.cpp:1: what is near"),
+]
+
+if __name__ == "__main__":
+    sys.exit(lint.main(check, PLANTS))
