@@ -7,7 +7,6 @@
 #include "base/disjoint_sets.h"
 #include "base/log.h"
 #include "base/threads.h"
-#include "mesh/pair_search.h"
 
 namespace st {
 

@@ -1,17 +1,10 @@
 #include "mesh/crossing.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <utility>
 
 #include "base/assert.h"
 #include "base/predicates.h"
-#include "base/threads.h"
-#include "mesh/float_box.h"
-#include "mesh/pair_search.h"
+#include "mesh/triangle_tree.h"
 
 namespace st {
 namespace {
@@ -135,166 +128,6 @@ bool two_nodes_cross(Vec3 u, Vec3 v, Vec3 p, Vec3 q) {
 
 Points rotated(const Points& t, int k) { return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]}; }
 
-// --- bounding volume hierarchy ---
-
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
-float round_up(double x) { return -round_down(-x); }
-
-/// Rounded outwards.
-FloatBox box_of(const Points& t) {
-  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
-  const auto [z0, z1] = std::minmax({t[0].z, t[1].z, t[2].z});
-  return {{round_down(x0), round_down(y0), round_down(z0)}, {round_up(x1), round_up(y1), round_up(z1)}};
-}
-
-/// The lower 21 bits of x, two zeros between neighbours.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffffull;
-  x = (x | x << 16) & 0x001f0000ff0000ffull;
-  x = (x | x << 8) & 0x100f00f00f00f00full;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ull;
-  return (x | x << 2) & 0x1249249249249249ull;
-}
-
-/// Triangles in Morton order of their centres under a balanced binary tree of boxes.
-class BoxTree {
- public:
-  /// Both outlive the tree.
-  BoxTree(std::span<const Vec3> points, std::span<const Triangle> triangles) : points_(points), triangles_(triangles) {
-    sort_along_curve(points, triangles);
-    boxes_.resize(order_.size());
-    parallel_for(order_.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) boxes_[i] = box_of(corners(points, triangles[order_[i]]));
-    });
-    nodes_.reserve(order_.size() / 2 + 1);
-    if (!order_.empty()) build(0, static_cast<std::int32_t>(order_.size()));
-  }
-  /// Parts of the tree, or pairs of them, to be searched apart.
-  struct Search {
-    std::int32_t a, b;  ///< nodes; b = kNone: pairs inside a
-  };
-  std::vector<Search> searches() const {
-    std::vector<Search> list;
-    if (!nodes_.empty()) split({0, kNone}, list);
-    return list;
-  }
-  /// Tests every pair of a search whose boxes meet once.
-  void test(Search search, PairSearch& found) const {
-    search.b == kNone ? within(search.a, found) : between(search.a, search.b, found);
-  }
-
- private:
-  static constexpr std::int32_t kLeafSize = 4, kSearchSize = 8'192;
-  static constexpr std::size_t kPerPiece = 16'384;
-  struct Node {
-    FloatBox box;
-    std::int32_t begin, end, right;  ///< range in order_; left child is the next node, right = kNone in a leaf
-  };
-
-  void sort_along_curve(std::span<const Vec3> points, std::span<const Triangle> triangles) {
-    Box3 all;
-    for (const Triangle& t : triangles)
-      for (const NodeId n : t.n) all.add(points[n]);
-    const Vec3 extent = all.hi - all.lo;
-    const auto cell = [](double x, double lo, double length) {
-      return static_cast<std::uint64_t>(length > 0 ? std::clamp((x - lo) / length, 0.0, 1.0) * 2097151.0 : 0.0);
-    };
-    constexpr std::uint64_t kLeftOut = ~std::uint64_t{0};
-    std::vector<std::pair<std::uint64_t, TriangleId>> keyed(triangles.size());
-    parallel_for(triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const Points p = corners(points, triangles[t]);
-        const Vec3 c = (p[0] + p[1] + p[2]) / 3.0;
-        const std::uint64_t key = spread(cell(c.x, all.lo.x, extent.x)) | spread(cell(c.y, all.lo.y, extent.y)) << 1 |
-                                  spread(cell(c.z, all.lo.z, extent.z)) << 2;
-        keyed[t] = {is_degenerate(points, triangles[t]) ? kLeftOut : key, static_cast<TriangleId>(t)};
-      }
-    });
-    parallel_sort(keyed.begin(), keyed.end(), std::less<>());
-    order_.reserve(keyed.size());
-    for (const auto& [key, t] : keyed)
-      if (key != kLeftOut) order_.push_back(t);
-  }
-
-  std::int32_t build(std::int32_t begin, std::int32_t end) {
-    const auto id = static_cast<std::int32_t>(nodes_.size());
-    nodes_.push_back({boxes_[begin], begin, end, kNone});
-    if (end - begin <= kLeafSize) {
-      for (std::int32_t i = begin + 1; i < end; ++i) nodes_[id].box.add(boxes_[i]);
-      return id;
-    }
-    const std::int32_t middle = begin + (end - begin) / 2;
-    const std::int32_t left = build(begin, middle), right = build(middle, end);
-    nodes_[id].right = right;
-    nodes_[id].box = nodes_[left].box;
-    nodes_[id].box.add(nodes_[right].box);
-    return id;
-  }
-
-  std::int32_t size(std::int32_t n) const { return nodes_[n].end - nodes_[n].begin; }
-
-  /// As within() and between() go on, down to small parts.
-  void split(Search search, std::vector<Search>& list) const {
-    const auto [a, b] = search;
-    if (b == kNone) {
-      if (size(a) <= kSearchSize) return list.push_back(search);
-      for (const Search part : {Search{a + 1, kNone}, {nodes_[a].right, kNone}, {a + 1, nodes_[a].right}})
-        split(part, list);
-      return;
-    }
-    if (!nodes_[a].box.meets(nodes_[b].box)) return;
-    if (size(a) + size(b) <= kSearchSize) return list.push_back(search);
-    const bool is_first = size(a) >= size(b);
-    const std::int32_t halved = is_first ? a : b;
-    for (const std::int32_t half : {halved + 1, nodes_[halved].right})
-      split(is_first ? Search{half, b} : Search{a, half}, list);
-  }
-
-  void test_leaf(std::int32_t i, std::int32_t begin, std::int32_t end, PairSearch& found) const {
-    found.count(end - begin);
-    for (std::int32_t j = begin; j < end; ++j)
-      if (boxes_[i].meets(boxes_[j])) found.test(points_, triangles_, order_[i], order_[j]);
-  }
-
-  void within(std::int32_t n, PairSearch& found) const {
-    const Node& node = nodes_[n];
-    if (node.right != kNone) {
-      within(n + 1, found);
-      within(node.right, found);
-      between(n + 1, node.right, found);
-      return;
-    }
-    for (std::int32_t i = node.begin; i < node.end; ++i) test_leaf(i, i + 1, node.end, found);
-  }
-
-  void between(std::int32_t a, std::int32_t b, PairSearch& found) const {
-    const Node &na = nodes_[a], &nb = nodes_[b];
-    found.count(1);
-    if (!na.box.meets(nb.box) || found.is_over()) return;
-    const bool leaf_a = na.right == kNone, leaf_b = nb.right == kNone;
-    if (leaf_a && leaf_b) {
-      for (std::int32_t i = na.begin; i < na.end; ++i)
-        if (boxes_[i].meets(nb.box)) test_leaf(i, nb.begin, nb.end, found);
-    } else if (leaf_b || (!leaf_a && na.box.extent() >= nb.box.extent())) {
-      between(a + 1, b, found);
-      between(na.right, b, found);
-    } else {
-      between(a, b + 1, found);
-      between(a, nb.right, found);
-    }
-  }
-
-  std::span<const Vec3> points_;
-  std::span<const Triangle> triangles_;
-  std::vector<TriangleId> order_;
-  std::vector<FloatBox> boxes_;  ///< of order_[i]
-  std::vector<Node> nodes_;      ///< depth first
-};
-
 }  // namespace
 
 bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
@@ -329,10 +162,8 @@ std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, 
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                                   bool& was_ended) {
-  const BoxTree tree(points, triangles);
-  const std::vector<BoxTree::Search> searches = tree.searches();
-  return find_bounded(searches.size(), most_comparisons(triangles.size()), was_ended,
-                      [&](std::size_t i, PairSearch& found) { tree.test(searches[i], found); });
+  const std::int32_t begin[] = {0, static_cast<std::int32_t>(triangles.size())};
+  return find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 0}}, was_ended);
 }
 
 }  // namespace st

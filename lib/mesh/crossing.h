@@ -22,6 +22,10 @@ struct TrianglePair {
 /// whatever the rounding; the order of the input does not matter for what is found. `points` finite. About n log n; a
 /// million triangles of a clean mesh take a second or two.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
+/// Likewise. Where triangles lie in each other without end the search is ended (most_comparisons()): then `was_ended`
+/// is set, and these are not all pairs.
+std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                                  bool& was_ended);
 
 /// The exact test of one pair; `n_shared` as above. Precondition: neither triangle is degenerate.
 bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared);

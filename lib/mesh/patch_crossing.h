@@ -19,6 +19,8 @@ struct PatchTriangles {
                                              ///< common part)
   std::span<const char> face_is_dirty = {};  ///< [n_faces] pairs of triangles of clean faces are skipped; empty: all
                                              ///< faces are dirty
+  std::span<const TriangleId> triangle_previous = {};  ///< [n_triangles] pairs of triangles that were there before (not
+                                                       ///< kNone) are skipped; empty: all are new
 };
 
 /// The pairs of find_crossing_triangles, sorted by (a, b), that lie in faces of the same body, at least one of them

@@ -6,7 +6,6 @@
 
 #include "base/predicates.h"
 #include "base/threads.h"
-#include "mesh/pair_search.h"
 #include "unit/mesh/shapes.h"
 
 namespace st {
