@@ -12,6 +12,9 @@ ONCE = [
     ("union-find", r"while \((\w+)\[(\w+)\] != \2\)|(\w+) = (\w+)\[\3\] = \4\[\4\[\3\]\]", "lib/base/disjoint_sets.h"),
     ("what is near a box", r"([\w.>-]+)(?:\.|->)(?:lo|hi)\.(\*?\w+) [<>]=? (?!\1\b)[\w.>-]+(?:\.|->)(?:lo|hi)\.\2\b"
      r"(?! [*/?]).*(?:&&|\|\|)", "lib/base/boxes.h"),
+    ("a search for triangles that cross", r"\b(?:find_bounded|PairSearch)\b", "lib/mesh/triangle_tree.cpp"),
+    ("cutting regions into tiles and joining them", r"(?:share_cuts|mesh_groups)\(\w*executor",
+     "lib/meshing/engine/region_tasks.cpp"),
 ]
 
 
@@ -33,6 +36,8 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.cpp", "void f() { i = p[i] = p[p[i]]; }\n", "planted.cpp:1: union-find"),
     lint.Plant("lib/mesh/planted.cpp", "f = a.lo.x <= b.hi.x && b.lo.x <= a.hi.x;\n", "planted.cpp:1: what is near"),
     lint.Plant("lib/mesh/planted.cpp", "f = a.lo.*k > b->hi.*k || b.lo.*k > a.hi.*k;\n", "planted.cpp:1: what is near"),
+    lint.Plant("lib/mesh/planted.cpp", "PairSearch found(most);\n", "planted.cpp:1: a search for triangles"),
+    lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
 ]
 
 if __name__ == "__main__":

@@ -14,13 +14,13 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/engine/dirty_parts.h"
+#include "meshing/engine/region_tasks.h"
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
@@ -35,7 +35,6 @@ namespace {
 constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
 constexpr RoundLimits kLimits{
     .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
-constexpr double kLight = 0.25;    // of a tile: such faces take less time than cutting a heavy one
 constexpr int kFewPairs = 50;      // of crossing triangles: else faces that cross each other stay as they are
 constexpr double kWorthIt = 0.9;   // of the bad triangles before: as many or less are left by a refill that stays
 constexpr int kMostTakenBack = 4;  // times: bad places move
@@ -94,6 +93,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       hopeless_(tables_.n_faces()) {
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
+  if (expected_.empty()) options_.tile_triangles = 0;  // nothing tells what is heavy
   result_.edges = std::move(plan_.kept_edges);
   for (FacePatch& p : std::exchange(plan_.kept_patches, {}))
     if (executor.is_root() && !p.triangles.empty()) put(p.face, std::move(p));
@@ -530,33 +530,28 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
   return nodes;
 }
 
-/// Heavy faces tile by tile, in the same tasks as the others; those whose tiles fail as a whole after all. While heavy
-/// faces are cut the others that are light are meshed.
+/// Collective.
 void FaceRounds::mesh_dirty_faces() {
   ++version_;
-  const WorkLimit tile_limit = time_limit(options_.tile_triangles);
-  TiledRegions tiled(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
-  if (options_.tile_triangles > 0 && !expected_.empty())
-    tiled.choose(without_left_out(dirty_faces_), expected_, options_.tile_triangles);
   wanted_.assign(outcomes_.size(), {});
-  double all_weights = 0;
-  for (const FaceId f : dirty_faces_) all_weights += weight(f);
-  Progress progress("meshing", all_weights, expected_.empty() ? "" : "triangles");
-  std::vector<FaceId> light, whole;
-  if (!tiled.chosen().empty()) {
-    for (const FaceId f : dirty_faces_)
-      if (expected_[f] < kLight * options_.tile_triangles) light.push_back(f);
-    cut_and_mesh(light, tiled, progress);
-  }
-  std::copy_if(dirty_faces_.begin(), dirty_faces_.end(), std::back_inserter(whole),
-               [&](FaceId f) { return !tiled.is_cut(f) && !std::binary_search(light.begin(), light.end(), f); });
-  mesh_faces(whole, tiled, progress);
-  executor_.begin_phase("seams");
-  std::vector<FaceId> failed = mesh_seams(tiled);
-  tiled.drop_sections();
-  share(executor_, failed);
-  TiledRegions none(model_, faces_as_regions(), field_, refinements_, face_options(), tile_limit);
-  if (!failed.empty()) mesh_faces(failed, none, progress);
+  std::map<FaceId, FaceReport> parted;
+  RegionTasks({.cut = "cut",
+               .whole = "face",
+               .tile = "tile",
+               .seams = "seams",
+               .progress = "meshing",
+               .unit = expected_.empty() ? "" : "triangles",
+               .make_whole = [&](FaceId f) { return packed(keep(mesh_whole(f))); },
+               .take_whole = [&](FaceId f, Bytes&& result) { take_whole(f, result); },
+               .make_seams = [&](FaceId f, TiledRegions& tiled) { return packed(keep(mesh_seams_of(f, tiled))); },
+               .take_seams = [&](FaceId f, Bytes&& result) { return take_seams(f, result, parted); },
+               .finish = [&](TiledRegions& tiled) { return store_sections(tiled, std::move(parted)); },
+               .record = [&](FaceId f, const Bytes& result) { return record_whole(f, result); },
+               .restore = [&](Bytes&& whole) { return restore_whole(std::move(whole)); }},
+              TiledRegions(model_, faces_as_regions(), field_, refinements_, options_.of_face(),
+                           time_limit(options_.tile_triangles)),
+              made_from(), expected_.empty() ? tables_.face_area : expected_, options_, executor_)
+      .run(dirty_faces_);
 }
 
 /// Folds of faces that were given up stay.
@@ -599,11 +594,6 @@ WorkLimit FaceRounds::time_limit(double n_triangles) const {
   return {options_.time_limit.value_or(kAlways + kPerTriangle * n_triangles), options_.when_late};
 }
 
-std::vector<FaceId> FaceRounds::without_left_out(std::vector<FaceId> faces) const {
-  std::erase_if(faces, [&](FaceId f) { return options_.left_out.contains(f); });
-  return faces;
-}
-
 /// A face, and a tile of it, is a function of the inputs, of the nodes on edges and of what was refined.
 std::string FaceRounds::made_from() const {
   const Bytes bytes = packed(result_.edges, refinements_.all());
@@ -638,100 +628,13 @@ void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
   take_face(f, std::move(report), std::move(place));
 }
 
-/// Tasks: the cuts, then light faces.
-void FaceRounds::cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress) {
-  const std::vector<FaceId>& cut = tiled.chosen();
-  const auto n_cuts = static_cast<std::int32_t>(cut.size());
-  std::vector<double> work;
-  for (const FaceId f : cut) work.push_back(weight(f));
-  for (const FaceId f : light) work.push_back(weight(f));
-  executor_.run_named_tasks(
-      {heaviest_first(work),
-       [&](std::int32_t task) {
-         return task < n_cuts ? TaskLabel{"cut", cut[task]} : TaskLabel{"face", light[task - n_cuts]};
-       },
-       made_from(),
-       {},
-       [&](std::int32_t task, const Bytes& result) {
-         return task < n_cuts ? result : record_whole(light[task - n_cuts], result);
-       },
-       [&](std::int32_t task, Bytes&& whole) {
-         return task < n_cuts ? std::move(whole) : restore_whole(std::move(whole));
-       }},
-      [&](std::int32_t task) {
-        return task < n_cuts ? tiled.cut(task) : packed(keep(mesh_whole(light[task - n_cuts])));
-      },
-      [&](std::int32_t task, Bytes&& bytes) {
-        if (task < n_cuts) return tiled.take_cut(task, bytes);
-        take_whole(light[task - n_cuts], bytes);
-        progress.advance(work[task]);
-      });
-  tiled.share_cuts(executor_);
-}
-
-/// Tasks: `whole`, then the tiles.
-void FaceRounds::mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress) {
-  const auto n_whole = static_cast<std::int32_t>(whole.size());
-  std::vector<double> work;
-  for (const FaceId f : whole) work.push_back(weight(f));
-  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
-  const auto label = [&](std::int32_t task) {
-    if (task < n_whole) return TaskLabel{"face", whole[task]};
-    const TiledRegions::Section& tile = tiled.section(task - n_whole);
-    return TaskLabel{"tile", tile.region, tile.index};
-  };
-  const auto record = [&](std::int32_t task, const Bytes& result) {
-    return task < n_whole ? record_whole(whole[task], result) : tiled.record(task - n_whole);
-  };
-  const auto restore = [&](std::int32_t task, Bytes&& bytes) {
-    return task < n_whole ? restore_whole(std::move(bytes)) : tiled.restore(task - n_whole, bytes);
-  };
-  executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(), {}, record, restore},
-      [&](std::int32_t task) {
-        return task < n_whole ? packed(keep(mesh_whole(whole[task]))) : tiled.compute(task - n_whole, executor_.rank());
-      },
-      [&](std::int32_t task, Bytes&& bytes) {
-        task < n_whole ? take_whole(whole[task], bytes) : tiled.take_place(task - n_whole, bytes);
-        progress.advance(work[task]);
-      });
-}
-
-/// Tasks: groups of tiles, then the faces that were cut. Returns those of which a tile failed, whose tiles do not fit,
-/// or have numbers that are none, on rank 0.
-std::vector<FaceId> FaceRounds::mesh_seams(TiledRegions& tiled) {
-  std::vector<FaceId> failed;
-  const std::vector<FaceId> cut = tiled.cut_regions();
-  if (cut.empty()) return failed;
-  const std::string digest = made_from();
-  tiled.mesh_groups(executor_, digest);
-  std::vector<double> work;
-  for (const FaceId f : cut) work.push_back(weight(f));
-  std::map<FaceId, FaceReport> parted;
-  executor_.run_named_tasks(
-      {heaviest_first(work),
-       [&](std::int32_t task) {
-         return TaskLabel{"seams", cut[task], tiled.n_sections_of(cut[task])};
-       },
-       digest,
-       {},
-       [&](std::int32_t task, const Bytes& result) { return record_whole(cut[task], result); },
-       [&](std::int32_t, Bytes&& whole) { return restore_whole(std::move(whole)); },
-       [&](const Bytes& request) { return tiled.answer(request); }},
-      [&](std::int32_t task) { return packed(keep(mesh_seams_of(cut[task], tiled))); },
-      [&](std::int32_t task, Bytes&& bytes) {
-        FaceReport report;
-        unpack(bytes, report);
-        if (report.cause != FailureCause::kNone)
-          failed.push_back(cut[task]);
-        else if (report.is_parted)
-          parted[cut[task]] = std::move(report);
-        else
-          take_whole(cut[task], bytes);
-      });
-  for (const FaceId f : store_sections(tiled, std::move(parted))) failed.push_back(f);
-  std::sort(failed.begin(), failed.end());
-  return failed;
+/// Local, on rank 0. False where a tile failed or tiles do not fit; `parted`: patches that have more sections.
+bool FaceRounds::take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceReport>& parted) {
+  FaceReport report;
+  unpack(bytes, report);
+  if (report.cause != FailureCause::kNone) return false;
+  report.is_parted ? void(parted[f] = std::move(report)) : take_whole(f, bytes);
+  return true;
 }
 
 /// The seams as the last section of the patch; the whole patch where it has folds to be repaired.
@@ -791,16 +694,10 @@ std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<Fac
   return {unsound.begin(), unsound.end()};
 }
 
-FaceMeshOptions FaceRounds::face_options() const {
-  FaceMeshOptions options;
-  options.enhance_rounds = options_.enhance_rounds;
-  return options;
-}
-
 FaceRounds::FaceResult FaceRounds::mesh_whole(FaceId f) const {
   return make_face(f, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
     if (boundary.nodes.empty() && topology_.strip_of(f)) return FaceMesh();  // closed: its neighbours share its nodes
-    return mesh_face(surface, boundary, field, face_options());
+    return mesh_face(surface, boundary, field, options_.of_face());
   });
 }
 
@@ -819,7 +716,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     boundary = make_face_boundary(model_, *surface, f, *numbering_);
     const FaceField field(field_, refinements_, tables_.face_box[f]);
     mesh = make_mesh(*surface, boundary, field.get());
-    repair_folds(*surface, boundary, field.get(), face_options(), mesh);
+    repair_folds(*surface, boundary, field.get(), options_.of_face(), mesh);
     if (mesh.cause == FailureCause::kNone) result.section.patch = make_patch(tables_, f, boundary, mesh, *numbering_);
     if (!has_numbers_only(result.section.patch)) {
       result.section.patch = FacePatch();

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/progress.h"
 #include "geometry/model/model.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/facing_edges.h"
@@ -81,14 +80,10 @@ class FaceRounds : public MeshRounds {
     static auto fields(auto& x) { return std::tie(x.section, x.report); }
   };
   using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
-  FaceMeshOptions face_options() const;
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
   FaceResult mesh_whole(FaceId f) const;
   WorkLimit time_limit(double n_triangles) const;
-  std::vector<FaceId> without_left_out(std::vector<FaceId> faces) const;
   std::string made_from() const;
-  void mesh_faces(const std::vector<FaceId>& whole, TiledRegions& tiled, Progress& progress);
-  void cut_and_mesh(const std::vector<FaceId>& light, TiledRegions& tiled, Progress& progress);
   void mesh_dirty_faces();
   void give_up(bool by_crossings);
   std::int64_t n_more_of_hopeless() const;
@@ -98,8 +93,7 @@ class FaceRounds : public MeshRounds {
   Bytes restore_whole(Bytes&& whole);
   void take_whole(FaceId f, const Bytes& bytes);
   void put(FaceId f, FacePatch&& patch);
-  double weight(FaceId f) const { return expected_.empty() ? tables_.face_area[f] : expected_[f]; }
-  std::vector<FaceId> mesh_seams(TiledRegions& tiled);
+  bool take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceReport>& parted);
   FaceResult mesh_seams_of(FaceId f, TiledRegions& tiled) const;
   std::vector<FaceId> store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted);
   Regions faces_as_regions() const;

@@ -8,12 +8,12 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
 #include "mesh/merge.h"
 #include "meshing/engine/crossing_search.h"
 #include "meshing/engine/curve_tasks.h"
+#include "meshing/engine/region_tasks.h"
 #include "meshing/hole/hole_crossing.h"
 #include "meshing/hole/hole_merger.h"
 
@@ -130,12 +130,6 @@ std::string HoleRounds::made_from(const std::vector<HoleRim>& rims) const {
   return digest;
 }
 
-FaceMeshOptions HoleRounds::face_options() const {
-  FaceMeshOptions options;
-  options.enhance_rounds = options_.enhance_rounds;
-  return options;
-}
-
 /// By the sizes over the marked triangles.
 double HoleRounds::expected_triangles(const HoleRim& rim) const {
   constexpr std::size_t kPerPiece = 8192;
@@ -166,12 +160,23 @@ std::vector<double> HoleRounds::expected_triangles(const std::vector<HoleRim>& r
 }
 
 Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
-  return {[&rims](std::int32_t i) { return rims[i].face; },
-          [this, &rims](std::int32_t i, const Surface& surface) {
-            const RefinedField field(field_, refinements_.near(model_.tables().face_box[rims[i].face]));
-            return make_hole_boundary(model_, surface, rims[i], holes_.marks(), *numbering_, field);
-          },
-          [this](const FaceBoundary& boundary) { return hole_places(boundary, *numbering_); }};
+  return {.face = [&rims](std::int32_t i) { return rims[i].face; },
+          .boundary =
+              [this, &rims](std::int32_t i, const Surface& surface) {
+                const RefinedField field(field_, refinements_.near(model_.tables().face_box[rims[i].face]));
+                return make_hole_boundary(model_, surface, rims[i], holes_.marks(), *numbering_, field);
+              },
+          .places = [this](const FaceBoundary& boundary) { return hole_places(boundary, *numbering_); },
+          .share_faces = true};
+}
+
+/// From the tiles.
+HoleFill HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
+  return fill_hole(rim, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
+    SeamMesh seams = tiled.seams(surface, number, boundary, executor_);
+    if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
+    return tiled.join(number, boundary, std::move(seams), executor_);
+  });
 }
 
 /// Collective. Fills the holes, heavy ones tile by tile, or as a whole where that fails; returns those that stay open,
@@ -179,105 +184,34 @@ Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   const std::vector<double> expected = expected_triangles(rims);
   std::vector<HoleFill> fills(rims.size());
-  std::vector<std::int32_t> closed, whole, failed;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(rims.size()); ++i)
-    if (!options_.left_out.contains(rims[i].face)) closed.push_back(i);
-  TiledRegions tiled(model_, holes_as_regions(rims), field_, refinements_, face_options(), {}),
-      none(model_, holes_as_regions(rims), field_, refinements_, face_options(), {});
-  if (options_.tile_triangles > 0) tiled.choose(closed, expected, options_.tile_triangles);
-  if (!tiled.chosen().empty()) cut_holes(rims, expected, tiled);
-  std::copy_if(closed.begin(), closed.end(), std::back_inserter(whole),
-               [&](std::int32_t i) { return !tiled.is_cut(i); });
-  fill_holes(rims, whole, expected, tiled, fills);
-  failed = join_tiles_of(rims, expected, tiled, fills);
-  tiled.drop_sections();
-  share(executor_, failed);
-  if (!failed.empty()) fill_holes(rims, failed, expected, none, fills);
-  failed.clear();
+  const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
+    return mesh_face(surface, boundary, field, options_.of_face());
+  };
+  const auto take = [&](std::int32_t i, Bytes&& result) {
+    unpack(result, fills[i]);
+    return !fills[i].triangles.empty();
+  };
+  std::vector<std::int32_t> all(rims.size());
+  std::iota(all.begin(), all.end(), 0);
+  RegionTasks({.cut = "hole cut",
+               .whole = "hole",
+               .tile = "hole tile",
+               .seams = "hole join",
+               .progress = "filling holes",
+               .unit = "",
+               .make_whole = [&](std::int32_t i) { return packed(fill_hole(rims[i], make)); },
+               .take_whole = take,
+               .make_seams = [&](std::int32_t i, TiledRegions& tiled) { return packed(fill_tiled(rims[i], i, tiled)); },
+               .take_seams = take},
+              TiledRegions(model_, holes_as_regions(rims), field_, refinements_, options_.of_face(), {}),
+              made_from(rims), expected, options_, executor_)
+      .run(all);
+  std::vector<std::int32_t> failed;
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
     if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
   share(executor_, failed);
-  return failed;
-}
-
-void HoleRounds::cut_holes(const std::vector<HoleRim>& rims, const std::vector<double>& expected,
-                           TiledRegions& tiled) const {
-  const std::vector<std::int32_t>& cut = tiled.chosen();
-  std::vector<double> work;
-  for (const std::int32_t i : cut) work.push_back(expected[i]);
-  executor_.run_named_tasks(
-      {heaviest_first(work),
-       [&](std::int32_t task) {
-         return TaskLabel{"hole cut", rims[cut[task]].face, cut[task]};
-       },
-       made_from(rims)},
-      [&](std::int32_t task) { return tiled.cut(task); },
-      [&](std::int32_t task, Bytes&& bytes) { tiled.take_cut(task, bytes); });
-  tiled.share_cuts(executor_);
-}
-
-/// Tasks: `whole`, then the tiles.
-void HoleRounds::fill_holes(const std::vector<HoleRim>& rims, const std::vector<std::int32_t>& whole,
-                            const std::vector<double>& expected, TiledRegions& tiled,
-                            std::vector<HoleFill>& fills) const {
-  const auto n_whole = static_cast<std::int32_t>(whole.size());
-  std::vector<double> work;
-  for (const std::int32_t i : whole) work.push_back(expected[i]);
-  for (std::int32_t t = 0; t < tiled.n_tiles(); ++t) work.push_back(tiled.weight(t));
-  const auto label = [&](std::int32_t task) {
-    if (task < n_whole) return TaskLabel{"hole", rims[whole[task]].face, whole[task]};
-    return TaskLabel{"hole tile", rims[tiled.section(task - n_whole).region].face, task - n_whole};
-  };
-  const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
-    return mesh_face(surface, boundary, field, face_options());
-  };
-  Progress progress("filling holes", std::accumulate(work.begin(), work.end(), 0.0));
-  double done = 0;
-  const auto record = [&](std::int32_t task, const Bytes& result) {
-    return task < n_whole ? result : tiled.record(task - n_whole);
-  };
-  const auto restore = [&](std::int32_t task, Bytes&& bytes) {
-    return task < n_whole ? std::move(bytes) : tiled.restore(task - n_whole, bytes);
-  };
-  executor_.run_named_tasks(
-      {heaviest_first(work), label, made_from(rims), {}, record, restore},
-      [&](std::int32_t task) {
-        return task < n_whole ? packed(fill_hole(rims[whole[task]], make))
-                              : tiled.compute(task - n_whole, executor_.rank());
-      },
-      [&](std::int32_t task, Bytes&& result) {
-        task < n_whole ? unpack(result, fills[whole[task]]) : tiled.take_place(task - n_whole, result);
-        progress.update(done += work[task]);
-      });
-}
-
-/// Collective. Returns the holes of which a tile failed, or whose tiles do not fit, on rank 0.
-std::vector<std::int32_t> HoleRounds::join_tiles_of(const std::vector<HoleRim>& rims,
-                                                    const std::vector<double>& expected, TiledRegions& tiled,
-                                                    std::vector<HoleFill>& fills) const {
-  const std::vector<std::int32_t> cut = tiled.cut_regions();
-  std::vector<std::int32_t> failed;
-  if (cut.empty()) return failed;
-  const std::string digest = made_from(rims);
-  tiled.mesh_groups(executor_, digest);
-  std::vector<double> work;
-  for (const std::int32_t i : cut) work.push_back(expected[i]);
-  const auto label = [&](std::int32_t task) { return TaskLabel{"hole join", rims[cut[task]].face, cut[task]}; };
-  executor_.run_named_tasks(
-      {heaviest_first(work), label, digest, {}, {}, {}, [&](const Bytes& request) { return tiled.answer(request); }},
-      [&](std::int32_t task) {
-        return packed(
-            fill_hole(rims[cut[task]], [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-              SeamMesh seams = tiled.seams(surface, cut[task], boundary, executor_);
-              if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
-              return tiled.join(cut[task], boundary, std::move(seams), executor_);
-            }));
-      },
-      [&](std::int32_t task, Bytes&& result) { unpack(result, fills[cut[task]]); });
-  for (const std::int32_t i : cut)
-    if (executor_.is_root() && fills[i].triangles.empty()) failed.push_back(i);
   return failed;
 }
 

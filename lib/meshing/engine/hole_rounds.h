@@ -47,14 +47,9 @@ class HoleRounds : public MeshRounds {
   double expected_triangles(const HoleRim& rim) const;
   std::vector<double> expected_triangles(const std::vector<HoleRim>& rims) const;
   Regions holes_as_regions(const std::vector<HoleRim>& rims) const;
-  void fill_holes(const std::vector<HoleRim>& rims, const std::vector<std::int32_t>& whole,
-                  const std::vector<double>& expected, TiledRegions& tiled, std::vector<HoleFill>& fills) const;
-  void cut_holes(const std::vector<HoleRim>& rims, const std::vector<double>& expected, TiledRegions& tiled) const;
-  std::vector<std::int32_t> join_tiles_of(const std::vector<HoleRim>& rims, const std::vector<double>& expected,
-                                          TiledRegions& tiled, std::vector<HoleFill>& fills) const;
+  HoleFill fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const;
   std::string made_from(const std::vector<HoleRim>& rims) const;
   HoleFill fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
-  FaceMeshOptions face_options() const;
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
 

@@ -32,6 +32,8 @@ struct MeshOptions {
   PatchesGo patches = PatchesGo::kToRoot;
   bool parts_bodies = true;  ///< bodies that the CAD keeps apart are refined where their triangles cross
   bool tells_damage = true;  ///< warns of faces that refining does not help
+
+  FaceMeshOptions of_face() const { return {.enhance_rounds = enhance_rounds}; }
 };
 
 /// Where the time went, seconds on rank 0.

@@ -38,6 +38,7 @@ struct Regions {
   std::function<FaceId(std::int32_t region)> face;
   std::function<FaceBoundary(std::int32_t region, const Surface& surface)> boundary;
   std::function<std::vector<BoundaryPlace>(const FaceBoundary& boundary)> places;
+  bool share_faces = false;  ///< a face may have several
 };
 
 /// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams,
@@ -72,6 +73,15 @@ class TiledRegions {
   /// Expected triangles.
   double weight(std::int32_t tile) const {
     return cuts_.at(sections_[tile].region).tiles[sections_[tile].index].weight;
+  }
+
+  FaceId face(std::int32_t region) const { return regions_.face(region); }
+  /// Of a task for a region, and for a tile of one.
+  TaskLabel label(const char* kind, std::int32_t region) const {
+    return {kind, regions_.face(region), regions_.share_faces ? region : 0};
+  }
+  TaskLabel label_of_tile(const char* kind, std::int32_t tile) const {
+    return {kind, regions_.face(sections_[tile].region), regions_.share_faces ? tile : sections_[tile].index};
   }
 
   struct Section {
