@@ -640,7 +640,7 @@ CheckedMesh read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSid
     const std::string hash = geometry.header.content_hash;
     cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
     ForeignMesh foreign = read_foreign_mesh(o.mesh, cad->model, {});
-    log_info(association_summary(o.mesh, foreign.artifact.mesh, foreign.report).line);
+    log_info(association_text(o.mesh, foreign.artifact.mesh, foreign.report));
     if (foreign.report.n_turned > 0) result.turned = misoriented_edges(o.mesh, foreign.artifact.mesh);
     artifact = std::move(foreign.artifact);
     artifact.header.geometry_hash = hash;
@@ -730,7 +730,7 @@ void CheckStageOptions::validate() const {
   if (!layers.empty()) parse_layers(layers);
 }
 
-StageSummary run_check(const CheckStageOptions& options) {
+StageSummary run_check(const CheckStageOptions& options, std::string* report) {
   options.validate();
   const Timer timer;
   Progress progress("checking", 1);
@@ -752,8 +752,11 @@ StageSummary run_check(const CheckStageOptions& options) {
   if (!options.sizing.empty()) f.wings = measured_wings(options.sizing, artifact.mesh, f);
   judge(options, artifact, corners, cad.get(), f);
   const double seconds = timer.seconds();
-  for (const std::string& path : options.reports)
-    write_text_file(path, check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n");
+  std::string full;
+  if (report || !options.reports.empty())
+    full = check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n";
+  for (const std::string& path : options.reports) write_text_file(path, full);
+  if (report) *report = std::move(full);
   return {check_report_text(options.mesh, artifact.mesh, f, seconds),
           check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
           f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};

@@ -72,7 +72,8 @@ struct CheckStageOptions {
   void validate() const;
 };
 
-/// Local. Summary code kIncomplete when the mesh does not pass. Throws Error.
-StageSummary run_check(const CheckStageOptions& options);
+/// Local. Summary code kIncomplete when the mesh does not pass. `report`, where given, gets what options.reports do.
+/// Throws Error.
+StageSummary run_check(const CheckStageOptions& options, std::string* report = nullptr);
 
 }  // namespace st

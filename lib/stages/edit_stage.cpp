@@ -368,16 +368,17 @@ nlohmann::ordered_json crossings_json(const EditResult& r) {
   return list;
 }
 
-StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, const Edited& e, const EditResult& r) {
+StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, const Edited& e, const EditResult& r,
+                       const std::string& hash, double seconds) {
   const ModelTables& t = r.tables;
   const double area = std::accumulate(t.face_area.begin(), t.face_area.end(), 0.0);
   const auto n_moved =
       std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
   StageSummary s;
-  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}", o.output, t.n_faces(),
-                       inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
+  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}, {:.2f} s", o.output,
+                       t.n_faces(), inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
                        r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area,
-                       t.volume ? fmt::format(", volume {:.6g}", *t.volume) : "");
+                       t.volume ? fmt::format(", volume {:.6g}", *t.volume) : "", seconds);
   const nlohmann::ordered_json json = {
       {"tool", "st-edit"},
       {"output", o.output},
@@ -397,7 +398,9 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
       {"same_faces", pairs_json(r.same.faces)},
       {"pairs_not_compared", r.crossings.n_left},
       {"area", area},
-      {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)}};
+      {"volume", t.volume ? nlohmann::ordered_json(*t.volume) : nlohmann::ordered_json(nullptr)},
+      {"hash", hash},
+      {"seconds", seconds}};
   s.json = json_text(json);
   return s;
 }
@@ -422,13 +425,7 @@ StageSummary run_edit(const EditStageOptions& o) {
   say(o, result);
   progress.step("writing", 0.9);
   const std::string hash = write(o, inputs, edited, result);
-  StageSummary summary = summarize(o, inputs, edited, result);
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary.json);
-  json["hash"] = hash;
-  json["seconds"] = timer.seconds();
-  summary.json = json_text(json);
-  summary.line += fmt::format(", {:.2f} s", timer.seconds());
-  return summary;
+  return summarize(o, inputs, edited, result, hash, timer.seconds());
 }
 
 }  // namespace st

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/length.h"
-#include "io/file/json_text.h"
 #include "io/foreign/triangulation_reader.h"
 
 namespace st {
@@ -93,28 +91,30 @@ Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
   return is_same ? std::move(model) : Model(std::move(tables), model.brep());
 }
 
-StageSummary association_summary(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& r) {
-  StageSummary s;
-  s.line = fmt::format(
+std::string association_text(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& r) {
+  std::string text = fmt::format(
       "{}: {} triangles on {} faces; {} nodes on vertices, {} on edges, {} inside faces; farthest {:.3g} from the CAD, "
       "at ({:.6g}, {:.6g}, "
       "{:.6g})",
       path, mesh.n_triangles(), r.face_triangles.size(), r.n_nodes[0], r.n_nodes[1], r.n_nodes[2], r.max_distance,
       r.max_place.x, r.max_place.y, r.max_place.z);
-  if (r.n_turned > 0) s.line += fmt::format("; {} triangles turned to agree with their neighbours", r.n_turned);
-  if (r.n_unused > 0) s.line += fmt::format("; {} nodes without a triangle left out", r.n_unused);
+  if (r.n_turned > 0) text += fmt::format("; {} triangles turned to agree with their neighbours", r.n_turned);
+  if (r.n_unused > 0) text += fmt::format("; {} nodes without a triangle left out", r.n_unused);
   if (!mesh.merged.edge.empty())
-    s.line += fmt::format("; {} short CAD edges without a mesh edge", mesh.merged.edge.size());
-  s.json = json_text(nlohmann::json{{"farthest", r.max_distance},
-                                    {"farthest_at", {r.max_place.x, r.max_place.y, r.max_place.z}},
-                                    {"nodes_on_vertices", r.n_nodes[0]},
-                                    {"nodes_on_edges", r.n_nodes[1]},
-                                    {"nodes_in_faces", r.n_nodes[2]},
-                                    {"triangles_turned", r.n_turned},
-                                    {"nodes_unused", r.n_unused},
-                                    {"merged_edges", mesh.merged.edge.size()},
-                                    {"triangles_per_face", r.face_triangles}});
-  return s;
+    text += fmt::format("; {} short CAD edges without a mesh edge", mesh.merged.edge.size());
+  return text;
+}
+
+nlohmann::json association_json(const SurfaceMesh& mesh, const AssociationReport& r) {
+  return {{"farthest", r.max_distance},
+          {"farthest_at", {r.max_place.x, r.max_place.y, r.max_place.z}},
+          {"nodes_on_vertices", r.n_nodes[0]},
+          {"nodes_on_edges", r.n_nodes[1]},
+          {"nodes_in_faces", r.n_nodes[2]},
+          {"triangles_turned", r.n_turned},
+          {"nodes_unused", r.n_unused},
+          {"merged_edges", mesh.merged.edge.size()},
+          {"triangles_per_face", r.face_triangles}};
 }
 
 }  // namespace st

@@ -1,6 +1,7 @@
 // A triangulation of another program as st-remesh takes it. Internal to stages.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,6 @@
 #include "io/hdf5/artifact.h"
 #include "meshing/associate/mesh_association.h"
 #include "sizing/size_field.h"
-#include "stages/summary.h"
 
 namespace st {
 
@@ -36,6 +36,7 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
 Model with_vertices_of(const SurfaceMesh& mesh, Model&& model);
 
 /// "wing.stl: 12 triangles on 6 faces ...", and its JSON object.
-StageSummary association_summary(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& report);
+std::string association_text(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& report);
+nlohmann::json association_json(const SurfaceMesh& mesh, const AssociationReport& report);
 
 }  // namespace st

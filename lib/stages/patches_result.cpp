@@ -225,6 +225,7 @@ StageSummary summary_of(const std::string& path, const ModelTables& t, const Art
                {"seconds_load", facts.load_seconds},
                {"seconds_write", w.seconds},
                {"hash", w.hash}});
+  json.update(facts.more);
   s.json = json_text(json);
   return s;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/executor.h"
@@ -17,7 +18,8 @@ struct RunFacts {
   Timer timer;
   double load_seconds;
   int n_ranks;
-  std::int64_t n_parts = 0, n_resumed = 0;  ///< faces and tiles, once per round; and those of an earlier run
+  std::int64_t n_parts = 0, n_resumed = 0;         ///< faces and tiles, once per round; and those of an earlier run
+  nlohmann::json more = nlohmann::json::object();  ///< for the summary
 };
 
 /// What write_patches_result() is to write: throws Error(kOutput, kUsage) now where it may not. Local.

@@ -100,16 +100,14 @@ nlohmann::json counts(const HoleMarker& holes, const MeshResult& r) {
           {"seconds_crossing", r.times.crossing}};
 }
 
-StageSummary dry_run_summary(const HoleMarker& holes) {
-  StageSummary s;
-  s.line =
+StageSummary dry_run_summary(const HoleMarker& holes, nlohmann::json json) {
+  json.update(counts(holes, {}));
+  json["tool"] = "st-remesh";
+  return {
       fmt::format("{} of {} triangles on {} of {} faces would be remeshed, and {} segments of edges; nothing written",
                   holes.n_marked_triangles, holes.mesh().mesh.n_triangles(), holes.dirty_faces().size(),
-                  holes.mesh().tables.n_faces(), holes.n_marked_segments);
-  nlohmann::json json = counts(holes, {});
-  json["tool"] = "st-remesh";
-  s.json = json_text(json);
-  return s;
+                  holes.mesh().tables.n_faces(), holes.n_marked_segments),
+      json_text(json)};
 }
 
 /// What is read once and used by all steps.
@@ -284,17 +282,19 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
   StageSummary s;
   s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(),
                        artifact.mesh.n_nodes(), seconds, facts.n_ranks);
-  s.json = json_text(nlohmann::json{{"tool", "st-remesh"},
-                                    {"output", o.merged},
-                                    {"hash", hash},
-                                    {"triangles", artifact.mesh.n_triangles()},
-                                    {"nodes", artifact.mesh.n_nodes()},
-                                    {"ranks", facts.n_ranks},
-                                    {"parts", facts.n_parts},
-                                    {"parts_resumed", facts.n_resumed},
-                                    {"seconds", seconds},
-                                    {"seconds_load", facts.load_seconds},
-                                    {"seconds_write", write_seconds}});
+  nlohmann::json json = {{"tool", "st-remesh"},
+                         {"output", o.merged},
+                         {"hash", hash},
+                         {"triangles", artifact.mesh.n_triangles()},
+                         {"nodes", artifact.mesh.n_nodes()},
+                         {"ranks", facts.n_ranks},
+                         {"parts", facts.n_parts},
+                         {"parts_resumed", facts.n_resumed},
+                         {"seconds", seconds},
+                         {"seconds_load", facts.load_seconds},
+                         {"seconds_write", write_seconds}};
+  json.update(facts.more);
+  s.json = json_text(json);
   return s;
 }
 
@@ -310,23 +310,11 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
 
 /// Local, on rank 0.
 StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
-                          const RunFacts& facts) {
-  const nlohmann::json more = counts(holes, r);
+                          RunFacts facts) {
+  facts.more.update(counts(holes, r));
   StageSummary summary =
       o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), facts) : write_merged(o, in, holes, r, facts);
-  nlohmann::json json = nlohmann::json::parse(summary.json);
-  json.update(more);
-  summary.json = json_text(json);
   summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
-  return summary;
-}
-
-StageSummary with_association(StageSummary summary, const std::optional<StageSummary>& association) {
-  if (!association || summary.json.empty()) return summary;
-  nlohmann::json json = nlohmann::json::parse(summary.json);
-  json["association"] = nlohmann::json::parse(association->json);
-  summary.line += fmt::format("; nodes within {:.3g} of the CAD", json["association"]["farthest"].get<double>());
-  summary.json = json_text(json);
   return summary;
 }
 
@@ -381,12 +369,15 @@ std::string run_of(const RemeshStageOptions& o, const RemeshInput& in, const std
   return hasher.hex();
 }
 
-/// How well the nodes of a foreign mesh lie on the CAD.
-std::optional<StageSummary> tell_association(const RemeshStageOptions& o, const RemeshInput& in,
-                                             const Communicator& comm) {
-  if (!in.foreign) return std::nullopt;
-  StageSummary summary = association_summary(o.mesh, in.old.mesh, in.foreign->report);
-  if (comm.is_root()) log_info(summary.line);
+/// How well the nodes of a foreign mesh lie on the CAD: says so, and returns it for the summary.
+nlohmann::json tell_association(const RemeshStageOptions& o, const RemeshInput& in, const Communicator& comm) {
+  if (!in.foreign) return nlohmann::json::object();
+  if (comm.is_root()) log_info(association_text(o.mesh, in.old.mesh, in.foreign->report));
+  return {{"association", association_json(in.old.mesh, in.foreign->report)}};
+}
+
+StageSummary with_distance(StageSummary summary, const RemeshInput& in) {
+  if (in.foreign) summary.line += fmt::format("; nodes within {:.3g} of the CAD", in.foreign->report.max_distance);
   return summary;
 }
 
@@ -414,11 +405,11 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const std::vector<OpenedFile> files = digested_files(o);
   require_same_inputs(comm, files);
   if (comm.is_root()) require_countable_sizes(o, in, mark, field);
-  const std::optional<StageSummary> association = tell_association(o, in, comm);
+  const nlohmann::json association = tell_association(o, in, comm);
   const double load_seconds = timer.seconds();
   progress.step("looking for what no longer fits", 0.1);
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
-  if (o.dry_run) return with_association(dry_run_summary(holes), association);
+  if (o.dry_run) return with_distance(dry_run_summary(holes, association), in);
   const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
   Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in, files),
                         {o.journal_after, o.begins_new});
@@ -429,10 +420,11 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   resumption.end();
   if (!comm.is_root()) return {};
   progress.step("writing", 0.9);
-  StageSummary summary = write_result(o, in, holes, std::move(result),
-                                      {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()});
+  StageSummary summary =
+      write_result(o, in, holes, std::move(result),
+                   {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(), association});
   resumption.remove();
-  return with_association(std::move(summary), association);
+  return with_distance(std::move(summary), in);
 }
 
 }  // namespace st

@@ -71,16 +71,15 @@ struct Verdict {
   std::optional<bool> passes;
 };
 
-Verdict check(const ReportStageOptions& o, const RunFiles& files) {
+Verdict check(const RunFiles& files) {
   if (files.mesh.empty()) return {};
-  const TemporaryFile file(o.output + ".check");
   CheckStageOptions options;
   options.mesh = files.mesh;
   options.geometry = files.geometry;
   options.sizing = files.sizing;
-  options.reports = {file.name()};
-  const bool passes = run_check(options).code == ExitCode::kOk;
-  return {read_text_file(file.name()), passes};
+  Verdict verdict;
+  verdict.passes = run_check(options, &verdict.json).code == ExitCode::kOk;
+  return verdict;
 }
 
 /// Quality, length over requested length; after st-remesh 1 where a triangle is new; with the geometry, distance from
@@ -395,7 +394,7 @@ StageSummary run_report(const ReportStageOptions& o) {
     files.mesh = merged->name();
     merge_what_there_is(files.patches, files.mesh);
   }
-  const Verdict verdict = check(o, files);
+  const Verdict verdict = check(files);
   const std::string page = make_page(o, files, shown_as, verdict.json);
   write_text_file(o.output, page);
   Json summary = {{"tool", "st-report"}, {"mesh", shown_as}, {"output", o.output}};

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Ideas that the code has once: each stands in the one file that is named here, and nowhere else in lib and tools.
 
-A new idea is a row of ONCE: what it is, how its code looks, and the file to use instead.
+A new idea is a row of ONCE: what it is, how its code looks, and the file to use instead. What is to be nowhere is a row
+of NEVER, with what to do instead.
 """
 import re
 import sys
@@ -16,11 +17,17 @@ ONCE = [
     ("cutting regions into tiles and joining them", r"(?:share_cuts|mesh_groups)\(\w*executor",
      "lib/meshing/engine/region_tasks.cpp"),
 ]
+NEVER = [
+    ("a summary's JSON parsed again", r"parse\([\w.>-]*(?:summary|association)[\w.>-]*json", "pass its values"),
+]
 
 
 def check(root):
     for path in lint.sources(root, under=("lib", "tools")):
         text = lint.without_comments((root / path).read_text(encoding="utf-8"))
+        for what, pattern, instead in NEVER:
+            for match in re.finditer(pattern, text):
+                yield f"{path}:{text.count(chr(10), 0, match.start()) + 1}: {what}; {instead}"
         for what, pattern, home in ONCE:
             if path == home:
                 continue
@@ -38,6 +45,7 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.cpp", "f = a.lo.*k > b->hi.*k || b.lo.*k > a.hi.*k;\n", "planted.cpp:1: what is near"),
     lint.Plant("lib/mesh/planted.cpp", "PairSearch found(most);\n", "planted.cpp:1: a search for triangles"),
     lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
+    lint.Plant("lib/mesh/planted.cpp", "auto j = json::parse(summary.json);\n", "planted.cpp:1: a summary's JSON"),
 ]
 
 if __name__ == "__main__":
