@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -17,19 +18,26 @@
 #include "features/profile.h"
 #include "features/profile_facets.h"
 #include "features/thin_surface.h"
+#include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
 constexpr int kStations = kPlacesPerEdge;
-constexpr double kDeflection = 1e-3;    // of the reference diagonal: of the facets
-constexpr double kLongBlade = 0.25;     // of the reference diagonal: between the ends of a blade's edge at least
-constexpr double kStraightBlade = 0.7;  // the same over the edge's length
-constexpr double kClearlyMore = 1.25;   // way with profiles square to the edge over that square to an axis
-constexpr double kLeastNoseWay = 0.25;  // of the way along the trailing edge: way along the noses
-constexpr double kOnPlane = 1e-6;       // of the reference diagonal: from a plane of symmetry
-constexpr double kAlongChord = 0.9;     // cosine between a rim and the chord at least
-constexpr double kNearNose = 0.05;      // of the chord: between nose and leading edge at most
+constexpr double kDeflection = 1e-3;           // of the reference diagonal: of the facets
+constexpr double kOffSurface = 0.75;           // of the reach: a nose on facets further from the CAD is none
+constexpr double kSeen = 0.9;                  // of the way with noses: less asks for exact facets
+constexpr double kLongBlade = 0.05;            // of the reference diagonal: extent of a blade's edges at least
+constexpr double kStraightBlade = 0.7;         // the same over their length
+constexpr double kClearlyMore = 1.25;          // way with profiles square to the edge over that square to an axis
+constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing edge: way along the noses
+constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
+constexpr double kAlongChord = 0.9;            // cosine between a rim and the chord at least
+constexpr double kParallelSides = radians(1);  // of a base, from square to it
+constexpr double kShortest = 0.2;              // span over the median chord: pylons, blades of impellers
+constexpr double kSmallPart = 0.01;            // of the reference diagonal: a shorter one has to be half a chord long
+constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
+constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
 
 /// Trailing edges that hang together at vertices or across their base.
 std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::span<const WingEdge> edges) {
@@ -111,12 +119,20 @@ bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
 struct Reason {
   std::string text;
   bool may_be_wing = true;
+  bool is_inexact = false;  // facets are too coarse to tell
+};
+
+/// How a chain is cut; lengths in the model unit.
+struct CutRules {
+  std::vector<Vec3> normals;  // of the planes: the first of equally good ones
+  double reach = 0;           // how far from a place the cut may begin
+  double diagonal = 0;        // reference diagonal
 };
 
 class SurfaceMeasurer {
  public:
-  SurfaceMeasurer(const Model& model, const std::array<Vec3, 3>& axes, const ProfileCutter& cutter, double reach)
-      : model_(model), axes_(axes), cutter_(cutter), reach_(reach) {}
+  SurfaceMeasurer(const Model& model, const ProfileCutter& cutter, const CutRules& rules)
+      : model_(model), cutter_(cutter), normals_(rules.normals), reach_(rules.reach), diagonal_(rules.diagonal) {}
 
   /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
   /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
@@ -135,6 +151,7 @@ class SurfaceMeasurer {
       return find_part(measured_edges(chain, places, profiles));
     }
     LiftingSurface surface = assemble(chain, places, profiles);
+    if (!is_measured(surface)) return std::nullopt;
     if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
       why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
       return find_part(part);
@@ -156,6 +173,9 @@ class SurfaceMeasurer {
     fill_in(surface);
     return std::move(surface);
   }
+
+  /// Facets left the CAD where a nose was looked for.
+  bool is_off() const { return is_off_; }
 
  private:
   std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part) const {
@@ -180,8 +200,10 @@ class SurfaceMeasurer {
   }
 
   /// Empty for a wing.
-  static std::string why_no_wing(const LiftingSurface& surface) {
-    if (surface.span < kLeastSpan * surface.median_chord) return "it is shorter than half of the chord";
+  std::string why_no_wing(const LiftingSurface& surface) const {
+    if (surface.span < std::min(kLeastSpan * surface.median_chord, kSmallPart * diagonal_))
+      return "it is shorter than half of the chord";
+    if (surface.span < kShortest * surface.median_chord) return "it is shorter than a fifth of the chord";
     if (!has_moving_noses(surface)) return "its profiles have one nose, as a body of revolution has";
     return has_nose_on(surface, surface) ? "it is its own nose, as the rim of a lens" : "";
   }
@@ -197,8 +219,8 @@ class SurfaceMeasurer {
     const std::size_t step = std::max<std::size_t>(1, places.size() / kTried);
     for (std::size_t i = step / 2; i < places.size(); i += step) {
       if (profile_at(places[i], nullptr)) return true;
-      for (const Vec3& axis : axes_)
-        if (profile_at(places[i], &axis)) return true;
+      for (const Vec3& normal : normals_)
+        if (profile_at(places[i], &normal)) return true;
     }
     return false;
   }
@@ -247,7 +269,8 @@ class SurfaceMeasurer {
   std::vector<std::optional<Profile>> profiles_along(std::span<const EdgePlace> places, const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     double longest = -1;
-    for (const Vec3* axis : {axes_.data(), axes_.data() + 1, axes_.data() + 2, static_cast<const Vec3*>(nullptr)}) {
+    for (std::size_t k = 0; k <= normals_.size(); ++k) {
+      const Vec3* axis = k < normals_.size() ? &normals_[k] : nullptr;
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
       const double way = measured_way(places, own);
@@ -272,7 +295,23 @@ class SurfaceMeasurer {
       const std::vector<double> around = chords_around(of_edge, i % kStations);
       if (is_outlier(profiles[i]->chord, around.size() > 2 ? median(around) : of_all)) outliers.push_back(i);
     }
+    const std::vector<std::optional<Profile>> all_profiles = profiles;
     for (const std::size_t i : outliers) profiles[i].reset();
+    for (const std::size_t i : outliers) readmit(i, 1, all_profiles[i], profiles);
+    for (const std::size_t i : std::views::reverse(outliers)) readmit(i, -1, all_profiles[i], profiles);
+  }
+
+  /// Where an edge's chord goes on as it did at two places before: a tip that becomes short fast. `step`: away from
+  /// these.
+  static void readmit(std::size_t i, int step, const std::optional<Profile>& own,
+                      std::vector<std::optional<Profile>>& profiles) {
+    const auto k = static_cast<int>(i % kStations), at = static_cast<int>(i);
+    if (k - 2 * step < 0 || k - 2 * step >= kStations || profiles[i]) return;
+    const std::optional<Profile>&next = profiles[static_cast<std::size_t>(at - step)],
+          &before = profiles[static_cast<std::size_t>(at - 2 * step)];
+    if (!next || !before) return;
+    const double expected = 2 * next->chord - before->chord;
+    if (expected > 0 && !is_outlier(own->chord, expected)) profiles[i] = own;
   }
 
   LiftingSurface assemble(const std::vector<WingEdge>& chain, const std::vector<EdgePlace>& places,
@@ -298,9 +337,8 @@ class SurfaceMeasurer {
     return surface;
   }
 
-  /// The nose on the facets may lie on the face beside that of the true one.
+  /// The nose on the facets may lie on the face beside that of the true one. Facets that leave the CAD show no nose.
   void measure(const Profile& profile, ChordStation& station) const {
-    station.is_measured = true;
     station.nose = profile.nose;
     station.nose_face = profile.nose_face;
     std::vector<FaceId> faces = {profile.nose_face};
@@ -310,8 +348,13 @@ class SurfaceMeasurer {
       if (!nose) continue;
       station.nose = *nose;
       station.nose_face = f;
+      station.is_measured = true;
       break;
     }
+    if (!station.is_measured)
+      station.is_measured =
+          closest_point(*model_.surface(profile.nose_face), profile.nose).distance <= kOffSurface * reach_;
+    is_off_ = is_off_ || !station.is_measured;
     station.chord = distance(station.nose, station.trailing);
   }
 
@@ -331,19 +374,20 @@ class SurfaceMeasurer {
     const ArcTable arc(*curve);
     std::vector<ChordStation> added;
     const auto reach = [&](const ChordStation& from, double to) {
-      double known = from.share;
+      double known = from.share, chord = from.chord;
       for (int i = 0; i < kHalvings; ++i) {
         const double share = 0.5 * (known + to);
         const CurvePoint p = curve->evaluate(arc.parameter_at(share));
         const EdgePlace place{0, share, 0, p.x, normalized(p.d1)};
         std::optional<Profile> own = profile_at(place, axis);
         if (!own) own = profile_at(place, nullptr);
-        const bool is_like = own && own->chord < kOutlier * from.chord && from.chord < kOutlier * own->chord &&
+        const bool is_like = own && !is_outlier(own->chord, chord) &&
                              std::binary_search(own_faces.begin(), own_faces.end(), own->nose_face);
         (is_like ? known : to) = share;
         if (!is_like) continue;
         added.push_back({share, p.x});
         measure(*own, added.back());
+        added.back().is_measured ? void(chord = own->chord) : added.pop_back();
       }
     };
     const std::vector<ChordStation>& s = edge.stations;
@@ -392,40 +436,62 @@ class SurfaceMeasurer {
   }
 
   const Model& model_;
-  const std::array<Vec3, 3>& axes_;
   const ProfileCutter& cutter_;
-  const double reach_;
+  const std::vector<Vec3> normals_;
+  const double reach_, diagonal_;
+  mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
 };
 
-/// A wing with a sharp nose was found from both of its edges: one of them is the leading edge.
-void unite_sharp_noses(std::vector<LiftingSurface>& surfaces) {
+/// What may be the trailing edge was found from both sides where the nose is sharp, or a narrow face, or a smooth edge:
+/// the blunter one is the leading edge.
+template <class Bluntness>
+void unite_both_sides(std::vector<LiftingSurface>& surfaces, const Bluntness& bluntness_of) {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     for (std::size_t j = surfaces.size() - 1; j > i; --j) {
       if (!has_nose_on(surfaces[i], surfaces[j]) || !has_nose_on(surfaces[j], surfaces[i])) continue;
+      if (bluntness_of(surfaces[j]) < bluntness_of(surfaces[i])) std::swap(surfaces[i], surfaces[j]);
       for (const ChordEdge& edge : surfaces[j].trailing) surfaces[i].leading.push_back(edge.edge);
       std::sort(surfaces[i].leading.begin(), surfaces[i].leading.end());
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(j));
     }
 }
 
+/// Whether some of the noses of a surface are on an edge, or between it and the other edge of its base.
+bool runs_along_nose(const Model& model, const WingEdge& w, const LiftingSurface& surface) {
+  const double width = w.base == kNone ? 0 : w.size;
+  const auto curve = model.curve(w.edge);
+  bool is_near = false;
+  Vec3 last = curve->point(curve->t_min());
+  for (int i = 1; i <= kStations && !is_near; ++i) {
+    const Vec3 x = curve->point(curve->t_min() + (curve->t_max() - curve->t_min()) * i / kStations);
+    for (const ChordEdge& edge : surface.trailing)
+      for (const ChordStation& s : edge.stations)
+        is_near = is_near || (s.is_measured && segment_distance(s.nose, last, x) < kNearNose * s.chord + width);
+    last = x;
+  }
+  return is_near;
+}
+
+/// Whether the surface is square to the chord at most noses.
+bool has_round_noses(const Model& model, const LiftingSurface& surface) {
+  constexpr double kSquare = 0.9;  // cosine
+  int n = 0, n_round = 0;
+  for (const ChordEdge& edge : surface.trailing)
+    for (const ChordStation& s : edge.stations) {
+      if (!s.is_measured) continue;
+      const auto face = model.surface(s.nose_face);
+      const Vec3 normal = surface_normal(*face, closest_point(*face, s.nose).uv);
+      ++n;
+      n_round += std::abs(dot(normal, normalized(s.nose - s.trailing))) > kSquare;
+    }
+  return 2 * n_round > n;
+}
+
 /// Leading edges along the noses of a surface.
 void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface) {
-  for (const WingEdge& w : edges) {
-    if (w.kind != WingEdgeKind::kLeading) continue;
-    const auto curve = model.curve(w.edge);
-    const CurvePoint a = curve->evaluate(curve->t_min());
-    bool is_near = false;
-    Vec3 last = a.x;
-    for (int i = 1; i <= kStations && !is_near; ++i) {
-      const Vec3 x = curve->point(curve->t_min() + (curve->t_max() - curve->t_min()) * i / kStations);
-      for (const ChordEdge& edge : surface.trailing)
-        for (const ChordStation& s : edge.stations)
-          is_near = is_near || (s.is_measured && segment_distance(s.nose, last, x) < kNearNose * s.chord);
-      last = x;
-    }
-    if (is_near) surface.leading.push_back(w.edge);
-  }
+  for (const WingEdge& w : edges)
+    if (w.kind == WingEdgeKind::kLeading && runs_along_nose(model, w, surface)) surface.leading.push_back(w.edge);
 }
 
 /// The facets and their mirror image; vertices on the plane of `mirror` belong to both.
@@ -492,12 +558,16 @@ class SurfaceFinder {
  public:
   SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
                 std::vector<CutEnd>& ends)
-      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends) {}
+      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends) {
+    model.tables().edge_faces(offsets_, edge_faces_);
+  }
 
   std::vector<LiftingSurface> run(Noseless noseless, std::vector<UnusedTrailing>* unused) {
     for (const auto& chain : trailing_chains(model_.tables(), edges_)) find_with_noses(chain);
-    unite_sharp_noses(surfaces_);
+    unite_surfaces();
+    find_behind_noses();
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
+    for (Rest& rest : rest_) explain(rest);
     for (Rest& rest : rest_) find_thin(rest, has_aircraft);
     for (const WingEdge& w : edges_)
       if (w.is_declared && w.kind == WingEdgeKind::kLeading) add_declared_leading(w);
@@ -518,6 +588,98 @@ class SurfaceFinder {
     if (!own.edges.empty()) unused.push_back(std::move(own));
   }
 
+  /// What is no wing's trailing edge for another reason than its profile.
+  void explain(Rest& rest) const {
+    if (!rest.why.may_be_wing) return;
+    const auto is_at_nose = [&](const WingEdge& w) {
+      return std::ranges::any_of(surfaces_, [&](const LiftingSurface& s) { return runs_along_nose(model_, w, s); });
+    };
+    if (std::ranges::all_of(rest.edges, is_at_nose))
+      rest.why = {"they are at the nose of a lifting surface", false};
+    else if (std::ranges::all_of(rest.edges, [&](const WingEdge& w) { return is_rim_of_plate(w); }))
+      rest.why = {"its base is square to both sides: the rim of a plate", false};
+  }
+
+  /// Between sides that are parallel, and plane, or a disc's or a tube's.
+  bool is_rim_of_plate(const WingEdge& w) const {
+    if (w.base == kNone || w.is_declared || std::abs(w.angle - kPi / 2) > kParallelSides) return false;
+    const ModelTables& t = model_.tables();
+    const auto e = static_cast<std::size_t>(w.edge);
+    if (t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1]) return true;
+    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k)
+      if (t.face_type[edge_faces_[static_cast<std::size_t>(k)]] != SurfaceType::kPlane) return false;
+    return true;
+  }
+
+  /// Blades whose trailing edge is round, with a smooth edge in it, and whose other end is round, too: else that would
+  /// be the trailing edge.
+  void find_behind_noses() {
+    std::vector<WingEdge> noses;
+    for (const WingEdge& w : edges_) {
+      const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
+      if (w.kind != WingEdgeKind::kLeading || w.is_declared || std::ranges::any_of(surfaces_, has_edge)) continue;
+      noses.push_back(w);
+      noses.back().kind = WingEdgeKind::kSharpTrailing;
+    }
+    const std::size_t n = surfaces_.size(), n_rest = rest_.size();
+    for (const auto& chain : trailing_chains(model_.tables(), noses)) find_with_noses(chain);
+    rest_.resize(n_rest);
+    surfaces_.erase(std::remove_if(surfaces_.begin() + static_cast<std::ptrdiff_t>(n), surfaces_.end(),
+                                   [&](const LiftingSurface& s) { return !has_round_noses(model_, s); }),
+                    surfaces_.end());
+    for (std::size_t i = n; i < surfaces_.size(); ++i) {
+      surfaces_[i].is_round = true;
+      const auto is_own = [&](EdgeId e) {
+        return std::ranges::any_of(surfaces_[i].trailing, [&](const ChordEdge& edge) { return edge.edge == e; });
+      };
+      std::erase_if(surfaces_[i].leading, is_own);
+    }
+    unite_surfaces();
+  }
+
+  void unite_surfaces() {
+    unite_both_sides(surfaces_, [&](const LiftingSurface& surface) {
+      double largest = 0;
+      for (const ChordEdge& edge : surface.trailing)
+        for (const WingEdge& w : edges_)
+          if (w.edge == edge.edge) largest = std::max(largest, w.size);
+      return largest;
+    });
+  }
+
+  /// The model's axes, and before them the normals of plane faces in which a chain ends, as tips and roots are, where
+  /// no axis is near: those of a delta may run along its nose.
+  std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) const {
+    const ModelTables& t = model_.tables();
+    std::vector<Vec3> normals;
+    const auto is_near = [](Vec3 a, Vec3 b) { return std::abs(dot(a, b)) > kNearAxis; };
+    const auto is_known = [&](Vec3 n) {
+      return std::ranges::any_of(roles_.own.axis, [&](Vec3 a) { return is_near(a, n); }) ||
+             std::ranges::any_of(normals, [&](Vec3 a) { return is_near(a, n); });
+    };
+    for (FaceId f = 0; f < t.n_faces(); ++f) {
+      if (t.face_type[f] != SurfaceType::kPlane || !ends_at(f, chain)) continue;
+      if (const Vec3 n = MirrorPlane(model_, f).normal; !is_known(n)) normals.push_back(n);
+    }
+    normals.insert(normals.end(), roles_.own.axis.begin(), roles_.own.axis.end());
+    return normals;
+  }
+
+  /// Whether an edge of a chain ends at a face, and none lies on it.
+  bool ends_at(FaceId f, const std::vector<WingEdge>& chain) const {
+    const ModelTables& t = model_.tables();
+    bool ends = false;
+    for (const EdgeId e : t.edges_of(f))
+      for (const WingEdge& w : chain) {
+        if (w.edge == e) return false;
+        for (const std::size_t k : {0, 1})
+          for (const std::size_t l : {0, 1})
+            ends = ends || t.edge_vertices[2 * static_cast<std::size_t>(e) + k] ==
+                               t.edge_vertices[2 * static_cast<std::size_t>(w.edge) + l];
+      }
+    return ends;
+  }
+
   double reach() const { return 2 * kDeflection * roles_.reference_diagonal; }
 
   ProfileCutter cutter_for(const std::vector<WingEdge>& chain) {
@@ -530,12 +692,9 @@ class SurfaceFinder {
 
   void find_with_noses(const std::vector<WingEdge>& chain) {
     Reason why;
-    std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), why);
-    if (!surface && why.may_be_wing && is_blade_like(chain)) {
-      const Facets exact = exact_facets(chain);
-      Reason also;
-      surface = surface_at(chain, ProfileCutter(exact), also);
-    }
+    std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
+    if (why.is_inexact || (surface ? surface->covered() < kSeen : why.may_be_wing))
+      try_exact_facets(chain, surface, why);
     note_rest(model_, chain, surface, why, rest_);
     if (!surface) return;
     surfaces_.push_back(std::move(*surface));
@@ -543,8 +702,8 @@ class SurfaceFinder {
   }
 
   std::optional<LiftingSurface> surface_at(const std::vector<WingEdge>& chain, const ProfileCutter& cutter,
-                                           Reason& why) {
-    const SurfaceMeasurer measurer(model_, roles_.own.axis, cutter, reach());
+                                           double reach, Reason& why) {
+    const SurfaceMeasurer measurer(model_, cutter, {cut_normals(chain), reach, roles_.reference_diagonal});
     std::optional<SurfaceDraft> draft = measurer.find(chain, why);
     std::optional<LiftingSurface> surface;
     if (draft) {
@@ -552,46 +711,46 @@ class SurfaceFinder {
       surface = measurer.finish(std::move(*draft), is_concave_);
       if (!surface) why = {"its profiles reach into other bodies"};
     }
+    why.is_inexact = measurer.is_off();
     return surface;
   }
 
-  /// Whether an edge of a chain spans much of the model without turning much, as those of blades and wings do, between
-  /// splines: their faces are long, and facets between knots may miss the shape of the profile.
-  bool is_blade_like(const std::vector<WingEdge>& chain) const {
-    const ModelTables& t = model_.tables();
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t.edge_faces(offsets, faces);
-    const auto is_of_spline = [&](EdgeId e) {
-      return std::any_of(faces.begin() + offsets[e], faces.begin() + offsets[e + 1],
-                         [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; });
-    };
-    return std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
-      if (!is_of_spline(w.edge)) return false;
+  /// Once more, for edges that span much of the model without turning much, as those of blades and wings do, between
+  /// splines: facets between knots may miss the shape of the profile, and those for the model be coarse for a blade.
+  void try_exact_facets(const std::vector<WingEdge>& chain, std::optional<LiftingSurface>& surface, Reason& why) {
+    Box3 box;
+    double length = 0;
+    for (const WingEdge& w : chain) {
       const auto curve = model_.curve(w.edge);
-      const double straight = distance(curve->point(curve->t_min()), curve->point(curve->t_max()));
-      return straight >= kLongBlade * roles_.reference_diagonal && straight >= kStraightBlade * w.length;
-    });
+      box.add(curve->point(curve->t_min()));
+      box.add(curve->point(curve->t_max()));
+      length += w.base == kNone ? w.length : 0.5 * w.length;
+    }
+    const double extent = box.diagonal();
+    if (extent < kLongBlade * roles_.reference_diagonal || extent < kStraightBlade * length || !is_of_spline(chain))
+      return;
+    const double deflection = kDeflection * std::min(extent, roles_.reference_diagonal);
+    ProfileFacets exact(model_, roles_, {{.deflection = deflection, .is_exact = true}, 2 * deflection});
+    exact.add_along(chain, SerialExecutor());
+    const FaceId mirror = mirror_of(chain);
+    const Facets whole =
+        mirror == kNone ? Facets() : with_image(model_, exact.facets(), mirror, kOnPlane * roles_.reference_diagonal);
+    Reason also;
+    std::optional<LiftingSurface> better =
+        surface_at(chain, ProfileCutter(mirror == kNone ? exact.facets() : whole), 2 * deflection, also);
+    if (!better ||
+        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
+      return;
+    surface = std::move(better);
+    why = also;
   }
 
-  /// Of the faces at the edges of a chain, and of their neighbours.
-  Facets exact_facets(const std::vector<WingEdge>& chain) const {
+  bool is_of_spline(const std::vector<WingEdge>& chain) const {
     const ModelTables& t = model_.tables();
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> edge_faces;
-    t.edge_faces(offsets, edge_faces);
-    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
-    const auto want_at = [&](EdgeId e) {
-      for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-        if (roles_.role[edge_faces[k]] == FaceRole::kWall) is_wanted[edge_faces[k]] = 1;
-    };
-    for (const WingEdge& w : chain) want_at(w.edge);
-    const std::vector<std::uint8_t> first = is_wanted;
-    for (FaceId f = 0; f < t.n_faces(); ++f)
-      if (first[f])
-        for (const EdgeId e : t.edges_of(f)) want_at(e);
-    return make_facets(model_, is_wanted,
-                       {.deflection = kDeflection * roles_.reference_diagonal, .angle = radians(20), .is_exact = true});
+    return std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
+      return std::any_of(edge_faces_.begin() + offsets_[w.edge], edge_faces_.begin() + offsets_[w.edge + 1],
+                         [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; });
+    });
   }
 
   /// Declared edges of the rest, and all of it where it may be a wing's and is thin behind the edge.
@@ -632,8 +791,10 @@ class SurfaceFinder {
   const FaceRoles& roles_;
   std::span<const WingEdge> edges_;
   const Facets& facets_;
-  std::vector<CutEnd>& ends_;       // of cuts through these
-  std::map<FaceId, Facets> whole_;  // by symmetry plane
+  std::vector<CutEnd>& ends_;          // of cuts through these
+  std::map<FaceId, Facets> whole_;     // by symmetry plane
+  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
   std::vector<std::uint8_t> is_concave_;
   std::vector<LiftingSurface> surfaces_;
   std::vector<Rest> rest_;
@@ -696,8 +857,7 @@ NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges, const Executor& executor,
                                                   std::vector<UnusedTrailing>* unused, Noseless noseless) {
-  bool has_edges = std::any_of(edges.begin(), edges.end(),
-                               [](const WingEdge& w) { return w.kind != WingEdgeKind::kLeading || w.is_declared; });
+  bool has_edges = !edges.empty();
   share(executor, has_edges);
   if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;

@@ -209,6 +209,14 @@ std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, doubl
   return profile;
 }
 
+std::optional<Vec3> ProfileCutter::furthest(Vec3 from, Vec3 normal, double reach) const {
+  std::optional<Vec3> best;
+  for (const Segment& s : part_at(from, normal, reach))
+    for (const Vec3& x : s.end)
+      if (!best || distance(x, from) > distance(*best, from)) best = x;
+  return best;
+}
+
 std::optional<ThinPart> ProfileCutter::thin_part(Vec3 edge, Vec3 normal, double reach, double thickest) const {
   const std::vector<Segment> part = part_at(edge, normal, reach);
   double furthest = 0;

@@ -57,6 +57,9 @@ class ProfileCutter {
   /// it is so for less than a factor of five in the distance from the edge. Same cost.
   std::optional<ThinPart> thin_part(Vec3 edge, Vec3 normal, double reach, double thickest = kThickestPart) const;
 
+  /// The point of the same cut that is furthest from where it begins; nullopt: nothing is cut.
+  std::optional<Vec3> furthest(Vec3 from, Vec3 normal, double reach) const;
+
   /// Notes the ends of the same cut.
   void note_ends(Vec3 edge, Vec3 normal, double reach) const { part_at(edge, normal, reach); }
 

@@ -25,12 +25,9 @@ ProfileFacets::ProfileFacets(const Model& model, const FaceRoles& roles, const P
 }
 
 void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& executor) {
-  std::vector<WingEdge> own;
-  for (const WingEdge& w : edges)
-    if (w.kind != WingEdgeKind::kLeading || w.is_declared) own.push_back(w);
   std::vector<std::uint8_t> next(is_known_.size(), 0);
-  for (const WingEdge& w : own) take_walls_at(w.edge, nullptr, next);
-  const std::vector<Cut> cuts = executor.is_root() ? cuts_at(own) : std::vector<Cut>();
+  for (const WingEdge& w : edges) take_walls_at(w.edge, nullptr, next);
+  const std::vector<Cut> cuts = executor.is_root() ? cuts_at(edges) : std::vector<Cut>();
   for (std::size_t n_done = 0; add(std::move(next), executor);) {
     std::vector<CutEnd> ends;
     const ProfileCutter cutter(facets_, &ends);

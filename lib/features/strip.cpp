@@ -128,6 +128,36 @@ void measure_strip(const Model& model, Strip& strip) {
   measure_widths(model, strip);
 }
 
+/// The two closed edges of a face that has no others but a seam; false when there are no such two.
+bool closed_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, Strip& strip) {
+  std::vector<EdgeId> closed;
+  for (const CoedgeId c : t.coedges(f)) {
+    const EdgeId e = t.coedge_edge[c];
+    if (std::ranges::count(t.edges_of(f), e) == 2) continue;  // a seam
+    if (t.edge_is_degenerate[e] || t.edge_vertices[2 * e] != t.edge_vertices[2 * e + 1] || uses[e] != 2) return false;
+    closed.push_back(e);
+  }
+  if (closed.size() != 2) return false;
+  strip.face = f;
+  strip.edges[0] = std::min(closed[0], closed[1]);
+  strip.edges[1] = std::max(closed[0], closed[1]);
+  strip.length = t.edge_length[strip.edges[0]];
+  return t.face_area[f] < kNarrow * strip.length * strip.length;
+}
+
+/// Closed edges may begin anywhere.
+void measure_ring(const Model& model, Strip& ring) {
+  const auto kept = model.curve(ring.edges[0]), closed = model.curve(ring.edges[1]);
+  const ArcTable arc(*kept);
+  const int n = count_stations(*kept);
+  for (int i = 0; i <= n; ++i) {
+    const Vec3 x = kept->point(arc.parameter_at(static_cast<double>(i) / n));
+    ring.stations.push_back({x, closest_point(*closed, x).x - x});
+  }
+  const CurvePoint start = kept->evaluate(kept->t_min());
+  ring.is_opposed = dot(start.d1, closed->evaluate(closest_point(*closed, start.x).t).d1) < 0;
+}
+
 /// The coedges of a loop after `single`, without short ones at both ends.
 std::vector<CoedgeId> edges_across(const ModelTables& t, IdRange loop, CoedgeId single, double width) {
   std::vector<CoedgeId> rest;
@@ -194,6 +224,28 @@ double strip_exactness(const Model& model, EdgeId first, EdgeId second, bool is_
   strip.length = model.tables().edge_length[first];
   measure_widths(model, strip);
   return strip.exact;
+}
+
+std::vector<Strip> find_rings(const Model& model) {
+  const ModelTables& t = model.tables();
+  const std::vector<int> uses = count_uses(t);
+  std::vector<Strip> rings;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    Strip ring;
+    if (!closed_edges(t, f, uses, ring)) continue;
+    measure_ring(model, ring);
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+Strip measured_strip(const Model& model, FaceId face, EdgeId a, EdgeId b) {
+  Strip strip;
+  strip.face = face;
+  strip.edges[0] = std::min(a, b), strip.edges[1] = std::max(a, b);
+  strip.length = model.tables().edge_length[strip.edges[0]];
+  measure_strip(model, strip);
+  return strip;
 }
 
 std::vector<Strip> find_strips(const Model& model) {

@@ -13,9 +13,11 @@ namespace st {
 struct Strip {
   static constexpr double kInexact = 2;
   FaceId face = kNone;
+  std::vector<FaceId> others = {};   ///< of a base of several strips beside each other: all but the first
   EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
   bool is_opposed = false;           ///< they run against each other
   double length = 0;                 ///< of the first, model unit
+  double row = 0;    ///< of all strips that go on end to end in about one line, model unit; set for bases
   double exact = 0;  ///< model unit; above 0: its edges cross, so that where they are nearer they are one
   struct Station {
     Vec3 x;       ///< on the first edge
@@ -36,6 +38,12 @@ struct Strip {
 /// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer
 /// than the face is wide on average, ascending. Local.
 std::vector<Strip> find_strips(const Model& model);
+
+/// Likewise faces between two closed edges, and no others but a seam: the base of a ring. Local.
+std::vector<Strip> find_rings(const Model& model);
+
+/// A strip of which the face and the edges are known, the lower id first. Local.
+Strip measured_strip(const Model& model, FaceId face, EdgeId a, EdgeId b);
 
 /// Strip::exact of the strip between two edges, the lower id first. Local.
 double strip_exactness(const Model& model, EdgeId first, EdgeId second, bool is_opposed);

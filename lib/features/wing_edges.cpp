@@ -22,6 +22,7 @@ constexpr double kSmooth = radians(30);                              // kink at 
 constexpr double kBluntMin = radians(50), kBluntMax = radians(140);  // material at either edge of a blunt trailing edge
 constexpr double kLookAway = -0.5;         // cosine between normals on both sides of a blunt trailing edge at most
 constexpr double kBluntWidth = 0.05;       // of its length, at most
+constexpr double kLargerThanRound = 2;     // area of the faces beside a round trailing edge over its own, at least
 constexpr double kNoseTurn = radians(45);  // of the normal to either side of a leading edge, at least
 constexpr double kFlattened = 0.7;  // curvature there over the largest, at most: a circle stays at 1, a parabola falls
                                     // to 0.35
@@ -102,8 +103,7 @@ class WingEdgeFinder {
   const Strip* base_at(const DeclaredEdge& d) const {
     const auto at = std::find_if(strips_.begin(), strips_.end(), [&](const Strip& s) {
       if (d.base != kNone) return s.face == d.base;
-      return (s.edges[0] == d.edge || s.edges[1] == d.edge) && median_width(s) <= kBluntWidth * s.length &&
-             has_corners(s);
+      return (s.edges[0] == d.edge || s.edges[1] == d.edge) && is_narrow(s, median_width(s)) && has_corners(s);
     });
     return at == strips_.end() ? nullptr : &*at;
   }
@@ -118,6 +118,10 @@ class WingEdgeFinder {
     });
   }
   static bool is_corner(const Station& s) { return s.angle >= kBluntMin && s.angle <= kBluntMax; }
+  static bool is_smooth(const Station& s) { return std::abs(s.angle - kPi) <= kSmooth; }
+  static bool is_narrow(const Strip& strip, double width) {
+    return width <= kBluntWidth * std::max(strip.length, strip.row);
+  }
 
   static double median_width(const Strip& strip) {
     std::vector<double> widths;
@@ -251,7 +255,7 @@ class WingEdgeFinder {
     std::vector<double> radii;
     for (const Station& s : places) {
       n_sharp += s.angle <= kSharpest;
-      if (std::abs(s.angle - kPi) > kSmooth) continue;
+      if (!is_smooth(s)) continue;
       const double radius = nose_radius(e, s, surfaces);
       if (radius > 0 && radius <= kNosePerLength * t_.edge_length[e]) radii.push_back(radius);
     }
@@ -334,7 +338,7 @@ class WingEdgeFinder {
     if (mirror[0] != kNone && mirror[1] != kNone) return;
     const bool is_half = mirror[0] != kNone || mirror[1] != kNone;
     const double width = (is_half ? 2 : 1) * median_width(strip);
-    if (width > kBluntWidth * strip.length) return;
+    if (!is_narrow(strip, width)) return;
     if (is_half) complete(strip, places);
     if (count_blunt(strip, places) < kAgreeing) return;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -357,14 +361,32 @@ class WingEdgeFinder {
       for (Side& side : s.sides) side = mirrored(side, normal);
   }
 
-  static int count_blunt(const Strip& strip, const Places& places) {
+  /// Places where the faces beyond look away from each other, out of the material, across corners, or across a round
+  /// whose neighbours are clearly larger than it.
+  int count_blunt(const Strip& strip, const Places& places) const {
     int n_agree = 0;
     for (int i = 0; i < kStations; ++i) {
-      const Station &a = places[0][i], &b = places[1][strip.is_opposed ? kStations - 1 - i : i];
-      const auto beyond = [&](const Station& s) { return s.sides[s.sides[0].face == strip.face ? 1 : 0].normal; };
-      n_agree += is_corner(a) && is_corner(b) && dot(beyond(a), beyond(b)) <= kLookAway;
+      const Station &a = places[0][i], &b = across_from(a, i, strip, places[1]);
+      const Side &from = beyond(a, strip), &to = beyond(b, strip);
+      if (dot(from.normal, to.normal) > kLookAway) continue;
+      const bool is_round =
+          is_smooth(a) && is_smooth(b) && dot(b.x - a.x, from.normal) < 0 &&
+          std::min(t_.face_area[from.face], t_.face_area[to.face]) > kLargerThanRound * t_.face_area[strip.face];
+      n_agree += is_round || (is_corner(a) && is_corner(b));
     }
     return n_agree;
+  }
+
+  /// Closed edges may begin anywhere.
+  const Station& across_from(const Station& a, int i, const Strip& strip, const std::vector<Station>& other) const {
+    const EdgeId e = strip.edges[1];
+    if (t_.edge_vertices[2 * e] != t_.edge_vertices[2 * e + 1]) return other[strip.is_opposed ? kStations - 1 - i : i];
+    return *std::ranges::min_element(other, {}, [&](const Station& s) { return distance(s.x, a.x); });
+  }
+
+  static const Side& beyond(const Station& s, const Strip& strip) {
+    const FaceId f = s.sides[0].face;
+    return s.sides[f == strip.face || std::ranges::count(strip.others, f) > 0 ? 1 : 0];
   }
 
   // --- chains

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "features/base_strips.h"
 #include "features/face_roles.h"
 #include "features/strip.h"
 #include "features/wing_edges.h"
@@ -120,7 +121,7 @@ std::vector<Vec3> line_to_see(const Curve& curve) {
 }
 
 std::vector<WingEdge> wing_edges_to_see(const Model& model) {
-  return find_wing_edges(model, face_roles(model), find_strips(model));
+  return find_wing_edges(model, face_roles(model), find_base_strips(model, find_strips(model)));
 }
 
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings) {

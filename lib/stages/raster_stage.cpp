@@ -20,8 +20,10 @@
 #include "base/progress.h"
 #include "base/required_unit.h"
 #include "base/share.h"
+#include "features/base_strips.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
+#include "features/unlisted_wings.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
@@ -650,14 +652,16 @@ std::string wing_options(const RasterStageOptions& o) {
 }
 
 /// Who asks for lengths at trailing edges is told of those without; with -v they are all listed.
-void report_unused(const RasterStageOptions& o, const Wings& wings, double reference_diagonal) {
+void report_unused(const RasterStageOptions& o, const Model& model, const FaceRoles& roles, const Wings& wings) {
   for (const UnusedTrailing& u : wings.unused)
     if (u.is_declared) log_warning(declared_warning(u));
-  const bool is_asked = !wing_options(o).empty();
+  const bool is_asked = o.asks_for_wings || !wing_options(o).empty();
   for (const std::string& line : unused_lines(wings.unused, kMostUnused)) is_asked ? log_report(line) : log_info(line);
   if (!is_asked) return;
   for (const std::string& warning :
-       {unused_warning(wings.unused, reference_diagonal), noseless_warning(wings.aircraft.wings)})
+       {unused_warning(wings.unused, roles.reference_diagonal), noseless_warning(wings.aircraft.wings),
+        sheet_warning(find_sheet_edges(model, roles)),
+        seam_warning(find_seams_of_blades(model, roles, wings.aircraft.wings))})
     if (!warning.empty()) log_warning(warning);
 }
 
@@ -757,7 +761,8 @@ class RasterRun {
         model_(same_model(comm)),
         roles_(face_roles(model_, trace_)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
-        strips_(find_strips(model_)) {}
+        strips_(find_strips(model_)),
+        bases_(find_base_strips(model_, strips_)) {}
 
   StageSummary run() {
     if (comm_.is_root()) say_interfaces();
@@ -801,13 +806,13 @@ class RasterRun {
   }
 
   void set_limits() {
-    wings_.edges = find_wing_edges(model_, roles_, strips_, trace_);
+    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_);
     if (comm_.is_root())
-      declare_edges(model_, roles_, strips_, declared_edges(rules_, model_.tables(), strips_, wings_.edges),
+      declare_edges(model_, roles_, bases_, declared_edges(rules_, model_.tables(), bases_, wings_.edges),
                     wings_.edges);
     wings_.aircraft.wings =
         find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft);
-    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, strips_, {wall_, rules_}, wings_);
+    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
@@ -849,7 +854,7 @@ class RasterRun {
 
   StageSummary report() const {
     report_wings(o_, wings_);
-    report_unused(o_, wings_, roles_.reference_diagonal);
+    report_unused(o_, model_, roles_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
     for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
     report_undercuts(artifact_);
@@ -867,7 +872,7 @@ class RasterRun {
   const Model model_;
   const FaceRoles roles_;
   const SamplingLimits wall_;
-  const std::vector<Strip> strips_;
+  const std::vector<Strip> strips_, bases_;
   Wings wings_;  // rank 0 only
   ModelLimits limits_;
   CellBudget budget_;

@@ -124,12 +124,33 @@ std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) 
   return fmt::format(
       "  lifting surface{}: {} {} edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
       wing.is_declared ? " by a rule" : "", edges.size(), wing.trailing.empty() ? "leading" : "trailing",
-      edges.front().edge + 1, wing.is_blunt ? "blunt" : "sharp", wing.span, wing.least_chord, wing.largest_chord,
-      edge_size,
+      edges.front().edge + 1,
+      wing.is_round   ? "round"
+      : wing.is_blunt ? "blunt"
+                      : "sharp",
+      wing.span, wing.least_chord, wing.largest_chord, edge_size,
       wing.has_noses ? wing.covered() < kCovered
                            ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
                            : "edge and nose"
                      : "the edge, no nose is seen");
+}
+
+std::string sheet_warning(std::span<const EdgeId> free_edges) {
+  if (free_edges.empty()) return "";
+  const std::vector<EdgeId> numbers = from_one({free_edges.begin(), free_edges.end()});
+  return fmt::format(
+      "no lifting surface is looked for on sheets without thickness, which end at the free {}; give these lengths in a "
+      "file for --sizes: {}",
+      listed(numbers), rule_for(numbers, "lmax = \"0.1%\""));
+}
+
+std::string seam_warning(std::span<const EdgeId> seams) {
+  if (seams.empty()) return "";
+  return fmt::format(
+      "what is closed at the seam {} looks like a blade, but has no edge at its trailing edge: both ends get the "
+      "lengths "
+      "of their curvature; cut the face along its trailing edge in the CAD system",
+      listed(from_one({seams.begin(), seams.end()})));
 }
 
 std::string noseless_warning(std::span<const LiftingSurface> wings) {

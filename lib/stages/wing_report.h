@@ -31,6 +31,11 @@ std::string wing_line(const LiftingSurface& wing, const std::string& edge_size);
 /// Surfaces whose noses are not seen, or not everywhere, and what to do; empty: there are none.
 std::string noseless_warning(std::span<const LiftingSurface> wings);
 
+/// Edges of sheets, and seams of blades, at which no lifting surface is looked for, and the rule that gives them
+/// lengths; empty: there are none.
+std::string sheet_warning(std::span<const EdgeId> free_edges);
+std::string seam_warning(std::span<const EdgeId> seams);
+
 /// `lifting_surfaces` of --json.
 nlohmann::json wings_json(std::span<const LiftingSurface> wings);
 

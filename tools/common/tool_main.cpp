@@ -287,6 +287,8 @@ void ToolMain::threads() {
   file_options_.pop_back();  // how a stage runs is no content
 }
 
+bool ToolMain::is_set(const std::string& flag) const { return app_.get_option(flag)->count() > 0; }
+
 void ToolMain::preset() {
   text("--preset", preset_, "NAME",
        "settings for a purpose, which all other options override (docs/presets.md): " + preset_names());

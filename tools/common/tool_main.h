@@ -68,6 +68,8 @@ class ToolMain {
   void flag(const std::string& flag, bool& value, const std::string& help);
   /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
   void preset();
+  /// Whether the command line, an option file or a preset sets an option.
+  bool is_set(const std::string& flag) const;
   /// Command lines that stand at the end of --help.
   void examples(const std::vector<std::string>& command_lines);
 

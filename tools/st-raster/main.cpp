@@ -38,5 +38,8 @@ int main(int argc, char** argv) {
             "exit code 0 even when parts could not be sampled; the artifact is marked incomplete");
   tool.preset();
   tool.examples({"st-raster geometry.hdf --np 8", "st-raster geometry.hdf --lmax 2% --lmin 1mm --alpha 8"});
-  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) { return st::run_raster(o, comm); });
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
+    o.asks_for_wings = tool.is_set("--edge-size") && o.edge_size != "none";
+    return st::run_raster(o, comm);
+  });
 }

@@ -1,0 +1,142 @@
+#include "features/base_strips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/box_tree.h"
+
+namespace st {
+namespace {
+
+constexpr double kSmooth = radians(20);  // between the normals of strips that are one
+constexpr double kNarrow = 0.05;         // of the length: strips beside each other, altogether
+constexpr double kAlike = 2;             // between the widths of strips end to end
+constexpr double kStraight = 0.7;        // extent of a row over its length: rims turn around their plate
+
+double width_of(const Strip& strip) { return strip.stations[strip.stations.size() / 2].width(); }
+
+class BaseStripFinder {
+ public:
+  BaseStripFinder(const Model& model, std::span<const Strip> strips)
+      : model_(model), t_(model.tables()), strips_(strips) {
+    for (std::size_t i = 0; i < strips.size(); ++i) index_[strips[i].face] = i;
+    t_.edge_faces(offsets_, edge_faces_);
+  }
+
+  std::vector<Strip> run() {
+    std::vector<Strip> all = united();
+    measure_rows(all);
+    for (Strip& ring : find_rings(model_)) all.push_back(std::move(ring));
+    std::sort(all.begin(), all.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });
+    return all;
+  }
+
+ private:
+  /// The other strip of which an edge is a long one; nothing where the surface has a corner there.
+  const Strip* beyond(const Strip& strip, EdgeId e) const {
+    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
+      const auto own = index_.find(edge_faces_[k]);
+      if (edge_faces_[k] == strip.face || own == index_.end()) continue;
+      const Strip& other = strips_[own->second];
+      if ((other.edges[0] == e || other.edges[1] == e) && is_smooth(e)) return &other;
+    }
+    return nullptr;
+  }
+
+  bool is_smooth(EdgeId e) const {
+    const auto curve = model_.curve(e);
+    std::vector<Vec3> normals;
+    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
+      const FaceId f = edge_faces_[k];
+      for (const CoedgeId c : t_.coedges(f)) {
+        if (t_.coedge_edge[c] != e) continue;
+        const Vec3 n =
+            surface_normal(*model_.surface(f), model_.pcurve(f, c)->point(0.5 * (curve->t_min() + curve->t_max())));
+        normals.push_back(t_.face_is_reversed[f] ? -n : n);
+      }
+    }
+    return normals.size() == 2 && angle_between(normals[0], normals[1]) <= kSmooth;
+  }
+
+  std::vector<Strip> united() const {
+    std::vector<std::uint8_t> is_done(strips_.size(), 0);
+    std::vector<Strip> all;
+    for (std::size_t i = 0; i < strips_.size(); ++i) {
+      if (is_done[i]) continue;
+      std::array<EdgeId, 2> outer = {strips_[i].edges[0], strips_[i].edges[1]};
+      std::vector<const Strip*> own = {&strips_[i]};
+      for (EdgeId& e : outer) go_on(e, own);
+      double area = 0;
+      for (const Strip* s : own) area += t_.face_area[s->face];
+      const double length = strips_[i].length;
+      if (own.size() == 1 || area > kNarrow * length * length || outer[0] == outer[1]) {
+        all.push_back(strips_[i]);
+        continue;
+      }
+      all.push_back(measured_strip(model_, strips_[i].face, outer[0], outer[1]));
+      for (const Strip* s : own) {
+        is_done[index_.at(s->face)] = 1;
+        if (s != own.front()) all.back().others.push_back(s->face);
+      }
+    }
+    return all;
+  }
+
+  /// From strip to strip, as far as it is smooth; `e` becomes the edge at the end.
+  void go_on(EdgeId& e, std::vector<const Strip*>& own) const {
+    constexpr std::size_t kMost = 16;
+    const Strip* from = own.front();
+    while (own.size() < kMost) {
+      const Strip* next = beyond(*from, e);
+      if (!next || std::ranges::count(own, next) > 0) return;
+      own.push_back(next);
+      e = next->edges[0] == e ? next->edges[1] : next->edges[0];
+      from = next;
+    }
+  }
+
+  /// Strips that hang together at their ends.
+  void measure_rows(std::vector<Strip>& all) const {
+    std::vector<std::size_t> parent(all.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::size_t i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    std::map<EdgeId, std::size_t> at_end;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (const EdgeId e : t_.edges_of(all[i].face)) {
+        if (e == all[i].edges[0] || e == all[i].edges[1] || !all[i].others.empty()) continue;
+        const auto [known, is_new] = at_end.emplace(e, i);
+        const double a = width_of(all[i]), b = width_of(all[known->second]);
+        if (!is_new && a <= kAlike * b && b <= kAlike * a) parent[root(i)] = root(known->second);
+      }
+    std::vector<double> length(all.size(), 0);
+    std::vector<Box3> box(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      length[root(i)] += all[i].length;
+      box[root(i)].add(all[i].stations.front().x);
+      box[root(i)].add(all[i].stations.back().x);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (box[root(i)].diagonal() >= kStraight * length[root(i)]) all[i].row = std::max(all[i].row, length[root(i)]);
+  }
+
+  const Model& model_;
+  const ModelTables& t_;
+  std::span<const Strip> strips_;
+  std::map<FaceId, std::size_t> index_;
+  std::vector<std::int32_t> offsets_;
+  std::vector<FaceId> edge_faces_;
+};
+
+}  // namespace
+
+std::vector<Strip> find_base_strips(const Model& model, std::span<const Strip> strips) {
+  return BaseStripFinder(model, strips).run();
+}
+
+}  // namespace st

@@ -1,0 +1,138 @@
+#include "features/unlisted_wings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/eigen.h"
+#include "features/profile.h"
+
+namespace st {
+namespace {
+
+constexpr int kPlaces = 9;             // on an edge
+constexpr double kSail = 0.15;         // thickness of a sheet's border over its width
+constexpr double kFlat = 1e-3;         // thickness of a plane loop over its width
+constexpr double kInPlane = 0.9;       // cosine: the surface lies in the plane of its border
+constexpr double kDeflection = 1e-3;   // of a face's diagonal: of its facets
+constexpr double kLeastLength = 0.05;  // of the reference diagonal: of a seam
+
+Vec3 place_on(const Curve& curve, int i) {
+  return curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * (i + 0.5) / kPlaces);
+}
+
+/// Used once, by a wall.
+std::vector<EdgeId> free_edges(const ModelTables& t, const FaceRoles& roles) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  std::vector<EdgeId> free;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (!t.edge_is_degenerate[e] && offsets[e + 1] - offsets[e] == 1 &&
+        roles.role[faces[static_cast<std::size_t>(offsets[e])]] == FaceRole::kWall)
+      free.push_back(e);
+  return free;
+}
+
+/// Edges that hang together at vertices.
+std::vector<std::vector<EdgeId>> loops_of(const ModelTables& t, const std::vector<EdgeId>& edges) {
+  std::vector<std::size_t> parent(static_cast<std::size_t>(t.n_vertices()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto vertex = [&](EdgeId e, std::size_t k) {
+    return root(static_cast<std::size_t>(t.edge_vertices[2 * static_cast<std::size_t>(e) + k]));
+  };
+  for (const EdgeId e : edges) parent[vertex(e, 0)] = vertex(e, 1);
+  std::map<std::size_t, std::vector<EdgeId>> loops;
+  for (const EdgeId e : edges) loops[vertex(e, 0)].push_back(e);
+  std::vector<std::vector<EdgeId>> all;
+  for (auto& [key, own] : loops) all.push_back(std::move(own));
+  return all;
+}
+
+/// Normals of the faces at a free edge.
+std::vector<Vec3> normals_at(const Model& model, EdgeId e) {
+  const ModelTables& t = model.tables();
+  std::vector<Vec3> normals;
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    for (const CoedgeId c : t.coedges(f)) {
+      if (t.coedge_edge[c] != e) continue;
+      const auto pcurve = model.pcurve(f, c);
+      const double t0 = t.edge_range[2 * e], t1 = t.edge_range[2 * e + 1];
+      for (int i = 0; i < kPlaces; ++i)
+        normals.push_back(surface_normal(*model.surface(f), pcurve->point(t0 + (t1 - t0) * (i + 0.5) / kPlaces)));
+    }
+  return normals;
+}
+
+/// About as flat as a sail; and not plane with a surface that comes through, as at the open end of a body.
+bool bounds_sheet(const Model& model, const std::vector<EdgeId>& loop) {
+  std::vector<Vec3> x;
+  for (const EdgeId e : loop)
+    for (int i = 0; i < kPlaces; ++i) x.push_back(place_on(*model.curve(e), i));
+  Vec3 middle;
+  for (const Vec3 p : x) middle += p / static_cast<double>(x.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3 p : x) spread += to_eigen(p - middle) * to_eigen(p - middle).transpose();
+  const PrincipalAxes shape = principal_axes(spread);
+  const auto extent = [&](int k) { return std::sqrt(std::max(0.0, shape.value[k])); };
+  if (extent(0) > kSail * extent(1)) return false;
+  if (extent(0) > kFlat * extent(2)) return true;
+  for (const EdgeId e : loop)
+    for (const Vec3 n : normals_at(model, e))
+      if (std::abs(dot(n, shape.axis[0])) > kInPlane) return true;
+  return false;
+}
+
+/// The plane square to a seam half way cuts a profile with round ends out of the face.
+bool is_blade(const Model& model, FaceId f, EdgeId seam) {
+  const ModelTables& t = model.tables();
+  std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
+  is_wanted[f] = 1;
+  const double deflection = kDeflection * t.face_box[f].diagonal();
+  const Facets facets = make_facets(model, is_wanted, {.deflection = deflection, .is_exact = true});
+  const ProfileCutter cutter(facets);
+  const auto curve = model.curve(seam);
+  const CurvePoint p = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
+  const Vec3 normal = normalized(p.d1);
+  const std::optional<Vec3> end = cutter.furthest(p.x, normal, 2 * deflection);
+  if (!end) return false;
+  const std::optional<Vec3> other = cutter.furthest(*end, normal, 2 * deflection);
+  return other && (cutter.cut(*end, normal, 2 * deflection) || cutter.cut(*other, normal, 2 * deflection));
+}
+
+}  // namespace
+
+std::vector<EdgeId> find_sheet_edges(const Model& model, const FaceRoles& roles) {
+  std::vector<EdgeId> found;
+  for (const std::vector<EdgeId>& loop : loops_of(model.tables(), free_edges(model.tables(), roles)))
+    if (bounds_sheet(model, loop)) found.insert(found.end(), loop.begin(), loop.end());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<EdgeId> find_seams_of_blades(const Model& model, const FaceRoles& roles,
+                                         std::span<const LiftingSurface> wings) {
+  const ModelTables& t = model.tables();
+  std::vector<EdgeId> found;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    const auto has_face = [&](const LiftingSurface& wing) { return std::ranges::count(wing.faces, f) > 0; };
+    if (roles.role[f] != FaceRole::kWall || t.face_type[f] != SurfaceType::kBspline ||
+        std::ranges::any_of(wings, has_face))
+      continue;
+    for (const EdgeId e : t.edges_of(f))
+      if (!t.edge_is_degenerate[e] && std::ranges::count(t.edges_of(f), e) == 2 &&
+          t.edge_length[e] >= kLeastLength * roles.reference_diagonal && is_blade(model, f, e)) {
+        found.push_back(e);
+        break;
+      }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace st

@@ -1,0 +1,84 @@
+"""Lifting surfaces of wings, blades and sails of many kinds, counted and measured by hand, and machine parts that look
+like wings and have none. Nothing is missed in silence: what is not found is warned of, with its edges."""
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import ToolTest, must  # noqa: E402
+
+WING_MODELS = os.environ["ST_WING_MODELS"]
+
+# Lengths of the trailing edges of each lifting surface, in the model's unit, from the numbers in wing_models.cpp.
+SPANS = {
+    "blunt_1": [5],
+    "blunt_3": [5],
+    "blunt_40": [5],
+    "blunt_200": [5],
+    "base_in_halves": [5],
+    "ring_wing": [9.42],  # circumference at radius 1.5
+    "ducted_fan": [6.91, 0.71, 0.71, 0.71, 0.71, 0.71],  # duct of radius 1.1, blades from hub to tip
+    "impeller": 12 * [0.3],  # six blades, six splitters, above the disc
+    "hydrofoil": [4, 1.99],
+    "hydrofoil_joined": [6],  # foil and strut meet at a vertex of their trailing edges
+    "t_tail": [4.0, 3.15],
+    "box_wing": [7.45],
+    "rudder": [1.99],
+    "two_elements": [4, 4],
+    "winglet": [5.68],
+    "nacelle": [5.03],  # circumference at radius 0.8
+    "nacelle_c": [4.19],  # 300 degrees of it
+    "kinked_wing": [4.21],
+    "elliptic_wing": [6.21],
+    "aircraft": [4.59, 4.59, 2.4, 1.79, 1.76, 1.76, 0.43],  # wings, nacelle, fin, tails, pylon
+    "wing_with_fairing": [4],  # from the fuselage of radius 1 to y = 5
+    "blade_of_four": [1.01],
+    "blade_of_two": [1.01],
+    "vanes": [1, 1, 1],
+    "rocket_fins": 4 * [0.4],
+    "flying_wing": [8.75],
+    "canard_and_delta": [2.5, 2.5, 1.51, 1, 1],  # deltas, fin, canards
+    "delta": [2],
+}
+# Noses are not seen along the whole span: behind a nacelle. That is said.
+PARTLY = {"aircraft"}
+PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal")
+
+
+class WingShapes(ToolTest):
+    def raster(self, name, preset):
+        model, geometry = self.folder / f"{name}.brep", self.folder / "geometry.hdf"
+        if not geometry.exists():
+            subprocess.run([WING_MODELS, name, model], check=True, capture_output=True, timeout=100)
+            must("st-import", model, "-o", geometry)
+        return must("st-raster", geometry, "-o", self.folder / "raster.hdf", "--no-surface", "--json", "--preset",
+                    preset)
+
+    def check_wing(self, name, spans):
+        for preset in ("rans", "euler"):
+            done = self.raster(name, preset)
+            found = sorted((wing["span"] for wing in done.json()["lifting_surfaces"]), reverse=True)
+            self.assertEqual(len(found), len(spans), f"{name}: {done}")
+            for got, asked in zip(found, spans):
+                self.assertLess(abs(got - asked), 0.05 * asked + 0.02, f"{name}: {done}")
+            self.assertEqual("warning" in done.err, name in PARTLY, f"{name}: {done}")
+
+    def check_part(self, name):
+        self.assertEqual(self.raster(name, "euler").json()["lifting_surfaces"], [])
+
+    def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
+        self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
+        (self.folder / "geometry.hdf").unlink()
+        self.assertRegex(self.raster("blade_of_one", "rans").err, "warning: .*seam edge [0-9]+ looks like a blade")
+
+
+for model_name, model_spans in SPANS.items():
+    setattr(WingShapes, f"test_{model_name}",
+            lambda self, name=model_name, spans=model_spans: self.check_wing(name, spans))
+for part_name in PARTS:
+    setattr(WingShapes, f"test_part_{part_name}", lambda self, name=f"part_{part_name}": self.check_part(name))
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,651 @@
+// Wings, blades and sails of many kinds, and machine parts that look like wings:
+//
+//   wing_models                      the names
+//   wing_models NAME OUT.brep
+//   length
+//
+// x is along the flow, y to the side, z up. wing_shapes_test.py says what is to be found in each.
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <GeomAPI_Interpolate.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TColgp_HArray1OfPnt.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/brep/compound.h"
+
+namespace {
+
+using st::occt::compound_of;
+
+// --- sections ---
+
+enum class Tail { kSharp, kBlunt, kRound };
+
+/// Lengths over the chord.
+struct Foil {
+  double thickness = 0.12, base = 0, camber = 0;
+  Tail tail = Tail::kSharp;
+  int base_pieces = 1;            // across
+  std::vector<double> cuts = {};  // where the outline is cut: way along the chord, negative on the lower side
+};
+
+/// Takes a place along the chord, in [0, 1], and across it.
+using Frame = std::function<gp_Pnt(double, double)>;
+
+struct Section {
+  Foil foil;
+  Frame frame;
+};
+
+/// NACA 4-digit, closed.
+double half_thickness(const Foil& foil, double x) {
+  const double own = 0.2969 * std::sqrt(x) - x * (0.1260 + x * (0.3516 - x * (0.2843 - x * 0.1036)));
+  return 5 * foil.thickness * own + 0.5 * foil.base * x;
+}
+
+gp_Pnt at(const Section& s, double x, double side) {
+  const double middle = 4 * s.foil.camber * x * (1 - x), slope = std::atan(4 * s.foil.camber * (1 - 2 * x));
+  const double h = side * half_thickness(s.foil, x);
+  return s.frame(x - h * std::sin(slope), middle + h * std::cos(slope));
+}
+
+TopoDS_Edge line(gp_Pnt a, gp_Pnt b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); }
+
+/// From the tail over the upper side around the nose to the tail.
+TopoDS_Wire outline(const Section& s) {
+  constexpr int kPoints = 24;  // of a side
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 2 * kPoints + 1);
+  std::vector<double> ways;
+  for (int i = 0; i <= 2 * kPoints; ++i) {
+    const double x = 0.5 * (1 + std::cos(M_PI * i / kPoints)), side = i <= kPoints ? 1 : -1;
+    points->SetValue(i + 1, at(s, x, side));
+    ways.push_back(side * x);
+  }
+  GeomAPI_Interpolate fit(points, false, 1e-9);
+  fit.Perform();
+  const Handle(Geom_BSplineCurve) curve = fit.Curve();
+  std::vector<double> ends = {curve->FirstParameter(), curve->LastParameter()};
+  for (const double cut : s.foil.cuts)
+    for (int i = 1; i < 2 * kPoints; ++i)
+      if (ways[i] < cut + 1e-12 && ways[i - 1] > cut + 1e-12) ends.push_back(curve->Knot(i + 1));
+  std::sort(ends.begin(), ends.end());
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t i = 1; i < ends.size(); ++i) wire.Add(BRepBuilderAPI_MakeEdge(curve, ends[i - 1], ends[i]).Edge());
+  gp_Pnt from;
+  gp_Vec along;
+  curve->D1(curve->LastParameter(), from, along);
+  const gp_Pnt to = curve->Value(curve->FirstParameter());
+  if (s.foil.tail == Tail::kRound)
+    wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(from, along, to).Value()).Edge());
+  if (s.foil.tail == Tail::kBlunt)
+    for (int i = 0; i < s.foil.base_pieces; ++i) {
+      const auto part = [&](int k) {
+        const double share = static_cast<double>(k) / s.foil.base_pieces;
+        return gp_Pnt(from.XYZ() * (1 - share) + to.XYZ() * share);
+      };
+      wire.Add(line(part(i), part(i + 1)));
+    }
+  return wire.Wire();
+}
+
+/// Chord along x and z across, or turned by `angle` about the x axis: 90 degrees for what stands upright; `twist` about
+/// the middle of the chord.
+Frame straight(gp_Pnt nose, double chord, double angle_deg = 0, double twist_deg = 0) {
+  const double a = angle_deg * M_PI / 180, b = twist_deg * M_PI / 180;
+  const gp_Vec up0(0, -std::sin(a), std::cos(a)), along0(1, 0, 0);
+  const gp_Vec along = along0 * std::cos(b) - up0 * std::sin(b), up = up0 * std::cos(b) + along0 * std::sin(b);
+  const gp_Pnt middle = nose.Translated(0.5 * chord * along0);
+  return [=](double x, double h) { return middle.Translated(chord * ((x - 0.5) * along + h * up)); };
+}
+
+TopoDS_Shape loft(const std::vector<Section>& sections, bool is_ruled = true) {
+  BRepOffsetAPI_ThruSections thru(true, is_ruled, 1e-6);
+  thru.CheckCompatibility(false);
+  thru.SetParType(Approx_ChordLength);
+  for (const Section& s : sections) thru.AddWire(outline(s));
+  thru.Build();
+  return thru.Shape();
+}
+
+/// Of one foil.
+TopoDS_Shape loft(const Foil& foil, const std::vector<Frame>& frames, bool is_ruled = true) {
+  std::vector<Section> sections;
+  for (const Frame& frame : frames) sections.push_back({foil, frame});
+  return loft(sections, is_ruled);
+}
+
+TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+}
+TopoDS_Shape cylinder(gp_Pnt at, gp_Dir along, double r, double h) {
+  return BRepPrimAPI_MakeCylinder(gp_Ax2(at, along), r, h).Shape();
+}
+TopoDS_Shape ball(gp_Pnt at, double r) { return BRepPrimAPI_MakeSphere(at, r).Shape(); }
+TopoDS_Shape cut(const TopoDS_Shape& a, const TopoDS_Shape& b) { return BRepAlgoAPI_Cut(a, b).Shape(); }
+TopoDS_Shape fuse(const TopoDS_Shape& a, const TopoDS_Shape& b) { return BRepAlgoAPI_Fuse(a, b).Shape(); }
+TopoDS_Shape common(const TopoDS_Shape& a, const TopoDS_Shape& b) { return BRepAlgoAPI_Common(a, b).Shape(); }
+TopoDS_Shape fuse_all(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Shape all = shapes.front();
+  for (std::size_t i = 1; i < shapes.size(); ++i) all = fuse(all, shapes[i]);
+  return all;
+}
+TopoDS_Shape moved(const TopoDS_Shape& shape, const std::function<void(gp_Trsf&)>& set) {
+  gp_Trsf t;
+  set(t);
+  return BRepBuilderAPI_Transform(shape, t, true).Shape();
+}
+TopoDS_Shape shifted(const TopoDS_Shape& shape, gp_Vec way) {
+  return moved(shape, [&](gp_Trsf& t) { t.SetTranslation(way); });
+}
+TopoDS_Shape turned(const TopoDS_Shape& shape, gp_Dir axis, double angle) {
+  return moved(shape, [&](gp_Trsf& t) { t.SetRotation(gp_Ax1(gp_Pnt(), axis), angle); });
+}
+
+/// About the x axis.
+TopoDS_Shape ring(const Foil& foil, double radius, double chord, double angle = 2 * M_PI) {
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(outline({foil, straight(gp_Pnt(0, 0, radius), chord)})).Face();
+  return BRepPrimAPI_MakeRevol(face, gp::OX(), angle).Shape();
+}
+
+/// Closed polygon in the plane of x and z, extruded along y.
+TopoDS_Face polygon(const std::vector<gp_Pnt>& points) {
+  BRepBuilderAPI_MakePolygon wire;
+  for (const gp_Pnt& p : points) wire.Add(p);
+  wire.Close();
+  return BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+}
+TopoDS_Shape prism(const std::vector<gp_Pnt>& points, double length) {
+  return BRepPrimAPI_MakePrism(polygon(points), gp_Vec(0, length, 0)).Shape();
+}
+
+/// A body of revolution about the x axis through points (x, radius), smooth, from one tip to another or to a flat end.
+TopoDS_Shape fuselage(const std::vector<std::pair<double, double>>& radii) {
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, static_cast<int>(radii.size()));
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    points->SetValue(static_cast<int>(i) + 1, gp_Pnt(radii[i].first, 0, radii[i].second));
+  GeomAPI_Interpolate fit(points, false, 1e-9);
+  fit.Load(gp_Vec(0, 0, 1), gp_Vec(1, 0, radii.back().second > 0 ? 0 : -1), false);
+  fit.Perform();
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge());
+  const gp_Pnt first = points->First(), last = points->Last(), on_axis(last.X(), 0, 0);
+  if (last.Distance(on_axis) > 1e-9) wire.Add(line(last, on_axis));
+  wire.Add(line(on_axis, first));
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OX()).Shape();
+}
+
+// --- wings ---
+
+const Foil kBlunt{.base = 0.004, .tail = Tail::kBlunt};
+
+/// Span 5, chord 1.
+TopoDS_Shape rectangle(const Foil& foil) {
+  return loft(foil, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 5, 0), 1)});
+}
+
+/// The base of a rectangular wing, and that alone, in pieces along the span.
+TopoDS_Shape base_in_pieces(int n) {
+  TopTools_ListOfShape wing, lines;
+  wing.Append(rectangle(kBlunt));
+  for (int i = 1; i < n; ++i) {
+    const double y = 5.0 * i / n, h = 0.5 * kBlunt.base;
+    lines.Append(line(gp_Pnt(1, y, -h), gp_Pnt(1, y, h)));
+  }
+  if (n == 1) return wing.First();
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(wing);
+  splitter.SetTools(lines);
+  splitter.Build();
+  return splitter.Shape();
+}
+
+/// From the root of the front wing around the tip to that of the rear one.
+TopoDS_Shape box_wing() {
+  std::vector<Section> sections = {{{}, straight(gp_Pnt(0, 0, 0), 1)}};
+  const auto corner = [&](double x, double y, double z, double from_deg) {
+    for (int i = 0; i <= 5; ++i) {
+      const double share = i / 5.0, angle = (from_deg + 90 * share) * M_PI / 180;
+      const gp_Pnt nose(x + 0.1 * share, y + 0.2 * std::sin(angle), z - 0.2 * std::cos(angle));
+      sections.push_back({{}, straight(nose, 0.7, from_deg + 90 * share)});
+    }
+  };
+  corner(1, 2.8, 0.2, 0);
+  corner(1.5, 2.8, 1, 90);
+  sections.push_back({{}, straight(gp_Pnt(2.6, 0, 1.2), 0.8, 180)});
+  return loft(sections);
+}
+
+TopoDS_Shape blended_winglet() {
+  std::vector<Frame> frames;
+  const auto main = [](double y) { return straight(gp_Pnt(0.3 * y, y, 0), 1.2 - 0.15 * y); };
+  for (const double y : {0.0, 0.8, 1.5, 2.1, 2.6, 3.0, 3.3, 3.5, 3.65, 3.78, 3.9}) frames.push_back(main(y));
+  for (int i = 0; i <= 8; ++i) {
+    const double angle = 90 * i / 8.0, a = angle * M_PI / 180;
+    frames.push_back(straight(gp_Pnt(1.2 + 0.15 * i / 8, 4 + 0.5 * std::sin(a), 0.5 - 0.5 * std::cos(a)), 0.6, angle));
+  }
+  for (const double z : {0.6, 0.7, 0.82, 0.95, 1.1, 1.3})
+    frames.push_back(straight(gp_Pnt(1.35 + 0.625 * (z - 0.5), 4.5, z), 0.6 - 0.3125 * (z - 0.5), 90));
+  return loft(kBlunt, frames, false);
+}
+
+/// A crank at y = 1.5, and a tip rounded about its chord.
+TopoDS_Shape kinked_wing() {
+  const Frame tip = straight(gp_Pnt(2.6, 4, 0), 0.6);
+  const TopoDS_Shape wing = loft({}, {straight(gp_Pnt(0, 0, 0), 2), straight(gp_Pnt(1, 1.5, 0), 1.2), tip});
+  const Section end{{}, tip};
+  const TopoDS_Wire whole = outline({{.cuts = {0}}, tip});
+  BRepBuilderAPI_MakeWire half;
+  half.Add(TopoDS::Edge(TopExp_Explorer(whole, TopAbs_EDGE).Current()));
+  half.Add(line(at(end, 0, 1), at(end, 1, 1)));
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(half.Wire()).Face();
+  return fuse(wing, BRepPrimAPI_MakeRevol(face, gp_Ax1(tip(0, 0), gp::DX())).Shape());
+}
+
+TopoDS_Shape elliptic_wing() {
+  std::vector<Frame> frames;
+  for (int i = -8; i <= 8; ++i) {
+    const double y = 2.97 * std::sin(M_PI / 2 * i / 8), chord = std::sqrt(1 - y * y / 9);
+    frames.push_back(straight(gp_Pnt(0.25 - 0.25 * chord, y, 0), chord));
+  }
+  return loft(kBlunt, frames, false);
+}
+
+TopoDS_Shape flying_wing() {
+  return loft({.thickness = 0.14, .camber = 0.02},
+              {straight(gp_Pnt(2.9, -4, -0.5), 0.5), straight(gp_Pnt(2.2, -3.2, 0), 0.9), straight(gp_Pnt(0, 0, 0), 2),
+               straight(gp_Pnt(2.2, 3.2, 0), 0.9), straight(gp_Pnt(2.9, 4, -0.5), 0.5)});
+}
+
+/// Strut above a foil of chord 1; `from`: nose of the strut.
+TopoDS_Shape hydrofoil(double from) {
+  return fuse(loft({}, {straight(gp_Pnt(0, -2, 0), 1), straight(gp_Pnt(0, 2, 0), 1)}),
+              loft({}, {straight(gp_Pnt(from, 0, 0), 0.8, 90), straight(gp_Pnt(from, 0, 2), 0.8, 90)}));
+}
+
+TopoDS_Shape t_tail() {
+  const TopoDS_Shape fin = loft({}, {straight(gp_Pnt(0, 0, 0), 1.5, 90), straight(gp_Pnt(1.5, 0, 3), 1, 90)});
+  return fuse(fin, loft({.thickness = 0.1}, {straight(gp_Pnt(2.3, -2, 3), 0.5), straight(gp_Pnt(1.7, 0, 3), 1),
+                                             straight(gp_Pnt(2.3, 2, 3), 0.5)}));
+}
+
+TopoDS_Shape rudder() {
+  const TopoDS_Shape blade = loft({.thickness = 0.18, .base = 0.01, .tail = Tail::kBlunt},
+                                  {straight(gp_Pnt(0, 0, 0), 1, 90), straight(gp_Pnt(0, 0, 2), 1, 90)});
+  BRepFilletAPI_MakeFillet fillet(blade);
+  for (TopExp_Explorer e(blade, TopAbs_EDGE); e.More(); e.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(e.Current()));
+    const gp_Pnt a = curve.Value(curve.FirstParameter()), b = curve.Value(curve.LastParameter());
+    const gp_Pnt m = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    if (std::abs(a.Z() - b.Z()) < 1e-6 && m.X() < 0.9) fillet.Add(0.004, TopoDS::Edge(e.Current()));
+  }
+  return fillet.Shape();
+}
+
+TopoDS_Shape two_elements() {
+  const TopoDS_Shape main = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+  const auto flap = [](double y) { return straight(gp_Pnt(0.98, y, -0.08), 0.35, 0, 20); };
+  return compound_of({main, loft(kBlunt, {flap(0), flap(4)})});
+}
+
+TopoDS_Shape aircraft() {
+  const auto body = fuselage({{0, 0}, {0.4, 0.3}, {1.2, 0.47}, {2.5, 0.5}, {6, 0.5}, {8, 0.33}, {9, 0.2}, {9.8, 0}});
+  const TopoDS_Shape wing =
+      loft({}, {straight(gp_Pnt(5, -5, 0), 0.6), straight(gp_Pnt(3, 0, 0), 1.6), straight(gp_Pnt(5, 5, 0), 0.6)});
+  const TopoDS_Shape tail =
+      loft({.thickness = 0.1},
+           {straight(gp_Pnt(8.8, -2, 0), 0.4), straight(gp_Pnt(8.2, 0, 0), 0.8), straight(gp_Pnt(8.8, 2, 0), 0.4)});
+  const TopoDS_Shape fin =
+      loft({.thickness = 0.1}, {straight(gp_Pnt(8, 0, 0), 0.9, 90), straight(gp_Pnt(8.9, 0, 2), 0.5, 90)});
+  const TopoDS_Shape pylon =
+      loft({.thickness = 0.1}, {straight(gp_Pnt(3.4, 2, -0.5), 1.2, 90), straight(gp_Pnt(3.4, 2, 0), 1.2, 90)});
+  const TopoDS_Shape nacelle = shifted(ring({.thickness = 0.12}, 0.4, 1.2), gp_Vec(2.9, 2, -0.88));
+  return fuse_all({body, wing, tail, fin, pylon, nacelle});
+}
+
+TopoDS_Shape canard_and_delta() {
+  const auto body = fuselage({{0, 0}, {0.5, 0.25}, {1.2, 0.42}, {2, 0.5}, {5, 0.5}, {9.5, 0.5}});
+  const TopoDS_Shape wing = loft({.thickness = 0.04}, {straight(gp_Pnt(8.5, -3, 0), 0.5), straight(gp_Pnt(4, 0, 0), 5),
+                                                       straight(gp_Pnt(8.5, 3, 0), 0.5)});
+  const TopoDS_Shape canard = loft(
+      {.thickness = 0.06},
+      {straight(gp_Pnt(2.6, -1.5, 0.1), 0.4), straight(gp_Pnt(2, 0, 0.1), 1), straight(gp_Pnt(2.6, 1.5, 0.1), 0.4)});
+  const TopoDS_Shape fin =
+      loft({.thickness = 0.06}, {straight(gp_Pnt(7.5, 0, 0), 1.5, 90), straight(gp_Pnt(8.6, 0, 2), 0.6, 90)});
+  return fuse_all({body, wing, canard, fin});
+}
+
+/// A wing on a fuselage, and the corner between them filled with a rolling ball.
+TopoDS_Shape wing_with_fairing() {
+  const TopoDS_Shape both = fuse(cylinder(gp_Pnt(-3, 0, 0), gp::DX(), 1, 8),
+                                 loft({.base = 0.01, .tail = Tail::kBlunt, .cuts = {0}},
+                                      {straight(gp_Pnt(0, 0, 0), 2), straight(gp_Pnt(0.5, 5, 0), 1)}));
+  BRepFilletAPI_MakeFillet fillet(both);
+  for (TopExp_Explorer e(both, TopAbs_EDGE); e.More(); e.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(e.Current()));
+    const gp_Pnt m = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    if (std::abs(std::hypot(m.Y(), m.Z()) - 1) < 1e-4 && m.Y() > 0.5 && m.X() > 0.05 && m.X() < 1.95)
+      fillet.Add(0.1, TopoDS::Edge(e.Current()));
+  }
+  return fillet.Shape();
+}
+
+// --- blades ---
+
+/// Blades from a hub of radius 0.25 to 0.95, and a duct of radius 1 around them.
+TopoDS_Shape ducted_fan() {
+  const TopoDS_Shape hub = fuselage({{-0.6, 0}, {-0.4, 0.18}, {0, 0.25}, {0.3, 0.25}, {0.6, 0.15}, {0.9, 0}});
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 4; ++i) {
+    const double share = i / 4.0;
+    frames.push_back(straight(gp_Pnt(-0.15, 0, 0.15 + 0.8 * share), 0.3, 90, 60 - 40 * share));
+  }
+  const TopoDS_Shape blade =
+      loft({.thickness = 0.1, .base = 0.01, .camber = 0.03, .tail = Tail::kBlunt}, frames, false);
+  TopoDS_Shape fan = hub;
+  for (int i = 0; i < 5; ++i) fan = fuse(fan, turned(blade, gp::DX(), 2 * M_PI * i / 5));
+  return compound_of(
+      {shifted(ring({.thickness = 0.15, .base = 0.01, .tail = Tail::kBlunt}, 1.1, 1), gp_Vec(-0.5, 0, 0)), fan});
+}
+
+/// Along a spiral about the z axis.
+Frame spiral(double r0, double r1, double turn, double z) {
+  const auto middle = [=](double x) {
+    const double r = r0 + (r1 - r0) * x, angle = turn * x;
+    return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z);
+  };
+  return [=](double x, double h) {
+    const gp_Vec along(middle(x - 1e-4), middle(x + 1e-4));
+    return middle(x).Translated(h * (r1 - r0) * gp_Vec(0, 0, 1).Crossed(along.Normalized()));
+  };
+}
+
+TopoDS_Shape impeller() {
+  const Foil foil{.thickness = 0.06, .base = 0.01, .tail = Tail::kBlunt};
+  TopoDS_Shape all = cylinder(gp_Pnt(0, 0, -0.1), gp::DZ(), 1.05, 0.15);
+  all = fuse(all, cylinder(gp_Pnt(0, 0, 0), gp::DZ(), 0.2, 0.3));
+  const TopoDS_Shape blade = loft(foil, {spiral(0.35, 1, 0.9, 0), spiral(0.4, 1, 0.9, 0.35)}),
+                     splitter = loft(foil, {spiral(0.65, 1, 0.4, 0), spiral(0.68, 1, 0.4, 0.35)});
+  for (int i = 0; i < 6; ++i) {
+    all = fuse(all, turned(blade, gp::DZ(), M_PI / 3 * i));
+    all = fuse(all, turned(splitter, gp::DZ(), M_PI / 3 * (i + 0.5) + 0.5));
+  }
+  return all;
+}
+
+const Foil kTurbine{.thickness = 0.16, .base = 0.02, .camber = 0.12, .tail = Tail::kRound};
+
+Foil with_cuts(Foil foil, std::vector<double> cuts) {
+  foil.cuts = std::move(cuts);
+  return foil;
+}
+
+/// Length 1, chord 0.5, turned by 40 degrees.
+TopoDS_Shape turbine_blade(const Foil& foil) {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 4; ++i) frames.push_back(straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i));
+  return loft(foil, frames, false);
+}
+
+/// One closed curve around each section, its seam on the upper side.
+TopoDS_Shape seamless_blade() {
+  BRepOffsetAPI_ThruSections thru(true, false, 1e-6);
+  for (int i = 0; i <= 4; ++i) {
+    const Section s{kTurbine, straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i)};
+    Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 40);
+    for (int k = 0; k < 40; ++k) {
+      const double angle = 2 * M_PI * (k + 10) / 40, x = 0.5 * (1 + std::cos(angle));
+      points->SetValue(k + 1, at(s, x, std::sin(angle) >= 0 ? 1 : -1));
+    }
+    GeomAPI_Interpolate fit(points, true, 1e-9);
+    fit.Perform();
+    thru.AddWire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge()).Wire());
+  }
+  thru.Build();
+  return thru.Shape();
+}
+
+TopoDS_Shape vanes() {
+  const TopoDS_Shape vane = loft(kTurbine, {straight(gp_Pnt(0, 0, -0.05), 1, 90), straight(gp_Pnt(0, 0, 1.05), 1, 90)});
+  TopoDS_Shape all = fuse(box(-0.3, -0.4, -0.1, 1.6, 2.2, 0.1), vane);
+  for (int i = 1; i < 3; ++i) all = fuse(all, shifted(vane, gp_Vec(0, 0.7 * i, 0)));
+  return fuse(all, box(-0.3, -0.4, 1, 1.6, 2.2, 0.1));
+}
+
+/// Four fins of height 0.4 on a body of radius 0.3.
+TopoDS_Shape rocket_fins() {
+  const Foil foil{.thickness = 0.05, .base = 0.01, .tail = Tail::kBlunt};
+  const TopoDS_Shape fin = loft(foil, {straight(gp_Pnt(4, 0, 0), 1.2, 90), straight(gp_Pnt(4.6, 0, 0.7), 0.5, 90)});
+  TopoDS_Shape all = fuselage({{0, 0}, {0.5, 0.2}, {1.2, 0.3}, {3, 0.3}, {5.4, 0.3}});
+  for (int i = 0; i < 4; ++i) all = fuse(all, turned(fin, gp::DX(), M_PI / 2 * i));
+  return all;
+}
+
+/// No thickness.
+TopoDS_Shape sail() {
+  BRepOffsetAPI_ThruSections thru(false, false, 1e-6);
+  for (int i = 0; i <= 3; ++i) {
+    const double z = i, chord = 1 - 0.2 * i;
+    Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 5);
+    for (int k = 0; k < 5; ++k)
+      points->SetValue(k + 1, gp_Pnt(0.1 * z + chord * k / 4, 0.1 * chord * std::sin(M_PI * k / 4), z));
+    GeomAPI_Interpolate fit(points, false, 1e-9);
+    fit.Perform();
+    thru.AddWire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge()).Wire());
+  }
+  thru.Build();
+  return thru.Shape();
+}
+
+// --- machine parts ---
+
+TopoDS_Shape wedge_bracket() {
+  const TopoDS_Shape wedge = prism({{0, 0, 0}, {60, 0, 0}, {60, 0, 14}}, 80);
+  return cut(fuse(wedge, box(60, 0, -20, 6, 80, 60)), cylinder(gp_Pnt(55, 40, 25), gp::DX(), 5, 20));
+}
+
+/// All four edges below 45 degrees.
+TopoDS_Shape chamfered_plate() {
+  const double a = 60, b = 40, h = 5;
+  BRepOffsetAPI_ThruSections thru(true, true);
+  for (const auto& [inset, z] : {std::pair(0.0, 0.0), std::pair(h, h)}) {
+    BRepBuilderAPI_MakePolygon wire(gp_Pnt(inset, inset, z), gp_Pnt(a - inset, inset, z),
+                                    gp_Pnt(a - inset, b - inset, z), gp_Pnt(inset, b - inset, z), true);
+    thru.AddWire(wire.Wire());
+  }
+  thru.Build();
+  return cut(thru.Shape(), cylinder(gp_Pnt(30, 20, -1), gp::DZ(), 4, 20));
+}
+
+/// A chisel: one end of a plate is sharp.
+TopoDS_Shape chisel() { return prism({{0, 0, 0}, {60, 0, 0}, {60, 0, 4}, {8, 0, 4}}, 50); }
+
+/// Slanted slats whose ends are upright.
+TopoDS_Shape louvre() {
+  TopoDS_Shape all = cut(box(0, 0, 0, 40, 100, 120), box(-1, 6, 6, 50, 88, 108));
+  for (int i = 0; i < 6; ++i)
+    all = fuse(all, shifted(prism({{2, 0, 0}, {38, 0, 25}, {38, 0, 28}, {2, 0, 3}}, 96), gp_Vec(0, 2, 8 + 15 * i)));
+  return all;
+}
+
+TopoDS_Shape heat_sink() {
+  TopoDS_Shape all = box(0, 0, 0, 60, 80, 6);
+  for (int i = 0; i < 6; ++i)
+    all = fuse(all, shifted(prism({{0, 0, 0}, {3, 0, 0}, {1.9, 0, 30}, {1.1, 0, 30}}, 80), gp_Vec(5 + 9 * i, 0, 6)));
+  return all;
+}
+
+/// A ridge of three turns on a bolt: a triangle along a spiral.
+TopoDS_Shape thread() {
+  BRepOffsetAPI_ThruSections thru(true, false, 1e-4);
+  for (int i = 0; i <= 72; ++i) {
+    const double angle = M_PI / 12 * i, z = 3 * angle / (2 * M_PI);
+    const auto point = [&](double r, double dz) { return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z + dz); };
+    thru.AddWire(BRepBuilderAPI_MakePolygon(point(10, -1), point(12, 0), point(10, 1), true).Wire());
+  }
+  thru.Build();
+  return compound_of({cylinder(gp_Pnt(0, 0, -3), gp::DZ(), 9.5, 24), thru.Shape()});
+}
+
+TopoDS_Shape gear() {
+  std::vector<gp_Pnt> points;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = M_PI / 12 * i, r = i % 2 ? 30 : 42;
+    points.emplace_back(r * std::cos(angle), 0, r * std::sin(angle));
+  }
+  return cut(prism(points, 50), cylinder(gp_Pnt(0, -1, 0), gp::DY(), 10, 60));
+}
+
+/// A bowl with a sharp rim, and a handle.
+TopoDS_Shape spoon() {
+  const TopoDS_Shape bowl =
+      common(cut(ball(gp_Pnt(0, 0, 0), 30), ball(gp_Pnt(0, 0, 3), 30)), box(-40, -40, -40, 80, 80, 41.5));
+  return fuse(bowl, box(25, -4, -4, 80, 8, 3));
+}
+
+TopoDS_Shape lens() { return common(ball(gp_Pnt(0, 0, -40), 50), ball(gp_Pnt(0, 0, 40), 50)); }
+
+/// A disc with radial ribs that end in a ridge.
+TopoDS_Shape cover_plate() {
+  TopoDS_Shape all = cut(cylinder(gp_Pnt(0, 0, -4), gp::DZ(), 60, 4.5), cylinder(gp_Pnt(0, 0, -5), gp::DZ(), 15, 10));
+  const TopoDS_Shape rib = shifted(prism({{-3, 0, 0}, {3, 0, 0}, {0, 0, 7}}, 35), gp_Vec(0, 20, 0));
+  for (int i = 0; i < 8; ++i) all = fuse(all, turned(rib, gp::DZ(), M_PI / 4 * i));
+  return all;
+}
+
+/// A gusset between two plates, thinner outward.
+TopoDS_Shape tapered_rib() {
+  BRepOffsetAPI_ThruSections thru(true, true);
+  thru.AddWire(
+      BRepBuilderAPI_MakePolygon(gp_Pnt(0, -3, 0), gp_Pnt(60, -3, 0), gp_Pnt(60, 3, 0), gp_Pnt(0, 3, 0), true).Wire());
+  thru.AddWire(
+      BRepBuilderAPI_MakePolygon(gp_Pnt(0, -1, 50), gp_Pnt(5, -1, 50), gp_Pnt(5, 1, 50), gp_Pnt(0, 1, 50), true)
+          .Wire());
+  thru.Build();
+  return fuse_all({thru.Shape(), box(-5, -30, -5, 80, 60, 5), box(-5, -30, -5, 5, 60, 70)});
+}
+
+/// A ring with a sharp lip.
+TopoDS_Shape seal() {
+  const TopoDS_Face face = polygon({{0, 0, 40}, {12, 0, 40}, {12, 0, 46}, {8, 0, 46}});
+  return BRepPrimAPI_MakeRevol(face, gp::OX()).Shape();
+}
+
+using Maker = std::function<TopoDS_Shape()>;
+const std::map<std::string, Maker>& models() {
+  static const Foil lips{.thickness = 0.1, .base = 0.005, .camber = 0.02, .tail = Tail::kBlunt};
+  static const std::map<std::string, Maker> all{
+      {"blunt_1", [] { return base_in_pieces(1); }},
+      {"blunt_3", [] { return base_in_pieces(3); }},
+      {"blunt_40", [] { return base_in_pieces(40); }},
+      {"blunt_200", [] { return base_in_pieces(200); }},
+      {"base_in_halves", [] { return rectangle({.base = 0.004, .tail = Tail::kBlunt, .base_pieces = 2}); }},
+      {"ring_wing", [] { return ring({}, 1.5, 1); }},
+      {"ducted_fan", ducted_fan},
+      {"impeller", impeller},
+      {"hydrofoil", [] { return hydrofoil(0.1); }},
+      {"hydrofoil_joined", [] { return hydrofoil(0.2); }},
+      {"t_tail", t_tail},
+      {"box_wing", box_wing},
+      {"rudder", rudder},
+      {"two_elements", two_elements},
+      {"winglet", blended_winglet},
+      {"nacelle", [] { return ring(lips, 0.8, 2); }},
+      {"nacelle_c", [] { return ring(lips, 0.8, 2, 5 * M_PI / 3); }},
+      {"kinked_wing", kinked_wing},
+      {"elliptic_wing", elliptic_wing},
+      {"aircraft", aircraft},
+      {"wing_with_fairing", wing_with_fairing},
+      {"blade_of_four",
+       [] {
+         return turbine_blade(with_cuts(kTurbine, {0.05, -0.05}));
+       }},
+      {"blade_of_two", [] { return turbine_blade(with_cuts(kTurbine, {0})); }},
+      {"blade_of_one", seamless_blade},
+      {"vanes", vanes},
+      {"rocket_fins", rocket_fins},
+      {"sail", sail},
+      {"flying_wing", flying_wing},
+      {"canard_and_delta", canard_and_delta},
+      {"delta",
+       [] {
+         return loft({.thickness = 0.06}, {straight(gp_Pnt(0, 0, 0), 4), straight(gp_Pnt(3.8, 2, 0), 0.2)});
+       }},
+      {"part_bracket", wedge_bracket},
+      {"part_plate", chamfered_plate},
+      {"part_chisel", chisel},
+      {"part_louvre", louvre},
+      {"part_heat_sink", heat_sink},
+      {"part_thread", thread},
+      {"part_gear", gear},
+      {"part_spoon", spoon},
+      {"part_lens", lens},
+      {"part_cover", cover_plate},
+      {"part_rib", tapered_rib},
+      {"part_seal", seal}};
+  return all;
+}
+
+void write(const TopoDS_Shape& shape, const std::string& path) {
+  if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) throw std::runtime_error("nothing made");
+  if (!BRepTools::Write(shape, path.c_str())) throw std::runtime_error("cannot write " + path);
+}
+
+void run(const std::vector<std::string>& a) {
+  if (a.empty())
+    for (const auto& [name, maker] : models()) std::puts(name.c_str());
+  else if (a.size() == 2 && models().contains(a[0]))
+    write(models().at(a[0])(), a[1]);
+  else
+    throw std::runtime_error("usage: wing_models [NAME OUT.brep]");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run({argv + 1, argv + argc});
+    return 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "wing_models: %s\n", e.what());
+  } catch (const Standard_Failure& e) {
+    std::fprintf(stderr, "wing_models: OpenCASCADE failed: %s\n", e.GetMessageString());
+  }
+  return 1;
+}
