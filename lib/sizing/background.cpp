@@ -13,6 +13,7 @@ namespace st {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSlack = 1e-9;  // of a gradient or a length that is limited: less is rounding
 
 /// Barycentric coordinates 1 to 3 of x are row . (x - corner); coordinate 0 is the rest to 1.
 struct TetFrame {
@@ -48,6 +49,48 @@ std::array<Vec3, 4> corners_of(const BackgroundMesh& mesh, const std::array<std:
 std::array<double, 4> lengths_of(const BackgroundMesh& mesh, const std::array<std::int32_t, 4>& tet) {
   const auto& s = mesh.node_size;
   return {s[tet[0]].length, s[tet[1]].length, s[tet[2]].length, s[tet[3]].length};
+}
+
+/// The direction that the squeezes of some nodes share, and how clearly: 1 where all are along it, 0 where another has
+/// as much.
+struct SharedSqueeze {
+  Vec3 direction;
+  double share = 0;
+};
+
+/// By their weights at a place, so that it does not jump from tetrahedron to tetrahedron.
+template <std::size_t N>
+SharedSqueeze shared_squeeze(const BackgroundMesh& mesh, const std::array<std::int32_t, N>& nodes,
+                             const std::array<double, N>& weight) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < N; ++k) {
+    const Eigen::Vector3d squeeze = to_eigen(mesh.node_size[nodes[k]].squeeze());
+    sum += std::max(0.0, weight[k]) * squeeze * squeeze.transpose();
+  }
+  if (!(sum.trace() > 0)) return {};
+  const PrincipalAxes axes = principal_axes(sum);
+  return {axes.axis[2], 1 - std::max(0.0, axes.value[1]) / axes.value[2]};
+}
+
+/// Barycentric coordinates of the place on a triangle that is closest to x.
+std::array<double, 3> closest_on_triangle(const std::array<Vec3, 3>& p, Vec3 x) {
+  const Vec3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b), r = x - p[0];
+  const double n2 = norm2(n), wb = n2 > 0 ? dot(cross(r, b), n) / n2 : -1, wc = n2 > 0 ? dot(cross(a, r), n) / n2 : -1;
+  if (wb >= 0 && wc >= 0 && wb + wc <= 1) return {1 - wb - wc, wb, wc};
+  std::array<double, 3> closest{1, 0, 0};
+  double least = kInfinity;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t to = (k + 1) % 3;
+    const Vec3 side = p[to] - p[k];
+    const double side2 = norm2(side), t = side2 > 0 ? std::clamp(dot(x - p[k], side) / side2, 0.0, 1.0) : 0,
+                 d2 = norm2(p[k] + t * side - x);
+    if (!(d2 < least)) continue;
+    least = d2;
+    closest = {};
+    closest[k] = 1 - t;
+    closest[to] = t;
+  }
+  return closest;
 }
 
 /// Faces that one tetrahedron alone has, by their nodes.
@@ -115,14 +158,19 @@ class BackgroundSource final : public SizeSource {
 
   double size(Vec3 x, int&) const override { return size_below(x, kInfinity); }
   double size_below(Vec3 x, double upper) const override {
-    std::size_t tet = 0;
-    return least_outside(x, least_inside(x, upper, tet));
+    std::size_t tet = kNowhere, border = kNowhere;
+    return least_outside(x, least_inside(x, upper, tet), border);
   }
   LocalSize local(Vec3 x, int&) const override {
-    std::size_t tet = mesh_.tets.size();
-    const double inside = least_inside(x, kInfinity, tet), length = least_outside(x, inside);
-    if (length < inside || max_aspect_ <= 1) return {length, length, {}};
-    return stretched_in(tet, x, length);
+    std::size_t tet = kNowhere, border = kNowhere;
+    const double length = least_outside(x, least_inside(x, kInfinity, tet), border);
+    if (max_aspect_ <= 1) return {length, length, {}};
+    const SharedSqueeze shared =
+        border == kNowhere ? shared_squeeze(mesh_, mesh_.tets[tet], frames_[tet].coordinates(x))
+                           : shared_squeeze(mesh_, border_[border], closest_on_triangle(corners_of(border), x));
+    if (!(shared.share > 0)) return {length, length, {}};
+    const double along = length_in(shared.direction, x);
+    return {length, length + shared.share * std::max(0.0, along - length), shared.direction};
   }
   double min_size() const override { return min_size_; }
   double max_aspect() const override { return max_aspect_; }
@@ -132,7 +180,7 @@ class BackgroundSource final : public SizeSource {
   void leave_out_flat() {
     std::vector<std::array<std::int32_t, 4>> tets;
     for (const auto& tet : mesh_.tets)
-      if (TetFrame frame; frame.make(corners_of(mesh_, tet))) {
+      if (TetFrame frame; frame.make(st::corners_of(mesh_, tet))) {
         frames_.push_back(frame);
         tets.push_back(tet);
       }
@@ -153,15 +201,18 @@ class BackgroundSource final : public SizeSource {
     return {boxes, least};
   }
 
+  static bool is_inside(const std::array<double, 4>& at) {
+    constexpr double kOnSide = -1e-9;  // of the height: sides are shared
+    return *std::min_element(at.begin(), at.end()) >= kOnSide;
+  }
   static double interpolated(const std::array<double, 4>& at, const std::array<double, 4>& value) {
     return at[0] * value[0] + at[1] * value[1] + at[2] * value[2] + at[3] * value[3];
   }
   /// Of the tetrahedra that hold x, or best; `winner`: the first of those with the smallest.
   double least_inside(Vec3 x, double best, std::size_t& winner) const {
-    constexpr double kOnSide = -1e-9;  // of the height: sides are shared
     tet_tree_.visit_at(x, best, [&](std::int32_t t) {
       const std::array<double, 4> at = frames_[t].coordinates(x);
-      if (*std::min_element(at.begin(), at.end()) < kOnSide) return;
+      if (!is_inside(at)) return;
       const double length = interpolated(at, lengths_of(mesh_, mesh_.tets[t]));
       if (length < best) {
         best = length;
@@ -170,29 +221,45 @@ class BackgroundSource final : public SizeSource {
     });
     return best;
   }
-  double least_outside(Vec3 x, double best) const {
+  /// Of the growth from the border, or best; `winner`: the triangle that asks for less than best, else unchanged.
+  double least_outside(Vec3 x, double best, std::size_t& winner) const {
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
-      const auto& n = border_[b];
-      const auto& s = mesh_.node_size;
-      best = std::min(best, least_over_triangle(x, {mesh_.node_xyz[n[0]], mesh_.node_xyz[n[1]], mesh_.node_xyz[n[2]]},
-                                                {s[n[0]].length, s[n[1]].length, s[n[2]].length}, slope()));
+      const auto triangle = static_cast<std::size_t>(b);
+      const std::array<double, 3> lengths = values_at(border_[triangle], [](const LocalSize& s) { return s.length; });
+      const double length = least_over_triangle(x, corners_of(triangle), lengths, slope());
+      if (!(length < best)) return;
+      best = length;
+      winner = triangle;
     });
     return best;
   }
-  /// With the direction that the squeezes of the tetrahedron's nodes share most, and the lengths along it.
-  LocalSize stretched_in(std::size_t tet, Vec3 x, double length) const {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const std::int32_t node : mesh_.tets[tet]) {
-      const Eigen::Vector3d squeeze = to_eigen(mesh_.node_size[node].squeeze());
-      sum += squeeze * squeeze.transpose();
-    }
-    if (!(sum.trace() > 0)) return {length, length, {}};
-    const Vec3 direction = principal_axes(sum).axis[2];
-    std::array<double, 4> along{};
-    for (std::size_t k = 0; k < 4; ++k) along[k] = mesh_.node_size[mesh_.tets[tet][k]].in(direction);
-    return {length, std::max(length, interpolated(frames_[tet].coordinates(x), along)), direction};
+  /// The smallest along `direction` of what the tetrahedra at x, and the border by its growth, ask for.
+  double length_in(Vec3 direction, Vec3 x) const {
+    const auto in_direction = [&](const LocalSize& s) { return s.in(direction); };
+    double best = kInfinity;
+    tet_tree_.visit_at(x, best, [&](std::int32_t t) {
+      const std::array<double, 4> at = frames_[t].coordinates(x);
+      if (is_inside(at)) best = std::min(best, interpolated(at, values_at(mesh_.tets[t], in_direction)));
+    });
+    border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
+      const auto triangle = static_cast<std::size_t>(b);
+      const std::array<double, 3> lengths = values_at(border_[triangle], in_direction);
+      best = std::min(best, least_over_triangle(x, corners_of(triangle), lengths, slope()));
+    });
+    return best;
+  }
+  std::array<Vec3, 3> corners_of(std::size_t border) const {
+    const auto& n = border_[border];
+    return {mesh_.node_xyz[n[0]], mesh_.node_xyz[n[1]], mesh_.node_xyz[n[2]]};
+  }
+  template <std::size_t N, class Value>
+  std::array<double, N> values_at(const std::array<std::int32_t, N>& nodes, const Value& value) const {
+    std::array<double, N> values{};
+    for (std::size_t k = 0; k < N; ++k) values[k] = value(mesh_.node_size[nodes[k]]);
+    return values;
   }
 
+  static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   BackgroundMesh mesh_;
   std::vector<TetFrame> frames_;                     // [tets]
   std::vector<std::array<std::int32_t, 3>> border_;  // nodes
@@ -204,11 +271,10 @@ class BackgroundSource final : public SizeSource {
 /// Lowers the lengths of one tetrahedron until its gradient is no more than the slope: the largest alone where that is
 /// enough, else all towards the smallest. False: nothing to do.
 bool limit_tet(const std::array<Vec3, 4>& p, double slope, std::array<double, 4>& h) {
-  constexpr double kSlack = 1 + 1e-9;
   TetFrame frame;
   if (!frame.make(p)) return false;
   const double steepness = norm(frame.gradient(h));
-  if (!(steepness > kSlack * slope)) return false;
+  if (!(steepness > (1 + kSlack) * slope)) return false;
   const auto [least, top] = std::minmax_element(h.begin(), h.end());
   // the gradient is g0 + h_top * row: of the values of h_top that hold it to the slope, the largest
   const double smallest = *least, was = *top;
@@ -243,6 +309,91 @@ struct NodeTets {
   }
 };
 
+/// What an edge at a node may be along, so that no more than `value` is requested in direction `d`.
+double along_for(const LocalSize& size, Vec3 d, double value) {
+  if (!(value > size.length)) return size.length;
+  const double part = dot(d, size.direction), share = part * part;
+  const double rest = 1 / (value * value) - (1 - share) / (size.length * size.length);
+  return rest > 0 ? std::clamp(std::sqrt(share / rest), size.length, size.along) : size.along;
+}
+
+class GrowthLimiter {
+ public:
+  GrowthLimiter(double slope, BackgroundMesh& mesh)
+      : mesh_(mesh), tets_of_(mesh), slope_(slope), is_lowered_(mesh.node_xyz.size(), 0) {}
+
+  void limit_lengths() {
+    lower_all([&](const std::array<std::int32_t, 4>& tet, const auto& lowered) {
+      std::array<double, 4> length = lengths_of(mesh_, tet);
+      const std::array<double, 4> before = length;
+      if (!limit_tet(corners_of(mesh_, tet), slope_, length)) return;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (!(length[k] < before[k])) continue;
+        mesh_.node_size[tet[k]].length = length[k];
+        lowered(tet[k]);
+      }
+    });
+  }
+
+  /// Likewise what is requested along the direction that a tetrahedron's nodes share, and along that of each.
+  void limit_along() {
+    if (std::none_of(mesh_.node_size.begin(), mesh_.node_size.end(), is_stretched)) return;
+    lower_all([&](const std::array<std::int32_t, 4>& tet, const auto& lowered) {
+      limit_in(tet, shared_squeeze(mesh_, tet, {1, 1, 1, 1}).direction, lowered);
+      for (const std::int32_t node : tet)
+        if (is_stretched(mesh_.node_size[node])) limit_in(tet, mesh_.node_size[node].direction, lowered);
+    });
+  }
+
+  std::int64_t n_lowered() const { return std::count(is_lowered_.begin(), is_lowered_.end(), 1); }
+
+ private:
+  static bool is_stretched(const LocalSize& s) { return s.along > s.length; }
+
+  template <class Lowered>
+  void limit_in(const std::array<std::int32_t, 4>& tet, Vec3 direction, const Lowered& lowered) {
+    if (direction == Vec3{}) return;
+    std::array<double, 4> length{};
+    for (std::size_t k = 0; k < 4; ++k) length[k] = mesh_.node_size[tet[k]].in(direction);
+    const std::array<double, 4> before = length;
+    if (!limit_tet(corners_of(mesh_, tet), slope_, length)) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+      LocalSize& size = mesh_.node_size[tet[k]];
+      if (!(length[k] < before[k]) || !is_stretched(size)) continue;
+      const double along = along_for(size, direction, length[k]);
+      if (!(along < (1 - kSlack) * size.along)) continue;
+      size.along = along;
+      lowered(tet[k]);
+    }
+  }
+
+  /// Calls limit(tet, lowered) until no tetrahedron lowers a node any more.
+  template <class Limit>
+  void lower_all(const Limit& limit) {
+    std::vector<std::uint8_t> is_waiting(mesh_.tets.size(), 1);
+    std::vector<std::int32_t> waiting(mesh_.tets.size()), next;
+    for (std::size_t t = 0; t < waiting.size(); ++t) waiting[t] = static_cast<std::int32_t>(t);
+    const auto lowered = [&](std::int32_t node) {
+      is_lowered_[node] = 1;
+      for (std::int32_t i = tets_of_.first[node]; i < tets_of_.first[node + 1]; ++i)
+        if (const std::int32_t other = tets_of_.tet[i]; !is_waiting[other]) {
+          is_waiting[other] = 1;
+          next.push_back(other);
+        }
+    };
+    for (; !waiting.empty(); waiting.swap(next), next.clear())
+      for (const std::int32_t t : waiting) {
+        is_waiting[t] = 0;
+        limit(mesh_.tets[t], lowered);
+      }
+  }
+
+  BackgroundMesh& mesh_;
+  const NodeTets tets_of_;
+  const double slope_;
+  std::vector<std::uint8_t> is_lowered_;  // [nodes]
+};
+
 }  // namespace
 
 std::int64_t remove_stretch(BackgroundMesh& mesh) {
@@ -271,29 +422,10 @@ void append(const BackgroundMesh& other, BackgroundMesh& mesh) {
 }
 
 std::int64_t limit_growth(double slope, BackgroundMesh& mesh) {
-  const NodeTets tets_of(mesh);
-  std::vector<std::uint8_t> is_lowered(mesh.node_xyz.size(), 0), is_waiting(mesh.tets.size(), 1);
-  std::vector<std::int32_t> waiting(mesh.tets.size()), next;
-  for (std::size_t t = 0; t < waiting.size(); ++t) waiting[t] = static_cast<std::int32_t>(t);
-  for (; !waiting.empty(); waiting.swap(next), next.clear())
-    for (const std::int32_t t : waiting) {
-      is_waiting[t] = 0;
-      const auto& tet = mesh.tets[t];
-      const std::array<double, 4> before = lengths_of(mesh, tet);
-      std::array<double, 4> after = before;
-      if (!limit_tet(corners_of(mesh, tet), slope, after)) continue;
-      for (std::size_t k = 0; k < 4; ++k) {
-        if (!(after[k] < before[k])) continue;
-        mesh.node_size[tet[k]].length = after[k];
-        is_lowered[tet[k]] = 1;
-        for (std::int32_t i = tets_of.first[tet[k]]; i < tets_of.first[tet[k] + 1]; ++i)
-          if (const std::int32_t other = tets_of.tet[i]; !is_waiting[other]) {
-            is_waiting[other] = 1;
-            next.push_back(other);
-          }
-      }
-    }
-  return std::count(is_lowered.begin(), is_lowered.end(), 1);
+  GrowthLimiter limiter(slope, mesh);
+  limiter.limit_lengths();
+  limiter.limit_along();
+  return limiter.n_lowered();
 }
 
 std::unique_ptr<SizeSource> make_background(BackgroundMesh mesh, double slope) {

@@ -10,8 +10,8 @@
 
 namespace st {
 
-/// Lengths are linear in each tetrahedron. There one direction may have a longer length: the one along which its nodes
-/// together are stretched most.
+/// Lengths are linear in each tetrahedron. One direction may have a longer length: the one along which the nodes of the
+/// tetrahedron at a place are stretched most, by their weights there. The less they agree, the shorter it is.
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
   std::vector<LocalSize> node_size;
@@ -26,12 +26,14 @@ void transform(const Similarity& motion, BackgroundMesh& mesh);
 /// Appends the nodes and tetrahedra of another mesh.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);
 
-/// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`. The smallest length of a tetrahedron
-/// stays. The number of nodes that were lowered.
+/// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`, then longer ones until the same holds for
+/// the lengths along the direction that its nodes share, and along that of each of them. The smallest length of a
+/// tetrahedron stays. The number of nodes that were lowered.
 std::int64_t limit_growth(double slope, BackgroundMesh& mesh);
 
 /// In the mesh the smallest of what the tetrahedra there ask for, to rounding; flat ones are passed over. Elsewhere the
-/// lengths of its border, growing by the slope. Precondition: limit_growth().
+/// lengths of its border, growing by the slope; likewise along the direction of what is closest on the border.
+/// Precondition: limit_growth().
 std::unique_ptr<SizeSource> make_background(BackgroundMesh mesh, double slope);
 
 }  // namespace st

@@ -68,6 +68,11 @@ class ShapeSource final : public SizeSource {
     }
     least_.doubling = least_.radius + width;
     is_plain_ = least_.radius == 0 && !(width > 0);
+    if (!(spec.aspect > 1)) return;
+    SourceSpec longer = spec;  // from its points on lengths along grow as those across do, by the slope at most
+    for (SourceSpacing& of_point : longer.spacing) of_point.length *= spec.aspect;
+    longer.aspect = 1;
+    along_ = std::make_unique<ShapeSource>(longer, slope, distance);
   }
 
   double size(Vec3 x, int&) const override { return size_below(x, kInfinity); }
@@ -78,7 +83,8 @@ class ShapeSource final : public SizeSource {
   }
   LocalSize local(Vec3 x, int& hint) const override {
     const double length = size(x, hint);
-    return {length, spec_.aspect * length, spec_.aspect > 1 ? spec_.direction : Vec3{}};
+    if (!along_) return {length, length, {}};
+    return {length, std::max(length, along_->size(x, hint)), spec_.direction};
   }
   double max_aspect() const override { return spec_.aspect; }
   double min_size() const override { return least_.length; }
@@ -108,9 +114,10 @@ class ShapeSource final : public SizeSource {
 
   SourceSpec spec_;
   ShapeDistance distance_;
-  SourceSpacing least_;     // smallest length, largest radius, slowest growth of all its points
-  bool is_varied_ = false;  // the spacing is not one for all points
-  bool is_plain_ = false;   // lengths grow by the slope from every point on
+  SourceSpacing least_;                       // smallest length, largest radius, slowest growth of all its points
+  bool is_varied_ = false;                    // the spacing is not one for all points
+  bool is_plain_ = false;                     // lengths grow by the slope from every point on
+  std::unique_ptr<const ShapeSource> along_;  // lengths along `direction`; null: the same in all directions
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace st {
 namespace {
 
-constexpr double kBackgroundSlope = 0.2;
+constexpr double kBackgroundSlope = 0.2, kSteep = 10;  // of which the latter limits nothing
 
 BackgroundMesh one_tet(const std::array<double, 4>& lengths) {
   BackgroundMesh mesh;
@@ -54,7 +54,7 @@ TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   BackgroundMesh mesh = one_tet({});
   const Vec3 t = normalized(Vec3{1, 2, 0});
   mesh.node_size = {{0.1, 0.8, t}, {0.1, 0.4, -t}, {0.2, 0.2, {}}, {0.1, 0.6, t}};
-  const auto field = make_background(mesh, kBackgroundSlope);
+  const auto field = make_background(mesh, kSteep);
   int hint = 0;
   const LocalSize first = field->local({0, 0, 0}, hint), middle = field->local({0.25, 0.25, 0.25}, hint);
   EXPECT_NEAR(first.in(t), 0.8, 1e-9);
@@ -62,7 +62,7 @@ TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   EXPECT_NEAR(middle.length, 0.125, 1e-12);
   EXPECT_NEAR(field->max_aspect(), 8, 1e-9);
   EXPECT_EQ(remove_stretch(mesh), 3);
-  EXPECT_EQ(make_background(mesh, kBackgroundSlope)->local({0, 0, 0}, hint).in(t), 0.1);
+  EXPECT_EQ(make_background(mesh, kSteep)->local({0, 0, 0}, hint).in(t), 0.1);
 }
 
 TEST(BackgroundMesh, passes_over_flat_tetrahedra) {
@@ -107,6 +107,74 @@ TEST(BackgroundMesh, of_any_lengths_is_limited_to_the_slope_and_keeps_its_least)
     ASSERT_LE(background_at(*field, a) - background_at(*field, b), kBackgroundSlope * distance(a, b) * (1 + 1e-6));
   }
   EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
+}
+
+/// Random lengths across and along; some nodes have one length. `direction` tells where the longer one points.
+template <class Direction>
+BackgroundMesh stretched_cube(std::mt19937& random, const Direction& direction) {
+  std::uniform_real_distribution<double> uniform(0.02, 0.06), aspect(0.5, 10);
+  BackgroundMesh mesh = cube_of_tets(5, [&](Vec3) { return uniform(random); });
+  for (std::size_t i = 0; i < mesh.node_size.size(); ++i) {
+    LocalSize& s = mesh.node_size[i];
+    if (const double a = aspect(random); a > 1.2) s = {s.length, a * s.length, direction(mesh.node_xyz[i])};
+  }
+  return mesh;
+}
+
+/// The steepest rise of what is requested along `t`, over the slope.
+double steepest_along(const SizeField& field, Vec3 t, std::mt19937& random) {
+  double steepest = 0;
+  int hint = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 a = random_background_point(random, -0.2, 1.2), b = a + 0.1 * random_background_point(random, -1, 1);
+    const double rise = field.local(a, hint).in(t)-field.local(b, hint).in(t);
+    steepest = std::max(steepest, rise / (kBackgroundSlope * distance(a, b)));
+  }
+  return steepest;
+}
+
+TEST(BackgroundMesh, of_metrics_is_limited_to_the_slope_along_their_direction_too) {
+  std::mt19937 random(6);
+  const Vec3 t = normalized(Vec3{3, 2, 1});
+  BackgroundMesh mesh = stretched_cube(random, [&](Vec3) { return t; });
+  const BackgroundMesh before = mesh;
+  limit_growth(kBackgroundSlope, mesh);
+  double longest = 1;
+  for (std::size_t i = 0; i < mesh.node_size.size(); ++i) {
+    ASSERT_LE(mesh.node_size[i].along, before.node_size[i].along);
+    ASSERT_GE(mesh.node_size[i].along, mesh.node_size[i].length);
+    longest = std::max(longest, mesh.node_size[i].along / mesh.node_size[i].length);
+  }
+  EXPECT_GT(longest, 3);
+  EXPECT_LE(steepest_along(*make_background(mesh, kBackgroundSlope), t, random), 1 + 1e-6);
+  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
+}
+
+TEST(BackgroundMesh, of_metrics_does_not_jump_where_their_direction_turns) {
+  std::mt19937 random(7);
+  const auto around = [](Vec3 x) { return normalized(Vec3{1 + x.y, 1 - x.x, 0}); };
+  BackgroundMesh mesh = stretched_cube(random, around);
+  limit_growth(kBackgroundSlope, mesh);
+  EXPECT_LE(steepest_along(*make_background(mesh, kBackgroundSlope), around({0.5, 0.5, 0.5}), random), 1.6);
+}
+
+TEST(BackgroundMesh, of_metrics_that_contradict_each_other_is_stretched_nowhere_between) {
+  BackgroundMesh mesh = one_tet({});
+  mesh.node_size = {{0.1, 0.5, {1, 0, 0}}, {0.1, 0.5, {0, 1, 0}}, {0.1, 0.5, {1, 0, 0}}, {0.1, 0.5, {0, 1, 0}}};
+  const auto field = make_background(mesh, kSteep);
+  int hint = 0;
+  EXPECT_NEAR(field->local({0.25, 0.25, 0.25}, hint).along, 0.1, 1e-6);
+  EXPECT_NEAR(field->local({0, 0, 0}, hint).along, 0.5, 1e-9);
+}
+
+TEST(BackgroundMesh, of_metrics_grows_from_its_border_along_their_direction) {
+  BackgroundMesh mesh = cube_of_tets(2, [](Vec3) { return 0.1; });
+  for (LocalSize& s : mesh.node_size) s = {0.1, 0.4, {0, 0, 1}};
+  const auto field = make_background(mesh, kBackgroundSlope);
+  int hint = 0;
+  const LocalSize out = field->local({1.5, 0.5, 0.3}, hint);
+  EXPECT_NEAR(out.in({0, 0, 1}), 0.4 + 0.5 * kBackgroundSlope, 1e-9);
+  EXPECT_NEAR(out.in({1, 0, 0}), 0.1 + 0.5 * kBackgroundSlope, 1e-9);
 }
 
 TEST(BackgroundMesh, says_below_a_bound_what_it_says_without) {

@@ -132,6 +132,20 @@ TEST(Source, moves_with_its_frame) {
   }
 }
 
+TEST(Source, has_lengths_along_its_direction_that_grow_by_the_slope_too) {
+  SourceSpec spec;
+  spec.spacing[0] = {0.1, 0, 0};
+  spec.aspect = 5;
+  spec.direction = {0, 1, 0};
+  const auto source = make_source(spec, 0.2);
+  int hint = 0;
+  for (const double r : {0.0, 0.5, 3.0}) {
+    const LocalSize at = source->local({r, 0, 0}, hint);
+    EXPECT_NEAR(at.length, 0.1 + 0.2 * r, 1e-9);
+    EXPECT_NEAR(at.along, 0.5 + 0.2 * r, 1e-9);
+  }
+}
+
 TEST(Source, may_be_stretched_along_a_direction_that_turns_with_it) {
   SourceSpec spec = point_source({0.1, 0.5, 0});
   spec.aspect = 5;
@@ -142,7 +156,7 @@ TEST(Source, may_be_stretched_along_a_direction_that_turns_with_it) {
   };
   EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({1, 0, 0}), 0.5);
   EXPECT_DOUBLE_EQ(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.1);
-  EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * (0.1 + 0.5 * kSourceSlope), 1e-12);
+  EXPECT_NEAR(local(spec, {0, 1, 0}).in({1, 0, 0}), 5 * 0.1 + 0.5 * kSourceSlope, 1e-12);
   transform(parse_similarity("rotate 0 0 1 90", ""), spec);
   EXPECT_NEAR(local(spec, {0.2, 0, 0}).in({0, 1, 0}), 0.5, 1e-9);
 }
