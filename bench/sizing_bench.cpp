@@ -154,7 +154,6 @@ void bench_accuracy(const std::string& path) {
       samples = sorted_samples(boxes);
       forget_samples(raster);
     }
-    seed_lengths(samples, kSlope, raster);
     const Neighbours neighbours(raster.shape.view());
     storage->lengths = prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, largest});
     OctreeFieldData data{storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1};
@@ -187,6 +186,56 @@ void report_ratios(const char* where, std::vector<double> ratios) {
   const std::size_t n = ratios.size();
   report("{}: field / smallest of all samples at {} points, 1 to 99 %: {:.4f} to {:.4f}, worst {:.4f} to {:.4f}\n",
          where, n, ratios[n / 100], ratios[n * 99 / 100], ratios.front(), ratios.back());
+}
+
+/// Lengths along at nodes, and at steps in a random direction.
+void bench_stretch(const SizingArtifact& sizing, const OctreeField& field, const std::vector<LengthSample>& samples,
+                   const std::vector<Cone>& cones, const std::vector<Vec3>& nodes) {
+  constexpr int kPoints = 10'000, kSteps = 1'000'000;
+  constexpr double kTurned = 0.99;  // cosine
+  const Vec3 lo = sizing.shape.lo;
+  const auto exact = [&](Vec3 x, Vec3 t) {
+    const float unit[3] = {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
+    double least = sizing.numbers.far_length;
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+      const double rise = cones[i].length_at(x - lo) - cones[i].length;
+      if (rise < least)
+        least = std::min(least, ConeStretch(samples[i].stretch).length_in(unit, cones[i].length) + rise);
+    }
+    return sizing.scale * least;
+  };
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  std::vector<double> ratios, steps, turned;
+  int hint = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const Vec3 x = nodes[random() % nodes.size()];
+    if (const LocalSize at = field.local(x, hint); at.along > at.length)
+      ratios.push_back(at.along / exact(x, at.direction));
+  }
+  report_ratios("along at nodes", ratios);
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 x = nodes[random() % nodes.size()];
+    const LocalSize at = field.local(x, hint);
+    const Vec3 t = at.along > at.length ? at.direction
+                                        : normalized(Vec3{uniform(random), uniform(random), uniform(random)}),
+               step = 2 * at.length * Vec3{uniform(random), uniform(random), uniform(random)};
+    const LocalSize to = field.local(x + step, hint);
+    const bool is_turned =
+        norm2(at.direction) * norm2(to.direction) > 0 && std::abs(dot(at.direction, to.direction)) < kTurned;
+    (is_turned ? turned : steps).push_back(std::abs(to.in(t)-at.in(t)) / (sizing.slope * norm(step)));
+  }
+  for (auto* const of : {&steps, &turned}) {
+    const auto n_steep = std::count_if(of->begin(), of->end(), [](double s) { return s > 1.01; });
+    std::sort(of->begin(), of->end());
+    report(
+        "along, {} steps {}: {:.4f} % steeper than the slope by over 1 %, 99.9 % below {:.3f} times, at most {:.3f}\n",
+        of->size(), of == &turned ? "over which the direction turns" : "in one direction",
+        100.0 * static_cast<double>(n_steep) / static_cast<double>(of->size()), (*of)[of->size() * 999 / 1000],
+        of->back());
+  }
+  report("along: {:.2f} cones more per cell\n",
+         static_cast<double>(sizing.cones.along_of_site.size()) / sizing.shape.view().n_leaves());
 }
 
 void bench_envelope(const std::string& raster_path, const std::string& sizing_path, const std::string& mesh_path) {
@@ -230,6 +279,7 @@ void bench_envelope(const std::string& raster_path, const std::string& sizing_pa
          100.0 * static_cast<double>(n_steep) / kSteps, *std::max_element(steps.begin(), steps.end()));
   report("cones: {} of {} samples, {:.2f} per cell\n", sizing.cones.cone.size(), raster.samples.size(),
          static_cast<double>(sizing.cones.of_site.size()) / octree.n_leaves());
+  if (field.is_stretched()) bench_stretch(sizing, field, raster.samples, cones, mesh.node_xyz);
 }
 
 void bench_model(const std::string& path, double lmax_percent) {

@@ -57,6 +57,7 @@ class ConeSpread {
           number[s] = static_cast<std::int32_t>(table.cone.size());
           table.cone.push_back(cones_[s]);
           table.cause.push_back(samples_[s].cause);
+          table.sample.push_back(s);
         }
         table.of_site.push_back(number[s]);
       }
@@ -203,12 +204,14 @@ class ConeSpread {
   /// one, then the upper. From afar it wins at a probe of these sides.
   std::int32_t sides_ahead(const Site& s, std::int32_t sample) const {
     const Cone& cone = cones_[sample];
+    constexpr float kOnSide = 1 + 1e-5F;  // of half the edge: a sample on the side may be rounded to the other
+    const float half = kOnSide * s.cell.half;
     std::int32_t sides = kAlways;
     for (int k = 0; k < 3; ++k) {
       const float reach = std::abs(cone.side[0][k]) * cone.half[0] + std::abs(cone.side[1][k]) * cone.half[1],
                   from_center = cone.x[k] - s.cell.c[k];
-      if (from_center + reach >= -s.cell.half) sides |= 1 << (2 * k);
-      if (from_center - reach <= s.cell.half) sides |= 2 << (2 * k);
+      if (from_center + reach >= -half) sides |= 1 << (2 * k);
+      if (from_center - reach <= half) sides |= 2 << (2 * k);
     }
     return s.cell.is_near(cone, s.cell.length_at_center(cone)) ? sides : sides & (kAlways | s.sides_won(sample));
   }
@@ -363,6 +366,15 @@ Cone::Cone(const LengthSample& sample, float slope, Vec3 lo) : length(sample.len
     for (int k = 0; k < 3; ++k) side[e][k] = half[e] > 0 ? r[k] / half[e] : 0;
   }
   for (int k = 0; k < 3; ++k) x[k] = static_cast<float>(place[k]);
+}
+
+ConeStretch::ConeStretch(const SampleStretch& of_sample) {
+  if (!(of_sample.along > 0)) return;
+  const Vec3 unit = normalized(Vec3(of_sample.direction));
+  along = of_sample.along;
+  direction[0] = static_cast<float>(unit.x);
+  direction[1] = static_cast<float>(unit.y);
+  direction[2] = static_cast<float>(unit.z);
 }
 
 ConeTable spread_cones(const Neighbours& neighbours, std::span<const LengthSample> samples,

@@ -56,6 +56,22 @@ struct Cone {
   double length_at(Vec3 to) const { return length + slope * norm(way_to(to)); }
 };
 
+/// What edges along a direction may be longer by, at a cone's rectangle.
+struct ConeStretch {
+  float direction[3] = {0, 0, 0};  ///< unit; zero: none
+  float along = 0;                 ///< length along it, model unit, above the cone's; 0: the same in all directions
+
+  ConeStretch() = default;
+  explicit ConeStretch(const SampleStretch& of_sample);
+
+  /// Of a cone of `length` what it asks for along `unit`, a unit vector.
+  float length_in(const float (&unit)[3], float length) const {
+    if (!(along > length)) return length;
+    const float part = unit[0] * direction[0] + unit[1] * direction[1] + unit[2] * direction[2], ratio = length / along;
+    return length / std::sqrt(1 - std::min(1.0F, part * part) * (1 - ratio * ratio));
+  }
+};
+
 /// Four cones, asked at once.
 class FourCones {
  public:
@@ -66,7 +82,9 @@ class FourCones {
     half_[1] = Float4{a.half[1], b.half[1], c.half[1], d.half[1]};
   }
   /// Of each the length, 1e-6 of it.
-  Float4 length_at(const SplitPlace& to) const {
+  Float4 length_at(const SplitPlace& to) const { return length_ + rise_at(to); }
+  /// By what it is longer than at the rectangle.
+  Float4 rise_at(const SplitPlace& to) const {
     Float4 way[3];
     for (int k = 0; k < 3; ++k) way[k] = (to.high[k] - x_[k]) + to.low[k];
     for (int e = 0; e < 2; ++e) {
@@ -77,7 +95,7 @@ class FourCones {
     const Float4 square = dot(way, way);
     Float4 root{};
     for (int i = 0; i < 4; ++i) root[i] = std::sqrt(square[i]);
-    return length_ + slope_ * root;
+    return slope_ * root;
   }
 
  private:
@@ -110,6 +128,11 @@ struct ConeTable {
   std::vector<std::int32_t> cause;    ///< [cones]
   std::vector<std::int32_t> first;    ///< [n_sites + 1] into `of_site`; empty: there are no cones
   std::vector<std::int32_t> of_site;  ///< cones, those of the shortest lengths first for each site
+  std::vector<std::int32_t> sample;   ///< [cones] which sample it is; not stored
+  // Of add_stretch(); empty: lengths are the same in all directions.
+  std::vector<ConeStretch> stretch;         ///< [cones]
+  std::vector<std::int32_t> first_along;    ///< [n_sites + 1] into `along_of_site`
+  std::vector<std::int32_t> along_of_site;  ///< cones that tell lengths along besides those of the site, in such order
 };
 
 /// The cones that tell the smallest of length + slope * distance, bounded by `max_length` (model unit, > 0), in each

@@ -259,8 +259,13 @@ class CellWeigher {
       Vec3 gradient;
       std::int32_t cause = kNone;
       const double h = asked.size_and_gradient(x, hint_, gradient, cause);
-      const double share = asked.is_stretched() ? area_share(asked.OctreeField::local(x, hint_), normal) : 1;
-      const double uniform = share / (h * h), g = norm(gradient - dot(gradient, normal) * normal);
+      double share = 1, g = norm(gradient - dot(gradient, normal) * normal);
+      if (asked.is_stretched()) {
+        const LocalSize local = asked.OctreeField::local(x, hint_);
+        share = area_share(local, normal);
+        g *= local.length / local.along;  // rows need no more triangles where their heights change
+      }
+      const double uniform = share / (h * h);
       const FaceWeight at_point{uniform, g * uniform, g * g * uniform};
       sum.add(at_point, weight);
       collector.add(cause, h, unit * weight, at_point, x);

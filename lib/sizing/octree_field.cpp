@@ -125,7 +125,7 @@ FewSources OctreeField::find_near(std::int32_t leaf) const {
   const auto split = std::lower_bound(data_.split_leaf.begin(), data_.split_leaf.end(), leaf);
   if (split != data_.split_leaf.end() && *split == leaf)
     upper = std::max<double>(upper, std::abs(data_.second_cells[split - data_.split_leaf.begin()].upper));
-  if (!data_.along.empty()) upper *= data_.max_aspect;
+  if (octree_is_stretched()) upper *= data_.max_aspect;
   const FewSources near = data_.sources->find_near(data_.octree.leaf_center(leaf), radius, upper);
   near_[leaf].store(near.bits(), std::memory_order_relaxed);  // whoever finds out, finds the same
   return near;
@@ -139,14 +139,52 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   return scaled(source_length(hint, x, length));
 }
 
-LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
+float OctreeField::least_along(std::span<const std::int32_t> cones, const SplitPlace& x, const float (&unit)[3],
+                               float least) const {
+  for (std::size_t k = 0; k < cones.size(); k += 4) {
+    std::int32_t own[4];
+    for (std::size_t i = 0; i < 4; ++i) own[i] = cones[std::min(k + i, cones.size() - 1)];
+    const auto& c = data_.cones;
+    if (!(c[own[0]].length < least)) break;  // the shortest of those from here on
+    const Float4 rise = FourCones(c[own[0]], c[own[1]], c[own[2]], c[own[3]]).rise_at(x);
+    for (int i = 0; i < 4; ++i)
+      least = std::min(least, rise[i] + data_.stretch[own[i]].length_in(unit, c[own[i]].length));
+  }
+  return least;
+}
+
+/// The direction is that of the cone that tells the length.
+LocalSize OctreeField::cone_local(std::int32_t site, const Place& x) const {
+  std::int32_t winner = kNone;
+  const double unscaled = cone_length(site, x, &winner), length = scaled(unscaled);
+  if (winner == kNone || !(data_.stretch[winner].along > 0)) return {length, length, {}};
+  const float(&unit)[3] = data_.stretch[winner].direction;
+  const auto of = [site](std::span<const std::int32_t> cones, std::span<const std::int32_t> first) {
+    return cones.subspan(first[site], first[site + 1] - first[site]);
+  };
+  const SplitPlace place(x.from_lo);
+  float least = static_cast<float>(std::min(data_.max_length, data_.max_aspect * unscaled));
+  least = least_along(of(data_.site_cones, data_.first_cone), place, unit, least);
+  least = least_along(of(data_.site_along, data_.first_along), place, unit, least);
+  const double along = scaled(static_cast<double>(least));
+  if (!(along > length)) return {length, length, {}};
+  return {length, along, normalized(Vec3{unit[0], unit[1], unit[2]})};
+}
+
+LocalSize OctreeField::cell_local(std::int32_t site, const Place& x) const {
   const double length = scaled(length_at(site, x));
-  if (data_.along.empty()) return {length, length, {}};
   const double along =
       std::min(scaled(length_in(data_.along[site], from_center(leaf_of(site), x))), data_.max_aspect * length);
   const Vec3 direction = normalized(Vec3(data_.direction[site]));
   if (direction == Vec3{} || !(along > length)) return {length, length, {}};
   return {length, along, direction};
+}
+
+LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
+  if (!data_.stretch.empty()) return cone_local(site, x);
+  if (!data_.along.empty()) return cell_local(site, x);
+  const double length = scaled(length_at(site, x));
+  return {length, length, {}};
 }
 
 LocalSize OctreeField::local(Vec3 xyz, int& hint) const {

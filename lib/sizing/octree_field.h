@@ -30,15 +30,19 @@ struct OctreeFieldData {
   std::span<const CellSplit> split = {};
   std::span<const CellLength> second_cells = {};
   std::span<const std::int32_t> second_cause = {};
-  std::span<const CellLength> along = {};       ///< [n_sites] see StretchedCells; empty: no stretch
-  std::span<const SmallNormal> direction = {};  ///< [n_sites]
-  double max_aspect = 1;
+  /// Lengths along a direction by cell, as older files have them: [n_sites] each, or empty. Unknown: none.
+  std::span<const CellLength> along = {};
+  std::span<const SmallNormal> direction = {};
+  double max_aspect = 1;  ///< largest length along a direction over the length
   /// Cones of samples (ConeTable). Where there are any, they tell the lengths, and `cells` tell no more than which
   /// leaves are split.
   std::span<const Cone> cones = {};
   std::span<const std::int32_t> cone_cause = {};
   std::span<const std::int32_t> first_cone = {};  ///< [n_sites + 1]
   std::span<const std::int32_t> site_cones = {};
+  std::span<const ConeStretch> stretch = {};       ///< [cones] or empty: the same length in all directions
+  std::span<const std::int32_t> first_along = {};  ///< [n_sites + 1] likewise
+  std::span<const std::int32_t> site_along = {};
   double max_length = 0;                ///< where nothing asks for less
   const SourceTree* sources = nullptr;  ///< in the octree's frame, before scale; asked everywhere. Null: none
 
@@ -47,6 +51,9 @@ struct OctreeFieldData {
     cone_cause = table.cause;
     first_cone = table.first;
     site_cones = table.of_site;
+    stretch = table.stretch;
+    first_along = table.first_along;
+    site_along = table.along_of_site;
     max_length = largest;
   }
 };
@@ -85,7 +92,7 @@ class OctreeField : public SizeField {
   double size(Vec3 xyz, int& hint) const override;
   LocalSize local(Vec3 xyz, int& hint) const override;
   bool is_stretched() const override {
-    return !data_.along.empty() || (data_.sources && data_.sources->max_aspect() > 1);
+    return octree_is_stretched() || (data_.sources && data_.sources->max_aspect() > 1);
   }
   double min_size() const override { return min_size_; }
   double slope() const override { return data_.slope * data_.scale; }
@@ -113,6 +120,7 @@ class OctreeField : public SizeField {
     std::int32_t cone = kNone, source = kNone;  // if it is one
   };
 
+  bool octree_is_stretched() const { return !data_.stretch.empty() || !data_.along.empty(); }
   Place locate(Vec3 xyz, int& hint) const;
   Vec3 from_center(std::int32_t leaf, const Place& x) const;
   /// Of a site.
@@ -127,6 +135,11 @@ class OctreeField : public SizeField {
   /// The leaf, or the second part of one that is split.
   std::int32_t find_site(std::int32_t leaf, const Place& x) const;
   LocalSize local_in(std::int32_t site, const Place& x) const;
+  LocalSize cell_local(std::int32_t site, const Place& x) const;
+  LocalSize cone_local(std::int32_t site, const Place& x) const;
+  /// Before scale: the smallest of `least` and of what these cones ask for along `unit`.
+  float least_along(std::span<const std::int32_t> cones, const SplitPlace& x, const float (&unit)[3],
+                    float least) const;
   static double length_in(const CellLength& cell, Vec3 d) {
     const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
     return std::min<double>(cell.length + rise, std::abs(cell.upper));

@@ -186,6 +186,27 @@ CellLengths bounded_lengths(std::span<const float> stored_length, std::span<cons
   return cells;
 }
 
+/// The label of the site that each length comes from, when lengths are prolonged with `options.slope`; kNone where the
+/// largest length holds. All arrays are [n_sites], as in prolong(). Unique: equal lengths take the smallest label.
+std::vector<std::int32_t> spread_labels(const Neighbours& neighbours, std::span<const float> stored_length,
+                                        std::span<const std::int32_t> label, const ProlongOptions& options,
+                                        const Blanking* blanking) {
+  CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
+  pass_lengths(neighbours.octree().edge, neighbours, blanking, options, lengths);
+  return lengths.cause;
+}
+
+/// Linear lengths of cells from lengths at their centres, [n_sites] as in prolong(): least-squares gradients, no
+/// steeper than the slope, no corner below the smallest length around.
+std::vector<CellLength> fit_gradients(const Neighbours& neighbours, std::span<const float> lengths,
+                                      const ProlongOptions& options, const Blanking* blanking) {
+  const FitInput input{neighbours.octree(), neighbours, blanking, lengths, options};
+  std::vector<CellLength> cells;
+  for (std::size_t site = 0; site < lengths.size(); ++site)
+    cells.push_back(fit_cell(input, static_cast<std::int32_t>(site)));
+  return cells;
+}
+
 }  // namespace
 
 void add_second_parts(const Blanking& blanking, RasterOctree& octree) {
@@ -216,23 +237,6 @@ ProlongedLengths prolong(const Neighbours& neighbours, std::span<const float> st
   lengths.cause.resize(static_cast<std::size_t>(n));
   result.cause = std::move(lengths.cause);
   return result;
-}
-
-std::vector<std::int32_t> spread_labels(const Neighbours& neighbours, std::span<const float> stored_length,
-                                        std::span<const std::int32_t> label, const ProlongOptions& options,
-                                        const Blanking* blanking) {
-  CellLengths lengths = bounded_lengths(stored_length, label, static_cast<float>(options.max_length));
-  pass_lengths(neighbours.octree().edge, neighbours, blanking, options, lengths);
-  return lengths.cause;
-}
-
-std::vector<CellLength> fit_gradients(const Neighbours& neighbours, std::span<const float> lengths,
-                                      const ProlongOptions& options, const Blanking* blanking) {
-  const FitInput input{neighbours.octree(), neighbours, blanking, lengths, options};
-  std::vector<CellLength> cells;
-  for (std::size_t site = 0; site < lengths.size(); ++site)
-    cells.push_back(fit_cell(input, static_cast<std::int32_t>(site)));
-  return cells;
 }
 
 // The label that goes with the lengths is the slope of their origin instead of their cause.

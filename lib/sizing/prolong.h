@@ -28,17 +28,6 @@ struct ProlongOptions {
 /// Appends what the second parts of split leaves start from: what their leaf stores.
 void add_second_parts(const Blanking& blanking, RasterOctree& octree);
 
-/// The label of the site that each length comes from, when lengths are prolonged with `options.slope`; kNone where the
-/// largest length holds. All arrays are [n_sites], as in prolong(). Unique: equal lengths take the smallest label.
-std::vector<std::int32_t> spread_labels(const Neighbours& neighbours, std::span<const float> stored_length,
-                                        std::span<const std::int32_t> label, const ProlongOptions& options,
-                                        const Blanking* blanking);
-
-/// Linear lengths of cells from lengths at their centres, [n_sites] as in prolong(): least-squares gradients, no
-/// steeper than the slope, no corner below the smallest length around.
-std::vector<CellLength> fit_gradients(const Neighbours& neighbours, std::span<const float> lengths,
-                                      const ProlongOptions& options, const Blanking* blanking);
-
 /// Slopes of regions: lengths are prolonged with `options.slope`, and each cell takes the slope that `seed_slope` gives
 /// to the site that its length comes from (0: options.slope). `seed_slope` and `stored_length` are [n_sites], as in
 /// prolong(); the result is [n_leaves]. Unique, as prolong().

@@ -20,6 +20,7 @@
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/moved_field.h"
 #include "sizing/size_field.h"
+#include "sizing/stretched_cones.h"
 #include "stages/blank_input.h"
 #include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"
@@ -213,46 +214,6 @@ std::vector<float> sample_slopes(const ProlongStageOptions& o, const std::option
   return slope;
 }
 
-/// Lengths by cell, of what the octree stores.
-class CellProlongation {
- public:
-  CellProlongation(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds, const Neighbours& neighbours,
-                   RasterArtifact& raster, const SizingArtifact& sizing)
-      : neighbours_(neighbours),
-        raster_(raster),
-        max_aspect_(sizing.numbers.max_aspect),
-        blanking_(sizing.blanking.colour.empty() ? nullptr : &sizing.blanking),
-        cell_slope_(cell_slopes(o, seeds, neighbours, raster, blanking_)),
-        options_{o.slope, raster.numbers.far_length, cell_slope_} {}
-
-  ProlongedLengths run() const {
-    return prolong(neighbours_, raster_.octree.stored_length, raster_.octree.stored_cause, options_, blanking_);
-  }
-  StretchedCells stretch(const ProlongedLengths& lengths) const {
-    return prolong_stretch(neighbours_, raster_.samples, raster_.octree.stored_length, lengths, options_, max_aspect_,
-                           blanking_);
-  }
-
- private:
-  const Neighbours& neighbours_;
-  const RasterArtifact& raster_;
-  const double max_aspect_;
-  const Blanking* const blanking_;
-  const std::vector<float> cell_slope_;
-  const ProlongOptions options_;
-};
-
-void seed(const Neighbours& neighbours, double slope, RasterArtifact& raster, const Blanking& blanking) {
-  if (blanking.colour.empty()) return seed_lengths(raster.samples, slope, raster.octree);
-  seed_lengths(raster.samples, slope, blanking, neighbours, raster.octree);
-}
-
-/// Whether lengths may be longer along a direction anywhere.
-bool allows_stretch(std::span<const LengthSample> samples, double max_aspect) {
-  return max_aspect > 1 &&
-         std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.stretch.along > 0; });
-}
-
 /// Prolongs what the raster asks for; `sizing` gets shape, lengths, blanking and slope.
 void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress& progress, RasterArtifact& raster,
                   SizingArtifact& sizing) {
@@ -262,9 +223,8 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
     slope_seeds.emplace(named, raster);
     for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
   }
-  const bool is_stretched = allows_stretch(raster.samples, sizing.numbers.max_aspect),
-             has_cones = !raster.samples.empty() && !is_stretched;
-  if (!raster.samples.empty()) forget_samples(raster.octree);
+  const bool has_cones = !raster.samples.empty();
+  if (has_cones) forget_samples(raster.octree);
   progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
   progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
@@ -272,14 +232,13 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   progress.step("lengths", 0.4);
   if (has_cones) {
-    sizing.cones = spread_cones(neighbours, raster.samples, sample_slopes(o, slope_seeds, raster.samples),
-                                raster.numbers.far_length, blanking);
+    const std::vector<float> slope = sample_slopes(o, slope_seeds, raster.samples);
+    sizing.cones = spread_cones(neighbours, raster.samples, slope, raster.numbers.far_length, blanking);
+    if (sizing.numbers.max_aspect > 1) add_stretch(neighbours, raster.samples, slope, blanking, sizing.cones);
   } else {
-    seed(neighbours, o.slope, raster, sizing.blanking);
-    const CellProlongation cells(o, slope_seeds, neighbours, raster, sizing);
-    sizing.lengths = cells.run();
-    if (is_stretched) sizing.stretched = cells.stretch(sizing.lengths);
-    fit_samples(neighbours, raster.samples, sizing.slope, blanking, sizing.lengths);
+    const std::vector<float> slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
+    sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause,
+                             {o.slope, raster.numbers.far_length, slope}, blanking);
   }
   sizing.shape = std::move(raster.octree.shape);
   if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data(nullptr));

@@ -24,6 +24,8 @@ struct Element<CellLength> : Elements<ElementType::kFloat32, 5> {};
 
 template <>
 struct Element<Cone> : Elements<ElementType::kFloat32, 13> {};
+template <>
+struct Element<ConeStretch> : Elements<ElementType::kFloat32, 4> {};
 
 template <>
 struct Element<CellPlane> : Elements<ElementType::kFloat32, 6> {};
@@ -53,6 +55,7 @@ constexpr int kFarRasterVersion = 7;        // of one far from it; up to here sa
 constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length in all directions
 constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengths, not cones
 constexpr int kConeSizingVersion = 6;       // of one without faces and sources
+constexpr int kFacesSizingVersion = 7;      // of one whose cones have the same length in all directions
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -87,6 +90,9 @@ constexpr const char* kCone = "/st/cone/cone";
 constexpr const char* kConeCause = "/st/cone/cause";
 constexpr const char* kFirstCone = "/st/cone/first";
 constexpr const char* kSiteCones = "/st/cone/of_site";
+constexpr const char* kConeStretch = "/st/cone/stretch";
+constexpr const char* kFirstAlong = "/st/cone/first_along";
+constexpr const char* kSiteAlong = "/st/cone/along_of_site";
 constexpr const char* kOther = "/st/octree/other";  // sources by cell: version 6 alone
 constexpr const char* kSourceKind = "/st/source/kind";
 constexpr const char* kSourceNumbers = "/st/source/numbers";
@@ -122,7 +128,7 @@ void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
 
 SizingNumbers read_numbers(const Hdf5Reader& file) {
   const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
-  const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong);
+  const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong) || file.has(kConeStretch);
   for (const char* name : {"min_length", "max_length", "far_length", "alpha_deg", "cell_per_length", "diagonal"})
     if (!is_finite(get(name)) || get(name) < 0) file.fail(std::string(kSizing) + "@" + name, "is no length");
   for (const char* name : {"max_length", "far_length"})
@@ -186,26 +192,33 @@ bool is_rectangle(const Cone& c) {
   return is_good;
 }
 
-/// Cones have lengths, sites name cones that exist.
-/// The cones of each site ascend by length: a query ends at the first that is too long.
-void require_ascending_lengths(const Hdf5Reader& file, const OctreeFieldData& data) {
-  for (std::size_t site = 0; site + 1 < data.first_cone.size(); ++site)
-    for (std::int32_t k = data.first_cone[site] + 1; k < data.first_cone[site + 1]; ++k)
-      if (data.cones[data.site_cones[k]].length < data.cones[data.site_cones[k - 1]].length)
-        file.fail(kSiteCones, "row " + std::to_string(k) + " names a shorter cone than the row before");
+/// Sites name cones that exist, and ascend by length: a query ends at the first that is too long.
+void require_site_cones(const Hdf5Reader& file, const char* first_name, const char* name, const OctreeFieldData& data,
+                        std::span<const std::int32_t> first, std::span<const std::int32_t> cones) {
+  if (first.size() != data.cells.size() + data.split_leaf.size() + 1)
+    file.fail(first_name, "does not fit the number of cells");
+  require_offsets(file, first_name, first, cones.size());
+  require_ids(file, name, cones, data.cones.size());
+  for (std::size_t site = 0; site + 1 < first.size(); ++site)
+    for (std::int32_t k = first[site] + 1; k < first[site + 1]; ++k)
+      if (data.cones[cones[k]].length < data.cones[cones[k - 1]].length)
+        file.fail(name, "row " + std::to_string(k) + " names a shorter cone than the row before");
 }
 
 void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
-  const std::size_t n_sites = data.cells.size() + data.split_leaf.size();
   require_rows_to_be(file, kCone, data.cones, "a place with a length and a slope > 0", [](const Cone& c) {
     return is_finite(c.x[0]) & is_finite(c.x[1]) & is_finite(c.x[2]) & is_positive(c.length) & is_positive(c.slope) &
            is_rectangle(c);
   });
   if (data.cone_cause.size() != data.cones.size()) file.fail(kConeCause, "does not fit the number of cones");
-  if (data.first_cone.size() != n_sites + 1) file.fail(kFirstCone, "does not fit the number of cells");
-  require_offsets(file, kFirstCone, data.first_cone, data.site_cones.size());
-  require_ids(file, kSiteCones, data.site_cones, data.cones.size());
-  require_ascending_lengths(file, data);
+  require_site_cones(file, kFirstCone, kSiteCones, data, data.first_cone, data.site_cones);
+  if (data.stretch.empty()) return;
+  require_rows_to_be(file, kConeStretch, data.stretch, "a direction with a length", [](const ConeStretch& s) {
+    return is_finite(s.direction[0]) & is_finite(s.direction[1]) & is_finite(s.direction[2]) & is_finite(s.along) &
+           (s.along >= 0);
+  });
+  if (data.stretch.size() != data.cones.size()) file.fail(kConeStretch, "does not fit the number of cones");
+  require_site_cones(file, kFirstAlong, kSiteAlong, data, data.first_along, data.site_along);
 }
 
 /// Slope and scale of a sizing.
@@ -491,6 +504,9 @@ struct MappedArrays {
   MappedArray<std::int32_t> cone_cause;
   MappedArray<std::int32_t> first_cone;
   MappedArray<std::int32_t> site_cones;
+  MappedArray<ConeStretch> stretch;
+  MappedArray<std::int32_t> first_along;
+  MappedArray<std::int32_t> site_along;
   std::shared_ptr<const SourceTree> sources;
 };
 
@@ -504,6 +520,15 @@ void map_cones(const Hdf5Reader& file, MappedArrays& arrays, OctreeFieldData& da
   data.cone_cause = arrays.cone_cause.values();
   data.first_cone = arrays.first_cone.values();
   data.site_cones = arrays.site_cones.values();
+  if (file.has(kConeStretch)) {
+    arrays.stretch = file.map<ConeStretch>(kConeStretch);
+    arrays.first_along = file.map<std::int32_t>(kFirstAlong);
+    arrays.site_along = file.map<std::int32_t>(kSiteAlong);
+    data.stretch = arrays.stretch.values();
+    data.first_along = arrays.first_along.values();
+    data.site_along = arrays.site_along.values();
+    data.max_aspect = read_numbers(file).max_aspect;
+  }
   data.max_length = read_numbers(file).far_length;
   require_cones(file, data);
 }
@@ -703,10 +728,11 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   const bool is_blanked = !sizing.blanking.colour.empty();
   const bool is_moved = sizing.frame != Similarity();
   header.schema_version = is_moved ? kPlainSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
-  if (!sizing.stretched.along.empty()) header.schema_version = kStretchedSizingVersion;
+  if (!sizing.along.empty()) header.schema_version = kStretchedSizingVersion;
   if (!sizing.cones.first.empty()) header.schema_version = kConeSizingVersion;
   const bool has_faces = sizing.faces.n_faces() > 0;
-  if (has_faces) header.schema_version = kSizingVersion;
+  if (has_faces) header.schema_version = kFacesSizingVersion;
+  if (!sizing.cones.stretch.empty()) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;
@@ -727,15 +753,20 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
     file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
   }
-  if (!sizing.stretched.along.empty()) {
-    file.write<CellLength>(kAlong, sizing.stretched.along);
-    file.write<SmallNormal>(kDirection, sizing.stretched.direction);
+  if (!sizing.along.empty()) {
+    file.write<CellLength>(kAlong, sizing.along);
+    file.write<SmallNormal>(kDirection, sizing.direction);
   }
   if (!sizing.cones.first.empty()) {
     file.write<Cone>(kCone, sizing.cones.cone);
     file.write<std::int32_t>(kConeCause, sizing.cones.cause);
     file.write<std::int32_t>(kFirstCone, sizing.cones.first);
     file.write<std::int32_t>(kSiteCones, sizing.cones.of_site);
+  }
+  if (!sizing.cones.stretch.empty()) {
+    file.write<ConeStretch>(kConeStretch, sizing.cones.stretch);
+    file.write<std::int32_t>(kFirstAlong, sizing.cones.first_along);
+    file.write<std::int32_t>(kSiteAlong, sizing.cones.along_of_site);
   }
   if (has_faces) {
     write_sources(file, sizing.sources);
@@ -776,12 +807,20 @@ SizingArtifact read_sizing(const std::string& path) {
   }
   if (file.has(kAlong)) {
     const std::size_t n_sites = n + sizing.blanking.split_leaf.size();
-    sizing.stretched = {file.read_rows<CellLength>(kAlong, n_sites), file.read_rows<SmallNormal>(kDirection, n_sites)};
-    require_cells(file, kAlong, sizing.stretched.along);
+    sizing.along = file.read_rows<CellLength>(kAlong, n_sites);
+    sizing.direction = file.read_rows<SmallNormal>(kDirection, n_sites);
+    require_cells(file, kAlong, sizing.along);
   }
   if (file.has(kCone)) {
-    sizing.cones = {file.read<Cone>(kCone), file.read<std::int32_t>(kConeCause), file.read<std::int32_t>(kFirstCone),
-                    file.read<std::int32_t>(kSiteCones)};
+    sizing.cones.cone = file.read<Cone>(kCone);
+    sizing.cones.cause = file.read<std::int32_t>(kConeCause);
+    sizing.cones.first = file.read<std::int32_t>(kFirstCone);
+    sizing.cones.of_site = file.read<std::int32_t>(kSiteCones);
+    if (file.has(kConeStretch)) {
+      sizing.cones.stretch = file.read<ConeStretch>(kConeStretch);
+      sizing.cones.first_along = file.read<std::int32_t>(kFirstAlong);
+      sizing.cones.along_of_site = file.read<std::int32_t>(kSiteAlong);
+    }
     require_cones(file, sizing.field_data(nullptr));
   }
   sizing.face_weight = read_face_weight(file);

@@ -121,8 +121,14 @@ SizingArtifact sample_sizing() {
   s.blanking.split.resize(2);
   s.lengths.second_cells.resize(2);
   s.lengths.second_cause.resize(2);
-  s.cones = {std::vector<Cone>(9), std::vector<std::int32_t>(9), std::vector<std::int32_t>(18),
-             std::vector<std::int32_t>(21)};
+  s.cones = {std::vector<Cone>(9),
+             std::vector<std::int32_t>(9),
+             std::vector<std::int32_t>(18),
+             std::vector<std::int32_t>(21),
+             {},
+             std::vector<ConeStretch>(9),
+             std::vector<std::int32_t>(18),
+             std::vector<std::int32_t>(14)};
   s.sources.slope = 0.2;
   s.sources.sources.resize(2);
   s.sources.background.node_xyz.resize(4);
@@ -132,8 +138,8 @@ SizingArtifact sample_sizing() {
   s.face_lmin = {0.1, 0, 0.2};
   s.undercuts.resize(9);
   s.labels = sample_raster().labels;
-  s.stretched.along.resize(17);
-  s.stretched.direction.resize(17);
+  s.along.resize(17);
+  s.direction.resize(17);
   s.face_weight = {1, 2, 3};
   s.wings = sample_raster().wings;
   s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};

@@ -268,8 +268,8 @@ SizingArtifact split_sizing() {
   sizing.blanking.split.assign(2, {{0, 0, 1}, 0, 0});
   sizing.lengths.second_cells.assign(2, sizing.lengths.cells[0]);
   sizing.lengths.second_cause.assign(2, kNone);
-  sizing.stretched.along.resize(sizing.stretched.along.size() + 2, sizing.stretched.along[0]);
-  sizing.stretched.direction.resize(sizing.stretched.along.size());
+  sizing.along.resize(sizing.along.size() + 2, sizing.along[0]);
+  sizing.direction.resize(sizing.along.size());
   sizing.frame.translation = {1, 2, 3};
   return sizing;
 }
@@ -277,7 +277,7 @@ SizingArtifact split_sizing() {
 /// Likewise, with two cones, one of them in each site, both in the last.
 SizingArtifact cone_sizing() {
   SizingArtifact sizing = split_sizing();
-  const auto n_sites = static_cast<std::int32_t>(sizing.stretched.along.size());
+  const auto n_sites = static_cast<std::int32_t>(sizing.along.size());
   sizing.cones.cone = {Cone({{0.1, 0.2, 0.3}, 0.02F, kNone, {}, {}, reach_of({0.01, 0, 0}, {0, 0.02, 0})}, 0.2F, {}),
                        Cone({{0.5, 0.2, 0.3}, 0.03F}, 0.1F, {})};
   sizing.cones.cause = {kNone, kNone};
@@ -393,7 +393,7 @@ TEST(SizingDamage, is_refused_by_both_readers) {
       {"/st/split/leaf: does not ascend at row 1", [](auto& s) { s.blanking.split_leaf[1] = 3; }},
       {"/st/split/plane: row 0 is not a plane", [](auto& s) { s.blanking.split[0].margin = kNan; }},
       {"/st/split/cell: row 1 is not a finite length > 0", [](auto& s) { s.lengths.second_cells[1].length = kNan; }},
-      {"/st/octree/along: row 2 is not a finite length > 0", [](auto& s) { s.stretched.along[2].length = kNan; }},
+      {"/st/octree/along: row 2 is not a finite length > 0", [](auto& s) { s.along[2].length = kNan; }},
       {"/st/octree/frame: row 12 is not finite", [](auto& s) { s.frame.translation.z = kNan; }},
       {"/st/octree/frame: its scale is not positive", [](auto& s) { s.frame.scale = -1; }}};
   expect_refused_by_both(path, split_sizing(), breaks);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/hdf5/sizing_artifact.h"
+#include "sizing/stretched_cones.h"
 #include "unit/io/sample_artifacts.h"
 
 namespace st {
@@ -45,13 +46,29 @@ inline SizingArtifact sample_sizing() {
   return sizing;
 }
 
+/// By cell, as older versions wrote it.
 inline SizingArtifact stretched_sizing() {
   SizingArtifact sizing = sample_sizing();
   sizing.numbers.max_aspect = 8;
   for (const CellLength& cell : sizing.lengths.cells) {
-    sizing.stretched.along.push_back({6 * cell.length, {0, 0, 0}, 6 * cell.length});
-    sizing.stretched.direction.push_back(SmallNormal(Vec3{0, 1, 0}));
+    sizing.along.push_back({6 * cell.length, {0, 0, 0}, 6 * cell.length});
+    sizing.direction.push_back(SmallNormal(Vec3{0, 1, 0}));
   }
+  return sizing;
+}
+
+/// Every third sample is stretched.
+inline SizingArtifact sizing_of_stretched_cones() {
+  RasterArtifact raster = sample_raster();
+  for (std::size_t i = 0; i < raster.samples.size(); i += 3)
+    raster.samples[i].stretch = {SmallNormal(Vec3{0, 1, 0}), 6 * raster.samples[i].length};
+  SizingArtifact sizing = sample_sizing();
+  sizing.numbers.max_aspect = 8;
+  const std::vector<float> slope(raster.samples.size(), 0.2F);
+  const Neighbours neighbours(raster.octree.shape.view());
+  sizing.cones = spread_cones(neighbours, raster.samples, slope, sizing.numbers.far_length, nullptr);
+  add_stretch(neighbours, raster.samples, slope, nullptr, sizing.cones);
+  sizing.lengths = lengths_at_centers(sizing.field_data(nullptr));
   return sizing;
 }
 

@@ -101,10 +101,44 @@ TEST_F(SizingArtifacts, a_stretched_field_is_mapped_with_its_direction) {
   EXPECT_GT(size.along, 2 * size.length);
   EXPECT_LE(distance(size.direction, {0, 1, 0}), 1e-12);
   SizingArtifact torn = stretched_sizing();
-  torn.stretched.along.pop_back();
+  torn.along.pop_back();
   write_sizing(file("b.hdf"), torn);
   EXPECT_ERROR(read_sizing(file("b.hdf")), kInput, "along");
   EXPECT_ERROR(map_sizing(file("b.hdf")), kInput, "along");
+}
+
+TEST_F(SizingArtifacts, stretched_cones_are_kept_and_mapped) {
+  const SizingArtifact sizing = sizing_of_stretched_cones();
+  const std::string hash = write_sizing(file("a.hdf"), sizing);
+  const SizingArtifact read = read_sizing(file("a.hdf"));
+  EXPECT_EQ(read.header.schema_version, kSizingVersion);
+  EXPECT_EQ(write_sizing(file("b.hdf"), read), hash);
+  const MappedSizing mapped = map_sizing(file("a.hdf"));
+  EXPECT_TRUE(mapped.field->is_stretched());
+  int hint = 0, other_hint = 0, n_stretched = 0;
+  const auto field = sizing.field();
+  for (double x = 0; x < 0.8; x += 0.005) {
+    const LocalSize a = field->local({x, 0.5, 0.3}, hint), b = mapped.field->local({x, 0.5, 0.3}, other_hint);
+    ASSERT_EQ(a.length, b.length);
+    ASSERT_EQ(a.along, b.along);
+    ASSERT_EQ(a.length, mapped.field->size({x, 0.5, 0.3}, other_hint));
+    n_stretched += a.along > a.length;
+  }
+  EXPECT_GT(n_stretched, 10);
+}
+
+TEST_F(SizingArtifacts, stretched_cones_that_do_not_fit_are_refused) {
+  const auto refuses = [&](const char* what, const auto& damage) {
+    SizingArtifact torn = sizing_of_stretched_cones();
+    damage(torn.cones);
+    write_sizing(file("b.hdf"), torn);
+    EXPECT_ERROR(read_sizing(file("b.hdf")), kInput, what);
+    EXPECT_ERROR(map_sizing(file("b.hdf")), kInput, what);
+  };
+  refuses("stretch", [](ConeTable& t) { t.stretch.pop_back(); });
+  refuses("stretch", [](ConeTable& t) { t.stretch[0].along = -1; });
+  refuses("first_along", [](ConeTable& t) { t.first_along.pop_back(); });
+  refuses("along_of_site", [](ConeTable& t) { t.along_of_site[0] = 1000; });
 }
 
 TEST_F(SizingArtifacts, a_stretched_field_is_exported_as_metric_spacings_and_arrays) {

@@ -270,23 +270,6 @@ struct ThinPlate {
 
 TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
   for (const double z : {0.4531, 0.4711, 0.4999}) {
-    ThinPlate plate(z);
-    const Neighbours neighbours(plate.octree());
-    const Blanking& blanking = plate.blanking;
-    seed_lengths(plate.samples, kSlope, blanking, neighbours, plate.raster);
-    ProlongedLengths lengths =
-        prolong(neighbours, plate.raster.stored_length, plate.raster.stored_cause, {kSlope, kLargest}, &blanking);
-    fit_samples(neighbours, plate.samples, kSlope, &blanking, lengths);
-    const OctreeField field({plate.octree(), lengths.cells, lengths.cause, kSlope, 1, blanking.split_leaf,
-                             blanking.split, lengths.second_cells, lengths.second_cause},
-                            nullptr);
-    plate.expect_each_side_to_keep_its_own(field);
-  }
-}
-
-/// Likewise, by cones.
-TEST(Blanking, cone_of_a_sample_is_on_its_side_of_a_thin_plate_only) {
-  for (const double z : {0.4531, 0.4711, 0.4999}) {
     const ThinPlate plate(z);
     const std::vector<float> slope(plate.samples.size(), static_cast<float>(kSlope));
     const ConeTable cones = spread_cones(Neighbours(plate.octree()), plate.samples, slope, kLargest, &plate.blanking);
