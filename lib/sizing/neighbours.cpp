@@ -9,7 +9,7 @@ Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
   node_neighbours_.assign(27 * n_nodes, kOutside);
   leaf_parent_.assign(octree.leaf_keys.size(), kNone);
   if (n_nodes == 0) return;
-  node_neighbours_[direction(0, 0, 0)] = 0;
+  node_neighbours_[kOwn] = 0;
   for (std::size_t node = 0; node < n_nodes; ++node) {  // parents come before their children
     for (int o = 0; o < 8; ++o) {
       const std::int32_t child = octree.node_children[8 * node + static_cast<std::size_t>(o)];
@@ -17,16 +17,15 @@ Neighbours::Neighbours(const OctreeView& octree) : octree_(octree) {
         leaf_parent_[~child] = static_cast<std::int32_t>(node);
         continue;
       }
-      for (int d = 0; d < 27; ++d) {
-        bool is_larger = false;
-        const std::int32_t other =
-            beside(static_cast<std::int32_t>(node), o, d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1, is_larger);
-        if (is_larger && other != kOutside)
+      const std::int32_t* const around = &node_neighbours_[27 * node];
+      for (std::size_t d = 0; d < 27; ++d) {
+        const auto& [direction, of_it, step] = kNeighbourSteps.beside[o][d];
+        const std::int32_t other = around[direction];
+        if (other < 0 && other != kOutside)
           throw Error(ExitCode::kInput,
                       "the octree is not balanced 2:1: the raster or sizing is damaged; make it again");
         // Balanced: beside a node there is always a cell of its size, or the end of the root cube.
-        node_neighbours_[27 * static_cast<std::size_t>(child) + static_cast<std::size_t>(d)] =
-            is_larger ? kOutside : other;
+        node_neighbours_[27 * static_cast<std::size_t>(child) + d] = other == kOutside ? other : children(other)[of_it];
       }
     }
   }

@@ -19,6 +19,50 @@ struct CellStep {
   bool is_across_face() const { return (x < -1 || x > 1) + (y < -1 || y > 1) + (z < -1 || z > 1) == 1; }
 };
 
+/// Where the neighbours of a cell are found, by its octant and direction ((x + 1) + 3 * (y + 1) + 9 * (z + 1)), and how
+/// far they lie; `fine_level` of these steps is 0.
+struct NeighbourSteps {
+  struct Beside {
+    std::uint8_t direction, child;  // of the parent; of the node there
+    CellStep larger;                // if there is no node, but a leaf
+  };
+  struct Finer {  // children on our side
+    std::uint8_t n = 0;
+    std::array<std::uint8_t, 4> child{};
+    std::array<CellStep, 4> step{};
+  };
+  std::array<std::array<Beside, 27>, 8> beside{};
+  std::array<CellStep, 27> equal{};
+  std::array<Finer, 27> finer{};
+
+  static constexpr CellStep step(int x, int y, int z) {
+    return {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(z),
+            static_cast<std::int8_t>(x * x + y * y + z * z), 0};
+  }
+  constexpr NeighbourSteps() {
+    for (int d = 0; d < 27; ++d) {
+      const int x = d % 3 - 1, y = d / 3 % 3 - 1, z = d / 9 - 1;
+      equal[d] = step(2 * x, 2 * y, 2 * z);
+      for (int o = 0; o < 8; ++o) {
+        const int bx = o & 1, by = o >> 1 & 1, bz = o >> 2, cx = bx + x, cy = by + y, cz = bz + z;
+        // per axis: 3 across the parent's side, else towards the middle of the parent
+        const auto to_larger = [](int bit, int along) {
+          return bit + along < 0 ? -3 : bit + along > 1 ? 3 : bit ? -1 : 1;
+        };
+        beside[o][d] = {static_cast<std::uint8_t>(((cx >> 1) + 1) + 3 * ((cy >> 1) + 1) + 9 * ((cz >> 1) + 1)),
+                        static_cast<std::uint8_t>((cx & 1) | (cy & 1) << 1 | (cz & 1) << 2),
+                        step(to_larger(bx, x), to_larger(by, y), to_larger(bz, z))};
+        if ((x != 0 && bx != (x < 0)) || (y != 0 && by != (y < 0)) || (z != 0 && bz != (z < 0)) || d == 13) continue;
+        const auto to_finer = [](int bit, int along) { return along != 0 ? 3 * along : 2 * bit - 1; };
+        Finer& children = finer[d];
+        children.child[children.n] = static_cast<std::uint8_t>(o);
+        children.step[children.n++] = step(to_finer(bx, x), to_finer(by, y), to_finer(bz, z));
+      }
+    }
+  }
+};
+inline constexpr NeighbourSteps kNeighbourSteps;
+
 /// Neighbour tables of a balanced octree: for each node its 27 neighbours of the same size, for each leaf its parent.
 /// 20 bytes per leaf.
 class Neighbours {
@@ -38,29 +82,30 @@ class Neighbours {
   template <class F>
   void for_each_across_face(std::int32_t leaf, F&& f) const {
     if (octree_.node_children.empty()) return;
-    for (int d = -1; d <= 1; d += 2) {
-      visit_direction(leaf, d, 0, 0, f);
-      visit_direction(leaf, 0, d, 0, f);
-      visit_direction(leaf, 0, 0, d, f);
-    }
+    const Place place(*this, leaf);
+    for (const int d : {12, 10, 4, 14, 16, 22}) visit_direction(place, d, f);
   }
 
  private:
   static constexpr std::int32_t kOutside = std::numeric_limits<std::int32_t>::min();
-  static int direction(int x, int y, int z) { return (x + 1) + 3 * (y + 1) + 9 * (z + 1); }
-  /// The cell beside child `octant` of `node` in direction (x, y, z): of the same size as the child, or one level
-  /// larger; or kOutside.
-  std::int32_t beside(std::int32_t node, int octant, int x, int y, int z, bool& is_larger) const {
-    const int cx = (octant & 1) + x, cy = (octant >> 1 & 1) + y, cz = (octant >> 2) + z;
-    const std::int32_t parent = node_neighbours_[27 * static_cast<std::size_t>(node) +
-                                                 static_cast<std::size_t>(direction(cx >> 1, cy >> 1, cz >> 1))];
-    is_larger = parent < 0;
-    if (parent < 0) return parent;
-    return octree_.node_children[8 * static_cast<std::size_t>(parent) +
-                                 static_cast<std::size_t>((cx & 1) | (cy & 1) << 1 | (cz & 1) << 2)];
+  static constexpr int kOwn = 13;  // the direction of the cell itself
+  /// Of a leaf among the cells of its parent.
+  struct Place {
+    const std::int32_t* around;  // its parent
+    const std::array<NeighbourSteps::Beside, 27>& beside;
+    std::uint8_t level;
+
+    Place(const Neighbours& n, std::int32_t leaf)
+        : around(&n.node_neighbours_[27 * static_cast<std::size_t>(n.leaf_parent_[leaf])]),
+          beside(
+              kNeighbourSteps.beside[n.octree_.leaf_keys[leaf] >> (3 * (kMaxLevel - n.octree_.leaf_levels[leaf])) & 7]),
+          level(n.octree_.leaf_levels[leaf]) {}
+  };
+  const std::int32_t* children(std::int32_t node) const {
+    return &octree_.node_children[8 * static_cast<std::size_t>(node)];
   }
   template <class F>
-  void visit_direction(std::int32_t leaf, int x, int y, int z, F&& f) const;
+  void visit_direction(const Place& place, int direction, F&& f) const;
 
   OctreeView octree_;
   std::vector<std::int32_t> node_neighbours_;  // [27*n_nodes] node, ~leaf or kOutside
@@ -70,38 +115,25 @@ class Neighbours {
 template <class F>
 void Neighbours::for_each(std::int32_t leaf, F&& f) const {
   if (octree_.node_children.empty()) return;
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (x != 0 || y != 0 || z != 0) visit_direction(leaf, x, y, z, f);
+  const Place place(*this, leaf);
+  for (int d = 0; d < 27; ++d)
+    if (d != kOwn) visit_direction(place, d, f);
 }
 
 template <class F>
-void Neighbours::visit_direction(std::int32_t leaf, int x, int y, int z, F&& f) const {
-  const std::size_t l = static_cast<std::size_t>(leaf);
-  const std::uint8_t level = octree_.leaf_levels[l];
-  const int octant = static_cast<int>(octree_.leaf_keys[l] >> (3 * (kMaxLevel - level))) & 7;
-  bool is_larger = false;
-  const std::int32_t other = beside(leaf_parent_[l], octant, x, y, z, is_larger);
-  if (other == kOutside) return;
-  const auto step = [](int sx, int sy, int sz, int fine_level) {
-    return CellStep{static_cast<std::int8_t>(sx), static_cast<std::int8_t>(sy), static_cast<std::int8_t>(sz),
-                    static_cast<std::int8_t>(sx * sx + sy * sy + sz * sz), static_cast<std::uint8_t>(fine_level)};
+void Neighbours::visit_direction(const Place& place, int direction, F&& f) const {
+  const auto at_level = [](CellStep step, int level) {
+    step.fine_level = static_cast<std::uint8_t>(level);
+    return step;
   };
-  if (is_larger) {  // per axis: 3 across the parent's side, else towards the middle of the parent
-    const auto offset = [](int bit, int d) { return bit + d < 0 ? -3 : bit + d > 1 ? 3 : bit ? -1 : 1; };
-    f(~other, step(offset(octant & 1, x), offset(octant >> 1 & 1, y), offset(octant >> 2, z), level));
-  } else if (other < 0) {
-    f(~other, step(2 * x, 2 * y, 2 * z, level));
-  } else {  // its children on our side
-    for (int o = 0; o < 8; ++o) {
-      const int bx = o & 1, by = o >> 1 & 1, bz = o >> 2;
-      if ((x != 0 && bx != (x < 0)) || (y != 0 && by != (y < 0)) || (z != 0 && bz != (z < 0))) continue;
-      const auto offset = [](int bit, int d) { return d != 0 ? 3 * d : 2 * bit - 1; };
-      f(~octree_.node_children[8 * static_cast<std::size_t>(other) + static_cast<std::size_t>(o)],
-        step(offset(bx, x), offset(by, y), offset(bz, z), level + 1));
-    }
-  }
+  const NeighbourSteps::Beside& beside = place.beside[direction];
+  const std::int32_t node = place.around[beside.direction];
+  if (node == kOutside) return;
+  if (node < 0) return f(~node, at_level(beside.larger, place.level));
+  const std::int32_t other = children(node)[beside.child];
+  if (other < 0) return f(~other, at_level(kNeighbourSteps.equal[direction], place.level));
+  const NeighbourSteps::Finer& finer = kNeighbourSteps.finer[direction];
+  for (int k = 0; k < finer.n; ++k) f(~children(other)[finer.child[k]], at_level(finer.step[k], place.level + 1));
 }
 
 }  // namespace st
