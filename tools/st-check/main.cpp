@@ -30,10 +30,9 @@ int main(int argc, char** argv) {
       "--max-deviation", t.max_deviation, "",
       "largest distance accepted of a triangle's centroid from its surface; needs --geometry; default: not checked");
   tool.number(t.kMaxNormalDeviation, t.max_normal_deviation_deg);
-  tool.text(
-      "--layers", o.layers, "HEIGHT",
-      "say whether layers of prisms of this total height can grow from the walls: 5mm, 1%, or Re=6e6@2.5m for the "
-      "boundary layer of a plate; 5mm,1.2 with the growth of layers");
+  tool.text("--layers", o.layers, "HEIGHT",
+            "say whether layers of prisms can grow from the walls, of this height in all: 5mm, 1%, or the boundary "
+            "layer of a plate: Re=6e6@2.5m; 5mm,1.2 with their growth");
   tool.threads();
   tool.examples(
       {"st-check mesh.hdf", "st-check mesh.hdf --geometry geometry.hdf --sizing sizing.hdf --report report.json"});
