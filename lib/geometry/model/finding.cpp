@@ -1,5 +1,6 @@
 #include "geometry/model/finding.h"
 
+#include <algorithm>
 #include <iterator>
 #include <string_view>
 
@@ -83,33 +84,27 @@ constexpr Wording kWordings[] = {
     {"parts in another file, which is missing", "parts in another file, which is missing: {}"},
     {"other", "{}"},
 };
-static_assert(std::size(kWordings) == static_cast<std::size_t>(FindingKind::kOther) + 1);
+constexpr std::size_t kKinds = std::size(kWordings) - 1;  // that are known, without kOther
+static_assert(kKinds == static_cast<std::size_t>(FindingKind::kMissingFile) + 1);
 
 constexpr std::string_view kDetail = "{}";
 
+const Wording& wording_of(FindingKind kind) { return kWordings[std::min(static_cast<std::size_t>(kind), kKinds)]; }
+
 }  // namespace
 
-const char* name_of(FindingKind kind) { return kWordings[static_cast<std::size_t>(kind)].name; }
+const char* name_of(FindingKind kind) { return wording_of(kind).name; }
 
 std::string ImportFinding::what() const {
-  std::string text = kWordings[static_cast<std::size_t>(kind)].text;
+  std::string text = wording_of(kind).text;
   if (const std::size_t at = text.find(kDetail); at != std::string::npos) text.replace(at, kDetail.size(), detail);
   return text;
 }
 
-void set_what(ImportFinding& finding, const std::string& what) {
-  for (std::size_t k = 0; k < std::size(kWordings); ++k) {
-    const std::string_view text = kWordings[k].text;
-    const std::size_t at = text.find(kDetail);
-    finding.kind = static_cast<FindingKind>(k);
-    finding.detail.clear();
-    if (at == std::string_view::npos && what == text) return;
-    if (at == std::string_view::npos) continue;
-    const std::string_view before = text.substr(0, at), after = text.substr(at + kDetail.size());
-    if (what.size() < before.size() + after.size() || !what.starts_with(before) || !what.ends_with(after)) continue;
-    finding.detail = what.substr(at, what.size() - before.size() - after.size());
-    return;
-  }
+void restore_kind(ImportFinding& finding, std::uint8_t kind, const std::string& detail, const std::string& what) {
+  const bool is_known = kind < kKinds;
+  finding.kind = is_known ? static_cast<FindingKind>(kind) : FindingKind::kOther;
+  finding.detail = is_known ? detail : what;
 }
 
 }  // namespace st

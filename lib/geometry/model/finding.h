@@ -8,6 +8,7 @@
 
 namespace st {
 
+/// Artifacts store the numbers: a new kind comes last, before kOther.
 enum class FindingKind : std::uint8_t {
   kFreeEdge,               ///< used by one face only
   kNonManifoldEdge,        ///< used by three faces or more
@@ -72,7 +73,7 @@ enum class FindingKind : std::uint8_t {
   kFarCurve,               ///< a trimming curve off its edge by more than a tolerance, left as it is
   kMergedSliver,           ///< a small face folded back onto its neighbour, merged into it
   kMissingFile,            ///< parts are in another file that is not there
-  kOther                   ///< written by another version
+  kOther = 255             ///< told by its text alone, or of another version
 };
 
 /// Short, for counts: "sewn".
@@ -87,11 +88,11 @@ struct ImportFinding {
   bool is_repair = false;
   std::string detail = {};  ///< what is particular in the text: "14 free edges before, 0 after"
 
-  /// As artifacts and messages have it: "sewn: 14 free edges before, 0 after".
+  /// As messages have it: "sewn: 14 free edges before, 0 after".
   std::string what() const;
 };
 
-/// Sets kind and detail so that finding.what() is `what`: artifacts store the text.
-void set_what(ImportFinding& finding, const std::string& what);
+/// Kind and detail as they were stored with the text; a kind that this version does not know is kOther, with the text.
+void restore_kind(ImportFinding& finding, std::uint8_t kind, const std::string& detail, const std::string& what);
 
 }  // namespace st

@@ -42,18 +42,22 @@ void write_faces(Hdf5Writer& w, const ModelTables& t) {
 }
 
 void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
-  std::vector<std::string> what, entity;
+  std::vector<std::string> what, detail, entity;
   std::vector<Vec3> xyz;
   std::vector<double> size;
-  std::vector<std::uint8_t> is_repair;
+  std::vector<std::uint8_t> kind, is_repair;
   for (const ImportFinding& f : findings) {
     what.push_back(f.what());
+    kind.push_back(static_cast<std::uint8_t>(f.kind));
+    detail.push_back(f.detail);
     entity.push_back(f.entity);
     xyz.push_back(f.xyz);
     size.push_back(f.size);
     is_repair.push_back(f.is_repair);
   }
   w.write_strings("/st/finding/what", what);
+  w.write("/st/finding/kind", kind);
+  w.write_strings("/st/finding/detail", detail);
   w.write_strings("/st/finding/entity", entity);
   w.write("/st/finding/xyz", xyz);
   w.write("/st/finding/size", size);
@@ -150,10 +154,16 @@ std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
   const std::vector<Vec3> xyz = r.read_rows<Vec3>("/st/finding/xyz", n);
   const std::vector<double> size = r.read_rows<double>("/st/finding/size", n);
   const std::vector<std::uint8_t> is_repair = r.read_rows<std::uint8_t>("/st/finding/is_repair", n);
+  std::vector<std::uint8_t> kind(n, static_cast<std::uint8_t>(FindingKind::kOther));
+  std::vector<std::string> detail(n);
+  if (r.has("/st/finding/kind")) {  // absent in older files
+    kind = r.read_rows<std::uint8_t>("/st/finding/kind", n);
+    detail = r.read_string_rows("/st/finding/detail", n);
+  }
   std::vector<ImportFinding> findings;
   for (std::size_t i = 0; i < n; ++i) {
     findings.push_back({FindingKind::kOther, entity[i], xyz[i], size[i], is_repair[i] != 0});
-    set_what(findings.back(), what[i]);
+    restore_kind(findings.back(), kind[i], detail[i], what[i]);
   }
   return findings;
 }

@@ -1,4 +1,4 @@
-// Findings of the import: their texts, and what is read back from them.
+// Findings of the import: their texts, and how they are read back.
 #include "geometry/model/finding.h"
 
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 namespace st {
 namespace {
 
-constexpr int kKinds = static_cast<int>(FindingKind::kOther) + 1;
+constexpr int kKinds = static_cast<int>(FindingKind::kMissingFile) + 1;
 
-TEST(Finding, every_kind_has_its_own_name_and_comes_back_from_its_text) {
+TEST(Finding, every_kind_has_its_own_name_and_comes_back_as_it_was_stored) {
   std::set<std::string> names;
   for (int k = 0; k < kKinds; ++k) {
     ImportFinding f;
@@ -18,11 +18,12 @@ TEST(Finding, every_kind_has_its_own_name_and_comes_back_from_its_text) {
     names.insert(name_of(f.kind));
     f.detail = "7 of 9 (x)";
     ImportFinding g;
-    set_what(g, f.what());
+    restore_kind(g, static_cast<std::uint8_t>(f.kind), f.detail, "worded in another way");
     EXPECT_EQ(g.kind, f.kind) << f.what();
     EXPECT_EQ(g.what(), f.what());
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kKinds));
+  names.insert(name_of(FindingKind::kOther));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kKinds) + 1);
 }
 
 TEST(Finding, the_text_says_what_is_particular) {
@@ -31,10 +32,12 @@ TEST(Finding, the_text_says_what_is_particular) {
 }
 
 TEST(Finding, a_text_of_another_version_stays_as_it_is) {
-  ImportFinding f;
-  set_what(f, "something new");
-  EXPECT_EQ(f.kind, FindingKind::kOther);
-  EXPECT_EQ(f.what(), "something new");
+  for (const std::uint8_t kind : {std::uint8_t{kKinds}, std::uint8_t{200}, std::uint8_t{255}}) {
+    ImportFinding f;
+    restore_kind(f, kind, "new", "something new");
+    EXPECT_EQ(f.kind, FindingKind::kOther);
+    EXPECT_EQ(f.what(), "something new");
+  }
 }
 
 }  // namespace

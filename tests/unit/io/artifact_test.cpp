@@ -265,6 +265,11 @@ TEST(GeometryArtifact, gives_back_every_table) {
   EXPECT_EQ(gb.findings[0].entity, "edge 3 \"TE\"");
   EXPECT_TRUE(gb.findings[0].xyz == (Vec3{1, 2, 3}));
   EXPECT_TRUE(gb.findings[1].is_repair);
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_EQ(ga.findings[i].kind, gb.findings[i].kind);
+    EXPECT_EQ(ga.findings[i].detail, gb.findings[i].detail);
+    EXPECT_EQ(ga.findings[i].what(), gb.findings[i].what());
+  }
 }
 
 TEST(GeometryArtifact, keeps_a_model_without_unit_without_one) {
