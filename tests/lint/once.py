@@ -2,7 +2,8 @@
 """Ideas that the code has once: each stands in the one file that is named here, and nowhere else in lib and tools.
 
 A new idea is a row of ONCE: what it is, how its code looks, and the file to use instead. What is to be nowhere is a row
-of NEVER, with what to do instead.
+of NEVER, with what to do instead. Files of lib that are longer than LONG lines are at most
+MOST_LONG.
 """
 import re
 import sys
@@ -20,9 +21,14 @@ ONCE = [
 NEVER = [
     ("a summary's JSON parsed again", r"parse\([\w.>-]*(?:summary|association)[\w.>-]*json", "pass its values"),
 ]
+LONG, MOST_LONG = 400, 30
 
 
 def check(root):
+    n_long = sum(len((root / path).read_text(encoding="utf-8").splitlines()) > LONG
+                 for path in lint.sources(root, under=("lib",)))
+    if n_long > MOST_LONG:
+        yield f"lib: {n_long} files are longer than {LONG} lines, at most {MOST_LONG} may be; make one simpler"
     for path in lint.sources(root, under=("lib", "tools")):
         text = lint.without_comments((root / path).read_text(encoding="utf-8"))
         for what, pattern, instead in NEVER:
@@ -46,6 +52,7 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.cpp", "PairSearch found(most);\n", "planted.cpp:1: a search for triangles"),
     lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
     lint.Plant("lib/mesh/planted.cpp", "auto j = json::parse(summary.json);\n", "planted.cpp:1: a summary's JSON"),
+    lint.Plant("lib/mesh/planted.cpp", "\n" * 401, "files are longer than 400 lines"),
 ]
 
 if __name__ == "__main__":
