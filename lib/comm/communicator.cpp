@@ -187,7 +187,7 @@ void Communicator::run_tasks(std::int32_t n_tasks, const std::vector<std::int32_
                              const std::function<void(std::int32_t task, Bytes&& result)>& collect) const {
   if (n_tasks < 0 || order.size() != static_cast<std::size_t>(n_tasks))
     throw Error(ExitCode::kInternal, "run_tasks: the order does not list every task once");
-  run_named_tasks({order, {}, {}}, compute, collect);
+  run_named_tasks({.order = order, .label = {}, .made_from = {}}, compute, collect);
 }
 
 void Communicator::run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,

@@ -65,7 +65,13 @@ std::int32_t TaskTrace::thread_number() const {
 void TaskTrace::run_tasks(std::int32_t, const std::vector<std::int32_t>& order,
                           const std::function<Bytes(std::int32_t)>& compute,
                           const std::function<void(std::int32_t, Bytes&&)>& collect) const {
-  run_named_tasks({order, [](std::int32_t task) { return TaskLabel{"task", task}; }, ""}, compute, collect);
+  run_named_tasks({.order = order,
+                   .label =
+                       [](std::int32_t task) {
+                         return TaskLabel{"task", task};
+                       },
+                   .made_from = ""},
+                  compute, collect);
 }
 
 void TaskTrace::run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t)>& compute,

@@ -20,6 +20,7 @@ ONCE = [
 ]
 NEVER = [
     ("a summary's JSON parsed again", r"parse\([\w.>-]*(?:summary|association)[\w.>-]*json", "pass its values"),
+    ("tasks without the names of their fields", r"\brun_named_tasks\(\s*\{\s*[^.\s]", "write {.order = ...}"),
 ]
 LONG, MOST_LONG = 400, 30
 
@@ -52,6 +53,7 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.cpp", "PairSearch found(most);\n", "planted.cpp:1: a search for triangles"),
     lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
     lint.Plant("lib/mesh/planted.cpp", "auto j = json::parse(summary.json);\n", "planted.cpp:1: a summary's JSON"),
+    lint.Plant("lib/mesh/planted.cpp", "run_named_tasks(\n  {order, {}, {}});\n", "planted.cpp:1: tasks without"),
     lint.Plant("lib/mesh/planted.cpp", "\n" * 401, "files are longer than 400 lines"),
 ]
 

@@ -21,11 +21,12 @@ EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int3
       part.append(make(i));
     return packed(part);
   };
-  executor.run_named_tasks({heaviest_first(std::vector<double>(n_tasks, 1)),
-                            [](std::int32_t task) {
-                              return TaskLabel{"curves", task};
-                            },
-                            ""},
+  executor.run_named_tasks({.order = heaviest_first(std::vector<double>(n_tasks, 1)),
+                            .label =
+                                [](std::int32_t task) {
+                                  return TaskLabel{"curves", task};
+                                },
+                            .made_from = ""},
                            compute, [&](std::int32_t task, Bytes&& result) { unpack(result, parts[task]); });
   EdgeMesh all = EdgeMesh::of_edges(0);
   for (const EdgeMesh& part : parts)

@@ -96,13 +96,12 @@ void TiledRegions::mesh_groups(const Executor& executor, const std::string& made
     return TaskLabel{"group", regions_.face(s.region), task};  // a face may have several regions
   };
   executor.run_named_tasks(
-      {heaviest_first(work),
-       label,
-       made_from,
-       {},
-       [&](std::int32_t task, const Bytes&) { return record(n_tiles_ + task); },
-       [&](std::int32_t task, Bytes&& bytes) { return restore(n_tiles_ + task, bytes); },
-       [&](const Bytes& request) { return answer(request); }},
+      {.order = heaviest_first(work),
+       .label = label,
+       .made_from = made_from,
+       .record = [&](std::int32_t task, const Bytes&) { return record(n_tiles_ + task); },
+       .restore = [&](std::int32_t task, Bytes&& bytes) { return restore(n_tiles_ + task, bytes); },
+       .answer = [&](const Bytes& request) { return answer(request); }},
       [&](std::int32_t task) {
         mesh_group(n_tiles_ + task, executor);
         return packed(static_cast<std::int32_t>(executor.rank()));
