@@ -42,9 +42,6 @@ inline std::uint32_t compact(std::uint64_t v) {
 inline std::uint64_t encode(GridPoint p) { return spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2; }
 inline GridPoint decode(std::uint64_t key) { return {compact(key), compact(key >> 1), compact(key >> 2)}; }
 
-/// Child position (0..7) on the path from the node at `level` towards `key`.
-inline int octant(std::uint64_t key, int level) { return static_cast<int>(key >> (3 * (kMaxLevel - 1 - level))) & 7; }
-
 /// Edge of a cell in grid units.
 inline std::uint32_t cell_extent(int level) { return 1u << (kMaxLevel - level); }
 

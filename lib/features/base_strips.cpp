@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "base/box_tree.h"
+#include "base/disjoint_sets.h"
 
 namespace st {
 namespace {
@@ -100,19 +100,16 @@ class BaseStripFinder {
 
   /// Strips that hang together at their ends.
   void measure_rows(std::vector<Strip>& all) const {
-    std::vector<std::size_t> parent(all.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets rows(static_cast<std::int64_t>(all.size()));
+    const auto root = [&](std::size_t i) { return static_cast<std::size_t>(rows.find(static_cast<std::int32_t>(i))); };
     std::map<EdgeId, std::size_t> at_end;
     for (std::size_t i = 0; i < all.size(); ++i)
       for (const EdgeId e : t_.edges_of(all[i].face)) {
         if (e == all[i].edges[0] || e == all[i].edges[1] || !all[i].others.empty()) continue;
         const auto [known, is_new] = at_end.emplace(e, i);
         const double a = width_of(all[i]), b = width_of(all[known->second]);
-        if (!is_new && a <= kAlike * b && b <= kAlike * a) parent[root(i)] = root(known->second);
+        if (!is_new && a <= kAlike * b && b <= kAlike * a)
+          rows.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(known->second));
       }
     std::vector<double> length(all.size(), 0);
     std::vector<Box3> box(all.size());

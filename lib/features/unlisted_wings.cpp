@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/eigen.h"
 #include "features/profile.h"
 
@@ -37,18 +37,10 @@ std::vector<EdgeId> free_edges(const ModelTables& t, const FaceRoles& roles) {
 
 /// Edges that hang together at vertices.
 std::vector<std::vector<EdgeId>> loops_of(const ModelTables& t, const std::vector<EdgeId>& edges) {
-  std::vector<std::size_t> parent(static_cast<std::size_t>(t.n_vertices()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto vertex = [&](EdgeId e, std::size_t k) {
-    return root(static_cast<std::size_t>(t.edge_vertices[2 * static_cast<std::size_t>(e) + k]));
-  };
-  for (const EdgeId e : edges) parent[vertex(e, 0)] = vertex(e, 1);
-  std::map<std::size_t, std::vector<EdgeId>> loops;
-  for (const EdgeId e : edges) loops[vertex(e, 0)].push_back(e);
+  DisjointSets vertices(t.n_vertices());
+  for (const EdgeId e : edges) vertices.join(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
+  std::map<std::int32_t, std::vector<EdgeId>> loops;
+  for (const EdgeId e : edges) loops[vertices.find(t.edge_vertices[2 * e])].push_back(e);
   std::vector<std::vector<EdgeId>> all;
   for (auto& [key, own] : loops) all.push_back(std::move(own));
   return all;
