@@ -374,10 +374,15 @@ class Blanker {
     for (const Piece& piece : pieces) {
       const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1),
                  c = surface_.corner(piece.triangle, 2);
-      if (&piece != nearest && !segment_meets_triangle(x, nearest->middle, a, b, c)) continue;
-      const double from = orient3d(a, b, c, x), to = orient3d(a, b, c, nearest->middle);
-      const double t = &piece == nearest ? 1 : from / (from - to);
-      if (!(t < first) || from == 0) continue;
+      const double from = orient3d(a, b, c, x);
+      if (from == 0) continue;
+      double t = 1;
+      if (&piece != nearest) {
+        const double to = orient3d(a, b, c, nearest->middle);
+        if ((from > 0 && to > 0) || (from < 0 && to < 0)) continue;
+        t = from / (from - to);
+      }
+      if (!(t < first) || (&piece != nearest && !line_meets_triangle(x, nearest->middle, a, b, c))) continue;
       first = t;
       sign = from > 0 ? 1 : -1;
     }

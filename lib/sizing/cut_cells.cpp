@@ -125,11 +125,18 @@ ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half) 
   return polygon;
 }
 
-bool segment_meets_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
+bool line_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto are_apart = [](double s, double t) { return (s > 0 && t < 0) || (s < 0 && t > 0); };
+  const double u = orient3d(p, q, a, b), v = orient3d(p, q, b, c);
+  if (are_apart(u, v)) return false;
+  const double w = orient3d(p, q, c, a);
+  return !are_apart(u, w) && !are_apart(v, w);
+}
+
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const double sp = orient3d(a, b, c, p), sq = orient3d(a, b, c, q);
   if ((sp > 0 && sq > 0) || (sp < 0 && sq < 0)) return false;
-  const double u = orient3d(p, q, a, b), v = orient3d(p, q, b, c), w = orient3d(p, q, c, a);
-  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+  return line_meets_triangle(p, q, a, b, c);
 }
 
 // A ray along +x: seen along it, each triangle winds around x or not; common edges of two triangles are counted once

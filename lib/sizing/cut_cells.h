@@ -43,7 +43,9 @@ struct ClippedTriangle {
 ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half);
 
 /// Whether the closed segment pq and the closed triangle have a point in common. Exact.
-bool segment_meets_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c);
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
+/// Likewise, where p and q are known not to lie on one side of it.
+bool line_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// How often a closed, oriented surface winds around `x`: 1 inside, 0 outside. Exact, unless x lies on it.
 /// O(n_triangles).
