@@ -553,6 +553,34 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
   return kNone;
 }
 
+/// Whether a smooth edge in a nose may be a trailing edge: one of its faces has another such edge, apart from it.
+bool may_be_tail(const ModelTables& t, std::span<const FaceId> edge_faces, std::span<const std::int32_t> offsets,
+                 std::span<const WingEdge> edges, const WingEdge& own) {
+  if (own.kind != WingEdgeKind::kLeading || own.is_declared) return false;
+  const auto vertex = [&](EdgeId e, std::size_t k) { return t.edge_vertices[2 * static_cast<std::size_t>(e) + k]; };
+  const auto is_other = [&](EdgeId e) {
+    for (const std::size_t k : {0, 1})
+      if (vertex(e, k) == vertex(own.edge, 0) || vertex(e, k) == vertex(own.edge, 1)) return false;
+    return std::ranges::any_of(edges,
+                               [&](const WingEdge& w) { return w.edge == e && w.kind == WingEdgeKind::kLeading; });
+  };
+  for (std::int32_t k = offsets[own.edge]; k < offsets[own.edge + 1]; ++k)
+    if (std::ranges::any_of(t.edges_of(edge_faces[static_cast<std::size_t>(k)]), is_other)) return true;
+  return false;
+}
+
+/// Edges at which profiles are cut.
+std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingEdge> edges) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  std::vector<WingEdge> tails;
+  for (const WingEdge& w : edges)
+    if (w.kind != WingEdgeKind::kLeading || w.is_declared || may_be_tail(t, edge_faces, offsets, edges, w))
+      tails.push_back(w);
+  return tails;
+}
+
 /// All surfaces of a model, on rank 0.
 class SurfaceFinder {
  public:
@@ -617,7 +645,8 @@ class SurfaceFinder {
     std::vector<WingEdge> noses;
     for (const WingEdge& w : edges_) {
       const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
-      if (w.kind != WingEdgeKind::kLeading || w.is_declared || std::ranges::any_of(surfaces_, has_edge)) continue;
+      if (!may_be_tail(model_.tables(), edge_faces_, offsets_, edges_, w) || std::ranges::any_of(surfaces_, has_edge))
+        continue;
       noses.push_back(w);
       noses.back().kind = WingEdgeKind::kSharpTrailing;
     }
@@ -649,35 +678,44 @@ class SurfaceFinder {
 
   /// The model's axes, and before them the normals of plane faces in which a chain ends, as tips and roots are, where
   /// no axis is near: those of a delta may run along its nose.
-  std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) const {
-    const ModelTables& t = model_.tables();
+  std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) {
     std::vector<Vec3> normals;
     const auto is_near = [](Vec3 a, Vec3 b) { return std::abs(dot(a, b)) > kNearAxis; };
     const auto is_known = [&](Vec3 n) {
       return std::ranges::any_of(roles_.own.axis, [&](Vec3 a) { return is_near(a, n); }) ||
              std::ranges::any_of(normals, [&](Vec3 a) { return is_near(a, n); });
     };
-    for (FaceId f = 0; f < t.n_faces(); ++f) {
-      if (t.face_type[f] != SurfaceType::kPlane || !ends_at(f, chain)) continue;
+    for (const FaceId f : planes_at_ends(chain))
       if (const Vec3 n = MirrorPlane(model_, f).normal; !is_known(n)) normals.push_back(n);
-    }
     normals.insert(normals.end(), roles_.own.axis.begin(), roles_.own.axis.end());
     return normals;
   }
 
-  /// Whether an edge of a chain ends at a face, and none lies on it.
-  bool ends_at(FaceId f, const std::vector<WingEdge>& chain) const {
+  /// Plane faces at which an edge of a chain ends, and on which none lies, ascending.
+  std::vector<FaceId> planes_at_ends(const std::vector<WingEdge>& chain) {
     const ModelTables& t = model_.tables();
-    bool ends = false;
-    for (const EdgeId e : t.edges_of(f))
-      for (const WingEdge& w : chain) {
-        if (w.edge == e) return false;
-        for (const std::size_t k : {0, 1})
-          for (const std::size_t l : {0, 1})
-            ends = ends || t.edge_vertices[2 * static_cast<std::size_t>(e) + k] ==
-                               t.edge_vertices[2 * static_cast<std::size_t>(w.edge) + l];
+    if (planes_at_.empty()) {
+      planes_at_.resize(static_cast<std::size_t>(t.n_vertices()));
+      for (FaceId f = 0; f < t.n_faces(); ++f)
+        if (t.face_type[f] == SurfaceType::kPlane)
+          for (const EdgeId e : t.edges_of(f))
+            for (const std::size_t k : {0, 1})
+              planes_at_[static_cast<std::size_t>(t.edge_vertices[2 * static_cast<std::size_t>(e) + k])].push_back(f);
+    }
+    std::vector<FaceId> planes, own;
+    for (const WingEdge& w : chain) {
+      const auto e = static_cast<std::size_t>(w.edge);
+      for (const std::size_t k : {0, 1}) {
+        const auto& at = planes_at_[static_cast<std::size_t>(t.edge_vertices[2 * e + k])];
+        planes.insert(planes.end(), at.begin(), at.end());
       }
-    return ends;
+      own.insert(own.end(), edge_faces_.begin() + offsets_[e], edge_faces_.begin() + offsets_[e + 1]);
+    }
+    std::sort(planes.begin(), planes.end());
+    planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+    std::sort(own.begin(), own.end());
+    std::erase_if(planes, [&](FaceId f) { return std::ranges::binary_search(own, f); });
+    return planes;
   }
 
   double reach() const { return 2 * kDeflection * roles_.reference_diagonal; }
@@ -795,6 +833,7 @@ class SurfaceFinder {
   std::map<FaceId, Facets> whole_;     // by symmetry plane
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
+  std::vector<std::vector<FaceId>> planes_at_;  // by vertex; empty: not known yet
   std::vector<std::uint8_t> is_concave_;
   std::vector<LiftingSurface> surfaces_;
   std::vector<Rest> rest_;
@@ -857,13 +896,14 @@ NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges, const Executor& executor,
                                                   std::vector<UnusedTrailing>* unused, Noseless noseless) {
-  bool has_edges = !edges.empty();
+  const std::vector<WingEdge> tails = possible_tails(model.tables(), edges);
+  bool has_edges = !tails.empty();
   share(executor, has_edges);
   if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;
   ProfileFacets own(model, roles, {{.deflection = deflection}, 2 * deflection});
   const bool has_all = has_wall_facets(roles, deflection);
-  if (!has_all) own.add_along(edges, executor);
+  if (!has_all) own.add_along(tails, executor);
   while (true) {
     std::vector<CutEnd> ends;
     std::vector<LiftingSurface> surfaces;

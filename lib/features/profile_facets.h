@@ -34,7 +34,7 @@ class ProfileFacets {
   /// Both must outlive the object.
   ProfileFacets(const Model& model, const FaceRoles& roles, const ProfileLimits& limits);
 
-  /// Facets of the walls that cuts cross which begin on trailing edges, or declared ones, among `edges` (of rank 0): at
+  /// Facets of the walls that cuts cross which begin on `edges` (of rank 0): at
   /// each of their places, square to the edge and to the model's axes. Cost: the facets, as tasks, and the cuts.
   void add_along(std::span<const WingEdge> edges, const Executor& executor);
 

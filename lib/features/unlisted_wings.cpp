@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "base/disjoint_sets.h"
 #include "base/eigen.h"
@@ -80,12 +81,16 @@ bool bounds_sheet(const Model& model, const std::vector<EdgeId>& loop) {
   return false;
 }
 
-/// The plane square to a seam half way cuts a profile with round ends out of the face.
-bool is_blade(const Model& model, FaceId f, EdgeId seam) {
+/// The plane square to an edge half way cuts a profile with round ends out of the faces.
+bool is_blade(const Model& model, std::span<const FaceId> faces, EdgeId seam) {
   const ModelTables& t = model.tables();
   std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
-  is_wanted[f] = 1;
-  const double deflection = kDeflection * t.face_box[f].diagonal();
+  double diagonal = 0;
+  for (const FaceId f : faces) {
+    is_wanted[f] = 1;
+    diagonal = std::max(diagonal, t.face_box[f].diagonal());
+  }
+  const double deflection = kDeflection * diagonal;
   const Facets facets = make_facets(model, is_wanted, {.deflection = deflection, .is_exact = true});
   const ProfileCutter cutter(facets);
   const auto curve = model.curve(seam);
@@ -110,18 +115,27 @@ std::vector<EdgeId> find_sheet_edges(const Model& model, const FaceRoles& roles)
 std::vector<EdgeId> find_seams_of_blades(const Model& model, const FaceRoles& roles,
                                          std::span<const LiftingSurface> wings) {
   const ModelTables& t = model.tables();
-  std::vector<EdgeId> found;
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  const auto is_free = [&](FaceId f) {
     const auto has_face = [&](const LiftingSurface& wing) { return std::ranges::count(wing.faces, f) > 0; };
-    if (roles.role[f] != FaceRole::kWall || t.face_type[f] != SurfaceType::kBspline ||
-        std::ranges::any_of(wings, has_face))
-      continue;
-    for (const EdgeId e : t.edges_of(f))
-      if (!t.edge_is_degenerate[e] && std::ranges::count(t.edges_of(f), e) == 2 &&
-          t.edge_length[e] >= kLeastLength * roles.reference_diagonal && is_blade(model, f, e)) {
-        found.push_back(e);
-        break;
-      }
+    return roles.role[f] == FaceRole::kWall && t.face_type[f] == SurfaceType::kBspline &&
+           std::ranges::none_of(wings, has_face);
+  };
+  std::vector<std::uint8_t> is_done(static_cast<std::size_t>(t.n_faces()), 0);
+  std::vector<EdgeId> found;
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    if (t.edge_is_degenerate[e] || t.edge_length[e] < kLeastLength * roles.reference_diagonal) continue;
+    const auto at =
+        std::span(edge_faces)
+            .subspan(static_cast<std::size_t>(offsets[e]), static_cast<std::size_t>(offsets[e + 1] - offsets[e]));
+    if (at.size() != 2 || is_done[at[0]] || !is_free(at[0]) || !is_free(at[1])) continue;
+    const auto is_shared = [&](EdgeId own) { return std::ranges::count(t.edges_of(at[1]), own) > 0; };
+    if (at[0] != at[1] && std::ranges::count_if(t.edges_of(at[0]), is_shared) < 2) continue;
+    if (!is_blade(model, at, e)) continue;
+    found.push_back(e);
+    is_done[at[0]] = is_done[at[1]] = 1;
   }
   std::sort(found.begin(), found.end());
   return found;

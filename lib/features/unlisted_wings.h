@@ -14,8 +14,9 @@ namespace st {
 /// surface goes, as at the open ends of a body. Local. Cost: a few points on each free edge.
 std::vector<EdgeId> find_sheet_edges(const Model& model, const FaceRoles& roles);
 
-/// Seams of spline walls that belong to none of `wings`, and whose cut half way is the profile of a wing, both ends
-/// round and inside the face, ascending. Local. Cost: exact facets of spline walls with a seam.
+/// Seams of spline walls that belong to none of `wings`, or edges between two that share a second one, whose cut half
+/// way is the profile of a wing, both ends round and inside the face, ascending. Local. Cost: exact facets of such
+/// walls.
 std::vector<EdgeId> find_seams_of_blades(const Model& model, const FaceRoles& roles,
                                          std::span<const LiftingSurface> wings);
 

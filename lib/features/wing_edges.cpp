@@ -20,10 +20,12 @@ constexpr int kAgreeing = 6;                                         // of the s
 constexpr double kSharpest = radians(60);                            // material of a sharp trailing edge at most
 constexpr double kSmooth = radians(30);                              // kink at a leading edge at most
 constexpr double kBluntMin = radians(50), kBluntMax = radians(140);  // material at either edge of a blunt trailing edge
-constexpr double kLookAway = -0.5;         // cosine between normals on both sides of a blunt trailing edge at most
-constexpr double kBluntWidth = 0.05;       // of its length, at most
-constexpr double kLargerThanRound = 2;     // area of the faces beside a round trailing edge over its own, at least
-constexpr double kNoseTurn = radians(45);  // of the normal to either side of a leading edge, at least
+constexpr double kLookAway = -0.5;          // cosine between normals on both sides of a blunt trailing edge at most
+constexpr double kBluntWidth = 0.05;        // of its length, at most
+constexpr double kLargerThanRing = 5;       // likewise of those beside a ring
+constexpr double kSquareRing = radians(1);  // of a ring, from square to its sides
+constexpr double kLargerThanRound = 2;      // area of the faces beside a round trailing edge over its own, at least
+constexpr double kNoseTurn = radians(45);   // of the normal to either side of a leading edge, at least
 constexpr double kFlattened = 0.7;  // curvature there over the largest, at most: a circle stays at 1, a parabola falls
                                     // to 0.35
 constexpr double kLargestNose = 0.02;        // of the reference diagonal: radius
@@ -340,7 +342,7 @@ class WingEdgeFinder {
     const double width = (is_half ? 2 : 1) * median_width(strip);
     if (!is_narrow(strip, width)) return;
     if (is_half) complete(strip, places);
-    if (count_blunt(strip, places) < kAgreeing) return;
+    if (count_blunt(strip, places) < kAgreeing || is_rim(strip, places)) return;
     for (std::size_t k = 0; k < 2; ++k) {
       if (mirror[k] != kNone) continue;
       found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
@@ -375,6 +377,17 @@ class WingEdgeFinder {
       n_agree += is_round || (is_corner(a) && is_corner(b));
     }
     return n_agree;
+  }
+
+  /// A ring square to both sides, or hardly smaller than these: the end of a tube, the rim of a disc, a chamfer.
+  bool is_rim(const Strip& strip, const Places& places) const {
+    const EdgeId e = strip.edges[0];
+    if (t_.edge_vertices[2 * e] != t_.edge_vertices[2 * e + 1]) return false;
+    const auto is_square = [](const Station& s) { return std::abs(s.angle - kPi / 2) < kSquareRing; };
+    const double area =
+        std::min(t_.face_area[beyond(places[0][0], strip).face], t_.face_area[beyond(places[1][0], strip).face]);
+    return area < kLargerThanRing * t_.face_area[strip.face] ||
+           (std::ranges::all_of(places[0], is_square) && std::ranges::all_of(places[1], is_square));
   }
 
   /// Closed edges may begin anywhere.

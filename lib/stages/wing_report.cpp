@@ -147,7 +147,7 @@ std::string sheet_warning(std::span<const EdgeId> free_edges) {
 std::string seam_warning(std::span<const EdgeId> seams) {
   if (seams.empty()) return "";
   return fmt::format(
-      "what is closed at the seam {} looks like a blade, but has no edge at its trailing edge: both ends get the "
+      "what is closed at {} looks like a blade, but has no edge at its trailing edge: both ends get the "
       "lengths "
       "of their curvature; cut the face along its trailing edge in the CAD system",
       listed(from_one({seams.begin(), seams.end()})));

@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 BODY_IN_AIR = os.environ["ST_BODY_IN_AIR"]
+WING_MODELS = os.environ["ST_WING_MODELS"]
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("ST_CORPUS") or ROOT / "../shared/corpus")
 KINDS = ("box", "sphere", "cylinder", "c", "prism", "bullet")
@@ -74,6 +75,22 @@ class Domains(ToolTest):
             with self.subTest(variant=variant, suffix=suffix):
                 self.expect(self.make(body, "box", 10, variant, suffix), farfield=farfield, symmetry=0,
                             interface=interface)
+
+    def test_of_a_section_between_two_planes_have_two_symmetry_planes(self):
+        for kind in ("box", "c"):
+            with self.subTest(kind=kind):
+                wing = self.folder / "wing.brep"
+                subprocess.run([WING_MODELS, "two_elements", wing], check=True, capture_output=True)
+                domain = self.domain_of(self.make(wing, kind, 10, "slice"))
+                self.assertIsNotNone(domain)
+                self.assertEqual(domain["symmetry"], 2)
+
+    def test_that_are_doubtful_are_said_in_one_line(self):
+        wing = self.folder / "wing.brep"
+        subprocess.run([WING_MODELS, "flying_wing", wing], check=True, capture_output=True)
+        for size in (0.9, 0.6):
+            run = must("st-import", self.make(wing, "box", size, "whole"), "-o", self.folder / "g.hdf")
+            self.assertIn("larger than a quarter of what is around it; --flow-domain yes", run.err + run.out)
 
     def test_machine_parts_are_none(self):
         parts = subprocess.run([BODY_IN_AIR, "parts"], check=True, capture_output=True, text=True).stdout.split()

@@ -41,6 +41,7 @@ SPANS = {
     "flying_wing": [8.75],
     "canard_and_delta": [2.5, 2.5, 1.51, 1, 1],  # deltas, fin, canards
     "delta": [2],
+    "delta_with_edge": [2],
 }
 # Noses are not seen along the whole span: behind a nacelle. That is said.
 PARTLY = {"aircraft"}
@@ -71,7 +72,7 @@ class WingShapes(ToolTest):
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
         (self.folder / "geometry.hdf").unlink()
-        self.assertRegex(self.raster("blade_of_one", "rans").err, "warning: .*seam edge [0-9]+ looks like a blade")
+        self.assertRegex(self.raster("blade_of_one", "rans").err, "warning: .* at edge [0-9]+ looks like a blade")
 
 
 for model_name, model_spans in SPANS.items():

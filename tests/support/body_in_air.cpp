@@ -7,7 +7,8 @@
 // SIZE: half width or radius over the body's diagonal. VARIANT: whole; half, above y = 0; halfquarter, and above
 // its middle; turned, a whole one; halfturned; two, bodies; inner, a box with air on both sides around the body;
 // innerhalf, likewise with faces of its own on both sides; solid, the body and the domain are solids over each other;
-// cut, the air in two blocks; disc, a loose sheet; sheets, loose faces; open, half without a symmetry plane.
+// cut, the air in two blocks; slice, a tenth of the
+// span between two planes; disc, a loose sheet; sheets, loose faces; open, half without a symmetry plane.
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -192,6 +193,12 @@ TopoDS_Shape in_air(const std::string& kind, const TopoDS_Shape& body, const Pla
         box(p.x0 - m, p.y0 - m, p.z0 - m, p.x1 - p.x0 + 2 * m, p.y1 - p.y0 + 2 * m, p.z1 - p.z0 + 2 * m);
     return compound_of({with_voids(outer, inner), with_voids(inner, body)});
   }
+  if (variant == "slice") {
+    const double r = 3 * p.r, y = p.y0 + 0.45 * (p.y1 - p.y0), dy = 0.1 * (p.y1 - p.y0);
+    return BRepAlgoAPI_Common(BRepAlgoAPI_Cut(outer, body).Shape(),
+                              box(p.middle.X() - r, y, p.middle.Z() - r, 2 * r, dy, 2 * r))
+        .Shape();
+  }
   if (variant == "disc") {
     const gp_Circ circle(gp_Ax2(gp_Pnt(p.x0 - 0.3 * p.diagonal, p.middle.Y(), p.middle.Z()), gp::DX()),
                          0.2 * p.diagonal);
@@ -309,6 +316,22 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
        [] {
          return compound_of({with_voids(box(0, 0, 0, 100, 80, 60), box(2, 2, 2, 96, 76, 56)),
                              box(20, 20, 10, 15, 15, 5), cylinder(60, 40, 10, gp::DZ(), 6, 20)});
+       }},
+      {"plate_with_cam_hole",
+       [] {
+         TColgp_Array1OfPnt poles(1, 5);
+         const double x[] = {130, 150, 185, 150, 130}, y[] = {100, 70, 100, 130, 100};
+         for (int i = 0; i < 5; ++i) poles(i + 1) = gp_Pnt(x[i], y[i], -5);
+         BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
+         const TopoDS_Shape face = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+         return cut(box(0, 0, 0, 300, 200, 10), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 20)).Shape());
+       }},
+      {"plate_with_slots",
+       [] {
+         TopoDS_Shape all = box(0, 0, 0, 300, 200, 10);
+         for (int i = 0; i < 2; ++i)
+           all = cut(all, fuse(box(120, 80 + 30 * i, -1, 40, 6, 12), cylinder(120, 83 + 30 * i, -1, gp::DZ(), 3, 12)));
+         return all;
        }},
       {"two_blocks", [] {
          return compound_of({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)});

@@ -424,7 +424,7 @@ TopoDS_Shape turbine_blade(const Foil& foil) {
 }
 
 /// One closed curve around each section, its seam on the upper side.
-TopoDS_Shape seamless_blade() {
+TopoDS_Shape round_blade() {
   BRepOffsetAPI_ThruSections thru(true, false, 1e-6);
   for (int i = 0; i <= 4; ++i) {
     const Section s{kTurbine, straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i)};
@@ -597,7 +597,12 @@ const std::map<std::string, Maker>& models() {
          return turbine_blade(with_cuts(kTurbine, {0.05, -0.05}));
        }},
       {"blade_of_two", [] { return turbine_blade(with_cuts(kTurbine, {0})); }},
-      {"blade_of_one", seamless_blade},
+      {"blade_of_one", [] { return round_blade(); }},
+      {"delta_with_edge",
+       [] {
+         return loft({.thickness = 0.06, .cuts = {0}},
+                     {straight(gp_Pnt(0, 0, 0), 4), straight(gp_Pnt(3.8, 2, 0), 0.2)});
+       }},
       {"vanes", vanes},
       {"rocket_fins", rocket_fins},
       {"sail", sail},

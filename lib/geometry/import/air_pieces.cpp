@@ -41,14 +41,16 @@ Vec3 point_at(const BRepAdaptor_Surface& surface, double u, double v, Vec3& norm
   return vec(p);
 }
 
-/// From a face into it, square to one of its edges at the edge's middle; zero where that cannot be told.
-Vec3 direction_into(const TopoDS_Face& face, const TopoDS_Shape& edge) {
+/// From an edge of a face into it, square to the edge at its middle, once for each side of a seam; none where that
+/// cannot be told.
+std::vector<Vec3> directions_into(const TopoDS_Face& face, const TopoDS_Shape& edge) {
+  std::vector<Vec3> all;
   for (TopExp_Explorer e(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
     if (!e.Current().IsSame(edge)) continue;
     const TopoDS_Edge own = TopoDS::Edge(e.Current());
     double first = 0, last = 0;
     const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(own, face, first, last);
-    if (curve.IsNull()) return {};
+    if (curve.IsNull()) return all;
     gp_Pnt2d uv;
     gp_Vec2d way;
     curve->D1(0.5 * (first + last), uv, way);
@@ -59,9 +61,9 @@ Vec3 direction_into(const TopoDS_Face& face, const TopoDS_Shape& edge) {
     gp_Vec along = way.X() * du + way.Y() * dv;
     if (own.Orientation() == TopAbs_REVERSED) along.Reverse();
     const gp_Vec into = du.Crossed(dv).Crossed(along);
-    return normalized(Vec3{into.X(), into.Y(), into.Z()});
+    all.push_back(normalized(Vec3{into.X(), into.Y(), into.Z()}));
   }
-  return {};
+  return all;
 }
 
 Vec3 farthest(const std::vector<Vec3>& points, Vec3 from) {
@@ -253,9 +255,28 @@ void AirPieces::find_ways() {
     if (ways.size() < 3) continue;
     for (Way& way : ways)
       for (const EdgeId own : t_.edges_of(way.face))
-        if (first_edge_[own] == e) way.into = direction_into(face(way.face), edges_(own + 1));
+        if (first_edge_[own] == e)
+          for (const Vec3 into : directions_into(face(way.face), edges_(own + 1))) way.into = into;
     ways_.emplace(e, std::move(ways));
   }
+}
+
+double AirPieces::least_angle(EdgeId e) const {
+  std::vector<Vec3> into;
+  std::vector<FaceId> done;
+  for (const FaceId f : faces_at(e)) {
+    if (std::ranges::count(done, f) > 0) continue;
+    done.push_back(f);
+    std::vector<EdgeId> own;
+    for (const EdgeId k : t_.edges_of(f))
+      if (first_edge_[k] == first_edge_[e] && std::ranges::count(own, k) == 0) own.push_back(k);
+    for (const EdgeId k : own)
+      for (const Vec3 d : directions_into(face(f), edges_(k + 1))) into.push_back(d);
+  }
+  double least = kPi;
+  for (std::size_t i = 0; i < into.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) least = std::min(least, angle_between(into[i], into[k]));
+  return least;
 }
 
 std::vector<AirPiece> AirPieces::pieces_without(const std::vector<char>& is_left_out) const {

@@ -56,6 +56,9 @@ class AirPieces {
     return std::span(edge_faces_).subspan(offsets_[first], offsets_[first + 1] - offsets_[first]);
   }
 
+  /// Between the faces at an edge, or the two sides of a seam, radians in [0, pi]; pi where that cannot be told.
+  double least_angle(EdgeId e) const;
+
   /// Large flat faces on the hull, and all faces in their planes, the largest area first.
   std::vector<HullPlane> hull_planes() const;
 

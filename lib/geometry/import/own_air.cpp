@@ -19,16 +19,19 @@ namespace st::occt {
 namespace {
 
 // Lengths over the model's diagonal, sizes over its size.
-constexpr double kLargestBody = 0.25;    // a fifth, and room for one
-constexpr double kPlainBody = 0.15;      // of planes, cylinders, spheres alone: a larger one is a cavity
-constexpr double kAskedBody = 0.95;      // where the user says that it is one
-constexpr double kClear = 0.5;           // from body to far field, over the body's size
-constexpr double kSpread = 1e-3;         // of outer faces from the sides of the model's box, from a convex shape
-constexpr double kRounding = 0.05;       // a curved outer face narrower than this is the rounding of a part
-constexpr double kInPlane = 1e-4;        // edges have tolerances
-constexpr double kFlat = 1e-3;           // of a flat face, over the diagonal of its box
-constexpr double kRound = 1e-3;          // of a sphere or circle, over its radius
-constexpr double kAcross = 0.02;         // cosine: normals of a wall that stands on a plane
+constexpr double kLargestBody = 0.25;       // a fifth, and room for one
+constexpr double kPlainBody = 0.15;         // of planes, cylinders, spheres alone: a larger one is a cavity
+constexpr double kAskedBody = 0.95;         // where the user says that it is one
+constexpr double kClear = 0.5;              // from body to far field, over the body's size
+constexpr double kSpread = 1e-3;            // of outer faces from the sides of the model's box, from a convex shape
+constexpr double kRounding = 0.05;          // a curved outer face narrower than this is the rounding of a part
+constexpr double kInPlane = 1e-4;           // edges have tolerances
+constexpr double kFlat = 1e-3;              // of a flat face, over the diagonal of its box
+constexpr double kRound = 1e-3;             // of a sphere or circle, over its radius
+constexpr double kAcross = 0.02;            // cosine: normals of a wall that stands on a plane
+constexpr double kSharpTail = radians(60);  // of a section between two planes
+constexpr double kBaseCorner = radians(140);
+constexpr double kNarrowBase = 0.05;     // width of its base over the chord
 constexpr double kDeep = 0.5;            // height of a wing on its plane over its width there: less is an engraving
 constexpr double kInnerBox = 0.5;        // a box in the air, over the air around it
 constexpr double kInInnerBox = 0.8;      // what is in it, over the box
@@ -101,8 +104,7 @@ class AirFinder {
       if (try_planes({&plane})) return result_;
     for (std::size_t i = 0; i < planes.size(); ++i)
       for (std::size_t k = i + 1; k < planes.size(); ++k) {
-        const bool are_opposite = dot(planes[i].normal, planes[k].normal) < -1 + kSpread;
-        if ((is_asked_ || !are_opposite) && try_planes({&planes[i], &planes[k]})) return result_;
+        if (try_planes({&planes[i], &planes[k]})) return result_;
       }
     return result_;
   }
@@ -234,12 +236,15 @@ class AirFinder {
     const double body_size = size_of(body), share = body_size / size_of(outer);
     if (!(share > 0) || share > kAskedBody) return false;
     if (is_asked_) return true;
-    if (share > 2 * kLargestBody || has_roundings(split.outer)) return false;
+    const bool is_between = stands_between_planes(split);
+    if ((share > 2 * kLargestBody || is_between) && !has_free_form(split.body)) return false;
+    if (is_between ? has_roundings_across(split) : has_roundings(split.outer)) return false;
     if (least_height(split.outer_and_planes(), outer, body) < -length(kSpread)) return false;
     const double clear = least_height(split.outer, body, body);
     if (clear <= 0) return false;
     if (share > kLargestBody) return doubt("is larger than a quarter of what is around it");
     if (clear < kClear * body_size) return doubt("is nearer to what is around it than half its own size");
+    if (is_between) return is_section(split) || doubt("stands between two planes as a hole does");
     if (!split.planes.empty())
       return is_cut_by_symmetry(split) || doubt("stands on a plane as a pocket or a hole does");
     return share <= kPlainBody || has_free_form(split.body) || is_sphere(split.outer) ||
@@ -292,6 +297,13 @@ class AirFinder {
                        [&](FaceId f) { return !is_flat(f) && t_.face_width[f] < length(kRounding); });
   }
 
+  /// Between two planes near each other all faces are narrow: their length along the planes counts.
+  bool has_roundings_across(const Split& split) const {
+    const double height = std::abs(dot(split.planes[1]->point - split.planes[0]->point, split.planes[0]->normal));
+    return std::any_of(split.outer.begin(), split.outer.end(),
+                       [&](FaceId f) { return !is_flat(f) && t_.face_area[f] < length(kRounding) * height; });
+  }
+
   bool has_free_form(const std::vector<FaceId>& faces) const {
     return std::any_of(faces.begin(), faces.end(),
                        [&](FaceId f) { return t_.face_type[f] >= SurfaceType::kBezier && !is_flat(f); });
@@ -304,6 +316,39 @@ class AirFinder {
       all.insert(all.end(), own.begin(), own.end());
     }
     return common_center(all).has_value();
+  }
+
+  static bool stands_between_planes(const Split& split) {
+    return split.planes.size() == 2 && dot(split.planes[0]->normal, split.planes[1]->normal) < -1 + kSpread;
+  }
+
+  /// A section of a wing between two planes: all faces across, one of them of free form, thin, and with a sharp edge or
+  /// a narrow base. A hole has none of these edges.
+  bool is_section(const Split& split) const {
+    const Vec3 normal = split.planes[0]->normal;
+    std::vector<Vec3> points = pieces_.edge_points(split.body);
+    for (Vec3& x : points) x -= dot(x, normal) * normal;
+    const double height = std::abs(dot(split.planes[1]->point - split.planes[0]->point, normal));
+    const double chord = size_of(points);
+    bool has_tail = false;
+    for (const FaceId f : split.body) {
+      for (const FaceSample& s : sample_face(pieces_.face(f)))
+        if (std::abs(dot(s.normal, normal)) > kAcross) return false;
+      bool has_corners = t_.face_area[f] < kNarrowBase * chord * height;
+      for (const EdgeId e : t_.edges_of(f)) {
+        if (!is_along(e, normal)) continue;
+        const double angle = pieces_.least_angle(e);
+        has_corners = has_corners && angle < kBaseCorner;
+        has_tail = has_tail || angle < kSharpTail;
+      }
+      has_tail = has_tail || has_corners;
+    }
+    return has_tail;
+  }
+
+  bool is_along(EdgeId e, Vec3 direction) const {
+    const std::vector<Vec3> x = pieces_.points_of(e);
+    return std::abs(dot(normalized(x.back() - x.front()), direction)) > 1 - kAcross;
   }
 
   /// What a symmetry plane cuts was whole once; what is milled or drilled into a plane was not.
