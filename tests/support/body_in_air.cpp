@@ -263,6 +263,23 @@ TopoDS_Shape propeller() {
   return all;
 }
 
+/// One of free form, through the plate.
+TopoDS_Shape plate_with_cam_hole() {
+  TColgp_Array1OfPnt poles(1, 5);
+  const double x[] = {130, 150, 185, 150, 130}, y[] = {100, 70, 100, 130, 100};
+  for (int i = 0; i < 5; ++i) poles(i + 1) = gp_Pnt(x[i], y[i], -5);
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
+  const TopoDS_Shape face = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
+  return cut(box(0, 0, 0, 300, 200, 10), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 20)).Shape());
+}
+
+TopoDS_Shape plate_with_slots() {
+  TopoDS_Shape all = box(0, 0, 0, 300, 200, 10);
+  for (int i = 0; i < 2; ++i)
+    all = cut(all, fuse(box(120, 80 + 30 * i, -1, 40, 6, 12), cylinder(120, 83 + 30 * i, -1, gp::DZ(), 3, 12)));
+  return all;
+}
+
 const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
   static const std::map<std::string, std::function<TopoDS_Shape()>> kParts{
       {"hollow_box", [] { return with_voids(box(0, 0, 0, 100, 80, 60), box(10, 10, 10, 80, 60, 40)); }},
@@ -317,22 +334,8 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
          return compound_of({with_voids(box(0, 0, 0, 100, 80, 60), box(2, 2, 2, 96, 76, 56)),
                              box(20, 20, 10, 15, 15, 5), cylinder(60, 40, 10, gp::DZ(), 6, 20)});
        }},
-      {"plate_with_cam_hole",
-       [] {
-         TColgp_Array1OfPnt poles(1, 5);
-         const double x[] = {130, 150, 185, 150, 130}, y[] = {100, 70, 100, 130, 100};
-         for (int i = 0; i < 5; ++i) poles(i + 1) = gp_Pnt(x[i], y[i], -5);
-         BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
-         const TopoDS_Shape face = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
-         return cut(box(0, 0, 0, 300, 200, 10), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 20)).Shape());
-       }},
-      {"plate_with_slots",
-       [] {
-         TopoDS_Shape all = box(0, 0, 0, 300, 200, 10);
-         for (int i = 0; i < 2; ++i)
-           all = cut(all, fuse(box(120, 80 + 30 * i, -1, 40, 6, 12), cylinder(120, 83 + 30 * i, -1, gp::DZ(), 3, 12)));
-         return all;
-       }},
+      {"plate_with_cam_hole", plate_with_cam_hole},
+      {"plate_with_slots", plate_with_slots},
       {"two_blocks", [] {
          return compound_of({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)});
        }}};
