@@ -273,6 +273,8 @@ TopoDS_Shape plate_with_cam_hole() {
   return cut(box(0, 0, 0, 300, 200, 10), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 20)).Shape());
 }
 
+TopoDS_Shape two_blocks() { return compound_of({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)}); }
+
 TopoDS_Shape plate_with_slots() {
   TopoDS_Shape all = box(0, 0, 0, 300, 200, 10);
   for (int i = 0; i < 2; ++i)
@@ -336,9 +338,7 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
        }},
       {"plate_with_cam_hole", plate_with_cam_hole},
       {"plate_with_slots", plate_with_slots},
-      {"two_blocks", [] {
-         return compound_of({box(0, 0, 0, 100, 100, 20), box(40, 40, 20, 20, 20, 20)});
-       }}};
+      {"two_blocks", two_blocks}};
   return kParts;
 }
 
