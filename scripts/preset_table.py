@@ -3,7 +3,9 @@
 
 usage: scripts/preset_table.py BIN_DIR MODEL... [--presets euler rans]
 
-All figures are those of st-check --sizing. Stations lie nearest to 10, 30, 50, 70 and 90 % of the span.
+All figures are those of st-check --sizing. The last table has triangles, and the least share of the span of a surface
+that holds what the preset asks for at nose and trailing edge. Stations lie nearest to 10, 30, 50, 70 and 90 % of the
+span.
 """
 import argparse
 import json
@@ -62,7 +64,8 @@ def main():
                 wings = sorted(report.get("lifting_surfaces", []), key=lambda w: -w["triangles"])
                 for wing in wings[:arguments.most]:
                     print(wing_row(model.stem, preset, wing))
-                counts.append(f"{report['triangles']:,}" + ("" if report["passes"] else " (fails)"))
+                held = f", {100 * min(w['held'] for w in wings):.0f} %" if wings else ""
+                counts.append(f"{report['triangles']:,}{held}" + ("" if report["passes"] else " (fails)"))
             last.append(f"| {model.stem} | {len(wings)} | {' | '.join(counts)} |")
         print(end="", flush=True)
     print(f"\n| model | surfaces | {' | '.join(arguments.presets)} |\n|---|--:|{'--:|' * len(arguments.presets)}")
