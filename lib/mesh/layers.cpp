@@ -1,6 +1,7 @@
 #include "mesh/layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,8 +13,9 @@
 namespace st {
 namespace {
 
-constexpr double kSharp = -0.5;  // cosine between normals of neighbours, at most: 120 degrees, where one direction
-                                 // makes layers 1 / cos(60 degrees) = 2 times as high
+constexpr double kSharp = -0.5;       // cosine between normals of neighbours, at most: 120 degrees, where one direction
+                                      // makes layers 1 / cos(60 degrees) = 2 times as high
+constexpr double kOtherPlane = 0.01;  // square of the sine between normals of two planes, at least: 6 degrees
 constexpr std::size_t kNodesPerPiece = 4096;
 
 /// Where a segment from `x` along `way` meets a triangle, as a share of `way` (Moeller and Trumbore 1997).
@@ -134,18 +136,19 @@ class LayersCheck {
 
   NodeAnswer answer(NodeId node, std::vector<Vec3>& normals) const {
     normals.clear();
-    Vec3 plane = {};
+    std::array<Vec3, 2> planes = {};  // on the line between two planes: both, square to each other
     for (std::int32_t i = offsets_[node]; i < offsets_[node + 1]; ++i) {
       const TriangleId t = triangles_[i];
-      if (role(t) == LayerRole::kWall) normals.push_back(normal_[t]);
-      if (role(t) == LayerRole::kPlane) plane += normal_[t];
+      const Vec3 n = normal_[t];
+      if (role(t) == LayerRole::kWall && norm2(n) > 0) normals.push_back(n);
+      if (role(t) != LayerRole::kPlane) continue;
+      if (norm2(planes[0]) == 0) planes[0] = n;
+      const Vec3 rest = n - dot(n, planes[0]) * planes[0];
+      if (norm2(planes[1]) == 0 && norm2(rest) > kOtherPlane) planes[1] = normalized(rest);
     }
     if (normals.empty()) return {};
     Vec3 direction = smallest_cone(normals);
-    if (norm2(plane) > 0) {
-      plane = normalized(plane);
-      direction = normalized(direction - dot(direction, plane) * plane);
-    }
+    for (const Vec3 plane : planes) direction = normalized(direction - dot(direction, plane) * plane);
     NodeAnswer own{1, 1};
     for (const Vec3 n : normals) own.cosine = std::min(own.cosine, dot(n, direction));
     if (own.cosine > 0) own.room = room(node, 2 * options_.height * direction);

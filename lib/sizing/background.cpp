@@ -164,7 +164,7 @@ class BackgroundSource final : public SizeSource {
   LocalSize local(Vec3 x, int&) const override {
     std::size_t tet = kNowhere, border = kNowhere;
     const double length = least_outside(x, least_inside(x, kInfinity, tet), border);
-    if (max_aspect_ <= 1) return {length, length, {}};
+    if (max_aspect_ <= 1 || (border == kNowhere && tet == kNowhere)) return {length, length, {}};
     const SharedSqueeze shared =
         border == kNowhere ? shared_squeeze(mesh_, mesh_.tets[tet], frames_[tet].coordinates(x))
                            : shared_squeeze(mesh_, border_[border], closest_on_triangle(corners_of(border), x));

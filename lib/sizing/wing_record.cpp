@@ -12,7 +12,8 @@ void sort_once(std::vector<FaceId>& faces) {
 
 }  // namespace
 
-WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out) {
+WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out,
+                       std::span<const Strip> strips) {
   WingRecord record;
   record.span = wing.span;
   record.has_noses = wing.has_noses;
@@ -21,6 +22,9 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
   for (const ChordEdge& edge : wing.edges()) {
     record.edges.push_back(edge.edge);
     if (edge.base != kNone) record.bases.push_back(edge.base);
+    for (const Strip& strip : strips)
+      if (edge.base != kNone && strip.face == edge.base)
+        record.bases.insert(record.bases.end(), strip.others.begin(), strip.others.end());
     if (edge.base != kNone && !is_left_out[edge.edge]) record.base_cells = (edge.is_half ? 0.5 : 1) * sizes.base_cells;
     for (const ChordStation& s : edge.stations) {
       if (wing.has_noses && !s.is_measured) continue;

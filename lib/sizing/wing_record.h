@@ -28,8 +28,9 @@ struct WingRecord {
   bool has_noses = true;
 };
 
-/// Measured stations; of a surface without noses all. `is_left_out`: as raster_wing() takes it.
-WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out);
+/// Measured stations; of a surface without noses all. `is_left_out`, `strips`: as raster_wing() takes them.
+WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out,
+                       std::span<const Strip> strips = {});
 
 /// The same wing elsewhere.
 WingRecord moved(const Similarity& frame, WingRecord wing);

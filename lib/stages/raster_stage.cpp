@@ -225,25 +225,40 @@ GivenFloors find_floors(const std::vector<SizeRule>& rules, bool everywhere, con
   return floors;
 }
 
-/// Half of the least length at the noses of `wings`, per face of theirs or beside one; infinite for other faces.
+/// Of a long face: its width. Model unit.
+double face_width(const ModelTables& t, FaceId f) {
+  double around = 0;
+  for (const EdgeId e : t.edges_of(f)) around += t.edge_length[e];
+  return around > 0 ? 2 * t.face_area[f] / around : 0;
+}
+
+/// Half of the least length at the noses of `wings`, of the default one at most, per face of theirs and narrow face
+/// beside one; infinite for other faces.
 std::vector<double> curvature_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings,
                                      const WingSizes& sizes, std::span<const ChordLine> chords) {
   constexpr double kOfNose = 0.5;
-  std::vector<double> floors(static_cast<std::size_t>(t.n_faces()), std::numeric_limits<double>::infinity());
+  constexpr double kDefaultNose = 0.003;  // of the chord
+  constexpr double kNarrow = 0.1;         // likewise
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<double> floors(static_cast<std::size_t>(t.n_faces()), kNone);
+  std::vector<double> own(wings.size(), kNone), chord(wings.size(), kNone);
+  for (const ChordLine& line : chords) {
+    const LiftingSurface& wing = wings[line.wing];
+    if (wing.trailing.empty()) continue;
+    const double length = length_along(wing, sizes, wing.trailing.front(), line.chord);
+    own[line.wing] = std::min(own[line.wing], kOfNose * std::min(length, kDefaultNose * line.chord));
+    chord[line.wing] = std::min(chord[line.wing], line.chord);
+  }
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> edge_faces;
   t.edge_faces(offsets, edge_faces);
-  std::vector<double> own(wings.size(), std::numeric_limits<double>::infinity());
-  for (const ChordLine& line : chords) {
-    const LiftingSurface& wing = wings[line.wing];
-    if (!wing.trailing.empty())
-      own[line.wing] = std::min(own[line.wing], kOfNose * length_along(wing, sizes, wing.trailing.front(), line.chord));
-  }
-  for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    const std::span<const FaceId> beside(edge_faces.data() + offsets[e], edge_faces.data() + offsets[e + 1]);
-    for (std::size_t w = 0; w < wings.size(); ++w)
-      if (std::ranges::any_of(beside, [&](FaceId f) { return std::ranges::binary_search(wings[w].faces, f); }))
-        for (const FaceId f : beside) floors[f] = std::min(floors[f], own[w]);
+  for (std::size_t w = 0; w < wings.size(); ++w) {
+    const auto is_own = [&](FaceId f) { return std::ranges::binary_search(wings[w].faces, f); };
+    for (const FaceId wing_face : wings[w].faces)
+      for (const EdgeId e : t.edges_of(wing_face))
+        for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
+          if (const FaceId f = edge_faces[k]; is_own(f) || face_width(t, f) < kNarrow * chord[w])
+            floors[f] = std::min(floors[f], own[w]);
   }
   return floors;
 }
@@ -277,7 +292,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   for (const LiftingSurface& wing : wings.aircraft.wings) {
     const std::optional<RaisedLength> own = raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
     if (own) note_raised(*own, most);
-    wings.records.push_back(record_wing(wing, sizes, is_left_out));
+    wings.records.push_back(record_wing(wing, sizes, is_left_out, strips));
   }
   if (most)
     log_warning(

@@ -69,6 +69,15 @@ class WingShapes(ToolTest):
     def check_part(self, name):
         self.assertEqual(self.raster(name, "euler").json()["lifting_surfaces"], [])
 
+    def test_fillets_are_no_finer_than_the_nose_needs(self):
+        def n_samples(edge_size):
+            return must("st-raster", self.folder / "geometry.hdf", "-o", self.folder / "raster.hdf", "--no-surface",
+                        "--json", "--edge-size", edge_size).json()["samples"]
+        self.raster("rudder", "euler")
+        fine, usual, coarse = (n_samples(size) for size in ("none", "0.3%chord", "10%chord"))
+        self.assertLess(usual, 0.85 * fine, "with all lengths at nose and edge")
+        self.assertGreater(coarse, 0.5 * fine, "a coarse nose coarsens nothing else")
+
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
         (self.folder / "geometry.hdf").unlink()

@@ -264,9 +264,10 @@ TopoDS_Shape propeller() {
 }
 
 /// One of free form, through the plate.
-TopoDS_Shape plate_with_cam_hole() {
+/// `half_width`: of the curve's middle poles; 30 makes a corner of 112 degrees, 15 one of 57.
+TopoDS_Shape plate_with_cam_hole(double half_width) {
   TColgp_Array1OfPnt poles(1, 5);
-  const double x[] = {130, 150, 185, 150, 130}, y[] = {100, 70, 100, 130, 100};
+  const double x[] = {130, 150, 185, 150, 130}, y[] = {100, 100 - half_width, 100, 100 + half_width, 100};
   for (int i = 0; i < 5; ++i) poles(i + 1) = gp_Pnt(x[i], y[i], -5);
   BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
   const TopoDS_Shape face = BRepBuilderAPI_MakeFace(wire.Wire()).Face();
@@ -336,7 +337,8 @@ const std::map<std::string, std::function<TopoDS_Shape()>>& parts() {
          return compound_of({with_voids(box(0, 0, 0, 100, 80, 60), box(2, 2, 2, 96, 76, 56)),
                              box(20, 20, 10, 15, 15, 5), cylinder(60, 40, 10, gp::DZ(), 6, 20)});
        }},
-      {"plate_with_cam_hole", plate_with_cam_hole},
+      {"plate_with_cam_hole", [] { return plate_with_cam_hole(30); }},
+      {"plate_with_tear_hole", [] { return plate_with_cam_hole(10.8); }},
       {"plate_with_slots", plate_with_slots},
       {"two_blocks", two_blocks}};
   return kParts;

@@ -32,6 +32,7 @@ constexpr double kAcross = 0.02;            // cosine: normals of a wall that st
 constexpr double kSharpTail = radians(60);  // of a section between two planes
 constexpr double kBaseCorner = radians(140);
 constexpr double kNarrowBase = 0.05;     // width of its base over the chord
+constexpr double kThinSection = 0.25;    // its thickness over the chord: wings have 6 to 24 per cent, holes mostly more
 constexpr double kDeep = 0.5;            // height of a wing on its plane over its width there: less is an engraving
 constexpr double kInnerBox = 0.5;        // a box in the air, over the air around it
 constexpr double kInInnerBox = 0.8;      // what is in it, over the box
@@ -330,6 +331,7 @@ class AirFinder {
     for (Vec3& x : points) x -= dot(x, normal) * normal;
     const double height = std::abs(dot(split.planes[1]->point - split.planes[0]->point, normal));
     const double chord = size_of(points);
+    if (width_across(points, normal) > kThinSection * chord) return false;
     bool has_tail = false;
     for (const FaceId f : split.body) {
       for (const FaceSample& s : sample_face(pieces_.face(f)))
@@ -344,6 +346,17 @@ class AirFinder {
       has_tail = has_tail || has_corners;
     }
     return has_tail;
+  }
+
+  /// Of points in a plane, square to the way between two that are far apart.
+  static double width_across(const std::vector<Vec3>& points, Vec3 normal) {
+    const auto furthest_from = [&](Vec3 x) {
+      return *std::ranges::max_element(points, {}, [&](Vec3 p) { return norm2(p - x); });
+    };
+    const Vec3 a = furthest_from(points.front()), across = normalized(cross(normal, furthest_from(a) - a));
+    double low = 0, high = 0;
+    for (const Vec3 p : points) low = std::min(low, dot(p - a, across)), high = std::max(high, dot(p - a, across));
+    return high - low;
   }
 
   bool is_along(EdgeId e, Vec3 direction) const {

@@ -86,6 +86,21 @@ TEST(Layers, run_along_a_plane_of_symmetry_and_do_not_grow_from_it) {
   EXPECT_EQ(check_layers(mesh, std::vector(2, LayerRole::kNone), {0.1}).n_nodes, 0);
 }
 
+TEST(Layers, run_along_the_line_between_two_planes) {
+  SurfaceMesh mesh = from({{0, 0, 0}, {0, 1, 0}, {1, 1, 1}, {1, 0, 1}, {-1, 0, 0}, {-1, 1, 0}},
+                          {{{0, 3, 2}}, {{0, 2, 1}}, {{0, 1, 5}}, {{0, 5, 4}}, {{0, 4, 3}}});
+  mesh.triangle_group = {0, 0, 1, 1, 1};  // z = 0, and y = 0 by one triangle
+  const LayersReport r = check_layers(mesh, std::vector{LayerRole::kWall, LayerRole::kPlane}, {0.1});
+  EXPECT_NEAR(r.widest, kPi / 4, 1e-9) << "in node 0 along x, as both planes want";
+}
+
+TEST(Layers, do_not_mind_triangles_without_area) {
+  const SurfaceMesh mesh = from({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{{0, 1, 2}}, {{0, 3, 1}}});
+  const LayersReport r = check_layers(mesh, kWalls, {0.1});
+  EXPECT_EQ(r.blind.count, 0);
+  EXPECT_EQ(r.n_nodes, 3) << "one has no other triangle";
+}
+
 TEST(Layers, of_a_boundary_layer_are_as_high_as_the_plates) {
   EXPECT_NEAR(boundary_layer_thickness(1e6, 2), 0.37 * 2 / std::pow(10, 1.2), 1e-12);
 }

@@ -49,6 +49,19 @@ TEST(WingRecord, counts_the_lengths_across_a_base) {
   EXPECT_EQ(record_of("blunt_wing", true).record.base_cells, 0);
 }
 
+TEST(WingRecord, of_a_base_in_pieces_beside_each_other_has_all_of_them) {
+  LiftingSurface wing;
+  wing.faces = {0, 1, 2, 3};
+  wing.trailing.push_back({.edge = 0, .base = 2, .stations = {}});
+  Strip strip;
+  strip.face = 2;
+  strip.others = {3};
+  const WingSizes sizes{parse_length("0.5%chord", "--edge-size"), 4, {30, {}}, {}, 2};
+  const WingRecord record = record_wing(wing, sizes, std::vector<std::uint8_t>(1, 0), {&strip, 1});
+  EXPECT_EQ(record.bases, (std::vector<FaceId>{2, 3}));
+  EXPECT_EQ(record.faces, (std::vector<FaceId>{0, 1}));
+}
+
 TEST(WingRecord, moves_with_its_geometry) {
   const WingRecord before = record_of("sharp_wing").record;
   Similarity frame;
