@@ -45,16 +45,17 @@ std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::sp
   for (const WingEdge& w : edges)
     if (w.kind != WingEdgeKind::kLeading) trailing.push_back(w);
   DisjointSets sets(static_cast<std::int64_t>(trailing.size()));
-  const auto hang_together = [&](const WingEdge& a, const WingEdge& b) {
-    if (a.base != kNone && a.base == b.base) return true;
-    const VertexId* va = &t.edge_vertices[2 * static_cast<std::size_t>(a.edge)];
-    const VertexId* vb = &t.edge_vertices[2 * static_cast<std::size_t>(b.edge)];
-    return va[0] == vb[0] || va[0] == vb[1] || va[1] == vb[0] || va[1] == vb[1];
-  };
-  for (std::size_t i = 0; i < trailing.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (hang_together(trailing[i], trailing[j]))
-        sets.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+  std::map<std::int32_t, std::int32_t> at_vertex, at_base;  // the first of them
+  for (std::size_t i = 0; i < trailing.size(); ++i) {
+    const auto own = static_cast<std::int32_t>(i);
+    const auto join_at = [&](std::map<std::int32_t, std::int32_t>& first, std::int32_t key) {
+      const auto [known, is_new] = first.emplace(key, own);
+      if (!is_new) sets.join(own, known->second);
+    };
+    if (trailing[i].base != kNone) join_at(at_base, trailing[i].base);
+    for (const std::size_t k : {0, 1})
+      join_at(at_vertex, t.edge_vertices[2 * static_cast<std::size_t>(trailing[i].edge) + k]);
+  }
   std::vector<std::vector<WingEdge>> chains;
   for (const std::vector<std::int32_t>& chain : sets.groups()) {
     chains.emplace_back();
@@ -121,6 +122,15 @@ struct Reason {
   bool may_be_wing = true;
   bool is_inexact = false;  // facets are too coarse to tell
 };
+
+/// What exact facets of a chain's own faces show.
+struct ExactSurface {
+  std::optional<LiftingSurface> surface;
+  Reason why;
+};
+
+/// By the edges of the chain: coarse facets that are added later do not change it.
+using TriedChains = std::map<std::vector<EdgeId>, ExactSurface>;
 
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
@@ -553,31 +563,43 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
   return kNone;
 }
 
-/// Whether a smooth edge in a nose may be a trailing edge: one of its faces has another such edge, apart from it.
-bool may_be_tail(const ModelTables& t, std::span<const FaceId> edge_faces, std::span<const std::int32_t> offsets,
-                 std::span<const WingEdge> edges, const WingEdge& own) {
-  if (own.kind != WingEdgeKind::kLeading || own.is_declared) return false;
-  const auto vertex = [&](EdgeId e, std::size_t k) { return t.edge_vertices[2 * static_cast<std::size_t>(e) + k]; };
-  const auto is_other = [&](EdgeId e) {
-    for (const std::size_t k : {0, 1})
-      if (vertex(e, k) == vertex(own.edge, 0) || vertex(e, k) == vertex(own.edge, 1)) return false;
-    return std::ranges::any_of(edges,
-                               [&](const WingEdge& w) { return w.edge == e && w.kind == WingEdgeKind::kLeading; });
-  };
-  for (std::int32_t k = offsets[own.edge]; k < offsets[own.edge + 1]; ++k)
-    if (std::ranges::any_of(t.edges_of(edge_faces[static_cast<std::size_t>(k)]), is_other)) return true;
-  return false;
-}
+/// Smooth edges in a nose that may be a trailing edge: one of their faces has another such edge, apart from them.
+class SmoothTails {
+ public:
+  SmoothTails(const ModelTables& t, std::span<const WingEdge> edges)
+      : t_(t), is_leading_(static_cast<std::size_t>(t.n_edges()), 0) {
+    t.edge_faces(offsets_, edge_faces_);
+    for (const WingEdge& w : edges)
+      if (w.kind == WingEdgeKind::kLeading) is_leading_[static_cast<std::size_t>(w.edge)] = 1;
+  }
+
+  bool may_be_tail(const WingEdge& own) const {
+    if (own.kind != WingEdgeKind::kLeading || own.is_declared) return false;
+    const auto vertex = [&](EdgeId e, std::size_t k) { return t_.edge_vertices[2 * static_cast<std::size_t>(e) + k]; };
+    const auto is_other = [&](EdgeId e) {
+      if (!is_leading_[static_cast<std::size_t>(e)]) return false;
+      for (const std::size_t k : {0, 1})
+        if (vertex(e, k) == vertex(own.edge, 0) || vertex(e, k) == vertex(own.edge, 1)) return false;
+      return true;
+    };
+    for (std::int32_t k = offsets_[own.edge]; k < offsets_[own.edge + 1]; ++k)
+      if (std::ranges::any_of(t_.edges_of(edge_faces_[static_cast<std::size_t>(k)]), is_other)) return true;
+    return false;
+  }
+
+ private:
+  const ModelTables& t_;
+  std::vector<std::uint8_t> is_leading_;  // [n_edges] smooth, in a nose
+  std::vector<std::int32_t> offsets_;     // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
+};
 
 /// Edges at which profiles are cut.
 std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingEdge> edges) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const SmoothTails smooth(t, edges);
   std::vector<WingEdge> tails;
   for (const WingEdge& w : edges)
-    if (w.kind != WingEdgeKind::kLeading || w.is_declared || may_be_tail(t, edge_faces, offsets, edges, w))
-      tails.push_back(w);
+    if (w.kind != WingEdgeKind::kLeading || w.is_declared || smooth.may_be_tail(w)) tails.push_back(w);
   return tails;
 }
 
@@ -585,8 +607,8 @@ std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingE
 class SurfaceFinder {
  public:
   SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
-                std::vector<CutEnd>& ends)
-      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends) {
+                std::vector<CutEnd>& ends, TriedChains& tried)
+      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends), tried_(tried) {
     model.tables().edge_faces(offsets_, edge_faces_);
   }
 
@@ -643,10 +665,10 @@ class SurfaceFinder {
   /// be the trailing edge.
   void find_behind_noses() {
     std::vector<WingEdge> noses;
+    const SmoothTails smooth(model_.tables(), edges_);
     for (const WingEdge& w : edges_) {
       const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
-      if (!may_be_tail(model_.tables(), edge_faces_, offsets_, edges_, w) || std::ranges::any_of(surfaces_, has_edge))
-        continue;
+      if (!smooth.may_be_tail(w) || std::ranges::any_of(surfaces_, has_edge)) continue;
       noses.push_back(w);
       noses.back().kind = WingEdgeKind::kSharpTrailing;
     }
@@ -767,20 +789,28 @@ class SurfaceFinder {
     const double extent = box.diagonal();
     if (extent < kLongBlade * roles_.reference_diagonal || extent < kStraightBlade * length || !is_of_spline(chain))
       return;
-    const double deflection = kDeflection * std::min(extent, roles_.reference_diagonal);
+    std::vector<EdgeId> key;
+    for (const WingEdge& w : chain) key.push_back(w.edge);
+    const auto [known, is_new] = tried_.try_emplace(std::move(key));
+    if (is_new) known->second = exact_surface(chain, kDeflection * std::min(extent, roles_.reference_diagonal));
+    const auto& [better, also] = known->second;
+    if (!better ||
+        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
+      return;
+    surface = better;
+    why = also;
+  }
+
+  ExactSurface exact_surface(const std::vector<WingEdge>& chain, double deflection) {
     ProfileFacets exact(model_, roles_, {{.deflection = deflection, .is_exact = true}, 2 * deflection});
     exact.add_along(chain, SerialExecutor());
     const FaceId mirror = mirror_of(chain);
     const Facets whole =
         mirror == kNone ? Facets() : with_image(model_, exact.facets(), mirror, kOnPlane * roles_.reference_diagonal);
-    Reason also;
-    std::optional<LiftingSurface> better =
-        surface_at(chain, ProfileCutter(mirror == kNone ? exact.facets() : whole), 2 * deflection, also);
-    if (!better ||
-        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
-      return;
-    surface = std::move(better);
-    why = also;
+    ExactSurface found;
+    found.surface =
+        surface_at(chain, ProfileCutter(mirror == kNone ? exact.facets() : whole), 2 * deflection, found.why);
+    return found;
   }
 
   bool is_of_spline(const std::vector<WingEdge>& chain) const {
@@ -829,7 +859,8 @@ class SurfaceFinder {
   const FaceRoles& roles_;
   std::span<const WingEdge> edges_;
   const Facets& facets_;
-  std::vector<CutEnd>& ends_;          // of cuts through these
+  std::vector<CutEnd>& ends_;  // of cuts through these
+  TriedChains& tried_;
   std::map<FaceId, Facets> whole_;     // by symmetry plane
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
@@ -904,12 +935,13 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   ProfileFacets own(model, roles, {{.deflection = deflection}, 2 * deflection});
   const bool has_all = has_wall_facets(roles, deflection);
   if (!has_all) own.add_along(tails, executor);
+  TriedChains tried;
   while (true) {
     std::vector<CutEnd> ends;
     std::vector<LiftingSurface> surfaces;
     std::vector<UnusedTrailing> rest;
     if (executor.is_root())
-      surfaces = SurfaceFinder(model, roles, edges, has_all ? roles.own.facets : own.facets(), ends)
+      surfaces = SurfaceFinder(model, roles, edges, has_all ? roles.own.facets : own.facets(), ends, tried)
                      .run(noseless, unused ? &rest : nullptr);
     if (!has_all && own.add_beyond(ends, executor)) continue;  // a cut between the places crosses more
     if (unused) *unused = std::move(rest);
