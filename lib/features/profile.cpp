@@ -152,10 +152,10 @@ std::optional<ProfileCutter::Segment> ProfileCutter::nearest_segment(Vec3 origin
 std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach) const {
   std::vector<Segment> part, todo;
   std::unordered_set<std::int32_t> taken;
-  const auto take = [&](const std::optional<Segment>& s) {
-    if (s && taken.insert(s->facet).second) todo.push_back(*s);
-  };
-  take(nearest_segment(origin, normal, reach));
+  if (const std::optional<Segment> first = nearest_segment(origin, normal, reach)) {
+    taken.insert(first->facet);
+    todo.push_back(*first);
+  }
   while (!todo.empty()) {
     const Segment s = todo.back();
     todo.pop_back();
@@ -165,8 +165,9 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
       int n_facets = 0;
       for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i) {
         if (std::ranges::count(facets_.triangle[facet_[i]], b) == 0) continue;
-        take(segment_of(facet_[i], origin, normal));
         ++n_facets;
+        if (!taken.insert(facet_[i]).second) continue;
+        if (const std::optional<Segment> next = segment_of(facet_[i], origin, normal)) todo.push_back(*next);
       }
       if (ends_ && n_facets == 1) ends_->push_back({facets_.face[s.facet], s.end[k]});
     }
