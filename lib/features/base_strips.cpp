@@ -68,7 +68,7 @@ class BaseStripFinder {
       if (is_done[i]) continue;
       std::array<EdgeId, 2> outer = {strips_[i].edges[0], strips_[i].edges[1]};
       std::vector<const Strip*> own = {&strips_[i]};
-      for (EdgeId& e : outer) go_on(e, own);
+      for (EdgeId& e : outer) go_on(e, is_done, own);
       double area = 0;
       for (const Strip* s : own) area += t_.face_area[s->face];
       const double length = strips_[i].length;
@@ -85,13 +85,13 @@ class BaseStripFinder {
     return all;
   }
 
-  /// From strip to strip, as far as it is smooth; `e` becomes the edge at the end.
-  void go_on(EdgeId& e, std::vector<const Strip*>& own) const {
+  /// From strip to strip, as far as it is smooth and they are none of another one; `e` becomes the edge at the end.
+  void go_on(EdgeId& e, std::span<const std::uint8_t> is_done, std::vector<const Strip*>& own) const {
     constexpr std::size_t kMost = 16;
     const Strip* from = own.front();
     while (own.size() < kMost) {
       const Strip* next = beyond(*from, e);
-      if (!next || std::ranges::count(own, next) > 0) return;
+      if (!next || is_done[index_.at(next->face)] || std::ranges::count(own, next) > 0) return;
       own.push_back(next);
       e = next->edges[0] == e ? next->edges[1] : next->edges[0];
       from = next;
