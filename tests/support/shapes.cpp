@@ -803,15 +803,35 @@ Model make_model(const std::string& shape) {
   return Model(std::move(r.tables), std::move(r.brep));
 }
 
+namespace {
+
+Model model_of(const TopoDS_Shape& shape) {
+  const TemporaryFile file(".brep");
+  require(BRepTools::Write(shape, file.path.c_str()), file.path);
+  ImportResult r = import_model(file.path, {});
+  return Model(std::move(r.tables), std::move(r.brep));
+}
+
+}  // namespace
+
 Model make_row_of_cubes(int n) {
   TopoDS_Compound row;
   BRep_Builder builder;
   builder.MakeCompound(row);
   for (int i = 0; i < n; ++i) builder.Add(row, BRepPrimAPI_MakeBox(gp_Pnt(2 * i, 0, 0), 1, 1, 1).Shape());
-  const TemporaryFile file(".brep");
-  require(BRepTools::Write(row, file.path.c_str()), file.path);
-  ImportResult r = import_model(file.path, {});
-  return Model(std::move(r.tables), std::move(r.brep));
+  return model_of(row);
+}
+
+Model make_channel(int n) {
+  BRepBuilderAPI_Sewing sewing(1e-6);
+  const auto add = [&](const gp_Pnt& a, const gp_Pnt& b) {
+    const auto at_end = [](const gp_Pnt& p) { return gp_Pnt(30, p.Y(), p.Z()); };
+    sewing.Add(BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakePolygon(a, b, at_end(b), at_end(a), true).Wire()).Face());
+  };
+  for (int i = 0; i < n; ++i) add(gp_Pnt(0, 0.01 * i, 0), gp_Pnt(0, 0.01 * (i + 1), 0));
+  for (const double y : {0.0, 0.01 * n}) add(gp_Pnt(0, y, 0), gp_Pnt(0, y, 1));
+  sewing.Perform();
+  return model_of(sewing.SewedShape());
 }
 
 struct Oracle::Impl {

@@ -49,6 +49,8 @@ ImportResult import_shape(const std::string& shape);
 Model make_model(const std::string& shape);
 /// Cubes of 1 that stand apart: any number of faces.
 Model make_row_of_cubes(int n);
+/// A floor of `n` plane strips beside each other, each 30 long and 0.01 wide, between two walls 1 high.
+Model make_channel(int n);
 
 /// The same B-Rep evaluated by OpenCASCADE itself, without caches.
 class Oracle {
