@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -308,7 +307,7 @@ class SurfaceMeasurer {
     const std::vector<std::optional<Profile>> all_profiles = profiles;
     for (const std::size_t i : outliers) profiles[i].reset();
     for (const std::size_t i : outliers) readmit(i, 1, all_profiles[i], profiles);
-    for (const std::size_t i : std::views::reverse(outliers)) readmit(i, -1, all_profiles[i], profiles);
+    for (std::size_t k = outliers.size(); k-- > 0;) readmit(outliers[k], -1, all_profiles[outliers[k]], profiles);
   }
 
   /// Where an edge's chord goes on as it did at two places before: a tip that becomes short fast. `step`: away from
