@@ -251,6 +251,10 @@ std::string role_of_name(const std::string& name) {
   return "wall";
 }
 
+std::string role_of(const FaceLabels& labels, std::size_t group) {
+  return labels.group_role.empty() ? role_of_name(labels.group_name[group]) : labels.group_role[group];
+}
+
 bool is_outer_role(const std::string& role) { return role == "farfield" || role == "symmetry"; }
 
 }  // namespace st

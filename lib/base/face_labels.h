@@ -99,6 +99,9 @@ std::string unique_path(const std::string& path, const std::vector<std::string>&
 /// of letters; a capital behind a small letter begins a new one.
 std::string role_of_name(const std::string& name);
 
+/// Role of a main group: its own, or where none is stored that of its name.
+std::string role_of(const FaceLabels& labels, std::size_t group);
+
 /// Whether faces of this role bound the air and not the body: "farfield", "symmetry".
 bool is_outer_role(const std::string& role);
 

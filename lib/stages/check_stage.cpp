@@ -366,8 +366,7 @@ Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const
 bool has_flow_domain(const SurfaceMesh& mesh) {
   const FaceLabels& labels = mesh.labels;
   for (std::size_t g = 0; g < labels.group_name.size(); ++g)
-    if ((labels.group_role.empty() ? role_of_name(labels.group_name[g]) : labels.group_role[g]) == "farfield")
-      return true;
+    if (role_of(labels, g) == "farfield") return true;
   return false;
 }
 

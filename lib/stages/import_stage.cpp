@@ -9,7 +9,6 @@
 #include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
-#include "features/base_strips.h"
 #include "features/wing_edges.h"
 #include "geometry/import/import.h"
 #include "io/file/json_text.h"
@@ -18,6 +17,7 @@
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
 #include "io/toml/groups_file.h"
+#include "stages/cad_view.h"
 
 namespace st {
 namespace {
@@ -108,8 +108,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
 nlohmann::json list_wing_edges(const ImportResult& r) {
   const Model model(r.tables, r.brep);
   const ModelTables& t = model.tables();
-  const std::vector<WingEdge> edges =
-      find_wing_edges(model, face_roles(model), find_base_strips(model, find_strips(model)));
+  const std::vector<WingEdge> edges = wing_edges_to_see(model);
   nlohmann::json list = nlohmann::json::array();
   for (const WingEdge& w : edges)
     list.push_back({{"edge", w.edge + 1},

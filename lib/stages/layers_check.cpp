@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-
 #include "base/error.h"
 #include "base/required_unit.h"
+#include "base/text.h"
 #include "mesh/layers.h"
 
 namespace st {
@@ -15,20 +13,18 @@ namespace {
 constexpr const char* kOption = "--layers";
 
 double number_of(const std::string& text, const char* what, double above) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value <= above)
+  const std::optional<double> value = as_number(text);
+  if (!value || *value <= above)
     throw Error(ExitCode::kUsage, fmt::format("{}: \"{}\" is no {} above {}; write HEIGHT, HEIGHT,GROWTH or "
                                               "Re=NUMBER@LENGTH,GROWTH, such as 5mm,1.2 or Re=6e6@2.5m",
                                               kOption, text, what, above));
-  return value;
+  return *value;
 }
 
 std::vector<LayerRole> roles_of(const SurfaceMesh& mesh) {
-  const FaceLabels& labels = mesh.labels;
   std::vector<LayerRole> roles;
-  for (std::size_t g = 0; g < labels.group_name.size(); ++g) {
-    const std::string role = labels.group_role.empty() ? role_of_name(labels.group_name[g]) : labels.group_role[g];
+  for (std::size_t g = 0; g < mesh.labels.group_name.size(); ++g) {
+    const std::string role = role_of(mesh.labels, g);
     roles.push_back(role == "symmetry"                          ? LayerRole::kPlane
                     : role == "farfield" || role == "interface" ? LayerRole::kNone
                                                                 : LayerRole::kWall);

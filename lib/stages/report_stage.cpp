@@ -118,10 +118,6 @@ Box box_of(std::span<const Vec3> points) {
   return box;
 }
 
-std::string role_of(const FaceLabels& labels, std::size_t group) {
-  return labels.group_role.empty() ? role_of_name(labels.group_name[group]) : labels.group_role[group];
-}
-
 /// What the page has to know of the arrays: groups with their triangles, names of the values, middle and size.
 Json describe(const MeshArtifact& artifact, const Box& box, std::span<const TriangleValues> values) {
   const SurfaceMesh& mesh = artifact.mesh;

@@ -31,7 +31,7 @@ Vec3 middle_of(const SurfaceView& s, TriangleId t) { return (s.corner(t, 0) + s.
 
 bool is_far_field(const FaceLabels& labels, std::int32_t group) {
   if (group < 0 || static_cast<std::size_t>(group) >= labels.group_name.size()) return false;
-  return (labels.group_role.empty() ? role_of_name(labels.group_name[group]) : labels.group_role[group]) == "farfield";
+  return role_of(labels, static_cast<std::size_t>(group)) == "farfield";
 }
 
 void measure(std::span<const Vec3> nodes, Component& c) {

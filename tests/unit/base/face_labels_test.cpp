@@ -5,6 +5,16 @@
 namespace st {
 namespace {
 
+TEST(RoleOf, a_group_is_its_own_or_that_of_its_name) {
+  FaceLabels labels;
+  labels.group_name = {"far field", "wing"};
+  EXPECT_EQ(role_of(labels, 0), "farfield");
+  EXPECT_EQ(role_of(labels, 1), "wall");
+  labels.group_role = {"wall", "symmetry"};
+  EXPECT_EQ(role_of(labels, 0), "wall");
+  EXPECT_EQ(role_of(labels, 1), "symmetry");
+}
+
 TEST(RoleOfName, knows_whole_words_whatever_their_case_and_separators) {
   for (const char* name : {"sym", "SYM", "symm", "symmetry", "Symmetry_1", "symmetry_plane", "SymmetryPlane", "symm-y0",
                            "wing symmetry", "symplane", "2sym"})
