@@ -217,6 +217,19 @@ TopoDS_Shape slipped_side() {
   return face;
 }
 
+/// A box; the vertex at its highest corner lies off the ends of its three edges, within its tolerance.
+TopoDS_Shape slipped_vertex(const gp_Vec& by) {
+  const TopoDS_Shape shape = box(10, 10, 10);
+  for (TopExp_Explorer it(shape, TopAbs_VERTEX); it.More(); it.Next()) {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(it.Current());
+    const gp_Pnt p = BRep_Tool::Pnt(vertex);
+    if (p.X() + p.Y() + p.Z() < 29) continue;
+    BRep_Builder().UpdateVertex(vertex, p.Translated(by), 1.01 * by.Magnitude());
+    break;
+  }
+  return shape;
+}
+
 /// A square, and on one of its edges a second face whose boundary crosses itself: it can only be closed in space.
 TopoDS_Shape crossed_loop() {
   const gp_Pnt corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, -10, 0}, {10, -10, 0}};
@@ -608,6 +621,26 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"square", [] { return rectangle(10, 10); }},
       {"slipped_side", slipped_side},
+      {"vertex_back",
+       [] {
+         return slipped_vertex({-0.5, 0, 0});
+       }},
+      {"vertex_ahead",
+       [] {
+         return slipped_vertex({0.5, 0, 0});
+       }},
+      {"vertex_aside",
+       [] {
+         return slipped_vertex({-0.3, 0.3, 0.1});
+       }},
+      {"vertex_inside",
+       [] {
+         return slipped_vertex({-0.3, -0.3, -0.3});
+       }},
+      {"vertex_outside",
+       [] {
+         return slipped_vertex({0.3, 0.3, 0.3});
+       }},
       {"disc", disc},
       {"annulus", annulus},
       {"strip", [] { return rectangle(100, 0.2); }},

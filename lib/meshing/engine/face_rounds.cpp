@@ -113,7 +113,7 @@ void FaceRounds::follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) con
   };
   const auto make = [&](std::int32_t i) {
     EdgeMesh nodes = facing_nodes(model_, field_, *dirty[i], nodes_of(dirty[i]->edge), nodes_of);
-    end_at_vertices(dirty[i]->edge, nodes);
+    end_at_vertices(dirty[i]->edge, nodes, nodes.n_nodes(0) - 1);
     return nodes;
   };
   const EdgeMesh followed = make_curve_nodes(static_cast<std::int32_t>(dirty.size()), make, executor_);
@@ -504,9 +504,9 @@ void FaceRounds::mesh_edges() {
   numbering_.emplace(topology_, result_.edges);
 }
 
-void FaceRounds::end_at_vertices(EdgeId e, EdgeMesh& nodes) const {
-  nodes.node_xyz.front() = tables_.vertex_xyz[tables_.edge_vertices[2 * e]];
-  nodes.node_xyz.back() = tables_.vertex_xyz[tables_.edge_vertices[2 * e + 1]];
+void FaceRounds::end_at_vertices(EdgeId e, EdgeMesh& nodes, int min_segments) const {
+  const auto end = [&](int side) { return tables_.vertex_xyz[tables_.edge_vertices[2 * e + side]]; };
+  st::end_at_vertices(nodes, end(0), end(1), min_segments);
 }
 
 EdgeMesh FaceRounds::make_edge(EdgeId e) const {
@@ -514,7 +514,7 @@ EdgeMesh FaceRounds::make_edge(EdgeId e) const {
   const auto curve = model_.curve(e);
   const RefinedField field(field_, refinements_.near(box_of(*curve)));
   EdgeMesh nodes = discretise_curve(*curve, field, {options_.max_turning_deg, min_segments_[e]});
-  end_at_vertices(e, nodes);
+  end_at_vertices(e, nodes, min_segments_[e]);
   return nodes;
 }
 
@@ -526,7 +526,7 @@ EdgeMesh FaceRounds::make_mirrored(const MeshTopology::Strip& strip, const EdgeM
                                : strip_exactness(model_, strip.kept, strip.closed, strip.is_opposed);
   EdgeMesh nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
                                 {options_.merge_below, tolerance, exact});
-  end_at_vertices(strip.closed, nodes);
+  end_at_vertices(strip.closed, nodes, nodes.n_nodes(0) - 1);
   return nodes;
 }
 

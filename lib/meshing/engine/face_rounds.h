@@ -59,7 +59,7 @@ class FaceRounds : public MeshRounds {
   void follow_leaders(EdgeMesh& fresh, std::vector<EdgeId>& place) const;
   EdgeMesh make_edge(EdgeId e) const;
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
-  void end_at_vertices(EdgeId e, EdgeMesh& nodes) const;
+  void end_at_vertices(EdgeId e, EdgeMesh& nodes, int min_segments) const;
   struct FaceReport {
     PatchPlace place;        // of the whole patch, or of its last section
     bool is_parted = false;  // it has more

@@ -16,6 +16,8 @@ constexpr double kMostDense = 1.5;         // segments for one of such a circle,
 constexpr std::uint64_t kMaxSegments = 10'000'000;  // of one edge between two corners: 1 GB
 constexpr double kCorner = 0.01;       // of the length: what turns by more than max_turning within this is a corner
 constexpr double kCornerReach = 0.25;  // lengths: a corner nearer to an end or another corner has no node of its own
+constexpr double kMovedEnd = 0.25;     // of the first segment: a vertex further off the curve's end may pass nodes
+constexpr double kLeftAhead = 0.5;     // of the next segment: a node less far ahead of such a vertex is left out
 
 struct Sample {
   double t;
@@ -177,10 +179,40 @@ class Discretiser {
   std::vector<int> n_segments_;     // between two stops
 };
 
+/// Inner nodes next to `end`, met in this order, that do not lead away from it.
+int count_passed(const Vec3& end, const std::vector<Vec3>& x) {
+  int n = 0;
+  if (distance(end, x[0]) <= kMovedEnd * distance(x[0], x[1])) return n;
+  for (std::size_t k = 1; k + 1 < x.size(); ++k, ++n) {
+    const Vec3 next = x[k + 1] - x[k];
+    if (dot(x[k] - end, next) >= kLeftAhead * dot(next, next)) break;
+  }
+  return n;
+}
+
 }  // namespace
 
 EdgeMesh discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options) {
   return Discretiser(curve, field, options).run(options.min_segments);
+}
+
+void end_at_vertices(EdgeMesh& nodes, const Vec3& first, const Vec3& last, int min_segments) {
+  std::vector<Vec3>& x = nodes.node_xyz;
+  const int n_inner = static_cast<int>(x.size()) - 2, n_spare = std::max(0, n_inner + 1 - min_segments);
+  const int n_first = std::min(n_spare, count_passed(first, x));
+  const int n_last = std::min({n_spare - n_first, n_inner - n_first, count_passed(last, {x.rbegin(), x.rend()})});
+  x.front() = first;
+  x.back() = last;
+  if (n_first + n_last == 0) return;
+  const auto leave_out = [&](auto& values) {
+    values.erase(values.end() - 1 - n_last, values.end() - 1);
+    values.erase(values.begin() + 1, values.begin() + 1 + n_first);
+  };
+  std::vector<double> t = nodes.node_t, size = nodes.node_size;
+  leave_out(t);
+  leave_out(x);
+  leave_out(size);
+  nodes = EdgeMesh::of_curve(std::move(t), std::move(x), std::move(size));
 }
 
 }  // namespace st

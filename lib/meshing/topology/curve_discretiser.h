@@ -23,4 +23,9 @@ struct CurveMeshOptions {
 /// end or another corner. Local, pure.
 EdgeMesh discretise_curve(const Curve& curve, const SizeField& field, const CurveMeshOptions& options);
 
+/// Moves the end nodes to the vertices, which lie off the curve's ends by up to the CAD's tolerance. Where that is much
+/// against the segments, inner nodes that the vertex passed are left out, so that no segment runs back; at least
+/// `min_segments` stay.
+void end_at_vertices(EdgeMesh& nodes, const Vec3& first, const Vec3& last, int min_segments);
+
 }  // namespace st

@@ -206,5 +206,39 @@ TEST(DiscretiseCurve, spaces_nodes_by_the_length_along_the_curve) {
     EXPECT_EQ(h, 0.1);
 }
 
+TEST(EndAtVertices, leaves_out_nodes_that_a_vertex_off_the_end_passed) {
+  const LineCurve line({}, {1, 0, 0}, 0, 10);
+  const EdgeMesh whole = discretise_curve(line, UniformField(1), {});
+  const auto inner = [&](const Vec3& first, const Vec3& last, int min_segments) {
+    EdgeMesh nodes = whole;
+    end_at_vertices(nodes, first, last, min_segments);
+    EXPECT_TRUE(nodes.node_xyz.front() == first && nodes.node_xyz.back() == last);
+    EXPECT_EQ(nodes.n_nodes(0), static_cast<int>(nodes.node_t.size()));
+    EXPECT_EQ(nodes.node_size.size(), nodes.node_t.size());
+    return std::vector<double>(nodes.node_t.begin() + 1, nodes.node_t.end() - 1);
+  };
+  const std::vector<double> all(whole.node_t.begin() + 1, whole.node_t.end() - 1);
+  EXPECT_EQ(inner({0.2, 0, 0}, {10, 0.2, 0}, 1), all) << "little against the segments";
+  EXPECT_EQ(inner({-3, 0, 0}, {10, 2, 0}, 1), all) << "ahead of the end or beside it";
+  EXPECT_EQ(inner({2.4, 0, 0}, {10, 0, 0}, 1).front(), 3);
+  EXPECT_EQ(inner({2.6, 0, 0}, {10, 0, 0}, 1).front(), 4) << "3 is too near";
+  EXPECT_EQ(inner({0, 0, 0}, {7.6, 0, 0}, 1).back(), 7);
+  EXPECT_EQ(inner({2.4, 0, 0}, {7.6, 0, 0}, 1).size(), 5u);
+  EXPECT_EQ(inner({2.4, 0, 0}, {7.6, 0, 0}, 9).size(), 8u) << "nine segments are asked for";
+  EXPECT_TRUE(inner({20, 0, 0}, {-20, 0, 0}, 1).empty());
+}
+
+TEST(EndAtVertices, lets_no_edge_run_back_at_a_vertex_off_its_edges) {
+  for (const char* shape : {"vertex_back", "vertex_ahead", "vertex_aside", "vertex_inside", "vertex_outside"}) {
+    const Model model = test::make_model(shape);
+    const EdgeMesh edges = test::discretise_edges(model, UniformField(0.1));
+    for (EdgeId e = 0; e < edges.n_edges(); ++e)
+      for (std::int32_t i = edges.first_node(e); i + 2 < edges.first_node(e) + edges.n_nodes(e); ++i) {
+        const Vec3* x = &edges.node_xyz[i];
+        EXPECT_GT(dot(x[1] - x[0], x[2] - x[1]), 0) << shape << ", edge " << e;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace st

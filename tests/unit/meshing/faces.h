@@ -65,8 +65,7 @@ inline EdgeMesh discretise_edges(const Model& model, const SizeField& field) {
     EdgeMesh n = EdgeMesh::of_edges(1);
     if (!t.edge_is_degenerate[e]) {
       n = discretise_curve(*model.curve(e), field, {30, least[e]});
-      n.node_xyz.front() = t.vertex_xyz[t.edge_vertices[2 * e]];
-      n.node_xyz.back() = t.vertex_xyz[t.edge_vertices[2 * e + 1]];
+      end_at_vertices(n, t.vertex_xyz[t.edge_vertices[2 * e]], t.vertex_xyz[t.edge_vertices[2 * e + 1]], least[e]);
     }
     m.append(n);
   }
