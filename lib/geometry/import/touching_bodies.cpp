@@ -35,6 +35,7 @@ namespace st::occt {
 namespace {
 
 constexpr double kSamePlace = 1e-6;   // of the diagonal
+constexpr double kSameCurve = 1e-3;   // of an edge's length: where another one has its ends, middle and length
 constexpr double kSameArea = 1e-4;    // relative, of faces
 constexpr double kSameVolume = 1e-5;  // relative, of all solids
 constexpr double kCpuSeconds = 60;    // for one attempt
@@ -319,9 +320,11 @@ std::set<int> add_edge_contacts(const ImportedShape& model, const ModelTables& t
       for (std::size_t k = i + 1; k < members.size(); ++k) {
         const EdgeId a = members[i], b = members[k];
         if (solid[a] != solid[b] && joined.find(solid[a]) == joined.find(solid[b])) continue;
-        if (std::abs(t.edge_length[a] - t.edge_length[b]) > 10 * tolerance + 1e-3 * t.edge_length[a]) continue;
+        // a far field makes a place of a short edge
+        const double place = std::min(tolerance, kSameCurve * t.edge_length[a]);
+        if (std::abs(t.edge_length[a] - t.edge_length[b]) > 10 * place + kSameCurve * t.edge_length[a]) continue;
         if (edges.IsEmpty()) TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
-        const double near = std::max({tolerance, t.edge_tolerance[a], t.edge_tolerance[b]});
+        const double near = std::max({place, t.edge_tolerance[a], t.edge_tolerance[b]});
         if (solid[a] == solid[b] && t.edge_length[a] <= near) continue;  // a point, which all edges there have
         if (!passes(edges(b + 1), middle_of(edges(a + 1)), near)) continue;
         joined.join(solid[a], solid[b]);

@@ -1,5 +1,10 @@
 // Solids that touch have common faces and edges after the import.
+#include "geometry/import/touching_bodies.h"
+
 #include <gtest/gtest.h>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <TopExp.hxx>
 
 #include <algorithm>
 #include <numeric>
@@ -116,6 +121,18 @@ TEST(TouchingBodies, are_none_where_solids_are_apart_or_cross) {
     EXPECT_TRUE(findings_of(r, "bodies that touch").empty()) << shape;
     EXPECT_EQ(r.tables.n_faces(), 12) << shape;
   }
+}
+
+TEST(TouchingBodies, are_no_thin_plates_in_a_large_domain) {
+  occt::ImportedShape model;
+  model.shape = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(-2500, -2500, -2500), 5000, 5000, 5000).Shape(),
+                                BRepPrimAPI_MakeBox(1, 1, 0.004).Shape());
+  TopExp::MapShapes(model.shape, TopAbs_FACE, model.faces);
+  model.attributes.resize(model.faces.Extent());
+  const ModelTables tables = occt::make_tables(model, "test").tables;
+  ASSERT_EQ(tables.n_faces(), 12);
+  EXPECT_LT(0.004, 1e-6 * tables.box().diagonal()) << "one place by the domain";
+  EXPECT_TRUE(occt::find_touching_solids(model, tables).self_touching.empty());
 }
 
 }  // namespace
