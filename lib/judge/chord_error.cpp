@@ -9,6 +9,7 @@
 
 #include "base/threads.h"
 #include "geometry/shape/projection.h"
+#include "judge/corner_points.h"
 #include "judge/face_surface.h"
 
 namespace st {
@@ -49,6 +50,8 @@ Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b
   const Vec3 middle = 0.5 * (a + b), x = surface.point(uv), beside = x - middle;
   const Vec3 above = dot(beside, normal) / std::max(norm2(normal), 1e-300) * normal;
   if (distance(beside, above) < kAside * distance(a, b)) return middle + above;
+  if (const auto near = point_above(surface, middle, uv, kAside * distance(a, b)))
+    if (near->distance < norm(beside)) return near->foot;
   if (const auto foot = project_near(surface, middle, uv))
     if (const Vec3 y = surface.point(*foot); distance(y, middle) < norm(beside)) return y;
   return descend_from(surface, middle, uv).x;
@@ -142,45 +145,40 @@ void add_corner(double d, double stray, Vec3 node, double size, FacePart& part) 
   if (stray > part.stray) part.stray = stray, part.stray_place = node;
 }
 
+/// The squared angle between two vectors, rad^2; 0 where one is zero.
+double squared_angle(Vec3 a, Vec3 b) {
+  constexpr double kSmall = 1e-2;  // of the squared sine: the series is exact to 1e-7 of the angle there
+  const double s2 = norm2(cross(a, b)), cosine = dot(a, b), n2 = norm2(a) * norm2(b);
+  if (!(n2 > 0)) return 0;
+  const double q = s2 / n2;
+  if (cosine > 0 && q < kSmall) return q * (1 + q * (1.0 / 3 + q * (8.0 / 45 + q * (4.0 / 35))));
+  const double angle = std::atan2(std::sqrt(s2), cosine);
+  return angle * angle;
+}
+
 /// Sum of the squared angles between the normals at the corners, rad^2; poles have none.
-double turning(const std::array<SurfacePoint, 3>& corner) {
-  double sum = 0;
-  std::array<Vec3, 3> normal;
-  for (int k = 0; k < 3; ++k) normal[k] = cross(corner[k].du, corner[k].dv);
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 a = normal[k], b = normal[(k + 1) % 3];
-    const double angle = std::atan2(norm(cross(a, b)), dot(a, b));
-    if (norm(a) > 0 && norm(b) > 0) sum += angle * angle;
-  }
-  return sum;
+double turning(const std::array<Vec3, 3>& normal) {
+  return squared_angle(normal[0], normal[1]) + squared_angle(normal[1], normal[2]) +
+         squared_angle(normal[2], normal[0]);
 }
 
 /// One triangle, and the surface at its corners.
 struct TriangleOnSurface {
   std::array<Vec2, 3> uv;
-  std::array<Vec3, 3> x;     // on the surface
-  std::array<Vec3, 3> node;  // of the mesh
+  std::array<Vec3, 3> x;       // on the surface
+  std::array<Vec3, 3> normal;  // du x dv there
+  std::array<Vec3, 3> middle;  // of the surface, above the middle of each side
+  std::array<Vec3, 3> node;    // of the mesh
   std::array<double, 3> size;
 };
 
 /// The triangle of the surface's points at its corners, against its four parts with corners on the surface; and against
 /// a sphere that turns as the normals do, where (u,v) near a pole makes poor parts.
-void add_chords(const Surface& surface, TriangleOnSurface& t, FacePart& part) {
+void add_chords(const TriangleOnSurface& t, FacePart& part) {
   constexpr double kRichardson = 4.0 / 3.0 * 1.1;  // terms of higher order: 10 % for nine triangles on an octant of a
                                                    // sphere
   constexpr double kSphere = 5.0 / 72.0 * 1.5;     // of the area, per rad^2 of turning
-  std::array<Vec3, 3> m;
-  std::array<SurfacePoint, 3> corner;
-  auto& x = t.x;
-  for (int k = 0; k < 3; ++k) {
-    corner[k] = surface.evaluate(t.uv[k]);
-    x[k] = corner[k].x;
-  }
-  const Vec3 normal = cross(x[1] - x[0], x[2] - x[0]);
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    m[k] = foot_of_middle(surface, t.uv[k], t.uv[next], x[k], x[next], normal);
-  }
+  const auto &x = t.x, &m = t.middle;
   std::array<double, 3> heights;
   for (int k = 0; k < 3; ++k) heights[k] = distance_to_line(m[k], x[k], x[(k + 1) % 3]);
   const double height = *std::max_element(heights.begin(), heights.end());
@@ -191,7 +189,7 @@ void add_chords(const Surface& surface, TriangleOnSurface& t, FacePart& part) {
   const double flat = area_of(x[0], x[1], x[2]);
   const double curved =
       area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
-  const double found = std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(corner) * flat);
+  const double found = std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(t.normal) * flat);
   part.distance = std::max(part.distance, height);
   part.found_area += found;
   part.area += found * share;
@@ -230,31 +228,43 @@ void add_part(const FacePart& part, FaceId f, ChordError& error) {
   if (part.stray > error.stray[f]) error.stray[f] = part.stray, error.stray_place[f] = part.stray_place;
 }
 
-TriangleOnSurface triangle_of(const SurfaceMesh& mesh, std::size_t t) {
-  TriangleOnSurface result;
+TriangleOnSurface triangle_of(const SurfaceMesh& mesh, std::size_t t, const Surface& surface, CornerPoints& points) {
+  TriangleOnSurface r;
+  const auto& nodes = mesh.triangles[t].n;
+  const FaceId face = mesh.triangle_face[t];
   for (int k = 0; k < 3; ++k) {
-    const NodeId n = mesh.triangles[t].n[k];
-    result.uv[k] = mesh.corner_uv[3 * t + k];
-    result.node[k] = mesh.node_xyz[n];
-    result.size[k] = mesh.node_size[n];
+    const NodeId n = nodes[k];
+    r.uv[k] = mesh.corner_uv[3 * t + k];
+    r.node[k] = mesh.node_xyz[n];
+    r.size[k] = mesh.node_size[n];
+    const SurfacePoint& p = points.corner(surface, face, n, r.uv[k]);
+    r.x[k] = p.x;
+    r.normal[k] = cross(p.du, p.dv);
   }
-  return result;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    r.middle[k] = points.side(face, nodes[k], nodes[l], r.uv[k], r.uv[l], [&] {
+      return foot_of_middle(surface, r.uv[k], r.uv[l], r.x[k], r.x[l], r.normal[k] + r.normal[l]);
+    });
+  }
+  return r;
 }
 
-void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
-  constexpr std::size_t kPerPiece = 16'384;
+void add_triangles(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation, ChordError& error) {
   using Parts = std::map<FaceId, FacePart>;
   const auto n_triangles = static_cast<std::size_t>(mesh.n_triangles());
-  std::vector<Parts> pieces((n_triangles + kPerPiece - 1) / kPerPiece);
-  parallel_for(n_triangles, kPerPiece, [&](std::size_t begin, std::size_t end) {
+  std::vector<Parts> pieces((n_triangles + kTrianglesPerPiece - 1) / kTrianglesPerPiece);
+  parallel_for(n_triangles, kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface faces(model);
+    CornerPoints points;
     for (std::size_t t = begin; t < end; ++t) {
       const FaceId f = mesh.triangle_face[t];
       const Surface& surface = faces.of(f);
-      FacePart& part = pieces[begin / kPerPiece][f];
-      TriangleOnSurface triangle = triangle_of(mesh, t);
-      add_chords(surface, triangle, part);
+      FacePart& part = pieces[begin / kTrianglesPerPiece][f];
+      const TriangleOnSurface triangle = triangle_of(mesh, t, surface, points);
+      add_chords(triangle, part);
       add_nodes(surface, triangle, !mesh.merged.empty(), part);
+      if (deviation) deviation->add(static_cast<TriangleId>(t), surface);
     }
   });
   for (const Parts& parts : pieces)
@@ -265,7 +275,7 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, ChordError& erro
 
 }  // namespace
 
-ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
+ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation) {
   ChordError error;
   const auto n_faces = static_cast<std::size_t>(model.tables().n_faces());
   for (auto* values : {&error.area, &error.found_area, &error.volume, &error.moved_volume, &error.flat, &error.size,
@@ -275,7 +285,7 @@ ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh) {
   error.off_place.resize(n_faces);
   error.stray_place.resize(n_faces);
   add_edges(model, mesh, error);
-  add_triangles(model, mesh, error);
+  add_triangles(model, mesh, deviation, error);
   return error;
 }
 

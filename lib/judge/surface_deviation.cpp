@@ -32,17 +32,34 @@ void DeviationStats::add(const DeviationStats& other) {
 
 namespace {
 
-constexpr std::size_t kPerPiece = 16'384;  // triangles
+/// Where a triangle's midpoint lies against the surface.
+struct Beside {
+  double distance;  // model unit
+  Vec3 normal;      // of the surface at the nearest point
+};
 
-/// Feet of the midpoints of some triangles. Few of them need more than one start.
+/// Feet of the midpoints of some triangles. Few of them need a start, hardly any more than one.
 class FootFinder {
  public:
-  /// The nearest point found of the surface to the triangle's midpoint, as (u,v).
-  Vec2 foot(const Surface& surface, const std::array<Vec3, 3>& x, const Vec2* uv) {
+  /// From the nearest point found of the surface to the triangle's midpoint. A few steps in tangent planes from the
+  /// mean (u,v) are enough nearly everywhere: where the midpoint lies along the normal.
+  Beside beside(const Surface& surface, const std::array<Vec3, 3>& x, const Vec2* uv) {
     const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
-    const double side = std::max({distance(x[0], x[1]), distance(x[1], x[2]), distance(x[2], x[0])});
-    Foot best{(1.0 / 3) * (uv[0] + uv[1] + uv[2]), 0, false};
-    best.distance = distance(surface.point(best.uv), middle);
+    const std::array<double, 3> side2{norm2(x[1] - x[0]), norm2(x[2] - x[1]), norm2(x[0] - x[2])};
+    const auto [shortest2, longest2] = std::minmax({side2[0], side2[1], side2[2]});
+    const double side = std::sqrt(longest2);
+    const Vec2 mean = (1.0 / 3) * (uv[0] + uv[1] + uv[2]);
+    if (const auto above = point_above(surface, middle, mean, kAside * std::sqrt(shortest2));
+        above && above->distance <= kDoubtful * side)
+      return {above->distance, above->normal};
+    const Vec2 foot = search(surface, middle, side, mean, uv);
+    return {distance(surface.point(foot), middle), surface_normal(surface, foot)};
+  }
+
+ private:
+  /// (u,v) of the nearest point found from the mean and the corners, and in the end on the whole surface.
+  Vec2 search(const Surface& surface, Vec3 middle, double side, Vec2 mean, const Vec2* uv) {
+    Foot best{mean, distance(surface.point(mean), middle), false};
     try_from(surface, middle, best.uv, best);
     if (best.is_doubtful(side) && !best.is_foot) descend(surface, middle, best);
     const bool is_own = best.is_foot && is_beside(best.uv, uv);  // the surface bulges there, however far
@@ -55,7 +72,6 @@ class FootFinder {
     return best.uv;
   }
 
- private:
   struct Foot {
     Vec2 uv;
     double distance = 0;   // model unit
@@ -84,6 +100,7 @@ class FootFinder {
     best = {foot.uv, foot.distance, true};
   }
 
+  static constexpr double kAside = 1e-5;       // of the shortest side: so much of the turning along it
   static constexpr double kNegligible = 1e-3;  // of the longest side
   static constexpr double kDoubtful = 0.1;     // of the longest side: an arc of 45 degrees
   static constexpr int kMostSearches = 1000;   // of the whole surface, up to a millisecond each
@@ -96,9 +113,9 @@ void add_triangle(const Surface& surface, const SurfaceMesh& mesh, TriangleId t,
   const auto& n = mesh.triangles[t].n;
   const std::array<Vec3, 3> x{mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]};
   const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
-  const Vec2 at = finder.foot(surface, x, &mesh.corner_uv[3 * static_cast<std::size_t>(t)]);
-  const double angle = angle_between(cross(x[1] - x[0], x[2] - x[0]), side * surface_normal(surface, at));
-  stats.add(middle, distance(surface.point(at), middle), degrees(angle));
+  const Beside b = finder.beside(surface, x, &mesh.corner_uv[3 * static_cast<std::size_t>(t)]);
+  const double angle = angle_between(cross(x[1] - x[0], x[2] - x[0]), side * b.normal);
+  stats.add(middle, b.distance, degrees(angle));
 }
 
 /// +1 for faces whose triangles run counter-clockwise in (u,v), -1 for those turned at output: by the sum of their
@@ -115,25 +132,31 @@ std::vector<double> sides_of_faces(const SurfaceMesh& mesh, std::int32_t n_faces
 
 }  // namespace
 
-SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) {
-  const ModelTables& tables = model.tables();
+struct DeviationSum::Piece {
+  std::map<FaceId, DeviationStats> faces;
+  FootFinder finder;
+};
+
+DeviationSum::DeviationSum(const Model& model, const SurfaceMesh& mesh)
+    : model_(model),
+      mesh_(mesh),
+      side_(sides_of_faces(mesh, model.tables().n_faces())),
+      pieces_((mesh.triangles.size() + kTrianglesPerPiece - 1) / kTrianglesPerPiece) {}
+
+DeviationSum::~DeviationSum() = default;
+
+void DeviationSum::add(TriangleId triangle, const Surface& surface) {
+  const FaceId f = mesh_.triangle_face[triangle];
+  Piece& piece = pieces_[static_cast<std::size_t>(triangle) / kTrianglesPerPiece];
+  add_triangle(surface, mesh_, triangle, side_[f], piece.finder, piece.faces[f]);
+}
+
+SurfaceDeviation DeviationSum::deviation() const {
   SurfaceDeviation deviation;
-  deviation.faces.resize(tables.n_faces());
-  const std::vector<double> side = sides_of_faces(mesh, tables.n_faces());
-  using Parts = std::map<FaceId, DeviationStats>;
-  const auto n = static_cast<std::size_t>(mesh.n_triangles());
-  std::vector<Parts> pieces((n + kPerPiece - 1) / kPerPiece);
-  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    FaceSurface surface(model);
-    FootFinder finder;
-    for (std::size_t t = begin; t < end; ++t) {
-      const FaceId f = mesh.triangle_face[t];
-      add_triangle(surface.of(f), mesh, static_cast<TriangleId>(t), side[f], finder, pieces[begin / kPerPiece][f]);
-    }
-  });
-  for (const Parts& parts : pieces)
-    for (const auto& [f, part] : parts) deviation.faces[f].add(part);
-  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+  deviation.faces.resize(model_.tables().n_faces());
+  for (const Piece& piece : pieces_)
+    for (const auto& [f, part] : piece.faces) deviation.faces[f].add(part);
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
     if (deviation.faces[f].max_distance > deviation.model.max_distance) deviation.worst_distance = f;
     if (deviation.faces[f].max_angle_deg > deviation.model.max_angle_deg) deviation.worst_angle = f;
     deviation.model.add(deviation.faces[f]);
@@ -143,7 +166,7 @@ SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) 
 
 std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& mesh) {
   std::vector<float> deviations(mesh.triangles.size());
-  parallel_for(deviations.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(deviations.size(), kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface surface(model);
     FootFinder finder;
     for (std::size_t t = begin; t < end; ++t) {

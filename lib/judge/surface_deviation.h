@@ -35,14 +35,29 @@ struct SurfaceDeviation {
   std::vector<DeviationStats> faces;                   ///< [n_faces]
 };
 
-/// Each midpoint is projected from the mean (u,v) of its triangle's corners. Where that does not converge, or ends at
-/// more than a tenth of the longest side, it is projected from the corners, then by a search of the whole surface.
-/// Where nothing nearer is found, the surface's point at the mean counts: never less than the true distance.
-/// Precondition: `mesh` was made on `model`. Local; some 2 microseconds per triangle, and at most a thousand searches
-/// for each 16,384 triangles.
-SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh);
+/// What each triangle adds to a SurfaceDeviation, for passes that have its surface at hand (estimate_chord_error()).
+/// A midpoint's foot is found by steps in tangent planes from the mean (u,v) of the corners, exact to 1e-5 of the
+/// shortest side. Where that does not end, or at more than a tenth of this side, it is projected from the mean, the
+/// corners, then by a search of the whole surface: at most a thousand of these per piece (face_surface.h). Where
+/// nothing nearer is found, the surface's point at the mean counts: never less than the true distance. Triangles of one
+/// piece are added in order, by one thread. Precondition: the mesh was made on the model.
+class DeviationSum {
+ public:
+  /// Model and mesh outlive the object.
+  DeviationSum(const Model& model, const SurfaceMesh& mesh);
+  ~DeviationSum();
+  void add(TriangleId triangle, const Surface& surface);
+  SurfaceDeviation deviation() const;
 
-/// The distance of each triangle's midpoint, found likewise. [n_triangles] model unit.
+ private:
+  struct Piece;
+  const Model& model_;
+  const SurfaceMesh& mesh_;
+  std::vector<double> side_;  // [n_faces]
+  std::vector<Piece> pieces_;
+};
+
+/// The distance of each triangle's midpoint, found as in DeviationSum. [n_triangles] model unit.
 std::vector<float> triangle_deviations(const Model& model, const SurfaceMesh& mesh);
 
 }  // namespace st

@@ -1,12 +1,12 @@
 #include "mesh/checks.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
-#include <tuple>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/log.h"
-#include "base/threads.h"
 
 namespace st {
 
@@ -186,26 +186,49 @@ FaceId face_of(const SurfaceMesh& mesh, NodeId n) {
   return kNone;
 }
 
+/// The last node that was seen at each place of a component.
+class LastAtPlace {
+ public:
+  LastAtPlace(std::span<const Vec3> xyz, std::span<const std::int32_t> component)
+      : xyz_(xyz), component_(component), slots_(std::bit_ceil(2 * xyz.size() + 1), kNone) {}
+
+  /// Puts the node in the place of the last one there, and returns that, or kNone.
+  NodeId exchange(NodeId n) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = hash(n) & mask;
+    while (slots_[i] != kNone && !are_together(slots_[i], n)) i = (i + 1) & mask;
+    return std::exchange(slots_[i], n);
+  }
+
+ private:
+  bool are_together(NodeId a, NodeId b) const { return component_[a] == component_[b] && xyz_[a] == xyz_[b]; }
+  std::size_t hash(NodeId n) const {
+    auto h = static_cast<std::uint64_t>(component_[n]);
+    for (const double x : {xyz_[n].x, xyz_[n].y, xyz_[n].z}) {
+      h = (h ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15u;  // + 0.0: -0 and 0 are one place
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+
+  std::span<const Vec3> xyz_;
+  std::span<const std::int32_t> component_;
+  std::vector<NodeId> slots_;
+};
+
 void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
-  std::vector<NodeId> order;
-  for (NodeId n = 0; n < mesh.n_nodes(); ++n)
-    if (component[n] != kNone) order.push_back(n);
-  const auto key = [&](NodeId n) {
-    const Vec3 p = mesh.node_xyz[n];
-    return std::tuple(component[n], p.x, p.y, p.z);
-  };
-  parallel_sort(order.begin(), order.end(),
-                [&](NodeId a, NodeId b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
   const auto is_vertex = [&](NodeId n) {
     return !mesh.node_entity_dim.empty() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex);
   };
+  LastAtPlace last(mesh.node_xyz, component);
   std::vector<NodeId> found;
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i]) == key(order[i - 1]) && !(is_vertex(order[i]) && is_vertex(order[i - 1])))
-      found.push_back(order[i]);
-  std::sort(found.begin(), found.end());
+  for (NodeId n = 0; n < mesh.n_nodes(); ++n) {
+    if (component[n] == kNone) continue;
+    const NodeId before = last.exchange(n);
+    if (before != kNone && !(is_vertex(n) && is_vertex(before))) found.push_back(n);
+  }
   for (std::size_t i = 0; i < found.size(); ++i)
     duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
 }

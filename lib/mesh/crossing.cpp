@@ -1,5 +1,6 @@
 #include "mesh/crossing.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/assert.h"
@@ -128,6 +129,32 @@ bool two_nodes_cross(Vec3 u, Vec3 v, Vec3 p, Vec3 q) {
 
 Points rotated(const Points& t, int k) { return {t[k], t[(k + 1) % 3], t[(k + 2) % 3]}; }
 
+// Most pairs are apart by far. Plain arithmetic sees that where it holds by more than its rounding; the signs that
+// follow are exact.
+constexpr double kSure = 1e-13;  // of the sum of the squared lengths: 25 times the rounding of what is compared with it
+
+/// A plane square to the way between the middles parts them.
+bool are_surely_apart(const Vec3& a, const Vec3& a1, const Vec3& a2, const Vec3& b, const Vec3& b1, const Vec3& b2) {
+  const Vec3 p = a1 - a, q = a2 - a, r = b - a, s = b1 - a, t = b2 - a, way = (p + q) - (r + s + t);
+  const double nearest = std::min({0.0, dot(p, way), dot(q, way)});
+  const double furthest = std::max({dot(r, way), dot(s, way), dot(t, way)});
+  return nearest - furthest > kSure * (norm2(p) + norm2(q) + norm2(r) + norm2(s) + norm2(t));
+}
+
+/// A plane through the common corner has the other two of each triangle on its two sides.
+bool are_surely_apart_beyond(const Vec3& corner, const Vec3& a1, const Vec3& a2, const Vec3& b1, const Vec3& b2) {
+  const Vec3 p = a1 - corner, q = a2 - corner, r = b1 - corner, s = b2 - corner, way = (p + q) - (r + s);
+  const double sure = kSure * (norm2(p) + norm2(q) + norm2(r) + norm2(s));
+  return std::min(dot(p, way), dot(q, way)) > sure && std::max(dot(r, way), dot(s, way)) < -sure;
+}
+
+/// Seen along the common edge (u, v), the corners p and q are more than a right angle apart.
+bool are_surely_opened(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q) {
+  const Vec3 edge = v - u, to_p = p - u, to_q = q - u;
+  const double length2 = norm2(edge);
+  return dot(to_p, to_q) * length2 - dot(to_p, edge) * dot(to_q, edge) < -kSure * length2 * (norm2(to_p) + norm2(to_q));
+}
+
 }  // namespace
 
 bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
@@ -136,23 +163,24 @@ bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
 
 bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared) {
   ST_ASSERT(!is_degenerate(points, a) && !is_degenerate(points, b));
-  int corner_a[3], corner_b[3];
+  int corner_a[3] = {}, corner_b[3] = {};
   n_shared = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (a.n[i] == b.n[j]) corner_a[n_shared] = i, corner_b[n_shared++] = j;
-  const Points pa = corners(points, a), pb = corners(points, b);
-  switch (n_shared) {
-    case 0:
-      return disjoint_nodes_cross(pa, pb);
-    case 1:
-      return one_node_cross(rotated(pa, corner_a[0]), rotated(pb, corner_b[0]));
-    case 2:
-      return two_nodes_cross(pa[corner_a[0]], pa[corner_a[1]], pa[3 - corner_a[0] - corner_a[1]],
-                             pb[3 - corner_b[0] - corner_b[1]]);
-    default:
-      return false;
+  if (n_shared > 2) return false;
+  const int i = corner_a[0], j = corner_b[0], k = corner_a[1];
+  const auto at_a = [&](int corner) -> const Vec3& { return points[a.n[corner % 3]]; };
+  const auto at_b = [&](int corner) -> const Vec3& { return points[b.n[corner % 3]]; };
+  if (n_shared == 2) {
+    const Vec3 &u = at_a(i), &v = at_a(k), &p = at_a(3 - i - k), &q = at_b(3 - j - corner_b[1]);
+    return !are_surely_opened(u, v, p, q) && two_nodes_cross(u, v, p, q);
   }
+  if (n_shared == 1)
+    return !are_surely_apart_beyond(at_a(i), at_a(i + 1), at_a(i + 2), at_b(j + 1), at_b(j + 2)) &&
+           one_node_cross(rotated(corners(points, a), i), rotated(corners(points, b), j));
+  return !are_surely_apart(at_a(0), at_a(1), at_a(2), at_b(0), at_b(1), at_b(2)) &&
+         disjoint_nodes_cross(corners(points, a), corners(points, b));
 }
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kPerPiece = 16'384;  // triangles or nodes
 
-double area_of(const TriangleCorners& corners, TriangleId t) {
-  const auto [a, b, c] = corners(t);
-  return 0.5 * norm(cross(b - a, c - a));
+double quality_of(double area, Vec3 a, Vec3 b, Vec3 c) {
+  const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
+  return sum > 0 ? 4 * std::sqrt(3.0) * area / sum : 0;
 }
 
 std::array<double, 3> angles_of(const TriangleCorners& corners, TriangleId t) {
@@ -128,7 +128,8 @@ void set_percentiles(std::span<const std::int32_t> key, std::span<const double> 
   });
 }
 
-void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners,
+/// `area`: of the triangles.
+void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const double> area,
                    QualityReport& report) {
   std::vector<double> jumps;
   report.group_jumps.resize(report.groups.size());
@@ -136,7 +137,7 @@ void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, const Triang
   edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId t = sides[0] / 3;
-      const auto [low, high] = std::minmax({area_of(corners, t), area_of(corners, sides[i] / 3)});
+      const auto [low, high] = std::minmax({area[t], area[sides[i] / 3]});
       if (!(low > 0)) continue;
       jumps.push_back(std::sqrt(high / low));
       if (jumps.back() > kLargeGrowth) report.large_jumps.push_back({t, sides[i] / 3, jumps.back()});
@@ -153,8 +154,11 @@ void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, const Triang
 }  // namespace
 
 std::array<double, 3> triangle_angles_deg(Vec3 a, Vec3 b, Vec3 c) {
-  return {degrees(angle_between(b - a, c - a)), degrees(angle_between(c - b, a - b)),
-          degrees(angle_between(a - c, b - c))};
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double twice_area = norm(cross(ab, ac));
+  const double at_a = std::atan2(twice_area, dot(ab, ac)), at_b = std::atan2(twice_area, -dot(ab, bc));
+  const double at_c = twice_area > 0 ? kPi - at_a - at_b : angle_between(ac, bc);
+  return {degrees(at_a), degrees(at_b), degrees(at_c)};
 }
 
 void JumpStats::add(double ratio) {
@@ -163,10 +167,7 @@ void JumpStats::add(double ratio) {
   ++bin_of(histogram, ratio, 1, kBinWidth);
 }
 
-double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
-  const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
-  return sum > 0 ? 2 * std::sqrt(3.0) * norm(cross(b - a, c - a)) / sum : 0;
-}
+double triangle_quality(Vec3 a, Vec3 b, Vec3 c) { return quality_of(0.5 * norm(cross(b - a, c - a)), a, b, c); }
 
 /// Of the three nodes, the mean of their vectors up to the sign, which has no meaning.
 std::array<Vec3, 3> TriangleCorners::operator()(TriangleId t) const {
@@ -185,11 +186,12 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges) {
 }
 
 QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners) {
-  std::vector<double> quality(mesh.triangles.size());
+  std::vector<double> quality(mesh.triangles.size()), area(mesh.triangles.size());
   parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto [a, b, c] = corners(static_cast<TriangleId>(t));
-      quality[t] = triangle_quality(a, b, c);
+      area[t] = 0.5 * norm(cross(b - a, c - a));
+      quality[t] = quality_of(area[t], a, b, c);
     }
   });
   QualityReport report;
@@ -198,7 +200,7 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, c
   add_shapes(mesh, corners, quality, report);
   set_percentiles(mesh.triangle_group, quality, report.groups);
   set_percentiles(mesh.triangle_face, quality, report.faces);
-  measure_jumps(mesh, edges, corners, report);
+  measure_jumps(mesh, edges, area, report);
   if (!quality.empty()) report.model.p1 = nth_smallest(quality, quality.size() / 100);
   return report;
 }

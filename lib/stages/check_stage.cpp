@@ -433,8 +433,12 @@ void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadS
   const EdgeTable edges = edges_of(mesh);
   std::vector<std::function<void()>> jobs;
   jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
-  if (cad) jobs.emplace_back([&] { f.chords = estimate_chord_error(cad->model, mesh); });
-  if (cad) jobs.emplace_back([&] { f.deviation = measure_deviation(cad->model, mesh); });
+  if (cad)
+    jobs.emplace_back([&] {
+      DeviationSum deviation(cad->model, mesh);
+      f.chords = estimate_chord_error(cad->model, mesh, &deviation);
+      f.deviation = deviation.deviation();
+    });
   jobs.emplace_back([&] { f.quality = measure_quality(mesh, edges, corners); });
   if (field)
     jobs.emplace_back([&] {

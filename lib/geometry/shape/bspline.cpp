@@ -196,25 +196,27 @@ const double* BsplineSurface::patch(int iu, int iv) const {
   if (index < 0) {
     index = static_cast<std::int32_t>(patches_.size() / size);
     patches_.resize((index + 1) * size + 1, 0.0);
-    convert(iu, iv, &patches_[index * size]);
+    is_rational_ ? convert<4>(iu, iv, &patches_[index * size]) : convert<3>(iu, iv, &patches_[index * size]);
   }
   return &patches_[index * size];
 }
 
+template <int stride>
 void BsplineSurface::convert(int iu, int iv, double* out) const {
   const int nu = u_.degree() + 1, nv = v_.degree() + 1;
   const double *bu = u_.basis(iu), *bv = v_.basis(iv);
-  Pole half[kMaxOrder];
+  const int n = nv * stride;
+  double half[4 * kMaxOrder];
   for (int j = 0; j < nu; ++j) {
     const Pole* row = &poles_[static_cast<std::size_t>(u_.first_pole(iu) + j) * n_v_ + v_.first_pole(iv)];
     for (int c = 0; c < nv; ++c) {
-      half[c] = Pole{};
+      double sum[stride] = {};
       for (int l = 0; l < nv; ++l)
-        for (int x = 0; x < 4; ++x) half[c].x[x] += bv[l * nv + c] * row[l].x[x];
+        for (int x = 0; x < stride; ++x) sum[x] += bv[l * nv + c] * row[l].x[x];
+      std::copy_n(sum, stride, half + c * stride);
     }
     for (int b = 0; b < nu; ++b)
-      for (int c = 0; c < nv; ++c)
-        for (int x = 0; x < stride_; ++x) out[(b * nv + c) * stride_ + x] += bu[j * nu + b] * half[c].x[x];
+      for (int k = 0; k < n; ++k) out[b * n + k] += bu[j * nu + b] * half[k];
   }
 }
 

@@ -121,6 +121,7 @@ class BsplineSurface : public Surface {
   };
   Place locate(Vec2 uv) const;
   const double* patch(int iu, int iv) const;
+  template <int stride>
   void convert(int iu, int iv, double* out) const;
 
   /// What copies have in common.

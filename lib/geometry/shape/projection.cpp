@@ -106,6 +106,28 @@ SurfaceFoot descend_from(const Surface& surface, Vec3 target, Vec2 guess) {
   return descend(surface, target, b.clamp(guess), b);
 }
 
+std::optional<PointAbove> point_above(const Surface& surface, Vec3 p, Vec2 guess, double aside) {
+  constexpr int kSteps = 3;          // each divides the way aside by ten and more
+  constexpr double kRegular = 1e-4;  // squared sine between du and dv
+  constexpr double kPole = 1e-12;    // squared, of the derivatives over the whole range
+  const Bounds b = bounds_of(surface);
+  const Vec2 range = b.hi - b.lo;
+  Vec2 uv = guess;
+  for (int step = 0; step < kSteps && b.clamp(uv) == uv; ++step) {
+    const SurfacePoint s = surface.evaluate(uv);
+    const Vec3 normal = cross(s.du, s.dv), way = p - s.x;
+    const double n2 = norm2(normal), along = dot(way, normal);
+    const double lu2 = norm2(s.du) * range.x * range.x, lv2 = norm2(s.dv) * range.y * range.y;
+    if (!(n2 > kRegular * norm2(s.du) * norm2(s.dv)) || !(std::min(lu2, lv2) > kPole * std::max(lu2, lv2))) break;
+    if (norm2(way) - along * along / n2 <= aside * aside)
+      return PointAbove{p - along / n2 * normal, normal, std::fabs(along) / std::sqrt(n2)};
+    const auto next = tangent_step(s.du, s.dv, way);
+    if (!next) break;
+    uv = uv + *next;
+  }
+  return std::nullopt;
+}
+
 SurfaceFoot closest_point(const Surface& surface, Vec3 target) {
   const Bounds b = bounds_of(surface);
   if (const auto exact = surface.exact_foot(target); exact && b.clamp(*exact) == *exact) {

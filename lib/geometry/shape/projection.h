@@ -24,6 +24,18 @@ SurfaceFoot closest_point(const Surface& surface, Vec3 p);
 /// Likewise by constrained Newton from a guess alone, which is first moved into the bounds: a local minimum.
 SurfaceFoot descend_from(const Surface& surface, Vec3 p, Vec2 guess);
 
+/// A point above a surface.
+struct PointAbove {
+  Vec3 foot;        ///< in the surface's tangent plane next to it
+  Vec3 normal;      ///< du x dv there
+  double distance;  ///< of the point from the plane, model unit
+};
+
+/// Of a point near the surface, by a few steps in tangent planes from the guess (u,v): until the foot lies beside the
+/// surface's point by no more than `aside`, so that it is off the surface by half the curvature times its square.
+/// nullopt where that takes more than three steps, leaves the bounds, or meets a singular point. Local, fast.
+std::optional<PointAbove> point_above(const Surface& surface, Vec3 p, Vec2 guess, double aside);
+
 /// Closest point of a curve within its bounds.
 struct CurveFoot {
   double t;

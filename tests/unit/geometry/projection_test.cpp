@@ -147,5 +147,35 @@ TEST(ProjectNear, gives_up_on_a_curve_that_is_a_point) {
   EXPECT_FALSE(project_near(EllipseCurve(kFrame, 0, 0, 0, 1), {0, 0, 0}, 0.5));
 }
 
+TEST(PointAbove, lies_along_the_normal_as_the_closest_point_does) {
+  int n_found = 0;
+  for (const char* shape : {"sphere", "torus", "cone", "cylinder"}) {
+    const Model model = test::make_model(shape);
+    const auto s = model.surface(0);
+    const double size = model.tables().box().diagonal(), aside = 1e-5 * size;
+    for (int k = 0; k < 50; ++k) {
+      const Vec2 guess{s->u_min() + (s->u_max() - s->u_min()) * (0.2 + 0.6 * spread(k, 0.618)),
+                       s->v_min() + (s->v_max() - s->v_min()) * (0.2 + 0.6 * spread(k, 0.414))};
+      const Vec3 p = s->point(guess) + 0.01 * size * Vec3{spread(k, 0.3), spread(k, 0.7), spread(k, 0.9)};
+      const auto above = point_above(*s, p, guess, aside);
+      if (!above) continue;
+      ++n_found;
+      const SurfaceFoot exact = closest_point(*s, p);
+      EXPECT_NEAR(above->distance, exact.distance, aside * 1e-3) << shape;
+      EXPECT_NEAR(distance(above->foot, exact.x), 0, 3 * aside) << shape;
+      EXPECT_LT(angle_between(above->normal, surface_normal(*s, exact.uv)), 1e-3) << shape;
+    }
+  }
+  EXPECT_GT(n_found, 150) << "of 200";
+}
+
+TEST(PointAbove, is_none_beyond_the_bounds_and_at_a_pole) {
+  const Model ball = test::make_model("sphere"), plate = test::make_model("square");
+  const auto s = ball.surface(0), plane = plate.surface(0);
+  EXPECT_FALSE(point_above(*s, s->point({0, s->v_max()}), {0, s->v_max()}, 1e-6));
+  EXPECT_FALSE(point_above(*plane, plane->point({plane->u_max(), plane->v_max()}) + Vec3{5, 5, 1},
+                           {plane->u_max(), plane->v_max()}, 1e-6));
+}
+
 }  // namespace
 }  // namespace st

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/judge/deviation.h"
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st {
 namespace {
+
+using test::measure_deviation;
 
 using test::ShapeMesh;
 

@@ -141,6 +141,35 @@ TEST(Crossing, does_not_depend_on_how_the_corners_are_turned) {
   }
 }
 
+/// Plain arithmetic decides most pairs; what it sees depends on the angles, the answer does not.
+TEST(Crossing, is_the_same_after_shears_that_are_exact) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> coordinate(-3, 3), node(3, 7);
+  int n_crossing = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::vector<Vec3> points(8);
+    for (Vec3& p : points) p = {double(coordinate(random)), double(coordinate(random)), double(coordinate(random))};
+    const Triangle a{{0, 1, 2}};
+    const Triangle b = i % 3 == 0   ? Triangle{{3, 4, 5}}
+                       : i % 3 == 1 ? Triangle{{node(random), 1, 6 + i % 2 - 6 * (node(random) > 5)}}
+                                    : Triangle{{2, 1, node(random)}};
+    std::array<int, 4> answers{};
+    int n_answers = 0;
+    for (const double shear : {0.0, 5.0, -64.0, 4096.0}) {
+      std::vector<Vec3> sheared = points;
+      for (Vec3& p : sheared) p = {p.x + shear * p.y, p.y - shear * p.z, p.z};
+      int shared = 0;
+      if (is_degenerate(sheared, a) || is_degenerate(sheared, b)) break;
+      answers[n_answers++] = triangles_cross(sheared, a, b, shared);
+    }
+    if (n_answers == 0) continue;
+    ASSERT_EQ(n_answers, 4);
+    n_crossing += answers[0];
+    EXPECT_TRUE(answers[1] == answers[0] && answers[2] == answers[0] && answers[3] == answers[0]) << i;
+  }
+  EXPECT_GT(n_crossing, 1000);
+}
+
 TEST(Crossing, of_two_cubes_that_penetrate_is_found) {
   const SurfaceMesh m = shapes::join(shapes::cube(4), shapes::cube(4, {0.55, 0.55, 0.55}));
   const auto pairs = find_crossing_triangles(m.node_xyz, m.triangles);

@@ -12,11 +12,13 @@
 #include "geometry/model/model.h"
 #include "io/hdf5/artifact.h"
 #include "judge/chord_error.h"
-#include "judge/surface_deviation.h"
 #include "stages/check_stage.h"
+#include "unit/judge/deviation.h"
 
 namespace st {
 namespace {
+
+using test::measure_deviation;
 
 namespace fs = std::filesystem;
 
