@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nodes whose size comes through the solid, by model: rows of the table in docs/bench.md.
+"""Nodes whose size comes through the solid, by model: rows of the table in docs/dev/bench.md.
 
 usage: scripts/bleeding_table.py BIN_DIR MODEL...     run with Debian's python3 (python3-vtk9)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sizes and triangles of models whose faces random planes have cut: the table in docs/bench.md.
+"""Sizes and triangles of models whose faces random planes have cut: the table in docs/dev/bench.md.
 
 usage: scripts/cuts_table.py BUILD_DIR MODEL... [--planes 3] [--seeds 1 2]
 

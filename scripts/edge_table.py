@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Edge lengths at the trailing edges of lifting surfaces, by preset: rows of the table in docs/presets.md.
+"""Edge lengths at the trailing edges of lifting surfaces, by preset: rows of the table in docs/dev/wings.md.
 
 usage: scripts/edge_table.py BIN_DIR MODEL... [--presets euler rans]     run with Debian's python3 (python3-vtk9)
 """

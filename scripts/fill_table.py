@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether TetGen and Gmsh fill the space between a stretched mesh and a far field: the table in docs/bench.md.
+"""Whether TetGen and Gmsh fill the space between a stretched mesh and a far field: the table in docs/dev/bench.md.
 
 Both come from Debian (packages tetgen, gmsh); each gets a limited time.
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What lifting surfaces get by model and preset: the tables in docs/presets.md.
+"""What lifting surfaces get by model and preset: the tables in docs/dev/wings.md.
 
 usage: scripts/preset_table.py BIN_DIR MODEL... [--presets euler rans]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How smoothly lengths change over meshes: the table in docs/presets.md.
+"""How smoothly lengths change over meshes: the table in docs/dev/wings.md.
 
 usage: scripts/smoothness_table.py BIN_DIR MODEL... [--preset rans]
 

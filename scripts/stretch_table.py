@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Triangles and quality with stretched sizes, against the same lengths in all directions: the table in docs/bench.md.
+"""Triangles and quality with stretched sizes, against the same lengths in all directions: for docs/dev/bench.md.
 
 usage: scripts/stretch_table.py BIN_DIR MODEL... [--max-aspect 16]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Quality of faces in tiles against the same faces as wholes: the table in docs/scaling.md.
+"""Quality of faces in tiles against the same faces as wholes: the table in docs/dev/scaling.md.
 
 usage: scripts/tile_table.py BIN_DIR MODEL... [--tile 5000] [--least 15000] [--triangles 600000]
 

@@ -13,7 +13,7 @@
 namespace st {
 
 /// Memory of st-raster per cell and rank, bytes, samples included: measured at one million to five million cells
-/// (docs/bench.md).
+/// (docs/dev/bench.md).
 inline constexpr double kRasterBytesPerCell = 60;
 /// Likewise of st-prolong, one process.
 inline constexpr double kProlongBytesPerCell = 92;

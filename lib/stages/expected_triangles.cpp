@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostQueries = 20000;    // of the field, on a whole mesh
 constexpr std::size_t kFacesNamed = 5;         // in a warning
 constexpr double kShare = 0.8;                 // of the memory
-constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/bench.md)
+constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/dev/bench.md)
 
 }  // namespace
 

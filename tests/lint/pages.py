@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Compares what is written with the code: named pages exist; names, files and constants in docs/design are the code's.
+Pages for users, all but docs/dev and docs/design, have at most MOST_LINES lines: figures, tables of runs and histories
+belong in docs/dev.
 
 usage: pages.py SOURCE_DIR              exit 1 and one line per violation
        pages.py SOURCE_DIR --self-test  plants one violation of each rule in a copy and expects to find it
@@ -16,6 +18,7 @@ import house
 PLANTING = {"pages.py", "english.py", "run_page.py", "site_test.sh"}
 SEARCHED = ("lib", "tools", "tests", "docs", "bench", "scripts", "examples")  # and what lies beside them
 PLAIN = {".h", ".cpp", ".py", ".sh", ".txt", ".md", ".workflow"}
+MOST_LINES = 4200
 PAGE = re.compile(r"(?<![\w*<])((?:\.{1,2}/)*(?:[\w.-]+/)*[\w-]+\.md)\b")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 CODE = re.compile(r"`([^`\n]+)`")
@@ -86,8 +89,16 @@ def design_violations(root):
                 yield f"{where}: no such file"
 
 
+def length_violations(root):
+    """Pages for users are short."""
+    pages = [root / "README.md", *(root / "docs").glob("*.md"), *(root / "docs/guide").glob("*.md")]
+    n_lines = sum(text_of(page).count("\n") for page in pages)
+    if n_lines > MOST_LINES:
+        yield f"docs: pages for users have {n_lines} lines, at most {MOST_LINES}; move figures and tables to docs/dev"
+
+
 def violations(root):
-    return [*page_violations(root), *link_violations(root), *design_violations(root)]
+    return [*page_violations(root), *link_violations(root), *design_violations(root), *length_violations(root)]
 
 
 PLANTS = {
@@ -95,6 +106,7 @@ PLANTS = {
     "a link to nothing": ("docs/planted.md", "[there](nothing.txt)\n", "links to nothing.txt"),
     "a link of an example": ("examples/planted.md", "[there](nothing.txt)\n", "links to nothing.txt"),
     "a link to no heading": ("docs/planted.md", "[there](meshing.md#no-such-heading)\n", "links to #no-such-heading"),
+    "long pages": ("docs/planted.md", "\n" * MOST_LINES, "pages for users have"),
     "another value": ("docs/design/planted.md", "`kFinishedRadius = 0.7`\n", "the code has 0.68"),
     "a constant that is gone": ("docs/design/planted.md", "`kNoSuchThing = 0.7`\n", "no such constant"),
     "a function that is gone": ("docs/design/planted.md", "`no_such_thing()`\n", "no such name"),
@@ -116,7 +128,7 @@ def self_test(root):
         missed = []
         for name, (file, text, expected) in PLANTS.items():
             house.plant(copy, file, text)
-            if not any(f.startswith(file) and expected in f for f in violations(copy)):
+            if not any(f.startswith((file, "docs:")) and expected in f for f in violations(copy)):
                 missed.append(name)
             (copy / file).unlink()
     return [f"self test: planted violation not found: {m}" for m in missed]
